@@ -1,7 +1,7 @@
 """An independent integrator: scipy's DOP853 on I, J, G, B themselves, restarted at every sample and event.
 
 Written from the equation of motion alone; it shares no code and no idea with the product (other variable, other
-method, events by bracketing the dense output, no table). Slow, and meant to be.
+method, events of scipy's own, no table). Slow, and meant to be.
 """
 
 import numpy as np
@@ -13,10 +13,10 @@ from scipy.optimize import brentq
 class Oracle:
     """Follows a mechanism (its `sides`, `one_sided`) through a piecewise linear acceleration."""
 
-    def __init__(self, mechanism, rtol=1e-13, probes=24):
-        self.mechanism, self.rtol, self.probes = mechanism, rtol, probes
+    def __init__(self, mechanism, rtol=1e-13):
+        self.mechanism, self.rtol = mechanism, rtol
         self.peaks = {1: 0.0, -1: 0.0}
-        self.impacts, self.overturned, self.lost = 0, False, []
+        self.impacts, self.overturned = 0, False
 
     def side(self, s):
         return self.mechanism.sides[0 if s > 0 else -1]
@@ -27,18 +27,13 @@ class Oracle:
         pull = -s * side.at("ground", rotation) * ground - side.at("gravity", rotation) * (g + vertical)
         return (pull - side.at("inertia_slope", rotation) / 2 * velocity**2) / side.at("inertia", rotation)
 
-    def run(self, ground, step, vertical=None, after=None, state=(0, 0.0, 0.0)):
+    def run(self, ground, step, vertical=None, *, after):
         """Integrate; returns (largest ratio or inf, impacts). after: seconds of still ground that follow."""
         vertical = np.zeros(len(ground)) if vertical is None else vertical
-        state = tuple(state)
-        for i in range(len(ground) - 1):
-            state = self.interval(state, step, ground[i : i + 2], vertical[i : i + 2])
-            if self.overturned:
-                return np.inf, self.impacts
-        longest = after if after is not None else 20 / self.side(1).frequency_parameter
-        pieces = 40
-        for _ in range(pieces):
-            state = self.interval(state, longest / pieces, (0.0, 0.0), (0.0, 0.0))
+        state = 0, 0.0, 0.0
+        intervals = [(step, ground[i : i + 2], vertical[i : i + 2]) for i in range(len(ground) - 1)]
+        for interval in intervals + [(after / 40, (0.0, 0.0), (0.0, 0.0))] * 40:
+            state = self.interval(state, *interval)
             if self.overturned:
                 return np.inf, self.impacts
         return max(self.peaks[s] / self.side(s).critical_rotation for s in (1, -1)), self.impacts
@@ -47,85 +42,65 @@ class Oracle:
         """Advance (side, rotation, velocity) by span seconds over linear accelerations."""
         side, rotation, velocity = state
         now = 0.0
+
+        def push(t):
+            return [a[0] + (a[1] - a[0]) * t / span for a in (ground, vertical)]
+
         while now < span:
             if side == 0:
-                now, side = self.lift(now, span, ground, vertical)
+                now, side = self.lift(now, span, push)
                 if side == 0:
                     return 0, 0.0, 0.0
                 rotation = velocity = 0.0
-            now, rotation, velocity, landed = self.fly(side, rotation, velocity, now, span, ground, vertical)
+            now, rotation, velocity, landed = self.fly(side, rotation, velocity, now, span, push)
             if self.overturned:
                 break
             if landed:
                 side, rotation, velocity = self.impact(side, velocity)
         return side, rotation, velocity
 
-    def lift(self, now, span, ground, vertical):
-        def excess(s, t):
-            a = ground[0] + (ground[1] - ground[0]) * t / span
-            v = vertical[0] + (vertical[1] - vertical[0]) * t / span
-            return self.acceleration(s, 0.0, 0.0, a, v)
+    def lift(self, now, span, push):
+        """The instant from `now` on at which the ground lifts the structure, and to which side; `span`, 0 if none."""
 
-        found = []
+        def excess(t, s):
+            return self.acceleration(s, 0.0, 0.0, *push(t))
+
+        instants = []
         for s in (1,) if self.mechanism.one_sided else (1, -1):
-            if excess(s, now) > 0:
-                found.append((now, s))
-            elif excess(s, span) > 0:
-                found.append((brentq(lambda t, s=s: excess(s, t), now, span, xtol=1e-15), s))
-        return min(found) if found else (span, 0)
+            if excess(now, s) > 0:
+                instants.append((now, s))
+            elif excess(span, s) > 0:
+                instants.append((brentq(excess, now, span, (s,), xtol=1e-15), s))
+        return min(instants, default=(span, 0))
 
-    def fly(self, s, rotation, velocity, now, span, ground, vertical):
-        def slope(t, y):
-            a = ground[0] + (ground[1] - ground[0]) * t / span
-            v = vertical[0] + (vertical[1] - vertical[0]) * t / span
-            return [y[1], self.acceleration(s, y[0], y[1], a, v)]
+    def fly(self, s, rotation, velocity, now, span, push):
+        """Follow one flight to its landing, its loss or `span`: time, rotation, velocity, whether it landed."""
 
-        scale = self.side(s).critical_rotation
+        def event(function, direction, terminal):
+            """What passes zero upwards (1) or downwards (-1); not where the flight starts."""
 
-        def solve(until):
-            # A flight may be short and low: its own size sets the absolute tolerance.
-            size = rotation + abs(velocity) * (until - now) + 1e-9 * scale
-            return solve_ivp(
-                slope, (now, until), [rotation, velocity], "DOP853", dense_output=True,
-                rtol=self.rtol, atol=[1e-3 * self.rtol * size, 1e-3 * self.rtol * size / (until - now)]
-            )  # fmt: skip
+            def mark(t, y):
+                return function(y) if t > now else -direction
 
-        whole = solve(span)
-        times = np.linspace(now, whole.t[-1], self.probes + 1)
-        heights, speeds = whole.sol(times)
-        self._climb(s, whole, times, heights, speeds)
-        for k in range(1, times.size):
-            left, right = heights[k - 1], heights[k]
-            low, high = times[k - 1], times[k]
-            if right > 0 and speeds[k - 1] < 0 < speeds[k]:  # a minimum between two probes
-                high = brentq(lambda t: whole.sol(t)[1], low, high, xtol=1e-16)
-                right = whole.sol(high)[0]
-            if right > 0:
-                if right > self.side(s).end_rotation:
-                    self.overturned = True
-                    return high, right, speeds[k], False
-                continue
-            if k == 1 and left <= 0:  # leaves the ground: the landing lies after the highest point
-                if speeds[0] > 0 > speeds[1]:
-                    low = brentq(lambda t: whole.sol(t)[1], low, high, xtol=1e-16)
-                    left = whole.sol(low)[0]
-                    self.peaks[s] = max(self.peaks[s], left)
-                if left <= 0:
-                    return high, 0.0, min(speeds[k], 0.0), True
-            landing = brentq(lambda t: whole.sol(t)[0], low, high, xtol=1e-16, rtol=1e-15)
-            arrival = solve(landing).y[1, -1] if landing > now else whole.sol(landing)[1]
-            return landing, 0.0, min(arrival, 0.0), True
-        return span, whole.y[0, -1], whole.y[1, -1], False
+            mark.direction, mark.terminal = direction, terminal
+            return mark
 
-    def _climb(self, s, whole, times, heights, speeds):
-        for k in range(1, times.size):
-            if heights[k] <= 0 and heights[k - 1] <= 0 and k > 1:
-                return
-            if speeds[k - 1] > 0 >= speeds[k]:
-                top = brentq(lambda t: whole.sol(t)[1], times[k - 1], times[k], xtol=1e-16)
-                self.peaks[s] = max(self.peaks[s], float(whole.sol(top)[0]))
-            if heights[k] <= 0 and speeds[k] < 0:
-                return
+        end = self.side(s).end_rotation
+        landing, loss = event(lambda y: y[0], -1, True), event(lambda y: y[0] - end, 1, True)
+        crest = event(lambda y: y[1], -1, False)
+        # A flight may be short and low: its own size sets the absolute tolerance.
+        size = rotation + abs(velocity) * (span - now) + 1e-9 * self.side(s).critical_rotation
+        atol = 1e-3 * self.rtol * size * np.array([1, 1 / (span - now)])
+        solved = solve_ivp(
+            lambda t, y: [y[1], self.acceleration(s, *y, *push(t))], (now, span), [rotation, velocity], "DOP853",
+            events=(landing, loss, crest), rtol=self.rtol, atol=atol, max_step=(span - now) / 8
+        )  # fmt: skip
+        landings, losses, crests = solved.y_events
+        self.peaks[s] = max(self.peaks[s], *(top for top, _ in crests), 0.0)
+        self.overturned = len(losses) > 0
+        if len(landings):
+            return solved.t[-1], 0.0, min(landings[0][1], 0.0), True
+        return solved.t[-1], *solved.y[:, -1], False
 
     def impact(self, s, velocity):
         self.impacts += 1

@@ -44,11 +44,12 @@ def test_vertical_acceleration_against_the_oracle():
     assert response.rotation_ratio != pytest.approx(integrate(mechanism, record).rotation_ratio, rel=1e-2)
 
 
-FINE, COARSE = (50, 0.02, 1.5, 12), (30, 0.5, 1.2, 3)
+FINE, COARSE = (50, 0.02, 1.5, 12), (30, 1.0, 1.3, 3)
 """Count, time step, peak over what lifts and width of the smoothing: below and above a time step of 1/p."""
 
 
-@pytest.mark.parametrize("seed, sampling", [(seed, FINE) for seed in range(6)] + [(0, COARSE), (1, COARSE)])
+@pytest.mark.parametrize("sampling", [FINE, COARSE], ids=["fine", "coarse"])
+@pytest.mark.parametrize("seed", range(5))
 def test_equivalent_block_against_the_oracle(seed, sampling):
     """The exact response has no time-stepping error: what remains is the oracle's 1e-12, amplified."""
     block = MECHANISMS["block"].equivalent_block()
@@ -106,17 +107,13 @@ def errors_of(count, seed, tolerance):
     return np.array(errors), wrong
 
 
-@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9])
-def test_error_within_three_tolerances(tolerance):
+MANY = pytest.param(10_000, 11, 1e-6, marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize("count, seed, tolerance", [(300, 7, 1e-3), (300, 7, 1e-6), (300, 7, 1e-9), MANY])
+def test_error_within_three_tolerances(count, seed, tolerance):
     """At least 99 % of random cases; the rest are chaotic (a change of 1e-15 in amplitude changes the peak itself)."""
-    errors, wrong = errors_of(300, 7, tolerance)
+    errors, wrong = errors_of(count, seed, tolerance)
     assert errors.size > 50
     assert np.mean(errors <= 3) >= 0.99
-    assert wrong == 0
-
-
-@pytest.mark.slow
-def test_error_within_three_tolerances_of_ten_thousand_cases():
-    errors, wrong = errors_of(10_000, 11, 1e-6)
-    assert np.mean(errors <= 3) >= 0.99
-    assert wrong <= 10  # a chaotic case may overturn in one run and stand in the other: 0.1 % of them
+    assert wrong <= count / 1000  # a chaotic case may overturn in one run and stand in the other

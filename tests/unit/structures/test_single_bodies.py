@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
-from rocking.structures import RigidBody, Spire
+from rocking.quantities import GRAVITY
+from rocking.structures import Block, RigidBody, Spire
 
 
 def test_momentum_balance_of_an_off_centre_body_keeps_angular_momentum_about_the_new_corner():
@@ -63,3 +64,8 @@ def test_at_zero_rotation_the_velocity_chooses_the_side():
     expected = body.contact_forces([1e-13, -1e-13], [0.4, -0.4], inside)
     np.testing.assert_allclose(found.normal, expected.normal, rtol=1e-11)
     np.testing.assert_allclose(found.tangential, expected.tangential, rtol=1e-11)
+
+
+def test_a_block_at_rest_needs_the_ground_acceleration_over_g_as_friction():
+    found = Block(2.0, 0.2).contact_forces(0.0, 0.0, 0.0, [0.5, -1.0])
+    np.testing.assert_allclose(found.required_friction[0], np.array([0.5, 1.0]) / GRAVITY, rtol=1e-14)
