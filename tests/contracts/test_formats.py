@@ -143,14 +143,10 @@ DRESSED = {
     "^Z": lambda text: text + b"\x1a",
     "NUL": lambda text: text + bytes(700),
     "BOM": lambda text: b"\xef\xbb\xbf" + text,
-    "CRLF": lambda text: plain_ends(text).replace(b"\n", b"\r\n"),
-    "CR": lambda text: plain_ends(text).replace(b"\n", b"\r"),
+    "CRLF": lambda text: b"\r\n".join([*text.splitlines(), b""]),
+    "CR": lambda text: b"\r".join([*text.splitlines(), b""]),
     "blank lines": lambda text: text.rstrip() + b"\n \n\t\n\n",
 }
-
-
-def plain_ends(text: bytes) -> bytes:
-    return text.replace(b"\r\r\n", b"\n").replace(b"\r\n", b"\n").replace(b"\r", b"\n")
 
 
 def test_what_programs_put_around_a_text_changes_nothing(real_records: Path, series) -> None:

@@ -148,9 +148,12 @@ def test_what_is_no_table_is_refused_in_a_sentence(tmp_path: Path, content: byte
             list(reader(MadeRow, path))
 
 
-def test_an_interrupted_writer_leaves_the_old_file(tmp_path: Path) -> None:
+def test_a_writer_that_is_interrupted_or_killed_leaves_the_old_file(tmp_path: Path) -> None:
+    """What a killed one left beside it is removed by the next."""
     path = tmp_path / "made.csv"
     write_rows(MadeRow, [made("old")], path)
+    (tmp_path / ".made.csv.abc123.part").write_text("half")
+    (tmp_path / ".other.csv.abc123.part").write_text("somebody else's")
 
     def rows():
         yield made("new")
@@ -159,13 +162,6 @@ def test_an_interrupted_writer_leaves_the_old_file(tmp_path: Path) -> None:
     with pytest.raises(KeyboardInterrupt):
         write_rows(MadeRow, rows(), path)
     assert [each.record for each in read_rows(MadeRow, path)] == ["old"]
-    assert [entry.name for entry in tmp_path.iterdir()] == ["made.csv"]
-
-
-def test_what_a_killed_writer_left_is_removed_by_the_next(tmp_path: Path) -> None:
-    (tmp_path / ".made.csv.abc123.part").write_text("half")
-    (tmp_path / ".other.csv.abc123.part").write_text("somebody else's")
-    write_rows(MadeRow, [], tmp_path / "made.csv")
     assert sorted(entry.name for entry in tmp_path.iterdir()) == [".other.csv.abc123.part", "made.csv"]
 
 
