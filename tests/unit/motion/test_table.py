@@ -7,7 +7,8 @@ from motion_cases import MECHANISMS
 from rocking.errors import MotionError
 from rocking.motion import nonlinear_kernel
 from rocking.motion.table import ACCURACY, table_of
-from rocking.structures import Arch, Wall
+from rocking.quantities import GRAVITY
+from rocking.structures import Arch, Facade, Wall
 from rocking.structures.mechanism import Mechanism, Side
 from tests.parts import callable_parts
 
@@ -88,3 +89,11 @@ def test_rotations_of_arcs_are_those_of_the_integral_one_as_many(name):
         inner = np.sqrt(side.inertia(rotations[:, None] * (nodes + 1) / 2) / side.at("inertia", 0.0))
         assert rotations * (inner @ weights / 2) == pytest.approx(arcs, rel=1e-13)
         assert [own.rotation_ratio(arc) for arc in arcs.tolist()] == own.rotation_ratios(arcs).tolist()
+
+
+def test_the_frequency_of_a_taut_tie_is_that_of_a_spring_on_a_turning_block():
+    """ω² = k z²/I about the toe, at rest, where the tie at height z is stretched fastest."""
+    facade = Facade((6.0,), (0.6,), 20e3, tie_heights=(5.0,), tie_stiffness=3e5, tie_strength=6e3)
+    inertia = 20e3 / GRAVITY * 6.0 * 0.6 * (6.0**2 + 0.6**2) / 3
+    law = table_of(facade.mechanism()).kernel.ties.law[0, 0]
+    assert law[nonlinear_kernel.SQUARE] == pytest.approx(3e5 * 5.0**2 / inertia, rel=1e-12)

@@ -7,12 +7,24 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from rocking.assessment.verdict import Verdict
+from rocking.assessment.verdict import Agreement, Verdict
+from rocking.pulses import Pulse
+from rocking.records import Accelerogram
 from rocking.records.measures import record_measures
 from rocking.reports.drawings import draw_structure, fallen_rotation
-from rocking.reports.record_figures import drawn_rotation, ground_figure, pulses_figure, strip_figure
+from rocking.reports.record_figures import (
+    History,
+    Motion,
+    comparison_figure,
+    drawn_rotation,
+    ground_figure,
+    histories_figure,
+    pulses_figure,
+    strip_figure,
+)
 from rocking.reports.style import MOST_POINTS, TEXT_WIDTH, thinned
 from rocking.structures import Arch, Block, LoadedWall, Wall
+from tests.unit.assessment.made_rows import case
 
 from .conftest import fate
 
@@ -59,6 +71,56 @@ def test_a_wall_is_drawn_as_fallen_by_the_rotation_of_the_side_it_falls_to():
     assert away.critical_rotation != pytest.approx(back.critical_rotation, rel=0.1)
     share = fallen_rotation(wall, 1) / away.critical_rotation
     assert fallen_rotation(wall, -1) == pytest.approx(-share * back.critical_rotation, rel=1e-12)
+    inwards = fate(Verdict.STANDS, 0.4, peak_side=-1, structure="wall")
+    assert drawn_rotation(wall, inwards) == pytest.approx(-0.4 * back.critical_rotation, rel=1e-12)
+    (axes,) = strip_figure([inwards], {"wall": wall}, {"wall": "wall"}, 0.3).axes
+    assert any("inwards" in text.get_text() for text in axes.texts)
+
+
+def test_the_map_of_energy_is_darkest_where_the_pulse_begins_and_marks_it_there():
+    pulse = Pulse(4.0, 2 * np.pi / 0.9, 5.0)
+    record = Accelerogram(pulse.acceleration(np.arange(3000) * 0.01), 0.01)
+    energy = pulses_figure([Motion(record, [pulse])]).axes[1]
+    (picture,) = energy.images
+    gains, (left, right, low, high) = picture.get_array(), picture.get_extent()
+    row, column = np.unravel_index(gains.argmax(), gains.shape)
+    rows, columns = gains.shape
+    across, up = left + (column + 0.5) / columns * (right - left), low + (row + 0.5) / rows * (high - low)
+    # two columns, of 0.12 s, and a row
+    assert (across, up) == pytest.approx((5.0, np.log10(0.9)), abs=0.24)
+    assert up == pytest.approx(np.log10(0.9), abs=(high - low) / rows)
+    assert energy.lines[0].get_xydata()[0] == pytest.approx((5.0, np.log10(0.9)))
+
+
+def test_each_history_fills_its_row_in_the_order_of_the_names(example):
+    times, ratios = np.arange(4.0), np.array([0.0, 0.4, -0.2, 0.0])
+    rows = [
+        History(
+            fate(Verdict.STANDS, 0.4, structure=name),
+            case("EW", 0.4, predicted_rotation_ratio=0.2),
+            times,
+            ratios,
+        )
+        for name in "abc"
+    ]
+    panel = histories_figure(rows, {name: name for name in "abc"}, example.motions).axes[0]
+    traces = [line.get_ydata() for line in panel.lines if line.get_label() == "as given"]
+    for level, trace, name in zip((0, -1, -2), traces, "abc", strict=True):
+        assert level + 0.3 < trace.max() < level + 0.5 and trace.min() > level - 0.5
+        assert any(text.get_position()[1] == level and text.get_text()[0] == name for text in panel.texts)
+        assert panel.get_ylim()[0] < level < panel.get_ylim()[1]
+
+
+def test_a_prediction_that_misses_the_overturning_is_bold_and_overturning_in_the_picture():
+    cases = [
+        case("EW", 0.3, predicted_rotation_ratio=0.4, agreement=Agreement.SAME),
+        case("NS", math.inf, predicted_rotation_ratio=0.1, agreement=Agreement.TOO_LOW),
+    ]
+    panel = comparison_figure(cases, {"pier": "pier"}, several=True).axes[0]
+    bold = max(panel.collections, key=lambda each: each.get_linewidth()[0])
+    (ends,) = bold.get_segments()
+    assert ends[:, 1].tolist() == [1, 1] and ends[0, 0] == pytest.approx(0.1)
+    assert ends[1, 0] < panel.get_xlim()[1]
 
 
 def test_every_panel_stands_in_its_figure_and_shows_all_of_what_it_draws(example):
@@ -83,5 +145,13 @@ def test_every_panel_stands_in_its_figure_and_shows_all_of_what_it_draws(example
             assert low <= heights.min() and heights.max() <= high
             places = [text.get_position()[0] for text in axes.texts if text.get_transform() == axes.transData]
             assert all(left <= place <= right for place in places)
-    texts = {text.get_text() for text in strip.axes[0].texts}
+    (axes,) = strip.axes
+    for each in axes.patches:
+        box = each.get_window_extent()
+        assert axes.bbox.contains(*box.min) and axes.bbox.contains(*box.max)
+    texts = {text.get_text() for text in axes.texts}
     assert texts.issuperset(example.labels.values())
+    peak = motion.accelerogram.peak_acceleration / 9.80665
+    # of the block of 1 m by 4 m
+    assert any(f"static 0.25 g, PGA {peak / 0.25:.2g} ×" in text for text in texts)
+    assert f": PGA {peak:.2g} g" in ground_figure([motion]).axes[0].texts[0].get_text()

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import rocking
-from rocking.reports.panels import draw_rotation
+from rocking.reports.panels import draw_rotation, rotation_ratios
 from rocking.reports.style import plain_logarithmic
 from rocking.reports.summary import prediction_scatter
 
@@ -82,7 +82,31 @@ def test_the_mechanism_is_drawn_over_its_values_at_rest():
     assert drawn["B"][-1] == pytest.approx(1 / np.cos(side.critical_rotation), rel=1e-12)
     assert np.all(drawn["I"] == 1)
     unlike = rocking.RigidBody(left=0.3, right=0.5, centre_height=1.5, inertia=1.0, restitution=0.9)
-    assert len(unlike.mechanism().plot().lines) == 7  # three for each side and the line at 0
+    *curves, _ = unlike.mechanism().plot().lines  # three for each side and the line at 0
+    away, back = (each.critical_rotation for each in unlike.mechanism().sides)
+    assert [line.get_xdata()[-1] for line in curves] == [away] * 3 + [-back] * 3
+
+
+def test_a_block_starts_its_capacity_at_its_slenderness_and_an_arch_carries_its_thrust_above_its_centre():
+    assert BLOCK.capacity_curve().plot().lines[0].get_xydata()[0] == pytest.approx((0.0, 0.2), abs=1e-12)
+    assert lines(PLOTTED["structure"].plot())["thrust line at uplift"].min() > 0
+
+
+def test_the_spectrum_is_hatched_where_it_overturns():
+    hatched = SPECTRUM.plot().collections[0].get_paths()
+    inner = [
+        [any(path.contains_point((p, multiplier)) for path in hatched) for multiplier in MULTIPLIERS[1:-1]]
+        for p in FREQUENCIES[1:-1]
+    ]
+    assert np.array_equal(inner, np.isinf(SPECTRUM[1:-1, 1:-1])) and np.any(inner)
+
+
+@pytest.mark.parametrize(("left", "right"), [(0.3, 0.5), (0.5, 0.3)])
+def test_a_rotation_is_drawn_over_the_critical_one_of_its_side(left, right):
+    body = rocking.RigidBody(left=left, right=right, centre_height=1.5, inertia=1.0, restitution=0.9)
+    response = rocking.integrate(body, RECORD.scaled(0.8), history=True)
+    _, ratios = rotation_ratios(response, body.mechanism())
+    assert 0 < np.abs(ratios).max() == pytest.approx(response.rotation_ratio, rel=1e-3)
 
 
 def test_rotations_of_several_records_in_one_panel_stand_at_their_level_in_their_scale():
