@@ -13,8 +13,8 @@ from scipy.optimize import brentq
 class Oracle:
     """Follows a mechanism (its `sides`, `one_sided`) through a piecewise linear acceleration."""
 
-    def __init__(self, mechanism, rtol=1e-13):
-        self.mechanism, self.rtol = mechanism, rtol
+    def __init__(self, mechanism, rtol=1e-13, steps=8):
+        self.mechanism, self.rtol, self.steps = mechanism, rtol, steps  # at least so many in a sample
         self.peaks = {1: 0.0, -1: 0.0}
         self.impacts, self.overturned = 0, False
 
@@ -27,11 +27,12 @@ class Oracle:
         pull = -s * side.at("ground", rotation) * ground - side.at("gravity", rotation) * (g + vertical)
         return (pull - side.at("inertia_slope", rotation) / 2 * velocity**2) / side.at("inertia", rotation)
 
-    def run(self, ground, step, vertical=None, *, after):
+    def run(self, ground, step, vertical=None, after=None):
         """Integrate; returns (largest ratio or inf, impacts). after: seconds of still ground that follow."""
         vertical = np.zeros(len(ground)) if vertical is None else vertical
         state = 0, 0.0, 0.0
         intervals = [(step, ground[i : i + 2], vertical[i : i + 2]) for i in range(len(ground) - 1)]
+        after = 20 / self.side(1).frequency_parameter if after is None else after
         for interval in intervals + [(after / 40, (0.0, 0.0), (0.0, 0.0))] * 40:
             state = self.interval(state, *interval)
             if self.overturned:
@@ -93,7 +94,7 @@ class Oracle:
         atol = 1e-3 * self.rtol * size * np.array([1, 1 / (span - now)])
         solved = solve_ivp(
             lambda t, y: [y[1], self.acceleration(s, *y, *push(t))], (now, span), [rotation, velocity], "DOP853",
-            events=(landing, loss, crest), rtol=self.rtol, atol=atol, max_step=(span - now) / 8
+            events=(landing, loss, crest), rtol=self.rtol, atol=atol, max_step=(span - now) / self.steps
         )  # fmt: skip
         landings, losses, crests = solved.y_events
         self.peaks[s] = max(self.peaks[s], *(top for top, _ in crests), 0.0)
