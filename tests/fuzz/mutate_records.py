@@ -83,33 +83,28 @@ def _line(content: bytes, dice: random.Random) -> tuple[int, int]:
 
 
 def repeat_line(content: bytes, dice: random.Random) -> bytes:
-    """Repeat a line."""
     start, end = _line(content, dice)
     return content[:end] + content[start:end] + content[end:]
 
 
 def drop_line(content: bytes, dice: random.Random) -> bytes:
-    """Remove a line."""
     start, end = _line(content, dice)
     return content[:start] + content[end:]
 
 
 def swap_lines(content: bytes, dice: random.Random) -> bytes:
-    """Exchange a line with the next."""
     start, end = _line(content, dice)
     after = content.find(b"\n", end) + 1 or len(content)
     return content[:start] + content[end:after] + content[start:end] + content[after:]
 
 
 def flip_digit(content: bytes, dice: random.Random) -> bytes:
-    """Replace a digit by another."""
     digits = [m.start() for m in re.finditer(rb"\d", content[:4000] if dice.random() < 0.6 else content)]
     at = dice.choice(digits or [0])
     return content[:at] + bytes([48 + (content[at] - 48 + dice.randint(1, 9)) % 10]) + content[at + 1 :]
 
 
 def cut_bytes(content: bytes, dice: random.Random) -> bytes:
-    """Remove one to two hundred bytes."""
     at = dice.randrange(len(content))
     return content[:at] + content[at + dice.randint(1, 200) :]
 
@@ -164,7 +159,6 @@ def run(wholes: list[Whole], mutants: int, seed: int, kinds: Mapping = KINDS) ->
 
 
 def main() -> None:
-    """Run and print what passed in silence."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--mutants", type=int, default=30_000)
     parser.add_argument("--seed", type=int, default=1)

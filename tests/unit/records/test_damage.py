@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from made_files import MADE, STEP, TRUE, N, by_obspy, read_text
 
-from rocking.errors import RecordError
+from rocking.errors import RecordError, UndeclaredError
 from rocking.records.formats import Options
 from rocking.records.formats.header import check_duration
 from rocking.records.read import LARGEST_FILE, read_content, unpack
@@ -103,42 +103,42 @@ def test_a_peak_out_of_its_place_is_warned_of(name: str, old: str, new: str) -> 
     assert "puts the peak" in new_one
 
 
-@pytest.fixture
-def counts() -> np.ndarray:
-    return np.round(1e4 * np.sin(np.arange(4000) / 30)).astype(np.int32)
+COUNTS = np.round(1e4 * np.sin(np.arange(4000) / 30)).astype(np.int32)
 
 
 @pytest.mark.parametrize("word", [1, 2, 6, 56])
-def test_sac_is_held_to_its_extremes_and_its_end(counts: np.ndarray, word: int) -> None:
+def test_sac_is_held_to_its_extremes_and_its_end(word: int) -> None:
     """Words 1, 2, 6 and 56 of the header are DEPMIN, DEPMAX, E and DEPMEN (SAC manual)."""
-    content = bytearray(by_obspy("SAC", (counts / 1e4).astype(np.float32)))
+    content = bytearray(by_obspy("SAC", (COUNTS / 1e4).astype(np.float32)))
     assert read_content(bytes(content), "made", Options(unit="m/s2"))
+    with pytest.raises(UndeclaredError, match="unit"):
+        read_content(bytes(content), "made", Options())
     (value,) = struct.unpack_from("<f", content, 4 * word)
     struct.pack_into("<f", content, 4 * word, 1.01 * value + (word == 56))
     with pytest.raises(RecordError, match=r"DEPM|end at"):
         read_content(bytes(content), "made", Options(unit="m/s2"))
 
 
-def test_the_peak_is_looked_at_before_a_mean_is_removed(counts: np.ndarray) -> None:
+def test_the_peak_is_looked_at_before_a_mean_is_removed() -> None:
     """Counts around 9000 m/s² would seem a record of 1 m/s² once their mean is gone."""
     with pytest.raises(RecordError, match="no recorder is off by"):
-        read_content(by_obspy("SAC", (9000 + counts / 1e4).astype(np.float32)), "made", Options(unit="m/s2"))
+        read_content(by_obspy("SAC", (9000 + COUNTS / 1e4).astype(np.float32)), "made", Options(unit="m/s2"))
 
 
-def test_miniseed_cut_within_a_record_is_refused(counts: np.ndarray) -> None:
+def test_miniseed_cut_within_a_record_is_refused() -> None:
     """Also one of records of two lengths."""
-    short, long = (by_obspy("MSEED", counts, reclen=size, encoding="STEIM2") for size in (512, 4096))
+    short, long = (by_obspy("MSEED", COUNTS, reclen=size, encoding="STEIM2") for size in (512, 4096))
     assert read_content(short, "made", IN_MM)[0].acceleration.size == 4000
-    mixed = long + by_obspy("MSEED", counts[:200], reclen=512)
+    mixed = long + by_obspy("MSEED", COUNTS[:200], reclen=512)
     assert read_content(mixed, "made", IN_MM)
     for cut in (short[:-1], short[:-100], short[:-511], mixed[:-1]):
         with pytest.raises(RecordError, match=r"last record of \d+ bytes is cut"):
             read_content(cut, "made", IN_MM)
 
 
-def test_miniseed_blocks_that_come_twice_are_told(counts: np.ndarray) -> None:
+def test_miniseed_blocks_that_come_twice_are_told() -> None:
     """The last blocks overwritten by earlier ones: the record is shorter, without a gap."""
-    content = by_obspy("MSEED", counts, reclen=512, encoding="STEIM2")
+    content = by_obspy("MSEED", COUNTS, reclen=512, encoding="STEIM2")
     assert not read_content(content, "made", IN_MM)[0].warnings
     blocks = [content[i : i + 512] for i in range(0, len(content), 512)]
     (record,) = read_content(b"".join(blocks[:-3] + blocks[:3]), "made", IN_MM)
@@ -148,8 +148,8 @@ def test_miniseed_blocks_that_come_twice_are_told(counts: np.ndarray) -> None:
     assert any("Block number 4 follows number 4" in told for told in record.warnings)
 
 
-def test_miniseed_that_fails_its_own_check_is_refused(counts: np.ndarray) -> None:
-    content = bytearray(by_obspy("MSEED", counts, reclen=512, encoding="STEIM2"))
+def test_miniseed_that_fails_its_own_check_is_refused() -> None:
+    content = bytearray(by_obspy("MSEED", COUNTS, reclen=512, encoding="STEIM2"))
     content[64 + 80] ^= 0x40  # a difference within the first record: its last sample is not the one it states
     with pytest.raises(RecordError, match="integrity"):
         read_content(bytes(content), "made", IN_MM)

@@ -12,7 +12,7 @@ from obspy import Stream, Trace, UTCDateTime, read_inventory
 from obspy import read as obspy_read
 from obspy.core.util.base import get_example_file
 
-from rocking.errors import RecordError, RockingError, UndeclaredError
+from rocking.errors import RecordError, RockingError
 from rocking.records import Accelerogram, load_catalogue, read
 from rocking.records.folder import list_folder
 from rocking.records.formats import FORMATS
@@ -94,15 +94,6 @@ def test_inventories_that_do_not_serve(miniseed: Path, xml: str, message: str) -
     path.write_text(xml)
     with pytest.raises(RecordError, match=message):
         read(miniseed, inventory=path)
-
-
-def test_sac_needs_a_unit_and_loses_its_offset(tmp_path: Path) -> None:
-    path = tmp_path / "record.sac"
-    trace((COUNTS / 1e6).astype(np.float32)).write(str(path), format="SAC")
-    with pytest.raises(UndeclaredError, match="unit"):
-        read(path)
-    (record,) = read(path, unit="m/s2")
-    assert record.time_step == 0.01 and abs(record.acceleration.mean()) < 1e-9
 
 
 def test_obspys_own_records() -> None:

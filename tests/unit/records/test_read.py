@@ -50,6 +50,7 @@ def test_a_record_knows_its_file_and_gzip_is_unpacked(tmp_path: Path) -> None:
     (at2(["0.1", "0.2"], dt="1.0.1"), "DT is '1.0.1', but must be a number"),
     (at2(["0.1", "0.2"], unit="UNKNOWN"), "unit is not declared"),
     (at2(["100", "818"]), "peak acceleration is 818 g.*980.665"),
+    (at2(["0.1"]), "declares 1 samples, but must declare at least 2"),
 ])  # fmt: skip
 def test_bad_files_get_one_sentence_that_names_them(tmp_path: Path, content, message: str) -> None:
     with pytest.raises(RecordError, match=message) as caught:
