@@ -7,8 +7,7 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -133,17 +132,6 @@ class SmallStudy:
         """Temporary files that somebody left behind."""
         return list(self.results.rglob("*.part"))
 
-    def keep(self, *identifiers: str) -> None:
-        """Leave only these records in the catalogue."""
-        self.write_catalogue([row for row in self.rows() if row["id"] in identifiers])
-
-    def forget(self, record: str) -> None:
-        """Remove what the job of one record made, and the last table of all, as a run that was stopped leaves it."""
-        tables = self.results.glob("summary/jobs/*/record.csv")
-        (job,) = {table.parent for table in tables if record in table.read_text()}
-        shutil.rmtree(job)
-        (self.results / "summary" / "provenance.json").unlink()
-
     def copy_to(self, folder: Path) -> "SmallStudy":
         shutil.copytree(self.folder, folder)
         return SmallStudy(folder, self.tree)
@@ -183,22 +171,3 @@ def finished(start: SmallStudy, tmp_path_factory: pytest.TempPathFactory) -> Sma
     study = start.copy_to(tmp_path_factory.mktemp("finished") / "study")
     study.run()
     return study
-
-
-@pytest.fixture
-def small_disk() -> Callable[[Path, str], AbstractContextManager[Callable[[str], None]]]:
-    """Mount a small disk in memory on a folder; what is handed back enlarges it. Skips where that is not allowed."""
-
-    @contextmanager
-    def mounted(folder: Path, size: str) -> Iterator[Callable[[str], None]]:
-        mount = ["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", str(folder)]
-        if not shutil.which("mount") or subprocess.run(mount, capture_output=True, check=False).returncode:
-            pytest.skip("a disk can only be mounted by root")
-        try:
-            yield lambda size: subprocess.run(
-                ["mount", "-o", f"remount,size={size}", str(folder)], check=True, capture_output=True
-            )
-        finally:
-            subprocess.run(["umount", str(folder)], check=True, capture_output=True)
-
-    return mounted

@@ -1,16 +1,16 @@
 """Every column of every table holds something somewhere: a misspelt one would stay empty without a word."""
 
 import csv
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from rocking.assessment.settings import EnsembleSettings
-from rocking.errors import StructureError
 from rocking.records.catalogue import CatalogueRecord
 from rocking.structures import load_structures
 from rocking.study.job import Study, run_job
 from rocking.study.settings import Settings, StudyFragility
 from rocking.study.summary import write_fragility, write_summary
+from tests.unit.assessment.made import Impossible
 from tests.workflow.conftest import ROOT
 
 STRUCTURES = """
@@ -22,14 +22,6 @@ STRUCTURES = """
 """
 EMPTY = {("intensity_measures.csv", name) for name in ("p_value", "power", "slope")}
 """What stays empty here: a regression needs more stations than two."""
-
-
-@dataclass(frozen=True)
-class Impossible:
-    """A structure that cannot be described."""
-
-    def mechanism(self) -> None:
-        raise StructureError("it cannot stand.")
 
 
 def test_every_column_is_filled_somewhere(tmp_path: Path) -> None:

@@ -13,6 +13,7 @@ from scipy.signal import detrend
 
 from rocking.motion.integration import integrate
 from rocking.pulses import extract_pulses
+from rocking.records.catalogue import load_catalogue
 from rocking.records.processing import displacement
 from rocking.reports.explore import BINS, drawings, explore_page, extremes
 from rocking.sine_pulse import predict_maximum
@@ -38,22 +39,17 @@ STRUCTURES = f"""
 @pytest.fixture(scope="module")
 def study(tmp_path_factory) -> tuple[Path, Study, list]:
     """A study of one strong record, assessed, with its page; one record more cannot be read."""
-    from rocking.records.catalogue import load_catalogue
-
     folder = tmp_path_factory.mktemp("explore") / "study"
     write_study(folder, 2, duration=8.0)
     (folder / "structures.yaml").write_text(STRUCTURES, encoding="utf-8")
     (folder / "records" / "synthetic_00001.AT2").write_text("no record", encoding="utf-8")
-    choices = {"ensemble": {"members": 16}, "candidates": 0, "processing_variants": False}
-    settings = read_settings(
-        choices | {"catalogue": str(folder / "records" / "catalogue.csv"), "results": str(folder / "results")}
-    )
-    study = Study(load_structures(folder / "structures.yaml"), settings)
-    records = load_catalogue(folder / "records" / "catalogue.csv")
     results = folder / "results"
-    results.mkdir()
+    paths = {"catalogue": str(folder / "records" / "catalogue.csv"), "results": str(results)}
+    choices = {"ensemble": {"members": 16}, "candidates": 0, "processing_variants": False}
+    study = Study(load_structures(folder / "structures.yaml"), read_settings(choices | paths))
+    records = load_catalogue(paths["catalogue"])
     run_job(records, study, results / "part", results)
-    (results / "summary").mkdir()
+    (results / "summary").mkdir(parents=True)
     page = results / "summary" / "study.html"
     contents = page_contents([results / "part"], [record.id for record in records])
     page.write_bytes(explore_page(contents, study.structures, f"A study of {HOSTILE}"))
@@ -105,9 +101,8 @@ def test_the_page_carries_the_rotation_that_was_integrated(content, study):
     drawn = {name: each for name, each in content["records"][0]["cases"].items() if "history" in each}
     accelerograms, _ = assessed.open(records[0])
     for name, each in drawn.items():
-        response = integrate(
-            assessed.structures[name].mechanism(), accelerograms[0], assessed.assessment.tolerance
-        )
+        structure, tolerance = assessed.structures[name], assessed.assessment.tolerance
+        response = integrate(structure.mechanism(), accelerograms[0], tolerance)
         largest = np.abs(unpacked(each["history"])).max()
         # between the steps of a history the peak may lie a little higher; a fall is followed farther
         expected = response.rotation_ratio

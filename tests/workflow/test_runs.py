@@ -135,9 +135,7 @@ def test_a_dry_run_changes_nothing_and_a_run_in_other_jobs_fills_in_the_hash(fin
     assert study.planned("--config", "records_per_job=3") == []
 
 
-def test_a_date_a_comment_or_other_line_ends_compute_nothing_and_a_number_everything(
-    finished, tmp_path
-) -> None:
+def test_a_date_a_comment_or_line_ends_compute_nothing_and_a_number_everything(finished, tmp_path) -> None:
     study = finished.copy_to(tmp_path / "study")
     structures = study.folder / "structures.yaml"
     structures.write_text("# the old pier\n" + structures.read_text())

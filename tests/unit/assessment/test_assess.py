@@ -1,13 +1,21 @@
-"""A record against structures: what is compared with what, and what a failure costs."""
+"""A record against structures: what is compared with what, what a failure costs, and the motion of a pair."""
 
 import math
+from dataclasses import replace
 from time import process_time
 
 import numpy as np
 import pytest
 
 from rocking.assessment.assess import AssessmentSettings, Method, assess_structures, predict
-from rocking.assessment.rows.of_record import RATIO_COLUMNS, ComponentRow, comparison_row, pulse_rows
+from rocking.assessment.rows.of_record import (
+    RATIO_COLUMNS,
+    ComponentRow,
+    comparison_row,
+    horizontal_motions,
+    pulse_rows,
+    record_row,
+)
 from rocking.assessment.rows.of_study import capacity_rows
 from rocking.assessment.settings import EnsembleSettings, PredictingPulse
 from rocking.assessment.verdict import NEGLIGIBLE, agreement, ratio, rests, within_factor_two
@@ -23,6 +31,7 @@ RECORD = Accelerogram(PULSE.acceleration(np.arange(1000) * STEP), STEP, componen
 BLOCK = Block(2.0, 0.2)
 SETTINGS = AssessmentSettings()
 IDENTITY = ComponentRow.of()
+MOTION = Pulse(3.0, math.pi, 10.0).acceleration(np.arange(3000) * STEP)
 
 
 @pytest.fixture(scope="module")
@@ -101,31 +110,26 @@ def test_choice_by_demand_never_asks_less_than_choice_by_energy():
     rng = np.random.default_rng(1)
     noisy = Accelerogram(RECORD.acceleration + rng.normal(0, 0.8, 1000), STEP)
     analysis = extract_pulses(noisy)
-    by_energy, by_demand = (
-        predict(BLOCK.mechanism(), PULSE_METHODS[name].candidates(analysis)) for name in ("energy", "demand")
-    )
+    choices = [PULSE_METHODS[name].candidates(analysis) for name in ("energy", "demand")]
+    by_energy, by_demand = (predict(BLOCK.mechanism(), candidates) for candidates in choices)
     assert by_demand.maximum.rotation_ratio >= by_energy.maximum.rotation_ratio
 
 
 def test_a_pulse_method_that_finds_nothing_costs_no_integration():
     # 1.1 s of record hold a sine of 0.5 s, but no wavelet of T_p = 0.24 s, which is 1.19 s long
     short = Accelerogram(Pulse(3.0, 4 * np.pi, 0.3).acceleration(np.arange(110) * STEP), STEP)
-    assessment = assess_structures(
-        short, {"block": BLOCK}, AssessmentSettings(pulse=PredictingPulse(choice="velocity"))
-    )
+    settings = AssessmentSettings(pulse=PredictingPulse(choice="velocity"))
+    assessment = assess_structures(short, {"block": BLOCK}, settings)
     assert [failure.stage for failure in assessment.failures] == ["pulses"]
     assert assessment.cases[0].prediction is None and assessment.analysis is not None
     assert assessment.cases[0].responses[Method.MECHANISM_ON_RECORD].rotation_ratio > 0
 
 
-def test_a_steady_vertical_acceleration_scales_gravity():
+def test_a_steady_vertical_acceleration_scales_gravity(case):
     # −0.2 g for the whole record: λ and p² fall by a fifth, so what 0.8 of the motion does to a block of 0.8 g is done.
     vertical = Accelerogram(np.full(1000, -0.2 * 9.80665), STEP)
-    lifted, plain = (
-        assess_structures(RECORD, {"block": BLOCK}, SETTINGS, *more).cases[0] for more in ((vertical,), ())
-    )
-    largest = lifted.responses[Method.MECHANISM_ON_RECORD].rotation_ratio
-    assert largest > plain.responses[Method.MECHANISM_ON_RECORD].rotation_ratio
+    (lifted,) = assess_structures(RECORD, {"block": BLOCK}, SETTINGS, vertical).cases
+    assert lifted.integrated_rotation_ratio > case.integrated_rotation_ratio
 
 
 ABOVE = math.nextafter(NEGLIGIBLE, 1.0)
@@ -157,3 +161,51 @@ def test_ratio_is_known_only_where_both_are_lifted_and_stay_up():
     assert ratio(0.2, 0.4) == 0.5
     assert math.isnan(ratio(math.inf, 0.4))
     assert math.isnan(ratio(0.2, 0.0))
+
+
+def component(share: float, name: str, azimuth: float | None = None, **changes) -> Accelerogram:
+    return replace(Accelerogram(share * MOTION, STEP, name, azimuth=azimuth), **changes)
+
+
+def test_a_pair_has_one_motion_and_its_axis_from_north():
+    north, east = component(math.cos(0.3), "N", 0.0), component(math.sin(0.3), "E", 90.0)
+    one, other = horizontal_motions([north, east])
+    assert one is other
+    assert one.velocity_pulse_azimuth == pytest.approx(math.degrees(0.3))
+    assert one.velocity_pulse.orientation == pytest.approx(0.3)
+    assert one.rotd.rotd100 == pytest.approx(3.0, rel=1e-3)
+    written = record_row(IDENTITY, north, "", None, one, Pulse(1.0, math.pi))
+    assert written.rotd50_peak_acceleration_m_s2 == one.rotd.rotd50
+    assert written.rotd100_peak_acceleration_m_s2 == one.rotd.rotd100
+    assert written.pulse_periods_unlike is one.velocity_pulse.is_unlike(Pulse(1.0, math.pi))
+    assert written.pulse_period_ratio == pytest.approx(2.0 / one.velocity_pulse.period)
+    alone = record_row(IDENTITY, north, "", component(0.1, ""), horizontal_motions([north])[0], None)
+    assert math.isnan(alone.rotd100_peak_acceleration_m_s2) and math.isnan(alone.pulse_period_ratio)
+    assert alone.vertical_component == "not named"
+
+
+@pytest.mark.parametrize(
+    "others",
+    [[], [component(1, "E", time_step=0.02)], [component(1, "a"), component(1, "b")]],
+    ids=["one", "another time step", "three"],
+)
+def test_what_is_no_pair_stands_alone(others):
+    motions = horizontal_motions([component(1.0, "S", 200.0), *others])
+    assert len(motions) == 1 + len(others)
+    assert motions[0].rotd is None
+    assert motions[0].velocity_pulse.period == pytest.approx(1.93 * 2.0, rel=0.02)
+    assert motions[0].velocity_pulse_azimuth == 20.0
+
+
+def test_a_still_or_short_record_has_no_velocity_pulse():
+    for short in (Accelerogram(np.zeros(3000), STEP), Accelerogram(np.ones(50), STEP)):
+        (motion,) = horizontal_motions([short])
+        assert motion.velocity_pulse is None and motion.velocity_pulse_azimuth is None
+        assert record_row(IDENTITY, short, "", None, motion, Pulse(1.0, 1.0)).pulse_periods_unlike is None
+
+
+def test_periods_more_than_a_factor_2_apart_are_unlike():
+    (motion,) = horizontal_motions([component(1.0, "N")])
+    period = motion.velocity_pulse.period
+    assert motion.velocity_pulse.is_unlike(Pulse(1.0, 2 * math.pi / (0.49 * period))) is True
+    assert motion.velocity_pulse.is_unlike(Pulse(1.0, 2 * math.pi / (0.51 * period))) is False

@@ -89,12 +89,8 @@ def test_auto_rests_only_where_every_crack_does():
 
 def test_the_governed_fragility_is_never_below_that_of_statics():
     records = [record(1.0, period) for period in (0.5, 0.8, 1.2)]
-    levels = np.geomspace(0.2, 3.0, 8)
-    stations = list("abc")
-    plain, governed = (
-        fragility(records, SPIRE, levels=levels, stations=stations, over_cracks=over)
-        for over in (False, True)
-    )
+    usual = {"levels": np.geomspace(0.2, 3.0, 8), "stations": list("abc")}
+    plain, governed = (fragility(records, SPIRE, over_cracks=over, **usual) for over in (False, True))
     assert np.all(governed.probability >= plain.probability) and governed.median <= plain.median
 
 
@@ -107,10 +103,8 @@ def test_the_middle_candidate_is_the_wall_itself():
 
 def test_a_higher_hinge_lifts_earlier():
     # λ = 2 tan α₁ falls as the lower block grows, so a shaking that leaves low hinges shut opens high ones.
-    lifted = [
-        c.integrated_rotation_ratio > 0
-        for c in candidates(LOW_WALL, SINE.scaled(0.8), None, 9, AssessmentSettings())
-    ]
+    variations = candidates(LOW_WALL, SINE.scaled(0.8), None, 9, AssessmentSettings())
+    lifted = [each.integrated_rotation_ratio > 0 for each in variations]
     assert lifted == sorted(lifted)
     assert lifted[-1]
     assert not lifted[0]

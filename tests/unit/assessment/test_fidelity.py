@@ -94,9 +94,8 @@ def test_an_estimate_settles_up_to_the_risk_and_on_the_side_where_it_lies():
 
 def test_a_block_unlike_its_mechanism_settles_nothing_and_gets_no_estimate():
     """A wall on stiff ties: no line is near its restoring force (theory: the equivalent block)."""
-    tied = Facade(
-        (3.5,), (0.6,), 20e3, tie_heights=(3.4,), tie_stiffness=1e6, one_sided=True, restitution=0.5
-    )
+    tie = {"tie_heights": (3.4,), "tie_stiffness": 1e6}
+    tied = Facade((3.5,), (0.6,), 20e3, **tie, one_sided=True, restitution=0.5)
     mechanism = tied.mechanism()
     assert mechanism.block_defects.restoring > 1
     strong = record(40.0 * mechanism.uplift_multiplier / MECHANISM.uplift_multiplier)
@@ -112,14 +111,10 @@ def pulse_record(factor: float) -> Accelerogram:
 
 
 def measured(factor: float = 1.0) -> dict[str, float]:
-    ratios = np.array(
-        [integrate(EQUIVALENT, pulse_record(factor * nudge)).rotation_ratio for nudge in NUDGES]
-    )
-    return (
-        fidelity.of_structure(MECHANISM)
-        | fidelity.of_velocity(pulse_record(factor), EQUIVALENT)
-        | fidelity.from_nudged(ratios)
-    )
+    motions = [pulse_record(factor * nudge) for nudge in NUDGES]
+    ratios = np.array([integrate(EQUIVALENT, motion).rotation_ratio for motion in motions])
+    velocity = fidelity.of_velocity(pulse_record(factor), EQUIVALENT)
+    return fidelity.of_structure(MECHANISM) | velocity | fidelity.from_nudged(ratios)
 
 
 def test_the_peak_velocity_is_that_of_a_sine():

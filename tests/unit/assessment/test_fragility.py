@@ -165,9 +165,8 @@ def test_a_measure_grows_in_proportion_to_the_motion(name):
 @pytest.mark.parametrize("members", [1, 2, 3, 4])
 def test_a_row_of_the_analysis_tells_the_lower_median_of_its_members(members):
     ratios = np.array([0.4, 0.1, math.inf, 0.2])[None, None, :members]
-    analysis = IncrementalDynamicAnalysis(
-        INTENSITY_MEASURES["pgv"], np.ones(1), ratios, np.full(1, 0.5), ("one",)
-    )
+    measure = INTENSITY_MEASURES["pgv"]
+    analysis = IncrementalDynamicAnalysis(measure, np.ones(1), ratios, np.full(1, 0.5), ("one",))
     (row,) = ida_rows("block", ["record"], analysis)
     assert row.rotation_ratio_median == statistics.median_low(ratios[0, 0])
     assert (row.members, row.scale_factor) == (members, 2.0)
@@ -216,9 +215,7 @@ def test_a_record_without_the_measure_is_named():
         ([0.0, 0.2, 0.5, 0.5], math.inf),
     ],
 )
-def test_the_median_is_linear_in_the_logarithm_between_two_levels_and_the_middle_of_a_flat_half(
-    share, median
-):
+def test_the_median_is_linear_in_the_logarithm_of_levels_and_the_middle_of_a_flat_half(share, median):
     curve = _counted([1.0, 2.0, 4.0, 8.0], share, 20)
     assert curve.median == pytest.approx(median, rel=1e-12)
     assert math.isinf(curve.interval[1]) == math.isinf(median) and curve.interval[0] >= 1.0

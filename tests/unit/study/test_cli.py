@@ -286,9 +286,8 @@ def test_an_installed_wheel_carries_the_workflow(study, tmp_path):
     wheels, site = tmp_path / "wheels", tmp_path / "site"
     build = [*pip, "wheel", str(ROOT), "--no-deps", "--no-build-isolation", "-q", "-w", str(wheels)]
     subprocess.run(build, check=True)
-    subprocess.run(
-        [*pip, "install", "-q", "--no-deps", "--target", str(site), *wheels.glob("*.whl")], check=True
-    )
+    install = [*pip, "install", "-q", "--no-deps", "--target", str(site), *wheels.glob("*.whl")]
+    subprocess.run(install, check=True)
     rocking_command = [sys.executable, "-m", "rocking.study.cli"]
     environment = os.environ | {"PYTHONPATH": str(site)}
     fresh = tmp_path / "fresh"

@@ -2,9 +2,8 @@
 
 import hashlib
 import os
-import pickle
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 from types import SimpleNamespace
@@ -16,7 +15,6 @@ from rocking.assessment.assess import assess
 from rocking.assessment.fate import PER_RECORD
 from rocking.assessment.rows.of_record import ComparisonRow, FailureRow, HistoryRow, PulseRow
 from rocking.assessment.rows.of_study import TradeMethod, TradeRow
-from rocking.errors import StructureError
 from rocking.motion import integrate
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
@@ -27,17 +25,10 @@ from rocking.study.results import Results, page_contents, part
 from rocking.study.settings import Settings, StudyTrade
 from rocking.study.summary import summarise, write_summary
 from rocking.tables import csv_lines, frame, read_rows, write_tables
+from tests.unit.assessment.made import Impossible
 
 ROOT = Path(__file__).parents[3]
 CONTENT = at2_text(SyntheticRecord("made", 1, 4.0, 0.6, 1.0, 1.0, 6.0, 0.01)).encode()
-
-
-@dataclass(frozen=True)
-class Impossible:
-    """A structure that cannot be described."""
-
-    def mechanism(self) -> None:
-        raise StructureError("it cannot stand.")
 
 
 def _study(**structures: object) -> Study:
@@ -75,21 +66,6 @@ def test_a_record_that_fails_has_all_its_tables_and_says_why(tmp_path: Path) -> 
     for each in PER_RECORD:
         rows = list(read_rows(each, tmp_path / "out" / each.table.file_name))
         assert len(rows) == (1 if each.table.name in ("failures", "timings") else 0), each.table.name
-
-
-class _Trap:
-    def __reduce__(self) -> tuple[object, tuple[str]]:
-        return Path.touch, (Path("/tmp/rocking_ran_a_pickle"),)
-
-
-@pytest.mark.parametrize("head", [b"", b"obspy.core.stream"])
-def test_a_pickle_is_never_opened(tmp_path: Path, head: bytes) -> None:
-    """obspy.read would: it unpickles whatever says obspy.core.stream in its first 100 bytes."""
-    trap = Path("/tmp/rocking_ran_a_pickle")
-    content = pickle.dumps((head.decode(), _Trap()), protocol=0)
-    (sentence,) = _assessed(_record(tmp_path, content=content), _study(), tmp_path / "out")
-    assert not trap.exists()
-    assert "made.AT2" in sentence
 
 
 def test_no_source_loads_more_than_data() -> None:

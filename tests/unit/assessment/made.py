@@ -1,8 +1,20 @@
-"""Rows of tables with what a test is about, else empty: the structure pier under record a, unless said."""
+"""Rows of tables with what a test is about, else empty: the structure pier under record a, unless said.
+
+And a structure that cannot be described.
+"""
+
+from dataclasses import dataclass
 
 from rocking.assessment.rows.of_record import ComparisonRow, EnsembleRow, FailureRow
 from rocking.assessment.verdict import Verdict
+from rocking.errors import StructureError
 from rocking.structures import Outcome
+
+
+@dataclass(frozen=True)
+class Impossible:
+    def mechanism(self) -> None:
+        raise StructureError("it cannot stand.")
 
 
 def case(component: str, ratio: float, structure: str = "pier", record: str = "a", **more) -> ComparisonRow:
