@@ -101,8 +101,8 @@ def test_the_page_carries_the_rotation_that_was_integrated(content, study):
     drawn = {name: each for name, each in content["records"][0]["cases"].items() if "history" in each}
     accelerograms, _ = assessed.open(records[0])
     for name, each in drawn.items():
-        structure, tolerance = assessed.structures[name], assessed.assessment.tolerance
-        response = integrate(structure.mechanism(), accelerograms[0], tolerance)
+        mechanism = assessed.structures[name].mechanism()
+        response = integrate(mechanism, accelerograms[0], assessed.assessment.tolerance)
         largest = np.abs(unpacked(each["history"])).max()
         # between the steps of a history the peak may lie a little higher; a fall is followed farther
         expected = response.rotation_ratio

@@ -135,9 +135,7 @@ AWAY = "the file went away while the study ran; bring it back."
     ],
     ids=["records vanish", "results read-only"],
 )
-def test_a_folder_that_fails_is_said_and_one_goes_on(
-    finished, start, tmp_path, name, harm, mend, words
-) -> None:
+def test_after_a_folder_fails_the_same_command_goes_on(finished, start, tmp_path, name, harm, mend, words):
     """In the midst of a job of three records, of which none is then taken for one that cannot be read."""
     study = start.copy_to(tmp_path / "study")
     config = study.folder / "config.yaml"

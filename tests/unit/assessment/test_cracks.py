@@ -111,7 +111,8 @@ def test_a_higher_hinge_lifts_earlier():
 
 
 def test_processing_that_changes_nothing_changes_no_answer():
-    records, block = processed(SINE), Block(2.0, 0.2)
+    records = processed(SINE)
+    block = Block(2.0, 0.2)
     assert "unchanged" in records
     variations = processed_variants({"": block}, records, AssessmentSettings())[""]
     ratios = {each.processing: each.integrated_rotation_ratio for each in variations}
