@@ -10,7 +10,7 @@ from rocking.structures import load_structures
 from rocking.study.job import Study, run_job
 from rocking.study.settings import Settings, StudyFragility
 from rocking.study.summary import write_fragility, write_summary
-from tests.unit.assessment.made import Impossible
+from tests.unit.assessment.made_rows import Impossible
 from tests.workflow.conftest import ROOT
 
 STRUCTURES = """

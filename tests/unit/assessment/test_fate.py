@@ -7,7 +7,7 @@ import pytest
 from rocking.assessment.fate import fates
 from rocking.assessment.rows.of_record import VariationRow
 from rocking.assessment.verdict import Verdict
-from tests.unit.assessment.made import case, ensemble, failure
+from tests.unit.assessment.made_rows import case, ensemble, failure
 
 
 @pytest.mark.parametrize(

@@ -25,7 +25,7 @@ from rocking.study.results import Results, page_contents, part
 from rocking.study.settings import Settings, StudyTrade
 from rocking.study.summary import summarise, write_summary
 from rocking.tables import csv_lines, frame, read_rows, write_tables
-from tests.unit.assessment.made import Impossible
+from tests.unit.assessment.made_rows import Impossible
 
 ROOT = Path(__file__).parents[3]
 CONTENT = at2_text(SyntheticRecord("made", 1, 4.0, 0.6, 1.0, 1.0, 6.0, 0.01)).encode()

@@ -10,7 +10,7 @@ from rocking.assessment.fate import fates
 from rocking.assessment.verdict import Verdict
 from rocking.study import terminal
 from rocking.study.terminal import Progress, closing_lines, line_writer, paths_to_read, record_line
-from tests.unit.assessment.made import case, ensemble, failure
+from tests.unit.assessment.made_rows import case, ensemble, failure
 
 
 def test_the_worst_component_counts() -> None:
