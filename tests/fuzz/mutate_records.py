@@ -71,10 +71,7 @@ def real(folder: Path) -> list[Whole]:
         rows = sorted(csv.DictReader(stream, delimiter="\t"), key=lambda row: -int(row["size"]))
     small = {row["format"]: row for row in rows if not row["file"].endswith((*REFUSED, *TRUNCATED))}
     paths = {folder / row["file"]: declared(row) for row in small.values()}
-    return [
-        Whole(path.name, path.read_bytes(), Options(folder=path.parent, **more))
-        for path, more in paths.items()
-    ]
+    return [Whole(at.name, at.read_bytes(), Options(folder=at.parent, **more)) for at, more in paths.items()]
 
 
 def _line(content: bytes, dice: random.Random) -> tuple[int, int]:
@@ -110,11 +107,7 @@ def cut_bytes(content: bytes, dice: random.Random) -> bytes:
 
 
 KINDS: Mapping[str, Callable[[bytes, random.Random], bytes]] = {
-    "repeat_line": repeat_line,
-    "drop_line": drop_line,
-    "swap_lines": swap_lines,
-    "flip_digit": flip_digit,
-    "cut_bytes": cut_bytes,
+    **{kind.__name__: kind for kind in (repeat_line, drop_line, swap_lines, flip_digit, cut_bytes)},
     "truncate": lambda content, dice: content[: dice.randrange(1, len(content))],
     "append": lambda content, dice: 2 * content,
 }

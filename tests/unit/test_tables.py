@@ -60,9 +60,6 @@ ROWS = st.builds(
     speed_rad_s=st.floats(allow_nan=False),
     count=st.integers(-(2**60), 2**60),
     missing_count=st.none() | st.integers(0, 2**60),
-    holds=st.none() | st.booleans(),
-    colour=st.sampled_from(Colour),
-    other_colour=st.none() | st.sampled_from(Colour),
     flags=st.lists(TEXT.filter(lambda text: text and ";" not in text), max_size=3).map(tuple),
 )
 
