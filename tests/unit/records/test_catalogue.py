@@ -223,8 +223,8 @@ def test_the_near_fault_catalogue_opens_from_the_mirror(real_records: Path, mani
 
 def test_a_catalogue_from_a_folder(folder: Path) -> None:
     (folder / "sub").mkdir()
-    (folder / "sub" / "table.csv").write_bytes(TABLE.encode())
-    (folder / "plain.txt").write_text("\n".join(f"{np.sin(i):.5f}" for i in range(30)))
+    named(folder / "sub", "table.csv")
+    named(folder, "plain.txt", "\n".join(f"{np.sin(i):.5f}" for i in range(30)))
     (folder / "notes.md").write_text("once upon a time")
     (folder / "broken.AT2").write_text("X\nY\nACCELERATION IN UNITS OF G\nNPTS= 9, DT= .01\n 1 2\n")
     rows, unread = catalogue_from_folder(folder, unit="g", time_step=0.02)
@@ -243,10 +243,10 @@ def named(folder: Path, name: str | bytes, text: str = TABLE) -> None:
         stream.write(text.encode("latin-1"))
 
 
-NAMES = "a:b.txt", " a.csv", "a.csv ", b"\xff\xfe.csv", "two\nlines.csv", "cr\rcell.csv", "semi;colon.csv"
-
-
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(
+    "name",
+    ["a:b.txt", " a.csv", "a.csv ", b"\xff\xfe.csv", "two\nlines.csv", "cr\rcell.csv", "semi;colon.csv"],
+)
 def test_a_name_that_a_catalogue_would_refuse_is_unread(tmp_path: Path, name: str | bytes) -> None:
     named(tmp_path, name)
     named(tmp_path, "good.csv")
@@ -256,17 +256,15 @@ def test_a_name_that_a_catalogue_would_refuse_is_unread(tmp_path: Path, name: st
     unread[0][0].encode("utf-8")
 
 
-ODD = ["<&>{x}.csv", "=cmd.csv", "@x.csv", "-y.csv", "x..at2", "con.csv", "summary.csv", "...csv", "dots....csv",
-       "Übung #1.csv", "a" * 200 + ".csv", "x.csv.gz.txt", "'quoted\".csv", "semi_colon,comma.csv"]  # fmt: skip
-
-
 def test_ids_that_a_catalogue_writes_are_ids_that_it_loads(tmp_path: Path) -> None:
-    for name in ODD:
+    odd = ["<&>{x}.csv", "=cmd.csv", "@x.csv", "-y.csv", "x..at2", "con.csv", "summary.csv", "...csv", "dots....csv",
+           "Übung #1.csv", "a" * 200 + ".csv", "x.csv.gz.txt", "'quoted\".csv", "semi_colon,comma.csv"]  # fmt: skip
+    for name in odd:
         named(tmp_path, name)
     (tmp_path / "sub").mkdir()
     named(tmp_path / "sub", "CON.csv")
     rows, unread = catalogue_from_folder(tmp_path)
-    assert [name for name, _ in unread] == [] and len(rows) == len([n for n in ODD if n[0] != "."]) + 1
+    assert [name for name, _ in unread] == [] and len(rows) == len([n for n in odd if n[0] != "."]) + 1
     assert all(len(open_record(record)) == 2 for record in load_catalogue(write(tmp_path, *rows)))
     assert not any(row["file"][0] in "=+-@" for row in rows)
 

@@ -84,8 +84,7 @@ def test_steps_and_peaks_that_no_instrument_gives_are_told_of_arrays_as_of_files
         assert f"{step:g} s" in warning
     (warning,) = Accelerogram(SHAKING * 1000, 0.01).warnings
     assert "5 g" in warning
-    again = replace(Accelerogram(SHAKING * 1000, 1e-9), station="A")
-    assert len(again.warnings) == 2
+    assert len(replace(Accelerogram(SHAKING * 1000, 1e-9), station="A").warnings) == 2
     assert not Accelerogram(SHAKING * 5 * GRAVITY, 1e-4).warnings + Accelerogram(SHAKING, 0.1).warnings
 
 
