@@ -121,6 +121,21 @@ def test_levels_of_their_own_reach_from_rest_to_overturning():
     assert curve.plot().get_xlabel() == "pgv [m/s]"
 
 
+def test_levels_lie_where_the_curve_rises_and_where_it_falls(monkeypatch):
+    """All overturn from 0.3 to 0.6 m/s and above 1.2 m/s; the levels are closest about each of the three."""
+    measure = INTENSITY_MEASURES["pgv"]
+
+    def banded(structures, record, factors, **how):
+        velocities = measure.of(record, structures[0]) * np.asarray(factors)
+        return np.where((velocities > 0.3) & (velocities < 0.6) | (velocities > 1.2), math.inf, 0.1)[None]
+
+    monkeypatch.setattr("rocking.assessment.fragility.integrate_batch", banded)
+    levels = fragility(RECORDS, BLOCK).levels
+    steps = np.diff(np.log(levels))
+    for edge in (0.3, 0.6, 1.2):
+        assert steps[np.searchsorted(levels, edge) - 1] < 0.5 * steps.max()
+
+
 @pytest.mark.parametrize("ensemble", [None, EnsembleSettings()])
 def test_a_case_without_an_answer_counts_as_one_that_falls_and_costs_no_other(ensemble, monkeypatch):
     levels = [0.2, 0.3]
