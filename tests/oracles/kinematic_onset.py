@@ -28,23 +28,19 @@ def kinematic_onset(ring: Ring) -> Onset:
     if not np.isfinite(multiplier):
         raise NoMechanism
     if ring.voussoirs is None:
-        multiplier, found = _slide_to_minimum(ring, found, 2 * (sections[1] - sections[0]))
+        # Minimise over A, B and C within two sections of the first guess; inadmissible there is no barrier.
+        edge, reach = ring.embrace_angle / 2, 2 * (sections[1] - sections[0])
+        result = minimize(
+            lambda free: _virtual_work(ring, np.append(free, edge))[0],
+            found[:3],
+            jac="3-point",
+            method="L-BFGS-B",
+            bounds=[(max(section - reach, -edge), min(section + reach, edge)) for section in found[:3]],
+            options={"ftol": 1e-16, "gtol": 1e-10},
+        )
+        found = np.append(result.x, edge)
+        multiplier = float(mechanism_multiplier(ring, found))
     return Onset(multiplier, found + ring.embrace_angle / 2, np.full(3, np.nan))
-
-
-def _slide_to_minimum(ring: Ring, hinges: np.ndarray, reach: float) -> tuple[float, np.ndarray]:
-    """Minimise the multiplier over A, B and C within `reach` of a first guess; inadmissible there is no barrier."""
-    edge = ring.embrace_angle / 2
-    result = minimize(
-        lambda free: _virtual_work(ring, np.append(free, edge))[0],
-        hinges[:3],
-        jac="3-point",
-        method="L-BFGS-B",
-        bounds=[(max(section - reach, -edge), min(section + reach, edge)) for section in hinges[:3]],
-        options={"ftol": 1e-16, "gtol": 1e-10},
-    )
-    found = np.append(result.x, edge)
-    return float(mechanism_multiplier(ring, found)), found
 
 
 def mechanism_multiplier(ring: Ring, hinges: np.ndarray) -> np.ndarray:

@@ -3,6 +3,7 @@
 tests/unit/motion holds the integration to scipy's, which shares no code with either.
 """
 
+import itertools
 import math
 
 import numpy as np
@@ -69,12 +70,12 @@ def peak_time(response) -> float:
 
 
 def test_prediction_equals_integration_in_every_regime() -> None:
-    regimes = {
-        compared(symmetric(eta), a, omega).regime
-        for eta in RESTITUTIONS
-        for a in AMPLITUDES
-        for omega in FREQUENCIES
-    }
+    """Beyond the grid: perfect restitution, and a Zeno chain that ends in rest before the pulse lifts again."""
+    cases = [*itertools.product(RESTITUTIONS, AMPLITUDES, FREQUENCIES), (0.7, 1.015, 0.2)]
+    cases += [(1.0, a, omega) for a, omega in ((1.2, 3.0), (1.6, 5.0), (2.2, 6.0), (4.0, 9.0))]
+    found = [compared(symmetric(eta), a, omega) for eta, a, omega in cases]
+    assert any(1 < each.rotation_ratio < math.inf for each in found), "beyond the critical rotation and back"
+    regimes = {each.regime for each in found}
     assert regimes == set(Regime) - {Regime.UNRESOLVED, Regime.AFTER_FIRST_IMPACT}
 
 
@@ -88,24 +89,6 @@ def test_other_blocks_agree_too_for_both_signs(name: str) -> None:
     }
     assert {Regime.CONTACT_DURING_PULSE, Regime.OVERTURNS_WITHOUT_IMPACT} <= regimes
     assert (Regime.AFTER_FIRST_IMPACT in regimes) == (name != "one side")
-
-
-@pytest.mark.parametrize(("a", "omega"), [(1.2, 3.0), (1.6, 5.0), (2.2, 6.0), (4.0, 9.0)])
-def test_perfect_restitution_agrees(a: float, omega: float) -> None:
-    compared(symmetric(1.0), a, omega)
-
-
-def test_beyond_the_critical_rotation_and_back() -> None:
-    predicted = compared(symmetric(0.9), 6.5, 5.0)
-    assert 1 < predicted.rotation_ratio < math.inf and predicted.outcome is Outcome.ROCKS
-
-
-@pytest.mark.parametrize(("eta", "a", "omega"), [(0.0, 1.5, 4.0), (0.7, 1.015, 0.2)])
-def test_rest_during_the_pulse_then_uplift_again(eta: float, a: float, omega: float) -> None:
-    """With η = 0 the first contact brings rest; with ω = 0.2 and a just above 1 a Zeno chain does."""
-    predicted = compared(symmetric(eta), a, omega)
-    assert predicted.regime is Regime.CONTACT_DURING_PULSE
-    assert eta or predicted.overturning_margin < 1  # it is in the air when the pulse ends
 
 
 def test_short_hop_on_a_side_with_a_small_critical_rotation_is_the_largest() -> None:

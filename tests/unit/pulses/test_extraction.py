@@ -19,9 +19,8 @@ TIMES = np.arange(2000) * STEP
 @pytest.fixture(scope="module")
 def record():
     rng = np.random.default_rng(11)
-    pulses = Pulse(2.0, 2 * np.pi / 1.3, 6.2).acceleration(TIMES) + Pulse(
-        -1.5, 2 * np.pi / 0.7, 11
-    ).acceleration(TIMES)
+    first, second = Pulse(2.0, 2 * np.pi / 1.3, 6.2), Pulse(-1.5, 2 * np.pi / 0.7, 11)
+    pulses = first.acceleration(TIMES) + second.acceleration(TIMES)
     return Accelerogram(pulses + 0.3 * rng.standard_normal(TIMES.size), STEP)
 
 

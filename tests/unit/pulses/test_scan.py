@@ -77,13 +77,8 @@ def noisy_pulse(seed):
 def test_refinement_reaches_the_maximum_of_a_general_optimiser(seed):
     samples, turn = noisy_pulse(seed), 2 * math.pi * STEP
     angle, start, sine, norm = refine(samples, 101, turn / 1.65, turn * 0.2, turn * 5, 0.1)
-    found = optimize.differential_evolution(
-        lambda x: -plain_gain(samples, x[0], x[1]),
-        [(0.55, 0.66), (1.8, 2.2)],
-        seed=seed,
-        tol=1e-12,
-        popsize=20,
-    )
+    bounds, accuracy = [(0.55, 0.66), (1.8, 2.2)], {"tol": 1e-12, "popsize": 20}
+    found = optimize.differential_evolution(lambda x: -plain_gain(samples, *x), bounds, seed=seed, **accuracy)
     gain = sine**2 / norm * STEP
     # the landscape has a kink at every sample; what the climb may miss is less than a thousandth of the gain
     assert gain >= -found.fun * (1 - 1e-3)

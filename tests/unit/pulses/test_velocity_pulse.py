@@ -21,6 +21,7 @@ from rocking.records.accelerogram import Accelerogram
 
 STEP = 0.005
 TIMES = np.arange(8000) * STEP
+_, WAVELET, PLACES = pywt.Wavelet("db4").wavefun(level=10)
 
 
 def from_velocity(velocity):
@@ -30,8 +31,7 @@ def from_velocity(velocity):
 @pytest.mark.parametrize("scale", [0.7, 1.6, 3.1])
 @pytest.mark.parametrize("angle", [-1.0, 0.0, 0.3, 1.4, math.pi / 2])
 def test_a_planted_wavelet_is_found(scale, angle):
-    _, wavelet, places = pywt.Wavelet("db4").wavefun(level=10)
-    velocity = np.interp((TIMES - 20) / scale + 3.5, places, wavelet, left=0, right=0)
+    velocity = np.interp((TIMES - 20) / scale + 3.5, PLACES, WAVELET, left=0, right=0)
     shares = round(math.cos(angle), 12), math.sin(angle)  # along the second component the first is still
     components = (from_velocity(share * velocity) for share in shares)
     found = velocity_pulse(*components)
@@ -49,9 +49,7 @@ def test_the_period_is_not_that_of_the_acceleration_pulse():
     # T_p / T_g of a pure sine, computed with the same two methods by other code: 1.93
     assert found.period / 2.0 == pytest.approx(1.93, rel=0.01)
     assert not found.is_unlike(Pulse(3.0, math.pi, 10.0))
-    assert found.is_unlike(Pulse(3.0, 1.1 * math.pi, 10.0)) and found.is_unlike(
-        Pulse(3.0, 0.12 * math.pi, 10.0)
-    )
+    assert all(found.is_unlike(Pulse(3.0, factor * math.pi, 10.0)) for factor in (1.1, 0.12))
 
 
 @pytest.mark.parametrize("component", [0.2, 0.5, 0.8, 1.0])
@@ -66,17 +64,13 @@ def test_the_indicator_is_the_printed_one(component, peak):
 
 
 def test_what_cannot_hold_a_velocity_pulse_is_refused():
-    zero = Accelerogram(np.zeros(3000), STEP)
-    with pytest.raises(PulseError, match="zero throughout"):
-        velocity_pulse(zero, zero)
-    endless = Accelerogram(np.ones(2_000_001), STEP)
-    with pytest.raises(PulseError, match="2000001 samples"):
-        velocity_pulse(endless, endless)
-    short = Accelerogram(np.ones(100), STEP)
-    with pytest.raises(PulseError, match="100 samples"):
-        velocity_pulse(short, short)
+    zero = np.zeros(3000)
+    cases = (zero, "zero throughout"), (np.ones(2_000_001), "2000001 samples"), (np.ones(100), "100 samples")
+    for samples, words in cases:
+        with pytest.raises(PulseError, match=words):
+            velocity_pulse(Accelerogram(samples, STEP), Accelerogram(samples, STEP))
     with pytest.raises(RecordError, match=r"time_step is 0\.005 s and 0\.01 s"):
-        velocity_pulse(zero, Accelerogram(np.ones(3000), 2 * STEP))
+        velocity_pulse(Accelerogram(zero, STEP), Accelerogram(zero, 2 * STEP))
 
 
 @pytest.mark.parametrize(("share", "late"), [(0.11, False), (0.14, True)])
@@ -92,10 +86,9 @@ def test_a_pulse_is_late_by_the_energy_that_went_before(share, late, unit):
 
 def plain(velocities, scale):
     """Σ v_k ψ((k − j)/s)/√s at every sample j, by one sum for each."""
-    _, wavelet, places = pywt.Wavelet("db4").wavefun(level=10)
     half = int(3.5 * scale)
     offsets = np.arange(-half, half + 1)
-    stretched = np.interp(offsets / scale + 3.5, places, wavelet) / np.sqrt(scale)
+    stretched = np.interp(offsets / scale + 3.5, PLACES, WAVELET) / np.sqrt(scale)
     padded = np.pad(velocities, half)
     return np.array([(padded[j : j + offsets.size] * stretched).sum() for j in range(velocities.size)])
 
@@ -120,10 +113,9 @@ def test_the_transform_is_a_plain_sum_at_every_sample(scale, imaginary):
 def test_the_largest_coefficient_on_means_is_that_of_every_sample(seed):
     # a wavelet of T_p = 1.4 · 0.9 s in coloured noise; at 400 Hz the search averages over up to 66 samples
     step, rng = 0.0025, np.random.default_rng(seed)
-    _, wavelet, places = pywt.Wavelet("db4").wavefun(level=10)
     times = np.arange(6000) * step
     middle = rng.uniform(5, 10)
-    velocity = np.interp((times - middle) / 0.9 + 3.5, places, wavelet, left=0, right=0)
+    velocity = np.interp((times - middle) / 0.9 + 3.5, PLACES, WAVELET, left=0, right=0)
     velocity += 0.1 * np.convolve(rng.standard_normal(6000), np.ones(40) / 40, "same") * np.hanning(6000)
     velocity -= velocity[0]
     record = Accelerogram(np.gradient(velocity, step), step)

@@ -66,18 +66,28 @@ def test_a_bad_mapping_is_refused_in_one_sentence(mapping, message):
         structure_from_config(mapping)
 
 
-def test_all_defects_of_a_list_stand_in_one_message(tmp_path):
-    path = tmp_path / "structures.yaml"
-    path.write_text(
+@pytest.fixture
+def load(tmp_path):
+    """Load the structures of a text."""
+
+    def loaded(text):
+        path = tmp_path / "structures.yaml"
+        path.write_text(text, encoding="utf-8")
+        return load_structures(path)
+
+    return loaded
+
+
+def test_all_defects_of_a_list_stand_in_one_message(load):
+    text = (
         "- {name: a, type: block, breadth_m: 1, height_m: 4}\n"
         "- {name: a, type: block, breadth_m: 1, height_m: 5}\n"
         "- {type: block, breadth_m: 1, height_m: 5}\n"
         "- {name: thin, type: arch, radius_m: 10, thickness_m: 1, embrace_angle_deg: 180}\n"
-        "- {name: typo, type: wall, height_m: 3, hinge_heigth_m: 1, thickness_m: 0.3}\n",
-        encoding="utf-8",
+        "- {name: typo, type: wall, height_m: 3, hinge_heigth_m: 1, thickness_m: 0.3}\n"
     )
     with pytest.raises(ConfigurationError) as caught:
-        load_structures(path)
+        load(text)
     lines = str(caught.value).splitlines()
     assert [line.split(": ")[1].split(" (")[0] for line in lines] == [f"structure {n}" for n in (2, 3, 4, 5)]
     assert "already taken" in lines[0]
@@ -100,21 +110,17 @@ def test_all_defects_of_a_list_stand_in_one_message(tmp_path):
         ("- {name: a, type: block, breadth_m: " + "1" * 5000 + ", height_m: 4}", "not valid YAML"),
     ],
 )
-def test_a_file_that_is_no_list_is_refused(tmp_path, text, message):
-    path = tmp_path / "structures.yaml"
-    path.write_text(text, encoding="utf-8")
+def test_a_file_that_is_no_list_is_refused(load, text, message):
     with pytest.raises(ConfigurationError, match=message):
-        load_structures(path)
+        load(text)
 
 
-def test_sizes_are_said_as_they_were_typed(tmp_path):
-    path = tmp_path / "structures.yaml"
-    path.write_text(
+def test_sizes_are_said_as_they_were_typed(load):
+    structures = load(
         "- {name: f, type: block, breadth_m: 0.60, height_m: 6.0, one_sided: true, restitution: 0.5}\n"
-        "- {name: a, type: arch, radius_m: 10.00, thickness_m: 1.50, embrace_angle_deg: 157.5, voussoirs: 7}\n",
-        encoding="utf-8",
+        "- {name: a, type: arch, radius_m: 10.00, thickness_m: 1.50, embrace_angle_deg: 157.5, voussoirs: 7}\n"
     )
-    facade, arch = load_structures(path).values()
+    facade, arch = structures.values()
     assert facade.description == "breadth 0.60 m, height 6.0 m, restitution 0.5, one-sided"
     assert facade.size == "0.60 × 6.0 m"
     assert arch.size == "10.00 × 1.50 m, 157.5°"
@@ -123,11 +129,10 @@ def test_sizes_are_said_as_they_were_typed(tmp_path):
     assert moved.description.startswith("breadth 1.19"), "a copy with other sizes is described anew"
 
 
-def test_what_is_not_usual_is_a_warning_and_not_a_refusal(tmp_path):
-    path = tmp_path / "structures.yaml"
-    path.write_text("- {name: w, type: wall, height_m: 3200, hinge_height_m: 1600, thickness_m: 250}")
+def test_what_is_not_usual_is_a_warning_and_not_a_refusal(load):
+    text = "- {name: w, type: wall, height_m: 3200, hinge_height_m: 1600, thickness_m: 250}"
     with pytest.warns(StructureWarning) as caught:
-        assert list(load_structures(path)) == ["w"]
+        assert list(load(text)) == ["w"]
     said = [str(each.message) for each in caught]
     assert len(said) == 3
     assert "structure 1 (w): height_m is 3200 m, but is usually between 0.5 and 60 m" in said[0]
