@@ -25,9 +25,8 @@ def facade_lagrangian(facade, sign):
         for n in range(crack, len(heights)):
             mass = facade.unit_weight * heights[n] * thicknesses[n] / still
             inertia = mass * (mpf(heights[n]) ** 2 + mpf(thicknesses[n]) ** 2) / 12
-            found.append(
-                (mass, inertia, *where(phi, -thicknesses[n] / 2, level + heights[n] / 2), -sign * phi)
-            )
+            centre = where(phi, -thicknesses[n] / 2, level + heights[n] / 2)
+            found.append((mass, inertia, *centre, -sign * phi))
             level += heights[n]
             if not facade.loads_held:
                 found.append((facade.floor_loads[n] / still, mpf(0), *where(phi, *bearing(n, level)), mpf(0)))
@@ -89,11 +88,9 @@ def wall_lagrangian(wall, sign):
         return energy + elastic(wall, stretches(phi))
 
     def stretches(phi):
-        points = [
-            turned((t / 2, mpf(z)), base, phi) if z <= h1 else on_upper(phi, t / 2, z)
-            for z in wall.tie_heights
-            if sign > 0
-        ]
-        return [point[0] - t / 2 for point in points]
+        def point(z):
+            return turned((t / 2, mpf(z)), base, phi) if z <= h1 else on_upper(phi, t / 2, z)
+
+        return [point(z)[0] - t / 2 for z in wall.tie_heights if sign > 0]
 
     return Lagrangian(places, stored, stretches)

@@ -58,7 +58,7 @@ class Held:
 
 @dataclass
 class TiedBody:
-    """Sides by sign (a sign that is not there is a wall to lean on), a tie's law, and what happens: state and work."""
+    """Sides by sign (a sign that is not there is a wall to lean on), a tie's law, and what happens to each."""
 
     sides: dict[int, Held]
     stiffness: float
@@ -69,8 +69,6 @@ class TiedBody:
     count: int
     plastic: np.ndarray = field(init=False)
     mode: list = field(init=False)
-    paid: float = 0.0
-    """What breaking ties took with them: the energy they stored."""
 
     def __post_init__(self):
         self.plastic, self.mode = np.zeros(self.count), ["elastic"] * self.count
@@ -83,14 +81,13 @@ class TiedBody:
             return self.strength
         return self.pretension + self.stiffness * (u - plastic)
 
-    def follow(self, ground, vertical, stops: Sequence[float], state=(0.0, 0.0, 1), rtol=1e-11):
-        """Follow ü_g(t) and ü_v(t) from one of `stops` to the next; state: rotation, rate, sign."""
-        phi, rate, sign = state
+    def follow(self, ground, vertical, stops: Sequence[float]):
+        """Follow ü_g(t) and ü_v(t) from rest, from one of `stops` to the next."""
+        phi, rate, sign = 0.0, 0.0, 1
         for start, end in itertools.pairwise(stops):
             now = start
             while now < end:
-                now, phi, rate, sign = self._fly(now, end, phi, rate, sign, ground, vertical, rtol)
-        return phi, rate, sign
+                now, phi, rate, sign = self._fly(now, end, phi, rate, sign, ground, vertical)
 
     def at(self, times):
         """Signed rotations at `times`."""
@@ -101,7 +98,7 @@ class TiedBody:
                 found[inside] = sign * solved.sol(times[inside])[0]
         return found
 
-    def _fly(self, now, end, phi, rate, sign, ground, vertical, rtol):
+    def _fly(self, now, end, phi, rate, sign, ground, vertical):
         held, count = self.sides[sign], self.count if sign in self.sides and sign > 0 else 0
 
         def slope(time, y):
@@ -137,8 +134,8 @@ class TiedBody:
                 event(lambda t, y: y[1], -1, ("elastic", n))
                 event(lambda t, y, n=n: y[2 + n] - self.elongation, 1, ("broken", n))
         solved = solve_ivp(
-            slope, (now, end), [phi, rate, *self.plastic], "DOP853", events=marks, dense_output=True, rtol=rtol,
-            atol=1e-3 * rtol, max_step=0.02,
+            slope, (now, end), [phi, rate, *self.plastic], "DOP853", events=marks, dense_output=True, rtol=1e-11,
+            atol=1e-14, max_step=0.02,
         )  # fmt: skip
         self.pieces.append((sign, solved))
         now, (phi, rate, *plastic) = solved.t[-1], solved.y[:, -1]
@@ -150,9 +147,6 @@ class TiedBody:
                 if name == "land":
                     return self._impact(now, rate, sign)
                 self.mode[n] = "broken" if name == "yield" and self.elongation == 0 else name
-                if self.mode[n] == "broken":
-                    self.paid += (self.strength**2 - self.pretension**2) / (2 * self.stiffness)
-                    self.paid += self.strength * self.elongation
         return now, phi, rate, sign
 
     def _impact(self, now, rate, sign):

@@ -20,12 +20,8 @@ from rocking.quantities import GRAVITY
 from rocking.structures.contacts import UnknownContacts
 from rocking.structures.structure_list import TYPES, load_structures, structure_from_config, structures_schema
 
-FEW = settings(
-    max_examples=12,
-    deadline=None,
-    derandomize=True,
-    suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much],
-)
+UNCHECKED = [HealthCheck.too_slow, HealthCheck.filter_too_much]
+FEW = settings(max_examples=12, deadline=None, derandomize=True, suppress_health_check=UNCHECKED)
 REGISTERED = [
     pytest.param(kind, form, id=f"{kind} {number}")
     for kind, each in TYPES.items()
@@ -139,9 +135,8 @@ def test_slopes_are_derivatives(structure):
 @pytest.mark.filterwarnings("ignore::rocking.errors.StructureWarning")
 def test_energy_of_free_rocking_is_kept_until_the_impact(kind, form):
     """Without forcing, I φ'²/2 + g ∫ G dφ of the integrated flight is the energy it was released with."""
-    structure = structure_from_config(
-        {"type": kind, **{each.key: each.value.example for each in form.fields}}
-    )
+    fields = {each.key: each.value.example for each in form.fields}
+    structure = structure_from_config({"type": kind, **fields})
     side = structure.mechanism().positive
     start = 0.5 * side.critical_rotation
     still = Pulse(1e-9, 20 * np.pi, 0.0)
@@ -175,9 +170,7 @@ def test_a_drawing_is_finite_closed_and_measured(structure):
         np.testing.assert_allclose(turned, at_rest, rtol=1e-12, atol=1e-12)
         for before, after in zip(*map(structure.outline, rotations), strict=True):
             for shift in (1, 2):
-                edges = [
-                    np.linalg.norm(part - np.roll(part, shift, axis=0), axis=1) for part in (before, after)
-                ]
+                edges = (np.abs((part - np.roll(part, shift, axis=0)) @ [1, 1j]) for part in (before, after))
                 np.testing.assert_allclose(*edges, atol=1e-10 * np.ptp(before, axis=0).max())
     points = np.vstack(structure.outline())
     size = np.ptp(points, axis=0).max()

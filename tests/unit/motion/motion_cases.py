@@ -59,3 +59,12 @@ def with_restitution(structure: Mechanism | EquivalentBlock, positive: float, ne
     other = structure.other_side or (None if one_sided or alike else structure)
     other = other and replace(other, restitution=negative, other_side=None)
     return replace(structure, restitution=positive, other_side=other)
+
+
+def bisected(low, high, falls):
+    """The value between low and high at which `falls` changes, to rounding of the verdict."""
+    first = falls(low)
+    for _ in range(45):
+        middle = (low + high) / 2
+        low, high = (middle, high) if falls(middle) is first else (low, middle)
+    return (low + high) / 2

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from motion_cases import MECHANISMS, noise
+from motion_cases import MECHANISMS, bisected, noise
 from scipy.constants import g
 
 from rocking.errors import MotionError
@@ -116,16 +116,12 @@ def test_fragile_verdicts_are_marked():
     def scaled(factor):
         return Pulse(factor * g, 6.0)
 
-    low, high = 0.3, 5.0
-    while high - low > 1e-9:
-        middle = (low + high) / 2
-        falls = integrate(BLOCK, scaled(middle)).outcome is Outcome.OVERTURNS
-        low, high = (low, middle) if falls else (middle, high)
+    threshold = bisected(0.3, 5.0, lambda a: integrate(BLOCK, scaled(a)).outcome is Outcome.OVERTURNS)
     for factor, fragile in ((0.98, False), (0.995, True), (1.005, True)):
-        response = integrate(BLOCK, scaled(low * factor), sensitivity=True)
+        response = integrate(BLOCK, scaled(threshold * factor), sensitivity=True)
         assert response.fragile is fragile
-    assert integrate(BLOCK, scaled(low * 0.98), sensitivity=True, fragility_change=0.03).fragile is True
-    assert integrate(BLOCK, scaled(low)).fragile is None
+    assert integrate(BLOCK, scaled(threshold * 0.98), sensitivity=True, fragility_change=0.03).fragile is True
+    assert integrate(BLOCK, scaled(threshold)).fragile is None
 
 
 TIED = Facade(

@@ -11,6 +11,7 @@ from rocking.motion.nonlinear_kernel import Ground, Member, Sides
 from tests.parts import callable_parts
 
 kernel = callable_parts(nonlinear_kernel)
+FACTORIALS = np.array([math.factorial(n) for n in range(1, 9)])
 RNG = np.random.default_rng(5)
 PIECES = RNG.normal(size=(2, 3, 16))
 
@@ -54,11 +55,7 @@ def steps(count: int):
     """Random steps whose terms shrink: series, length, and the real zeros of the speed within."""
     for _ in range(count):
         h = 10 ** RNG.uniform(-1, 0.5)
-        x = (
-            RNG.normal(size=8)
-            * 10 ** RNG.uniform(-1, 1, size=8)
-            / np.array([math.factorial(n) for n in range(1, 9)])
-        )
+        x = RNG.normal(size=8) * 10 ** RNG.uniform(-1, 1, size=8) / FACTORIALS
         zeros = Polynomial([0.0, *x]).deriv().roots()
         real = np.sort(zeros[np.abs(zeros.imag) < 1e-12].real)
         yield tuple(x.tolist()), h, real[(real > 0) & (real < h)]

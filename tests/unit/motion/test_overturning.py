@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from motion_cases import noise
+from motion_cases import bisected, noise
 from oracle import Oracle
 from scipy.constants import g
 
@@ -14,15 +14,6 @@ from rocking.structures import Block, EquivalentBlock, Outcome
 
 def overturns(structure, motion, tolerance=1e-10):
     return integrate(structure, motion, tolerance).outcome is Outcome.OVERTURNS
-
-
-def bisected(low, high, falls):
-    """The value between low and high at which `falls` changes, to rounding of the verdict."""
-    first = falls(low)
-    for _ in range(45):
-        middle = (low + high) / 2
-        low, high = (middle, high) if falls(middle) is first else (low, middle)
-    return (low + high) / 2
 
 
 UNIT = EquivalentBlock(2.0, 0.2, 1.0, 0.9)

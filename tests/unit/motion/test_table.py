@@ -15,13 +15,11 @@ from tests.parts import callable_parts
 _place = callable_parts(nonlinear_kernel)._place
 
 EXTREMES = {
-    "arch just above its minimum thickness": Arch(
-        10.0, 1.07478038 * 1.0001, np.pi, restitution=0.9
-    ).mechanism(),
-    "wall with a low hinge": Wall(0.03, 3.0, 0.3, restitution=0.8).mechanism(),
-    "wall with a high hinge": Wall(3.0, 0.03, 0.02, restitution=0.8).mechanism(),
+    "arch just above its minimum thickness": Arch(10.0, 1.07478038 * 1.0001, np.pi, restitution=0.9),
+    "wall with a low hinge": Wall(0.03, 3.0, 0.3, restitution=0.8),
+    "wall with a high hinge": Wall(3.0, 0.03, 0.02, restitution=0.8),
 }
-ALL = MECHANISMS | EXTREMES
+ALL = MECHANISMS | {name: structure.mechanism() for name, structure in EXTREMES.items()}
 
 
 def evaluated(table, k, arc):
@@ -59,9 +57,8 @@ def test_hold_bounds_every_rotation_further_out(name):
     rotation = np.linspace(0, float(own.rotation(np.array(own.end))), 2001)
     balance = -side.gravity(rotation) / np.abs(side.ground(rotation))
     grid = table_of(ALL[name]).kernel.grid
-    for q, lowest in zip(
-        np.vectorize(own.arc)(rotation), np.minimum.accumulate(balance[::-1])[::-1], strict=True
-    ):
+    least = np.minimum.accumulate(balance[::-1])[::-1]
+    for q, lowest in zip(np.vectorize(own.arc)(rotation), least, strict=True):
         j, _, _ = _place(grid, 0, q)
         assert own.kernel.hold[0, j] <= lowest + 1e-12
 

@@ -25,9 +25,8 @@ def test_by_energy_no_demand_is_asked():
 
 
 def test_by_demand_the_pulse_of_largest_demand_is_chosen():
-    assert chosen("demand", lambda p: abs(p.amplitude) * p.period**2).pulse.period == pytest.approx(
-        3, rel=1e-6
-    )
+    found = chosen("demand", lambda p: abs(p.amplitude) * p.period**2)
+    assert found.pulse.period == pytest.approx(3, rel=1e-6)
 
 
 def test_of_equal_demands_the_better_ranked_is_chosen():
