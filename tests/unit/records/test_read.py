@@ -45,6 +45,7 @@ def test_a_record_knows_its_file_and_gzip_is_unpacked(tmp_path: Path) -> None:
     (b"\n \r\n", "record.AT2: the file is empty"),
     (at2(["0.1"] * 30, npts=3), "declares 3 samples, but the file holds 30"),
     (at2(["0.1", "nan"]), "line 1 of the samples holds 'nan'"),
+    (at2(["0.1", "1.2.3"]), "'1.2.3'"),
     (at2(["0.1", "1e999"]), "number 2 of the samples is inf"),
     (at2(["0.1", "0.2"], dt="0.0"), "time_step is 0.0 s, but must be greater than 0"),
     (at2(["0.1", "0.2"], dt="1.0.1"), "DT is '1.0.1', but must be a number"),
