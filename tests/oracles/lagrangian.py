@@ -36,9 +36,8 @@ class Lagrangian:
 
         def kinetic(phi):
             masses, rates = speeds(phi)
-            return sum(
-                m[0] * (r[0] ** 2 + r[1] ** 2) + m[1] * r[2] ** 2 for m, r in zip(masses, rates, strict=True)
-            )
+            pairs = zip(masses, rates, strict=True)
+            return sum(m[0] * (r[0] ** 2 + r[1] ** 2) + m[1] * r[2] ** 2 for m, r in pairs)
 
         at = mpf(rotation)
         masses, rates = speeds(at)

@@ -26,10 +26,10 @@ FEW = settings(max_examples=25, deadline=None, derandomize=True, suppress_health
 
 def lossless(mechanism: Mechanism) -> Mechanism:
     """The same with η = 1 on every side."""
-    positive, negative = (
-        side and replace(side, restitution=1.0) for side in (mechanism.positive, mechanism.negative)
+    sides = {"positive": mechanism.positive, "negative": mechanism.negative}
+    return replace(
+        mechanism, **{name: side and replace(side, restitution=1.0) for name, side in sides.items()}
     )
-    return replace(mechanism, positive=positive, negative=negative)
 
 
 def noise(seed: int, mechanism, strength: float = 1.5, count: int = 200, step: float = 0.02) -> Accelerogram:
@@ -156,10 +156,8 @@ def test_impact_work_balance(seed):
     response = integrate(BLOCK, record, 1e-10, history=True)
     assume(response.outcome is Outcome.ROCKS)
     side = BLOCK.positive
-    velocity = response.angular_velocity
-    landed = np.flatnonzero(
-        (np.diff(response.times) == 0) & (response.rotation[1:] == 0) & (velocity[:-1] != 0)
-    )
+    velocity, instant = response.angular_velocity, np.diff(response.times) == 0
+    landed = np.flatnonzero(instant & (response.rotation[1:] == 0) & (velocity[:-1] != 0))
     lost = sum(energy(side, 0.0, velocity[k]) * (1 - BLOCK.restitution**2) for k in landed)
     last = energy(side, abs(response.rotation[-1]), velocity[-1])
     assert lost > 0

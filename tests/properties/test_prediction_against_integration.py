@@ -55,9 +55,8 @@ def compared(block: EquivalentBlock, a: float, omega: float) -> Maximum:
 def rests(response) -> bool:
     """Whether a chain of impacts died out before the peak, after which the two halves of the pulse lift alike."""
     still = (response.rotation == 0) & (response.angular_velocity == 0)
-    return bool(
-        (still & (response.times > response.uplift_time) & (response.times < peak_time(response))).any()
-    )
+    before = (response.times > response.uplift_time) & (response.times < peak_time(response))
+    return bool((still & before).any())
 
 
 def impacts_before_the_peak(response) -> int:

@@ -29,9 +29,8 @@ def boore_noise(rng, count, step, magnitude=6.5, stress_drop=80.0, kappa=0.04, d
     moment = 10 ** (1.5 * magnitude + 16.05)
     corner = 4.9e6 * 3.5 * (stress_drop / moment) ** (1 / 3)
     shape = frequencies**2 / (1 + (frequencies / corner) ** 2)
-    path = np.exp(
-        -np.pi * frequencies * (kappa + distance / (3.5 * np.maximum(180 * frequencies**0.45, 1e-9)))
-    )
+    quality = np.maximum(180 * frequencies**0.45, 1e-9)
+    path = np.exp(-np.pi * frequencies * (kappa + distance / (3.5 * quality)))
     noise = np.fft.irfft(spectrum * shape * path, count)
     return noise / np.abs(noise).max()
 
@@ -51,9 +50,7 @@ def recovered(pulse, period, start):
     return abs(np.log(pulse.period / period)) < 0.25 and abs(pulse.start_time - start) < 0.3 * period
 
 
-@pytest.mark.parametrize(
-    ("ratio", "success", "bias"), [(0.25, 0.99, 0.01), (0.5, 0.98, 0.02), (1.0, 0.90, 0.03)]
-)
+@pytest.mark.parametrize("ratio, success, bias", [(0.25, 0.99, 0.01), (0.5, 0.98, 0.02), (1.0, 0.90, 0.03)])
 def test_sine_is_recovered_from_noise(ratio, success, bias):
     hits, errors = 0, []
     for seed in range(SEEDS):
@@ -97,10 +94,8 @@ def quiet_ended(seed, step=0.01, count=4000):
 
 def predicted(name, samples, step=0.01):
     """The pulse that predicts by a method, under a demand that grows with the length scale of the pulse."""
-    analysis = extract_pulses(Accelerogram(samples, step))
-    return predicting_pulse(
-        PULSE_METHODS[name].candidates(analysis), lambda p: abs(p.amplitude) * p.period**2
-    )
+    candidates = PULSE_METHODS[name].candidates(extract_pulses(Accelerogram(samples, step)))
+    return predicting_pulse(candidates, lambda p: abs(p.amplitude) * p.period**2)
 
 
 def alike(evidence, reference, amplitude=1.0, delay=0.0, rel=1e-9):

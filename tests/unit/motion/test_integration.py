@@ -101,10 +101,8 @@ def test_sensitivity_against_a_wide_difference():
     for structure in (BLOCK.mechanism(), BLOCK.mechanism().equivalent_block()):
         found = integrate(structure, RECORD, sensitivity=True)
         step = 1e-4
-        logs = [
-            np.log(integrate(structure, RECORD.scaled(np.exp(k * step)), 1e-12).rotation_ratio)
-            for k in (-2, -1, 1, 2)
-        ]
+        motions = [RECORD.scaled(np.exp(k * step)) for k in (-2, -1, 1, 2)]
+        logs = [np.log(integrate(structure, motion, 1e-12).rotation_ratio) for motion in motions]
         truth = (logs[0] - 8 * logs[1] + 8 * logs[2] - logs[3]) / (12 * step)
         assert found.sensitivity == pytest.approx(truth, rel=1e-3)
         assert found.fragile is False
@@ -135,14 +133,10 @@ def test_a_tie_that_has_yielded_gives_back_no_more_than_its_elastic_energy(veloc
     """A start inwards on the yielding tie lands alike, be the still ground sampled or a sine of next to nothing."""
     side = TIED.mechanism().positive
     stretched = max(tie.rotation(tie.tie.yield_stretch, side.end_rotation) for tie in side.ties) * 1.05
-    arrivals = []
+    start, arrivals = {"initial_rotation": stretched, "initial_velocity": velocity}, []
     for still in (Accelerogram(np.zeros(5000), 0.0005), Pulse(1e-9, 6.0)):
-        told = integrate(
-            TIED, still, 1e-11, history=True, initial_rotation=stretched, initial_velocity=velocity
-        )
-        arrivals.append(
-            told.angular_velocity[np.flatnonzero((told.rotation == 0) & (told.angular_velocity != 0))[0]]
-        )
+        told = integrate(TIED, still, 1e-11, history=True, **start)
+        arrivals.append(told.angular_velocity[(told.rotation == 0) & (told.angular_velocity != 0)][0])
     assert arrivals[0] == pytest.approx(arrivals[1], rel=1e-8)
 
 

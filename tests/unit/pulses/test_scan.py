@@ -106,10 +106,8 @@ def test_no_allowed_cycle_a_sample_away_gains_more(seed):
 def test_a_climb_ends_only_where_newton_has_settled(period, start):
     # without noise a cycle has no kink at its own period and onset, and there the last step is below 1e-7
     phase = (np.arange(400) * STEP - 2.013) / 1.7
-    samples, u = (
-        np.sin(2 * np.pi * phase) * ((phase > 0) & (phase < 1)),
-        math.log(2 * math.pi * STEP / period),
-    )
+    samples = np.sin(2 * np.pi * phase) * ((phase > 0) & (phase < 1))
+    u = math.log(2 * math.pi * STEP / period)
     found_u, found_v, _ = callable_parts(scan)._climbed(samples, 101, u, start, (u - 0.3, u + 0.3))
     assert math.exp(-found_u) * 2 * math.pi * STEP == pytest.approx(1.7, abs=1e-8)
     assert (101 + found_v / math.exp(found_u)) * STEP == pytest.approx(2.013, abs=1e-8)

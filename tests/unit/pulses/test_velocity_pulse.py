@@ -104,9 +104,8 @@ def test_the_transform_is_a_plain_sum_at_every_sample(scale, imaginary):
     assert transform(velocities, scale) == pytest.approx(expected, abs=1e-12)
     assert coefficients(velocities, scale, 150, 211) == pytest.approx(expected[150:211], abs=1e-12)
     if not imaginary:
-        assert [coefficient_at(velocities, scale, j) for j in (0, 199, 399)] == pytest.approx(
-            expected[[0, 199, 399]], abs=1e-12
-        )
+        for j in (0, 199, 399):
+            assert coefficient_at(velocities, scale, j) == pytest.approx(expected[j], abs=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(4))

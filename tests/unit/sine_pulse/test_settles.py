@@ -12,10 +12,8 @@ from tests.parts import callable_parts
 _settles = callable_parts(kernel)._settles
 
 
-def side(
-    frequency: float, amplitude: float, restitution: float, scale: float = 1.0, exists: bool = True
-) -> Side:
-    return Side(frequency, amplitude, restitution, scale, math.inf, exists)
+def side(frequency: float, amplitude: float, restitution: float, scale: float = 1.0) -> Side:
+    return Side(frequency, amplitude, restitution, scale, math.inf, True)
 
 
 def limit(d: float, omega: float, steepest: float, restitution: float, room: float) -> float:

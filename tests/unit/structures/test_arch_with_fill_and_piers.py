@@ -36,9 +36,8 @@ def test_without_fill_and_on_stout_piers_an_arch_is_an_arch():
     )
     for other in others:
         for name in ("uplift_multiplier", "critical_rotation", "frequency_parameter", "acceleration_scale"):
-            assert getattr(other.mechanism().positive, name) == pytest.approx(
-                getattr(plain.mechanism().positive, name), rel=1e-11
-            )
+            expected = getattr(plain.mechanism().positive, name)
+            assert getattr(other.mechanism().positive, name) == pytest.approx(expected, rel=1e-11)
     assert others[1].onset.hinges == pytest.approx(plain.onset.hinges, abs=1e-9)
 
 

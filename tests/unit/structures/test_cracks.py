@@ -32,9 +32,8 @@ def test_each_crack_has_its_own_balance_where_no_restitution_is_given():
     wall = Wall.of_size(3.2, 0.25)
     for each in wall.candidates():
         alone = Wall.hinged_at(3.2, each.position, 0.25, crack="known")
-        assert each.structure.mechanism().restitution == pytest.approx(
-            max(alone._momentum_balance(False), 0.0)
-        )
+        balance = max(alone._momentum_balance(False), 0.0)
+        assert each.structure.mechanism().restitution == pytest.approx(balance)
     given = Wall.of_size(3.2, 0.25, restitution=0.7)
     assert {each.structure.mechanism().restitution for each in given.candidates()} == {0.7}
 
