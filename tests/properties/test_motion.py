@@ -1,11 +1,10 @@
 """What the equation of motion itself promises, whatever the structure and the ground motion."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
+from motion_cases import with_restitution
 from scipy.constants import g
 from scipy.integrate import quad
 
@@ -13,7 +12,6 @@ from rocking.motion import integrate
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import Arch, Block, EquivalentBlock, Outcome, Wall
-from rocking.structures.mechanism import Mechanism
 
 BLOCK = Block(1.0, 0.25, restitution=0.85).mechanism()
 WALL = Wall(2.0, 3.0, 0.5, restitution=0.8).mechanism()
@@ -22,14 +20,6 @@ VOUSSOIRS = Arch(10.0, 1.5, np.deg2rad(157.5), voussoirs=7, restitution=0.9).mec
 MECHANISMS = {"block": BLOCK, "wall": WALL, "arch": ARCH, "voussoirs": VOUSSOIRS}
 SEEDS = st.integers(0, 2**31)
 FEW = settings(max_examples=25, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
-
-
-def lossless(mechanism: Mechanism) -> Mechanism:
-    """The same with η = 1 on every side."""
-    sides = {"positive": mechanism.positive, "negative": mechanism.negative}
-    return replace(
-        mechanism, **{name: side and replace(side, restitution=1.0) for name, side in sides.items()}
-    )
 
 
 def noise(seed: int, mechanism, strength: float = 1.5, count: int = 200, step: float = 0.02) -> Accelerogram:
@@ -47,7 +37,7 @@ def energy(side, rotation: float, velocity: float) -> float:
 @pytest.mark.parametrize("name", ["block", "arch"])
 def test_energy_drift_over_ten_thousand_impacts(name):
     """η = 1, still ground: the speed of landing is the same to 1e-9 at impact 10 000 as at the first."""
-    mechanism = lossless(MECHANISMS[name])
+    mechanism = with_restitution(MECHANISMS[name], 1.0, 1.0)
     period = 4 / mechanism.positive.frequency_parameter * np.arccosh(1 / 0.8)
     record = Accelerogram(np.zeros(1000), 5600 * period / 999)
     start = 0.2 * mechanism.critical_rotation
@@ -60,7 +50,7 @@ def test_energy_drift_over_ten_thousand_impacts(name):
 @pytest.mark.parametrize("name", ["block", "arch"])
 def test_free_period_of_the_equivalent_block(name):
     """Housner's T = (4/p) acosh(1/(1 − x₀)) is exact on the linearised block."""
-    mechanism = lossless(MECHANISMS[name])
+    mechanism = with_restitution(MECHANISMS[name], 1.0, 1.0)
     record = Accelerogram(np.zeros(2000), 0.01)
     block, start = mechanism.equivalent_block("linearised"), 0.5 * mechanism.critical_rotation
     response = integrate(block, record, 1e-10, history=True, initial_rotation=start)
@@ -130,7 +120,7 @@ def test_every_equivalent_block_is_the_universal_one(seed, p, critical, scale):
 @pytest.mark.parametrize("tolerance", [1e-6, 1e-9])
 def test_time_reversal(name, tolerance):
     """η = 1: the record played backwards, velocity reversed, returns to the start within 100 tolerances."""
-    mechanism = lossless(MECHANISMS[name])
+    mechanism = with_restitution(MECHANISMS[name], 1.0, 1.0)
     record = noise(3, mechanism, 0.3, count=150)
     start = 0.3 * mechanism.critical_rotation
     there = integrate(mechanism, record, tolerance, history=True, initial_rotation=start)
