@@ -105,7 +105,7 @@ def _draw_ground(panel: Axes, motion: Motion, span: tuple[float, float], last: b
     reach = 1.1 * max(accelerogram.peak_acceleration, *amplitudes, 1e-9)
     peak = f"{_component(accelerogram.component)}: PGA {accelerogram.peak_acceleration / GRAVITY:.2g} g"
     panel.text(0.995, 0.97, peak, transform=panel.transAxes, ha="right", va="top")
-    _fixed_ticks(panel, "y", -reach, reach, 3)
+    _fixed_ticks(panel, "y", -reach, 1.5 * reach)  # room for the label above the highest peak
     _fixed_ticks(panel, "x", *span, 6)
     panel.tick_params(labelbottom=last)
     panel.set(xlabel="time after the first sample [s]" if last else "", ylabel="[m/s²]")
