@@ -165,7 +165,14 @@ def _hinged(height_ratio: float, thickness_ratio: float) -> Wall:
 def rows_of(curves: Sequence[Curve]) -> list[CurveRow]:
     """Return all points of all curves."""
     return [
-        CurveRow.of(curve, curve=curve.label, x=x, y=y)
+        CurveRow(
+            panel=curve.panel,
+            curve=curve.label,
+            x_quantity=curve.x_quantity,
+            x=x,
+            y_quantity=curve.y_quantity,
+            y=y,
+        )
         for curve in curves
         for x, y in zip(curve.x.tolist(), curve.y.tolist(), strict=True)
     ]

@@ -202,8 +202,8 @@ def crack_row(name: str, site: str, record: Accelerogram, place: int, checked: b
     motion = replace(motion, acceleration=motion.acceleration[span])
     verdict, shares = ruled(mechanisms, static, motion, member.margin)
     turns = stack(member, motion)
-    return CrackRow.of(
-        member,
+    return CrackRow(
+        courses=member.courses,
         record=name,
         site=site,
         structure=member.kind,

@@ -117,18 +117,18 @@ def _trial(
     inside = (ratios >= whole.rotation_ratio_low) & (ratios <= whole.rotation_ratio_high)
     # Where some overturn the band is open above and holds more than its share, so it says nothing of the design.
     is_closed = whole.rotation_ratio_median > NEGLIGIBLE and not np.isinf(ratios).any()
-    return EnsembleTrial.of(
-        about,
-        whole,
+    shares = {size: drawn(mechanism, motions, lattice(size), settings).overturning_share for size in ALLOWED}
+    return EnsembleTrial(
+        **about,
+        verdict=whole.verdict,
+        members=whole.members,
         scale_factor=factor,
         share=whole.overturning_share,
         share_drawn=many.overturning_share,
         draws=many.members,
-        inside_band=float(inside.mean()) if is_closed else None,
-        **{
-            f"share_{size}": drawn(mechanism, motions, lattice(size), settings).overturning_share
-            for size in ALLOWED
-        },
+        inside_band=float(inside.mean()) if is_closed else np.nan,
+        share_64=shares[64],
+        share_256=shares[256],
     )
 
 

@@ -8,8 +8,7 @@ from typing import Any
 import rocking
 from docs.paper.report import equation_rows, equivalence_figures
 from docs.site.drawings import forms
-from rocking.assessment.fate import PER_RECORD
-from rocking.assessment.rows.of_record import HistoryRow
+from rocking.assessment.rows.of_record import RECORD_TABLES, HistoryRow
 from rocking.assessment.rows.of_study import SUMMARY_TABLES, SpectrumRow
 from rocking.described import described_values, parts_of
 from rocking.pulses import PULSE_METHODS
@@ -44,7 +43,7 @@ def structures() -> str:
 
 def tables() -> str:
     """Every column of every table."""
-    classes = dict.fromkeys((*PER_RECORD, HistoryRow, *SUMMARY_TABLES, SpectrumRow))
+    classes = dict.fromkeys((*RECORD_TABLES, HistoryRow, *SUMMARY_TABLES, SpectrumRow))
     package = json.loads(data_package("tables", {each: each.table.file_name for each in classes}))
     return "\n\n".join(map(_table_section, package["resources"]))
 

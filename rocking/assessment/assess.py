@@ -1,146 +1,244 @@
-"""One record against structures: predictions, integrations and the two side by side; and one structure in one call."""
+"""Assess: one record against structures, each case predicted, integrated and followed by its ensemble."""
 
-from collections.abc import Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, fields, replace
-from functools import partial
-from math import inf, nan
+from functools import lru_cache, partial
+from hashlib import sha256
+from math import inf
 from statistics import median
 from time import process_time
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Protocol
 
-from rocking.assessment.ensemble import Ensemble, GroundMotions
-from rocking.assessment.fidelity import Answer, Estimate, Tier, cheapest_answer, estimated
+import numpy as np
+
+from rocking.assessment.case import CaseResult, Failure, Motion, Prediction, RecordResult, StationResult
+from rocking.assessment.component import Component, HorizontalMotion, component_names, component_of
+from rocking.assessment.ensemble import GroundMotions, processed
+from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.assessment.variations import cracks, ensemble_over_cracks
-from rocking.assessment.verdict import Method, ratio_in_words
-from rocking.drawn import Drawn
-from rocking.errors import ConfigurationError, PulseError, RockingError
-from rocking.motion.integration import integrate
-from rocking.motion.response import UNKNOWN, ModelCheck, Response, check_model
-from rocking.pulses import (
-    PULSE_METHODS,
-    Pulse,
-    PulseAnalysis,
-    PulseEvidence,
-    extract_pulses,
-    predicting_pulse,
+from rocking.assessment.variations import (
+    Variation,
+    candidates,
+    cracks,
+    ensemble_over_cracks,
+    processed_variants,
 )
+from rocking.assessment.verdict import BOTH_COMPONENTS, Method, ratio_in_words
+from rocking.drawn import Drawn
+from rocking.errors import ConfigurationError, RecordError, RockingError
+from rocking.motion.integration import integrate
+from rocking.motion.response import UNKNOWN, Response, check_model
+from rocking.pulses import PulseEvidence, predicting_pulse
 from rocking.quantities import GRAVITY
-from rocking.records import Accelerogram
-from rocking.sine_pulse import Maximum, predict_maximum, printed_maximum
-from rocking.structures import EquivalentBlock, Mechanism, Structure
+from rocking.records import Accelerogram, aligned
+from rocking.sine_pulse import predict_maximum, printed_maximum
+from rocking.structures import Mechanism, Structure
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
 
-@dataclass(frozen=True)
-class Prediction:
-    """The closed forms of one structure under one pulse.
+class CaseStore(Protocol):
+    """A place that keeps results of cases by their fingerprint."""
 
-    pulse_rank: of the pulse among those that its method offers. amplitude_ratio, frequency_ratio: a and ω_g/p.
-    """
+    def find(self, fingerprint: str) -> CaseResult | None:
+        """Return the result of this fingerprint; None where there is none."""
 
-    block: EquivalentBlock
-    pulse: Pulse
-    pulse_rank: int
-    amplitude_ratio: float
-    frequency_ratio: float
-    printed_rotation_ratio: float
-    maximum: Maximum
+    def keep(self, result: CaseResult) -> None:
+        """Keep a result."""
 
 
 @dataclass(frozen=True)
-class Case:
-    """One structure under one accelerogram. prediction is None where the record has no pulse.
+class Extent:
+    """The settings of a case, and the variations that are computed beside it.
 
-    check: whether the model held along the response of the mechanism to the record. answer: of the mechanism on the
-    record, or of the cheapest method that settles the case. ensemble: None where none ran. overturning_estimate: from
-    the peak velocity, where no ensemble ran; None of a structure unlike those behind the estimate. durations: CPU time
-    of the methods that were compared, s.
+    crack_heights: number of heights tried for a hinge or a crack. processing_variants: whether other processings are
+    tried. version: of the computation, which enters fingerprints.
     """
 
-    structure: str
-    mechanism: Mechanism
-    prediction: Prediction | None
-    responses: Mapping[Method, Response]
-    check: ModelCheck
-    answer: Answer
-    ensemble: Ensemble | None = None
-    overturning_estimate: Estimate | None = None
-    durations: Mapping[Method, float] = field(default_factory=dict)
+    settings: AssessmentSettings = field(default_factory=AssessmentSettings)
+    crack_heights: int = 0
+    processing_variants: bool = False
+    version: str = ""
 
-    @property
-    def predicted_rotation_ratio(self) -> float:
-        """Rotation ratio of the closed form; nan without a pulse."""
-        return self.prediction.maximum.rotation_ratio if self.prediction else nan
-
-    @property
-    def integrated_rotation_ratio(self) -> float:
-        """Rotation ratio of the mechanism on the record; nan where a cheaper method settled the case."""
-        response = self.responses.get(Method.MECHANISM_ON_RECORD)
-        return response.rotation_ratio if response else nan
+    def fingerprint(self, motion: Motion, structure: Structure, alone: bool) -> str:
+        """Return the hash of all that the result of a case depends on."""
+        own = {each.name: getattr(self.settings, each.name) for each in fields(AssessmentSettings)}
+        parts = (
+            motion.fingerprint,
+            structure.as_config(),
+            own,
+            self.crack_heights,
+            self.processing_variants,
+            alone,
+            self.version,
+        )
+        return sha256(repr(parts).encode()).hexdigest()
 
 
-@dataclass(frozen=True)
-class Failure:
-    """A stage that gave no result: for which structure ("" for all), and why."""
+class Clock:
+    """The CPU time of each stage, s, added up."""
 
-    stage: str
-    structure: str
-    message: str
+    def __init__(self) -> None:
+        self.durations: dict[str, float] = defaultdict(float)
 
-
-@dataclass(frozen=True)
-class Assessment:
-    """One accelerogram against all structures. analysis is None where no pulse could be sought.
-
-    candidates: the pulses that the chosen method offers for prediction, none where it fails.
-    """
-
-    accelerogram: Accelerogram
-    analysis: PulseAnalysis | None
-    candidates: tuple[PulseEvidence, ...]
-    cases: tuple[Case, ...]
-    failures: tuple[Failure, ...]
-    durations: Mapping[str, float]
-    """CPU time of each stage, s, and of each method within the responses."""
-
-
-def assess_structures(
-    accelerogram: Accelerogram,
-    structures: Mapping[str, Structure | Mechanism],
-    settings: AssessmentSettings | None = None,
-    vertical: Accelerogram | None = None,
-    alone: bool = True,
-) -> Assessment:
-    """Predict and integrate every structure under `accelerogram`; one that fails costs no other.
-
-    alone: False where an ensemble over the directions of the record speaks for its components, which then get neither
-    an ensemble nor an estimate of their own.
-    """
-    settings = settings or AssessmentSettings()
-    started = process_time()
-    failures: list[Failure] = []
-    analysis = None
-    candidates: tuple[PulseEvidence, ...] = ()
-    try:
-        analysis = extract_pulses(accelerogram, settings=settings.pulse)
-        candidates = PULSE_METHODS[settings.pulse.choice].candidates(analysis)
-    except PulseError as error:
-        failures.append(Failure("pulses", "", str(error)))
-    extracted = process_time()
-    cases = []
-    for name, structure in structures.items():
+    @contextmanager
+    def stage(self, name: str) -> Iterator[None]:
+        """Add the CPU time of what is done within to that of a stage."""
+        started = process_time()
         try:
-            cases.append(_case(name, structure, candidates, accelerogram, settings, vertical, alone))
+            yield
+        finally:
+            self.durations[name] += process_time() - started
+
+
+# One record -----------------------------------------------------------------------------------------------
+
+
+def assess_record(
+    record: str,
+    horizontal: Sequence[Accelerogram],
+    structures: Mapping[str, Structure | Mechanism],
+    extent: Extent | None = None,
+    vertical: Accelerogram | None = None,
+    motions: Sequence[HorizontalMotion] = (),
+    store: CaseStore | None = None,
+    clock: Clock | None = None,
+) -> RecordResult:
+    """Return what comes of every structure under a record; one that fails costs no other.
+
+    horizontal: its components. An ensemble over the directions of a pair speaks for both components, which then get
+    none of their own. motions: that each component belongs to, where they are needed. store: where results of cases are
+    sought before they are computed, and kept. clock: has measured what came before.
+    """
+    extent = extent or Extent()
+    clock = clock or Clock()
+    failures: list[tuple[str, Failure]] = []
+    pair = None
+    if len(horizontal) == 2 and extent.settings.ensemble.members:
+        pair = Motion(tuple(horizontal), vertical)
+        try:
+            with clock.stage("directions"):
+                _ground_motions(pair, extent.settings.ensemble.processing)
         except RockingError as error:
-            failures.append(Failure("responses", name, str(error)))
-    durations = {"pulses": extracted - started, "responses": process_time() - extracted}
+            failures.append((BOTH_COMPONENTS, Failure("directions", str(error))))
+            pair = None
+    components = _components(
+        horizontal, vertical, motions or [HorizontalMotion()] * len(horizontal), extent, clock
+    )
+    names = component_names(horizontal)
+    cases: dict[str, dict[str, CaseResult]] = {name: {} for name in structures}
+    for name, component in zip(names, components, strict=True):
+        if component.failure:
+            failures.append((name, Failure("pulses", component.failure)))
+        for structure, result in _component_cases(
+            component, structures, extent, pair is None, store, clock
+        ).items():
+            cases[structure][name] = replace(result, component=name)
+    directions = {} if pair is None else _direction_cases(pair, structures, cases, extent, store, clock)
+    stations = {
+        name: StationResult(name, structure, cases[name], directions.get(name))
+        for name, structure in structures.items()
+        if cases[name]
+    }
+    return RecordResult(
+        record=record,
+        components=components,
+        stations=stations,
+        failures=tuple(failures),
+        durations=dict(clock.durations),
+    )
+
+
+def _components(
+    horizontal: Sequence[Accelerogram],
+    vertical: Accelerogram | None,
+    motions: Sequence[HorizontalMotion],
+    extent: Extent,
+    clock: Clock,
+) -> tuple[Component, ...]:
+    """The components with the pulses of each."""
+    components = []
+    for accelerogram, motion in zip(horizontal, motions, strict=True):
+        beside = None if vertical is None else aligned(vertical, accelerogram)
+        with clock.stage("pulses"):
+            components.append(component_of(accelerogram, extent.settings.pulse, beside, motion))
+    return tuple(components)
+
+
+def _component_cases(
+    component: Component,
+    structures: Mapping[str, Structure | Mechanism],
+    extent: Extent,
+    alone: bool,
+    store: CaseStore | None,
+    clock: Clock,
+) -> dict[str, CaseResult]:
+    """The case of each structure under one component. alone: whether no ensemble over directions speaks for it."""
+    motion = Motion((component.accelerogram,), component.vertical)
+    fingerprints = {
+        name: extent.fingerprint(motion, structure, alone)
+        for name, structure in structures.items()
+        if store is not None and isinstance(structure, Structure)
+    }
+    results: dict[str, CaseResult] = {}
+    for name, fingerprint in fingerprints.items():
+        known = store.find(fingerprint) if store is not None else None
+        if known is not None:
+            results[name] = replace(known, structure=name)
+    missing = {name: structure for name, structure in structures.items() if name not in results}
+    computed = {}
+    with clock.stage("responses"):
+        for name, structure in missing.items():
+            computed[name] = assess_case(name, structure, component, extent.settings, alone)
+    with clock.stage("variations"):
+        computed = _with_variations(computed, missing, component, extent)
+    for name, result in computed.items():
+        kept = replace(result, fingerprint=fingerprints.get(name, ""))
+        results[name] = kept
+        if store is not None and kept.fingerprint:
+            store.keep(kept)
     for method in Method:
-        if spent := [case.durations[method] for case in cases if method in case.durations]:
-            durations[method] = len(spent) * median(spent)  # the first case of a process loads compiled code
-    return Assessment(accelerogram, analysis, candidates, tuple(cases), tuple(failures), durations)
+        spent = [each.durations[method] for each in results.values() if method in each.durations]
+        if spent:  # the first case of a process loads compiled code, so not the sum
+            clock.durations[method] += len(spent) * median(spent)
+    return {name: results[name] for name in structures}
+
+
+def _direction_cases(
+    pair: Motion,
+    structures: Mapping[str, Structure | Mechanism],
+    cases: Mapping[str, Mapping[str, CaseResult]],
+    extent: Extent,
+    store: CaseStore | None,
+    clock: Clock,
+) -> dict[str, CaseResult]:
+    """The ensemble over all directions of a pair, of each structure that any component gave a result for."""
+    results = {}
+    for name, structure in structures.items():
+        if all(case.answer is None for case in cases[name].values()):
+            continue
+        fingerprint = ""
+        known = None
+        if store is not None and isinstance(structure, Structure):
+            fingerprint = extent.fingerprint(pair, structure, alone=True)
+            known = store.find(fingerprint)
+        if known is not None:
+            results[name] = replace(known, structure=name)
+            continue
+        with clock.stage("directions"):
+            result = replace(
+                assess_directions(name, structure, pair, extent.settings), fingerprint=fingerprint
+            )
+        results[name] = result
+        if store is not None and fingerprint:
+            store.keep(result)
+    return results
+
+
+# One case -------------------------------------------------------------------------------------------------
 
 
 def predict(
@@ -167,56 +265,100 @@ def predict(
     )
 
 
+def assess_case(
+    name: str,
+    structure: Structure | Mechanism,
+    component: Component,
+    settings: AssessmentSettings | None = None,
+    alone: bool = True,
+) -> CaseResult:
+    """Return what comes of one structure under one component; where it cannot be followed, why.
+
+    alone: False where an ensemble over the directions of the record speaks for its components, which then get neither
+    an ensemble nor an estimate of their own.
+    """
+    settings = settings or AssessmentSettings()
+    try:
+        return _case(name, structure, component, settings, alone)
+    except RockingError as error:
+        return CaseResult(
+            structure=name, component=component.name, failures=(Failure("responses", str(error)),)
+        )
+
+
 def _case(
     name: str,
     structure: Structure | Mechanism,
-    candidates: Sequence[PulseEvidence],
-    record: Accelerogram,
+    component: Component,
     settings: AssessmentSettings,
-    vertical: Accelerogram | None,
     alone: bool,
-) -> Case:
-    mechanism = structure if isinstance(structure, Mechanism) else structure.mechanism()
-    # The block is made before the clock of the closed form starts, which does not count it.
-    block = mechanism.equivalent_block(settings.acceleration_scale)
-    durations: dict[Method, float] = {}
-    prediction = None
-    if candidates:
-        started = process_time()
-        prediction = predict(mechanism, candidates, settings)
-        durations[Method.CLOSED_FORM] = process_time() - started
-    responses: dict[Method, Response] = {}
-    auto = settings.fidelity == "auto"
+) -> CaseResult:
+    record = component.accelerogram
+    vertical = component.vertical
+    mechanism = _mechanism(structure)
+    prediction, responses, durations = _compared_methods(mechanism, component, settings)
     members = settings.ensemble.members if alone else 0
+    auto = settings.fidelity == "auto"
     if auto:
         answer = _cheapest(structure, mechanism, record, settings, vertical, ensemble_follows=members > 0)
         if answer.response is not None:
             responses[Method.MECHANISM_ON_RECORD] = answer.response
     else:
-        follow = partial(integrate, tolerance=settings.tolerance)
-        runs = {
-            Method.MECHANISM_ON_RECORD: partial(follow, mechanism, record, history=True, vertical=vertical),
-            Method.BLOCK_ON_RECORD: partial(follow, block, record, vertical=vertical),
-        }
-        if prediction is not None:
-            runs[Method.MECHANISM_ON_PULSE] = partial(follow, mechanism, prediction.pulse)
-        for method, run in runs.items():
-            started = process_time()
-            responses[method] = run()
-            durations[method] = process_time() - started
         whole = responses[Method.MECHANISM_ON_RECORD]
         answer = Answer(Method.MECHANISM_ON_RECORD, whole.outcome, "", whole)
     check = UNKNOWN
     if isinstance(structure, Structure) and answer.response is not None:
         check = check_model(structure, answer.response, record, vertical)
-    case = Case(name, mechanism, prediction, responses, check, answer, durations=durations)
+    case = CaseResult(
+        structure=name,
+        component=component.name,
+        prediction=prediction,
+        responses=responses,
+        check=check,
+        answer=answer,
+        durations=durations,
+    )
     if members and answer.method is Method.MECHANISM_ON_RECORD:
-        motions = GroundMotions.of(record, vertical=vertical, processing=settings.ensemble.processing)
-        ensemble = ensemble_over_cracks(structure, motions, settings, verdict_only=auto)
-        return replace(case, ensemble=replace(ensemble, rotation_ratio=case.integrated_rotation_ratio))
+        motions = Motion((record,), vertical).ground_motions(settings.ensemble.processing)
+        return replace(case, ensemble=ensemble_over_cracks(structure, motions, settings, verdict_only=auto))
     if alone and vertical is None:
         return replace(case, overturning_estimate=estimated(Tier.PEAK_VELOCITY, mechanism, record))
     return case
+
+
+def _compared_methods(
+    mechanism: Mechanism, component: Component, settings: AssessmentSettings
+) -> tuple[Prediction | None, dict[Method, Response], dict[Method, float]]:
+    """The closed form and, with fidelity: full, every integration, with the CPU time of each, s."""
+    # The block is made before the clock of the closed form starts, which does not count it.
+    block = mechanism.equivalent_block(settings.acceleration_scale)
+    durations: dict[Method, float] = {}
+    prediction = None
+    if component.candidates:
+        started = process_time()
+        prediction = predict(mechanism, component.candidates, settings)
+        durations[Method.CLOSED_FORM] = process_time() - started
+    responses: dict[Method, Response] = {}
+    if settings.fidelity == "auto":
+        return prediction, responses, durations
+    record = component.accelerogram
+    vertical = component.vertical
+    follow = partial(integrate, tolerance=settings.tolerance)
+    runs = {
+        Method.MECHANISM_ON_RECORD: partial(follow, mechanism, record, history=True, vertical=vertical),
+        Method.BLOCK_ON_RECORD: partial(follow, block, record, vertical=vertical),
+    }
+    if prediction is not None:
+        runs[Method.MECHANISM_ON_PULSE] = partial(follow, mechanism, prediction.pulse)
+    for method, run in runs.items():
+        started = process_time()
+        responses[method] = run()
+        durations[method] = process_time() - started
+    return prediction, responses, durations
+
+
+def _mechanism(structure: Structure | Mechanism) -> Mechanism:
+    return structure if isinstance(structure, Mechanism) else structure.mechanism()
 
 
 def _cheapest(
@@ -240,30 +382,102 @@ def _cheapest(
         estimates = (estimated(Tier.PEAK_VELOCITY, each, motion) for each in mechanisms)
         if not all(each is not None and each.high <= risk for each in estimates):
             risk = 0.0
-    how: Any = {"tolerance": settings.tolerance, "vertical": vertical, "history": True}
-    answer = cheapest_answer(of_statics, record, risk=risk, ensemble_follows=ensemble_follows, **how)
+    answer = cheapest_answer(
+        of_statics,
+        record,
+        risk=risk,
+        ensemble_follows=ensemble_follows,
+        tolerance=settings.tolerance,
+        vertical=vertical,
+        history=True,
+    )
     if answer.method is not Method.MECHANISM_ON_RECORD or of_statics is mechanism:
         return answer
-    whole = integrate(mechanism, record, **how)
+    whole = integrate(mechanism, record, tolerance=settings.tolerance, vertical=vertical, history=True)
     return replace(answer, outcome=whole.outcome, response=whole)
 
 
-@dataclass(frozen=True)
-class Governing:
-    """The mechanism that governs: what opens, the share of members that overturn, and their median rotation ratio."""
+def _with_variations(
+    results: Mapping[str, CaseResult],
+    structures: Mapping[str, Structure | Mechanism],
+    component: Component,
+    extent: Extent,
+) -> dict[str, CaseResult]:
+    """The cases with other cracks and other processings of the record beside them."""
+    varied: dict[str, list[Variation]] = {}
+    failed: dict[str, list[Failure]] = defaultdict(list)
+    own: dict[str, Structure] = {}
+    as_recorded: dict[str, float] = {}
+    for name, result in results.items():
+        structure = structures[name]
+        if result.answer is None or not isinstance(structure, Structure):
+            continue
+        own[name] = structure
+        as_recorded[name] = result.integrated_rotation_ratio
+        pulse = result.prediction.pulse if result.prediction else None
+        varied[name] = []
+        try:
+            varied[name] += candidates(
+                structure, component.accelerogram, pulse, extent.crack_heights, extent.settings
+            )
+        except RockingError as error:
+            failed[name].append(Failure("variations", str(error)))
+    if extent.processing_variants and own:
+        motions = processed(component.accelerogram)
+        of_each = processed_variants(own, motions, extent.settings, as_recorded, component.vertical)
+        for name, several in of_each.items():
+            varied[name] += several
+    return {
+        name: replace(
+            result,
+            variations=tuple(varied.get(name, ())),
+            failures=(*result.failures, *failed.get(name, ())),
+        )
+        for name, result in results.items()
+    }
 
-    description: str
-    overturning_share: float
-    rotation_ratio: float
+
+@lru_cache(maxsize=2)
+def _ground_motions(motion: Motion, processing: bool) -> GroundMotions:
+    """The motions that a pair stands for, made once for all structures."""
+    return motion.ground_motions(processing)
 
 
-@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class StructureAssessment(Drawn, Ensemble):
-    """What came of one structure: the ensemble over all uncertain inputs, directions included.
+def assess_directions(
+    name: str, structure: Structure | Mechanism, pair: Motion, settings: AssessmentSettings
+) -> CaseResult:
+    """Return the ensemble of one structure over all directions of a pair; where it cannot be followed, why."""
+    case = CaseResult(structure=name, component=BOTH_COMPONENTS)
+    motions = _ground_motions(pair, settings.ensemble.processing)
+    try:
+        quick = settings.fidelity == "auto"
+        return replace(case, ensemble=ensemble_over_cracks(structure, motions, settings, verdict_only=quick))
+    except RockingError as error:
+        return replace(case, failures=(Failure("directions", str(error)),))
+
+
+def with_history(
+    result: CaseResult, structure: Structure, component: Component, tolerance: float
+) -> CaseResult:
+    """Return a case whose response holds its history, which a result that was kept does not."""
+    response = result.response
+    if response is None or response.times is not None:
+        return result
+    whole = integrate(
+        structure, component.accelerogram, tolerance=tolerance, vertical=component.vertical, history=True
+    )
+    return replace(result, responses={**result.responses, Method.MECHANISM_ON_RECORD: whole})
+
+
+# In one call ----------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class StructureAssessment(StationResult, Drawn):
+    """What came of one structure: the verdict with the ensemble over all uncertain inputs, directions included.
 
     cases: by component. rotation_ratio: largest rotation over critical rotation of the case as given, the worse
-    component; inf if it overturns. static_multiplier: least λ of the cracks that may form, the acceleration in g at
-    which statics lets it fall. `plot` draws the rotation as given, with the members' 5–95 % beside it.
+    component; inf if it overturns. `plot` draws the rotation as given, with the members' 5–95 % beside it.
 
     >>> (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
     >>> assessment = rocking.assess(record, rocking.Block(2.0, 0.2))
@@ -271,14 +485,25 @@ class StructureAssessment(Drawn, Ensemble):
     overturns
     """
 
-    cases: Mapping[str, Case]
-    static_multiplier: float
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism as given."""
+        return _mechanism(self.body)
 
     @property
-    def governing(self) -> Governing:
-        """The mechanism of statics, or the one that does not stand though that does; "" where there is one only."""
-        worst = self.elsewhere or self
-        return Governing(worst.crack, worst.overturning_share, worst.rotation_ratio_median)
+    def static_multiplier(self) -> float:
+        """Least λ of the cracks that may form, the acceleration in g at which statics lets it rock."""
+        return cracks(self.body)[0][1].uplift_multiplier
+
+    @property
+    def rotation_ratios(self) -> np.ndarray:
+        """(m,) largest rotation over critical rotation of every member; inf overturns, 0 does not lift, nan failed."""
+        return np.array([]) if self.ensemble is None else self.ensemble.rotation_ratios
+
+    @property
+    def causes(self) -> Mapping[str, np.ndarray]:
+        """Value of each cause that varied, by member, (m,)."""
+        return {} if self.ensemble is None else self.ensemble.causes
 
     @property
     def falls_to(self) -> int:
@@ -292,10 +517,12 @@ class StructureAssessment(Drawn, Ensemble):
         return max(responses, key=lambda response: response.rotation_ratio)
 
     def __repr__(self) -> str:
-        other = self.elsewhere
         ratios = (self.rotation_ratio, self.rotation_ratio_low, self.rotation_ratio_high)
         given, low, high = ("overturns" if ratio == inf else f"{ratio:.2g}" for ratio in ratios)
-        there = f"; with the {other.crack} in {other.overturning_members} of {other.members}" if other else ""
+        there = ""
+        if self.elsewhere_members:
+            count = f"{self.elsewhere_overturning_members} of {self.elsewhere_members}"
+            there = f"; with the {self.elsewhere_crack} in {count}"
         return (
             f"<{self.verdict}: overturns in {self.overturning_members} of {self.members} members; as given {given}, "
             f"5–95 % {low} to {high} of the critical rotation{there}>"
@@ -352,24 +579,16 @@ def assess(
     number = settings.ensemble.members if members is None else members
     varied = replace(settings.ensemble, members=number or EnsembleSettings().members)
     settings = replace(settings, fidelity="full", ensemble=varied)
-    names = [each.component for each in records]
-    if len(set(names)) < len(names) or not all(names):
-        names = [f"component {place}" for place, _ in enumerate(records, start=1)]
-    cases = {}
-    for name, each in zip(names, records, strict=True):
-        alone = len(records) == 1
-        assessment = assess_structures(each, {"structure": structure}, settings, vertical, alone)
-        if not assessment.cases:
-            raise RockingError(assessment.failures[-1].message)
-        cases[name] = assessment.cases[0]
-    over_all = cases[names[0]].ensemble
-    if over_all is None:
-        motions = GroundMotions.of(*records, vertical=vertical, processing=varied.processing)
-        over_all = ensemble_over_cracks(structure, motions, settings)
-    of_all = {each.name: getattr(over_all, each.name) for each in fields(Ensemble)}
-    of_all["rotation_ratio"] = max(case.integrated_rotation_ratio for case in cases.values())
-    multiplier = cracks(structure)[0][1].uplift_multiplier
-    return StructureAssessment(**of_all, cases=cases, static_multiplier=multiplier)
+    result = assess_record("", records, {"structure": structure}, Extent(settings), vertical)
+    station = result.stations["structure"]
+    over_all = [*station.cases.values(), *([station.directions] if station.directions else [])]
+    for case in over_all:
+        if case.failure:
+            raise RockingError(case.failure.message)
+    for _, failure in result.failures:
+        if failure.stage == "directions":
+            raise RecordError(failure.message)
+    return StructureAssessment(station.structure, structure, station.cases, station.directions)
 
 
 def _checked_records(record: object) -> list[Accelerogram]:

@@ -102,12 +102,12 @@ def _row(
     pairs = [(own, true) for own, true, *_ in answers if not (rests(own) and rests(true))]
     verdicts = [agreement(own, true) for own, true in pairs]
     errors = [abs(ratio(own, true) - 1) for own, true in pairs if not math.isnan(ratio(own, true))]
-    return TradeRow.of(
+    return TradeRow(
         method=method,
         structure=structure,
         cases=len(pairs),
-        error=median(errors) if errors else None,
-        error_high=float(np.quantile(errors, 0.95)) if errors else None,
+        error=median(errors) if errors else math.nan,
+        error_high=float(np.quantile(errors, 0.95)) if errors else math.nan,
         wrong_verdicts=sum(each is not Agreement.SAME for each in verdicts),
         unsafe_verdicts=verdicts.count(Agreement.TOO_LOW),
         cpu_s=median(cpu_s for *_, cpu_s, _ in answers),

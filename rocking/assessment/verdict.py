@@ -9,6 +9,7 @@ lies within a factor two would look better than it is.
 """
 
 import math
+from collections.abc import Iterable
 from enum import StrEnum
 
 NEGLIGIBLE = 1e-3
@@ -29,6 +30,118 @@ class Verdict(StrEnum):
     UNDECIDED = "undecided"
     UNKNOWN = "unknown"
     """Nothing could be computed."""
+
+
+ORDER = (Verdict.OVERTURNS, Verdict.UNDECIDED, Verdict.UNKNOWN, Verdict.STANDS)
+"""The worst verdict first; what could not be computed may overturn."""
+BOTH_COMPONENTS = "both"
+"""In place of a component: all directions of a record."""
+POLARITIES = {"1.0": "as recorded", "-1.0": "reversed"}
+"""The sign of a motion in words."""
+
+
+class Judgement:
+    """A verdict with its counts, as a result decides it or as a row of verdicts holds it; and the words for both."""
+
+    __slots__ = ()
+    structure: str
+    """Name of the structure."""
+
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict on the structure."""
+        raise NotImplementedError
+
+    @property
+    def why(self) -> str:
+        """The reason for the verdict."""
+        raise NotImplementedError
+
+    @property
+    def members(self) -> int:
+        """Number of members of the ensemble that decides; 0 without one."""
+        raise NotImplementedError
+
+    @property
+    def overturning_members(self) -> int:
+        """Number of members that overturn."""
+        raise NotImplementedError
+
+    @property
+    def overturning_share(self) -> float:
+        """Share of the members that overturn; of a single run 0 or 1."""
+        raise NotImplementedError
+
+    @property
+    def rotation_ratio(self) -> float:
+        """Largest rotation over critical rotation as recorded; inf if it overturns."""
+        raise NotImplementedError
+
+    @property
+    def rotation_ratio_low(self) -> float:
+        """5 % quantile of the rotation ratio of the members."""
+        raise NotImplementedError
+
+    @property
+    def rotation_ratio_high(self) -> float:
+        """95 % quantile of the rotation ratio of the members."""
+        raise NotImplementedError
+
+    @property
+    def elsewhere_crack(self) -> str:
+        """Another crack, with which the structure does not stand; "" without one."""
+        raise NotImplementedError
+
+    @property
+    def elsewhere_members(self) -> int | None:
+        """Members with that crack; None where there are none."""
+        raise NotImplementedError
+
+    @property
+    def elsewhere_overturning_members(self) -> int | None:
+        """Members that overturn with that crack; None where there are none."""
+        raise NotImplementedError
+
+    @property
+    def severity(self) -> tuple[float, ...]:
+        """Key by which the worst of several comes last: verdict, then share of members, then rotation."""
+        share = -1.0 if math.isnan(self.overturning_share) else self.overturning_share
+        rotation = -1.0 if math.isnan(self.rotation_ratio) else self.rotation_ratio
+        return (-ORDER.index(self.verdict), share, rotation)
+
+    @property
+    def count(self) -> str:
+        """Members that overturn, of how many: "12 of 64"; "" without an ensemble."""
+        return f"{self.overturning_members} of {self.members}" if self.members else ""
+
+    @property
+    def leaning(self) -> str:
+        """The verdict to which an undecided case leans, with the counts; "" of another.
+
+        "leans to stands, overturns in 0 of 64, with the crack at 3 m in 12 of 64".
+        """
+        if self.verdict is not Verdict.UNDECIDED:
+            return ""
+        leans_to = Verdict.OVERTURNS if self.overturning_share >= 0.5 else Verdict.STANDS
+        words = [f"leans to {leans_to}"]
+        if self.members:
+            words.append(f"overturns in {self.count}")
+        if self.elsewhere_members:
+            there = f"{self.elsewhere_overturning_members} of {self.elsewhere_members}"
+            words.append(f"with the {self.elsewhere_crack} in {there}")
+        elif self.elsewhere_crack:
+            words.append(f"overturns with the {self.elsewhere_crack}")
+        return ", ".join(words)
+
+
+def worst_first(judgements: Iterable[tuple[str, Judgement]]) -> list[str]:
+    """Return the names, of records or structures, by the shares of members that overturn, summed over all of a name."""
+    shares: dict[str, float] = {}
+    for name, judgement in judgements:
+        share = judgement.overturning_share
+        known = 0.0 if math.isnan(share) else share
+        shares[name] = shares.get(name, 0.0) + known
+    return sorted(shares, key=shares.__getitem__, reverse=True)
 
 
 class Method(StrEnum):

@@ -4,7 +4,7 @@ import base64
 import json
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.assessment.fate import Fate, RecordTables
-from rocking.assessment.rows.of_record import ComparisonRow
+from rocking.assessment.case import RecordResult, StationResult
+from rocking.assessment.rows.of_record import ComparisonRow, RecordRows
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict
 from rocking.motion.response import Response
 from rocking.quantities import GRAVITY, counted
@@ -38,38 +38,32 @@ _BEYOND = 3.0
 """Times the critical rotation up to which a fall is followed and drawn, but no further than a fallen structure."""
 
 
-def record_content(
-    record: str,
-    accelerograms: Sequence[Accelerogram],
-    structures: Mapping[str, Structure],
-    tables: RecordTables,
-    responses: Mapping[tuple[str, str], Response],
-) -> Content:
+def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[str, Structure]) -> Content:
     """Return what the page says of one record, and of each structure under the component that turns it farthest.
 
-    accelerograms: the components that could be opened. responses: of the mechanism under the record with histories, by
-    component and structure; a case without one is shown without its motion.
+    The responses of the mechanism under the record hold their histories; a case without one is shown without its
+    motion.
     """
-    worst = worst_cases(tables.comparison)
+    worst = worst_cases(rows.comparison)
     components = {row.component for row in worst.values()}
-    failure = " ".join(["no result.", *(failure.message for failure in tables.failures)])
+    failure = " ".join(["no result.", *(each.message for each in rows.failures)])
     nothing = {"verdict": Verdict.UNKNOWN, "cell": cell_text(None), "text": failure, "severity": [-9]}
     cases = {
-        fate.structure: _case(
-            fate, worst.get(fate.structure), structures[fate.structure].mechanism(), responses
-        )
-        for fate in tables.verdicts
-        if fate.structure in structures
+        name: _case(station, worst.get(name), structures[name].mechanism(), result.responses)
+        for name, station in result.stations.items()
+        if name in structures
     }
-    peaks = [(row.peak_acceleration_m_s2 / GRAVITY, row.peak_velocity_m_s) for row in tables.record]
+    peaks = [(row.peak_acceleration_m_s2 / GRAVITY, row.peak_velocity_m_s) for row in rows.record]
     pga, pgv = np.max(peaks, axis=0) if peaks else (math.nan, math.nan)
     return {
-        "id": record,
-        "warnings": warnings_of(tables),
+        "id": result.record,
+        "warnings": warnings_of(rows),
         "pga": _number(pga),
         "pgv": _number(pgv),
         "motions": {
-            each.component: _motion(each, tables) for each in accelerograms if each.component in components
+            each.component: _motion(each, rows)
+            for each in result.accelerograms
+            if each.component in components
         },
         "cases": {name: cases.get(name, nothing) for name in structures},
     }
@@ -104,20 +98,23 @@ def explore_page(records: Iterable[Content], structures: Mapping[str, Structure]
 
 
 def _case(
-    fate: Fate, row: ComparisonRow | None, mechanism: Mechanism, responses: Mapping[tuple[str, str], Response]
+    station: StationResult,
+    row: ComparisonRow | None,
+    mechanism: Mechanism,
+    responses: Mapping[tuple[str, str], Response],
 ) -> Content:
     """Return what became of a structure, in words and numbers, and the history that moves its drawing."""
     predicted = row.predicted_rotation_ratio if row else math.nan
     closed = ratio(predicted, 2)
-    band = f" (5 to 95 % of the members: {band_text(fate, ' to ')})" if fate.members else ""
-    crack = f" Crack that statics chooses: {fate.crack}." if fate.crack else ""
+    band = f" (5 to 95 % of the members: {band_text(station, ' to ')})" if station.members else ""
+    crack = f" Crack that statics chooses: {station.crack}." if station.crack else ""
     case: Content = {
-        "verdict": str(fate.verdict),
-        "cell": cell_text(fate),
-        "text": f"{fate.verdict}: {fate.leaning or fate.why}. Largest rotation over critical rotation: "
-        f"{ratio(fate.rotation_ratio, 2)} as given{band}, {closed} by the closed form.{crack}",
-        "share": _number(fate.overturning_share),
-        "severity": [_number(min(each, 1e9)) for each in fate.severity],
+        "verdict": str(station.verdict),
+        "cell": cell_text(station),
+        "text": f"{station.verdict}: {station.leaning or station.why}. Largest rotation over critical rotation: "
+        f"{ratio(station.rotation_ratio, 2)} as given{band}, {closed} by the closed form.{crack}",
+        "share": _number(station.overturning_share),
+        "severity": [_number(min(each, 1e9)) for each in station.severity],
         "component": row.component if row else "",
         "predicted": _number(min(predicted, 1e9)),
         "closed": closed,
@@ -131,7 +128,7 @@ def _case(
     return case
 
 
-def _motion(accelerogram: Accelerogram, tables: RecordTables) -> Content:
+def _motion(accelerogram: Accelerogram, rows: RecordRows) -> Content:
     """Acceleration [m/s²] and its pulse, and the displacement [m] that moves the drawing, over the whole record."""
     times, duration = accelerogram.times, accelerogram.duration
     path = displacement(accelerogram)
@@ -141,7 +138,7 @@ def _motion(accelerogram: Accelerogram, tables: RecordTables) -> Content:
         "acceleration": _trace(times, accelerogram.acceleration, 0.0, duration, GROUND_BINS),
         "displacement": _trace(times, path - line, 0.0, duration),
     }
-    ranked = [row for row in tables.pulses if row.component == accelerogram.component and row.ranked]
+    ranked = [row for row in rows.pulses if row.component == accelerogram.component and row.ranked]
     if ranked:
         pulse = min(ranked, key=lambda row: row.rank).pulse
         inside = np.linspace(pulse.start_time, pulse.end_time, PULSE_BINS)

@@ -198,7 +198,7 @@ def _plot_response(response: "Response", axes: Axes) -> None:
 
 def _plot_assessment(assessment: "StructureAssessment", axes: Axes) -> None:
     times, rotation = _history(assessment.response, "assess the structure again to plot it")
-    mechanism = next(iter(assessment.cases.values())).mechanism
+    mechanism = assessment.mechanism
     band = (assessment.rotation_ratio_low, assessment.rotation_ratio_high)
     draw_rotation(axes, times, _over_critical(rotation, mechanism), band=band)
     share = f"{100 * assessment.overturning_share:.0f} % of {assessment.members} members"

@@ -10,7 +10,7 @@ from rocking.quantities import counted
 from rocking.tables import Row
 
 if TYPE_CHECKING:
-    from rocking.assessment.fate import Fate
+    from rocking.assessment.verdict import Judgement
 
 Cell = str | dict[str, object]
 """A text; or a text that is strong, with another below it (layout.typ)."""
@@ -80,11 +80,11 @@ def ratio(value: float | None, digits: int = 3) -> str:
     return NOTHING if math.isnan(value) else "rests" if rests(value) else "overturns"
 
 
-def to_spread(value: float, fate: "Fate") -> str:
-    """Return a rotation ratio of `fate` with no more digits, three at most, than the spread of its members has a
+def to_spread(value: float, judgement: "Judgement") -> str:
+    """Return a rotation ratio of `judgement` with no more digits, three at most, than the spread of its members has a
     meaning for: to a tenth of it.
     """
-    spread = fate.rotation_ratio_high - fate.rotation_ratio_low
+    spread = judgement.rotation_ratio_high - judgement.rotation_ratio_low
     if rests(value) or not math.isfinite(value):
         return ratio(value)
     if not 0 < spread < math.inf:
@@ -93,17 +93,19 @@ def to_spread(value: float, fate: "Fate") -> str:
     return number(value, min(max(digits, 1), 3))
 
 
-def cell_text(fate: "Fate | None") -> str:
+def cell_text(judgement: "Judgement | None") -> str:
     """Return a case in a map: sign and share of members that overturn, in %, or the rotation ratio of a single run."""
-    sign = LOOKS[fate.verdict if fate else Verdict.UNKNOWN][0]
-    if fate is not None and fate.members:
-        return f"{sign} {percent(fate.overturning_share)}"
-    return f"{sign} {number(fate.rotation_ratio, 2)}" if fate and fate.rotation_ratio < math.inf else sign
+    sign = LOOKS[judgement.verdict if judgement else Verdict.UNKNOWN][0]
+    if judgement is not None and judgement.members:
+        return f"{sign} {percent(judgement.overturning_share)}"
+    if judgement is not None and judgement.rotation_ratio < math.inf:
+        return f"{sign} {number(judgement.rotation_ratio, 2)}"
+    return sign
 
 
-def band_text(fate: "Fate", to: str) -> str:
+def band_text(judgement: "Judgement", to: str) -> str:
     """Return the rotation ratios that 5 and 95 % of the members do not exceed, with `to` between them; one if equal."""
-    low, high = ratio(fate.rotation_ratio_low, 2), ratio(fate.rotation_ratio_high, 2)
+    low, high = ratio(judgement.rotation_ratio_low, 2), ratio(judgement.rotation_ratio_high, 2)
     return low if low == high else f"{low}{to}{high}"
 
 

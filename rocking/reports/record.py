@@ -10,20 +10,25 @@ from typing import Any
 
 import numpy as np
 
-from rocking.assessment.fate import Fate, RecordTables
-from rocking.assessment.rows.of_record import RATIO_COLUMNS, ComparisonRow, PulseRow, RecordRow
+from rocking.assessment.case import RecordResult, StationResult
+from rocking.assessment.rows.of_record import (
+    RATIO_COLUMNS,
+    ComparisonRow,
+    PulseRow,
+    RecordRow,
+    RecordRows,
+    VerdictRow,
+)
 from rocking.assessment.rows.of_study import StructureRow, structure_rows
 from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Verdict, agreement
-from rocking.motion.response import Response
 from rocking.pulses import Flag
 from rocking.quantities import GRAVITY, counted
-from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
 from rocking.reports import record_figures as figures
 from rocking.reports.document import compile_document
 from rocking.reports.panels import rotation_ratios
 from rocking.reports.printing import Column, columns_of, number, plain, remainder, strong, table_of, words
-from rocking.reports.record_figures import History, Motion
+from rocking.reports.record_figures import History, Trace
 from rocking.reports.style import pictures
 from rocking.structures import Structure
 
@@ -41,17 +46,15 @@ MOST_COMPARED = 24
 class RecordReport:
     """The report of one record, and what several of its pages ask for.
 
-    Every number of a table is a cell of `tables` or of the structures table, rounded. structures: by name. settings: at
-    least tolerance and acceleration_scale; study, client, author and date where they are given. responses: those of
-    the mechanism under the record with their histories, by component and structure.
+    Every number of a table is a cell of `tables`, the rows of `result`, or of the structures table, rounded.
+    structures: by name. settings: at least tolerance and acceleration_scale; study, client, author and date where they
+    are given.
     """
 
-    record: str
-    accelerograms: Sequence[Accelerogram]
+    result: RecordResult
+    tables: RecordRows
     structures: Mapping[str, Structure]
-    tables: RecordTables
     settings: Mapping[str, Any]
-    responses: Mapping[tuple[str, str], Response]
 
     def pdf(self) -> bytes:
         """Return the document."""
@@ -66,7 +69,7 @@ class RecordReport:
             **printing.settings_texts(self.settings),
             "subtitle": _subtitle(self.tables.record),
             "key": [_key_numbers(row) for row in self.tables.record],
-            "headlines": headlines(self.fates),
+            "headlines": headlines(self.stations),
             "sentences": _sentences(self),
             "notices": _notices(self),
             "pulse-sentences": [
@@ -77,25 +80,30 @@ class RecordReport:
             **_tables(self),
         }
 
-    @cached_property
-    def fates(self) -> list[Fate]:
+    @property
+    def record(self) -> str:
+        """The identifier of the record."""
+        return self.result.record
+
+    @property
+    def stations(self) -> list[StationResult]:
         """What became of each structure, the worst first."""
-        return sorted(self.tables.verdicts, key=lambda fate: fate.severity, reverse=True)
+        return self.result.worst_first
 
     @cached_property
     def numbers(self) -> dict[str, str]:
         """The number by which each structure is called, from 1, by name."""
-        names = dict.fromkeys([*self.structures, *(fate.structure for fate in self.fates)])
+        names = dict.fromkeys([*self.structures, *(station.structure for station in self.stations)])
         return {name: str(place) for place, name in enumerate(names, start=1)}
 
     @cached_property
-    def motions(self) -> list[Motion]:
+    def motions(self) -> list[Trace]:
         """The components that were assessed, with their ranked pulses."""
         assessed = {row.component for row in self.tables.record}
         ranked = sorted((row for row in self.tables.pulses if row.ranked), key=lambda row: row.rank)
         return [
-            Motion(each, [row.pulse for row in ranked if row.component == each.component])
-            for each in self.accelerograms
+            Trace(each, [row.pulse for row in ranked if row.component == each.component])
+            for each in self.result.accelerograms
             if each.component in assessed
         ]
 
@@ -104,12 +112,12 @@ class RecordReport:
         """The rotation of each structure that rocks and whose history was kept, the worst first."""
         cases = worst_cases(self.tables.comparison)
         histories = []
-        for fate in self.fates:
-            case = cases.get(fate.structure)
-            response = self.responses.get(case.case) if case else None
+        for station in self.stations:
+            case = cases.get(station.structure)
+            response = self.result.responses.get(case.case) if case else None
             if case and response and case.integrated_rotation_ratio > NEGLIGIBLE:
-                history = rotation_ratios(response, self.structures[fate.structure].mechanism())
-                histories += [History(fate, case, *history)] if history else []
+                history = rotation_ratios(response, self.structures[station.structure].mechanism())
+                histories += [History(station, case, *history)] if history else []
         return histories
 
     @cached_property
@@ -160,13 +168,13 @@ def failure_report(record: str, message: str) -> bytes:
 # Sentences -----------------------------------------------------------------------------------------------
 
 
-def headlines(fates: Sequence[Fate]) -> list[dict[str, str]]:
+def headlines(stations: Sequence[StationResult]) -> list[dict[str, str]]:
     """Return the first lines of a report: each verdict with the structures that it is of, the worst first."""
     groups: dict[str, list[str]] = {}
-    for fate in fates:
-        remark = fate.leaning or (fate.count if fate.verdict is Verdict.OVERTURNS else "")
-        remark = fate.why if fate.verdict is Verdict.UNKNOWN else remark
-        groups.setdefault(fate.verdict, []).append(fate.structure + (f" ({remark})" if remark else ""))
+    for station in stations:
+        remark = station.leaning or (station.count if station.verdict is Verdict.OVERTURNS else "")
+        remark = station.why if station.verdict is Verdict.UNKNOWN else remark
+        groups.setdefault(station.verdict, []).append(station.structure + (f" ({remark})" if remark else ""))
     lines = []
     for verdict, names in groups.items():
         room = sum(end <= MOST_LETTERS for end in accumulate(map(len, names)))
@@ -178,19 +186,19 @@ def headlines(fates: Sequence[Fate]) -> list[dict[str, str]]:
 def _sentences(report: RecordReport) -> list[str]:
     """Return what a reader has to know beside the verdicts, and what file and integrations warn of, each once."""
     depends = []
-    for fate in report.fates:
+    for station in report.stations:
         ratios = [
             row.integrated_rotation_ratio
             for row in report.tables.variations
-            if row.processing and row.structure == fate.structure
+            if row.processing and row.structure == station.structure
         ]
         if any(map(math.isinf, ratios)) and any(map(math.isfinite, ratios)):
-            depends.append(fate.structure)
+            depends.append(station.structure)
     remark = f"Whether it overturns depends on the processing of the record: {printing.listed(depends)}."
     return [*([remark] if depends else []), *warnings_of(report.tables)]
 
 
-def warnings_of(tables: RecordTables) -> list[str]:
+def warnings_of(tables: RecordRows) -> list[str]:
     """Return what file and integrations warn of, each once."""
     of_files = [each for row in tables.record for each in row.warnings]
     return list(dict.fromkeys([*of_files, *(row.warning for row in tables.comparison if row.warning)]))
@@ -214,7 +222,7 @@ def _notices(report: RecordReport) -> list[dict[str, object]]:
     names = printing.listed(list(dict.fromkeys(failing)))
     still = "No structure uplifts: the ground acceleration never reaches an uplift acceleration."
     notices = {
-        still: bool(cases) and all(fate.rotation_ratio == 0 for fate in report.fates),
+        still: bool(cases) and all(station.rotation_ratio == 0 for station in report.stations),
         f"Not the recorded amplitude. The file was multiplied by a declared factor ({scaled}).": scaled,
         "No structure could be assessed under this record.": not cases,
         f"The model does not hold, because a contact fails, for {names}.": failing,
@@ -247,7 +255,7 @@ def _key_numbers(row: RecordRow) -> str:
     )
 
 
-def _pulse_sentence(tables: RecordTables, motion: Motion) -> str:
+def _pulse_sentence(tables: RecordRows, motion: Trace) -> str:
     """Say what the dominant pulse of a component is, and what makes it doubtful."""
     component = motion.accelerogram.component
     ranked = (row for row in tables.pulses if row.component == component and row.ranked)
@@ -301,8 +309,8 @@ _BLAME: dict[tuple[bool, ...], str] = {
 def _pictures(report: RecordReport) -> dict[str, object]:
     """Return the pictures of the worst cases, and the sentences that say where the others stand."""
     motions, labels = report.motions, report.labels
-    fates = [fate for fate in report.fates if fate.structure in report.structures][:MOST_DRAWN]
-    names = printing.listed([fate.structure for fate in fates])
+    stations = [station for station in report.stations if station.structure in report.structures][:MOST_DRAWN]
+    names = printing.listed([station.structure for station in stations])
     strip = (f"Drawings of the structures in their state: {names}.", report.structures, labels)
     histories = report.histories[:MOST_DRAWN]
     rotations = (
@@ -318,11 +326,11 @@ def _pictures(report: RecordReport) -> dict[str, object]:
         "ground": pictures(
             figures.ground_figure, motions, "Acceleration of the ground and its dominant pulse."
         ),
-        "strip": pictures(figures.strip_figure, fates, *strip, report.peak_acceleration),
-        "strip-note": remainder(len(report.fates) - len(fates), "structure", verdicts),
+        "strip": pictures(figures.strip_figure, stations, *strip, report.peak_acceleration),
+        "strip-note": remainder(len(report.stations) - len(stations), "structure", verdicts),
         "histories": pictures(figures.histories_figure, histories, rotations, labels, motions),
         "histories-note": remainder(
-            len(report.fates) - len(histories), "structure", f"{verdicts}, at rest or less demanding"
+            len(report.stations) - len(histories), "structure", f"{verdicts}, at rest or less demanding"
         ),
         "pulse-figures": pictures(figures.pulses_figure, pulses, "The dominant pulse and its evidence."),
         "comparison": pictures(figures.comparison_figure, cases, comparison, labels, len(motions) > 1),
@@ -337,7 +345,7 @@ def _tables(report: RecordReport) -> dict[str, object]:
     structures = list(structure_rows(report.structures))
     return {
         "facts": facts_table(record),
-        "verdicts": table_of(report.fates, number_of, *VERDICT_COLUMNS),
+        "verdicts": table_of(report.stations, number_of, *VERDICT_COLUMNS),
         "structures": table_of(structures, number_of, *STRUCTURE_COLUMNS),
         "pulses": table_of(ranked, *PULSE_COLUMNS),
         "methods": table_of(tables.comparison, number_of, *_method_columns(tables.comparison)),
@@ -381,14 +389,19 @@ def facts_table(rows: Sequence[RecordRow]) -> dict[str, object]:
 
 
 VERDICT_COLUMNS: list[Column] = [
-    *columns_of(Fate, "structure=1.3"),
-    ("Verdict", "0.7", "l", lambda fate: strong(str(fate.verdict), fate.verdict is not Verdict.STANDS)),
-    ("Members that overturn", "0.8", "l", lambda fate: words(fate.count)),
-    ("As given", "0.7", "l", lambda fate: printing.to_spread(fate.rotation_ratio, fate)),
-    ("5 %", "0.75", "r", lambda fate: printing.to_spread(fate.rotation_ratio_low, fate)),
-    ("50 %", "0.75", "r", lambda fate: printing.to_spread(fate.rotation_ratio_median, fate)),
-    ("95 %", "0.75", "r", lambda fate: printing.to_spread(fate.rotation_ratio_high, fate)),
-    *columns_of(Fate, "direction=0.9 polarity=0.9"),
+    *columns_of(VerdictRow, "structure=1.3"),
+    (
+        "Verdict",
+        "0.7",
+        "l",
+        lambda station: strong(str(station.verdict), station.verdict is not Verdict.STANDS),
+    ),
+    ("Members that overturn", "0.8", "l", lambda station: words(station.count)),
+    ("As given", "0.7", "l", lambda station: printing.to_spread(station.rotation_ratio, station)),
+    ("5 %", "0.75", "r", lambda station: printing.to_spread(station.rotation_ratio_low, station)),
+    ("50 %", "0.75", "r", lambda station: printing.to_spread(station.rotation_ratio_median, station)),
+    ("95 %", "0.75", "r", lambda station: printing.to_spread(station.rotation_ratio_high, station)),
+    *columns_of(VerdictRow, "direction=0.9 polarity=0.9"),
 ]
 STRUCTURE_COLUMNS: list[Column] = [
     (

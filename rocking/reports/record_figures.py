@@ -14,7 +14,7 @@ from matplotlib.patches import Rectangle
 from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator
 from matplotlib.transforms import Affine2D
 
-from rocking.assessment.fate import Fate
+from rocking.assessment.case import StationResult
 from rocking.assessment.rows.of_record import RATIO_COLUMNS, ComparisonRow
 from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Method, Verdict, rests
 from rocking.pulses import Pulse
@@ -46,7 +46,7 @@ _SMALLEST, _FALLEN = 1e-3, 3.0
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class Trace:
     """One component of the ground with its ranked pulses, the dominant one first."""
 
     accelerogram: Accelerogram
@@ -71,7 +71,7 @@ class History:
     times: s. ratios: rotation over critical rotation (k,).
     """
 
-    fate: Fate
+    station: StationResult
     case: ComparisonRow
     times: np.ndarray
     ratios: np.ndarray
@@ -86,7 +86,7 @@ def _component(name: str) -> str:
 
 
 @styled
-def ground_figure(motions: Sequence[Motion]) -> Figure:
+def ground_figure(motions: Sequence[Trace]) -> Figure:
     """Draw the acceleration of each component with its dominant pulse, one below the other."""
     height = 19.0
     figure = new_figure(height * len(motions) + 8)
@@ -97,7 +97,7 @@ def ground_figure(motions: Sequence[Motion]) -> Figure:
     return figure
 
 
-def _draw_ground(panel: Axes, motion: Motion, span: tuple[float, float], last: bool) -> None:
+def _draw_ground(panel: Axes, motion: Trace, span: tuple[float, float], last: bool) -> None:
     """Draw the acceleration of a component within `span` [s], its dominant pulse and PGA; the last one names time."""
     accelerogram = motion.accelerogram
     draw_motion(panel, accelerogram, next(iter(motion.pulses), None), span, _POINTS)
@@ -122,7 +122,7 @@ def _fixed_ticks(panel: Axes, which: str, low: float, high: float, count: int = 
 
 
 @styled
-def pulses_figure(motions: Sequence[Motion]) -> Figure:
+def pulses_figure(motions: Sequence[Trace]) -> Figure:
     """Draw of each component the dominant pulse in the record, and the energy of a pulse over onset and period."""
     from rocking.pulses import energy_map  # which loads the compiled scan
 
@@ -148,7 +148,7 @@ def pulses_figure(motions: Sequence[Motion]) -> Figure:
 
 @styled
 def strip_figure(
-    fates: Sequence[Fate],
+    stations: Sequence[StationResult],
     structures: Mapping[str, Structure],
     labels: Mapping[str, str],
     peak_acceleration: float,
@@ -157,8 +157,8 @@ def strip_figure(
 
     labels: what each structure is called. peak_acceleration: of the ground, g.
     """
-    lines = [_lines(structures[fate.structure], fate, peak_acceleration) for fate in fates]
-    rows = [range(first, min(first + _COLUMNS, len(fates))) for first in range(0, len(fates), _COLUMNS)]
+    lines = [_lines(structures[station.structure], station, peak_acceleration) for station in stations]
+    rows = [range(first, min(first + _COLUMNS, len(stations))) for first in range(0, len(stations), _COLUMNS)]
     heights = [_DRAWN[1] + 19 + _LINE * max(len(lines[place]) for place in row) for row in rows]
     figure = new_figure(sum(heights), margins=(0, 0, 0, 0))
     axes = figure.add_axes((0, 0, 1, 1), xlim=(0, TEXT_WIDTH), ylim=(-sum(heights), 0))
@@ -167,21 +167,21 @@ def strip_figure(
         top = -sum(heights[:number_of_row])
         for column, place in enumerate(row):
             middle = (column + 0.5) * TEXT_WIDTH / _COLUMNS
-            fate = fates[place]
-            label = elided(labels[fate.structure], 23)
+            station = stations[place]
+            label = elided(labels[station.structure], 23)
             axes.text(middle, top - 1, label, ha="center", va="top", fontweight="bold")
-            _draw_state(axes, structures[fate.structure], fate, middle, top)
+            _draw_state(axes, structures[station.structure], station, middle, top)
             below = middle, top - _DRAWN[1] - 16.5, "\n".join(lines[place])
             axes.text(*below, ha="center", va="top", fontsize=7, linespacing=1.25)
     return figure
 
 
-def _draw_state(axes: Axes, structure: Structure, fate: Fate, middle: float, top: float) -> None:
+def _draw_state(axes: Axes, structure: Structure, station: StationResult, middle: float, top: float) -> None:
     """Draw a structure with the crack of its verdict in a column of the strip, at its `middle` and `top` [mm]."""
-    sign, colour, ink, hatch = LOOKS[fate.verdict]
-    cracked = (each.structure for each in structure.candidates() if each.description == fate.crack)
+    sign, colour, ink, hatch = LOOKS[station.verdict]
+    cracked = (each.structure for each in structure.candidates() if each.description == station.crack)
     structure = next(cracked, structure)
-    rotation = drawn_rotation(structure, fate)
+    rotation = drawn_rotation(structure, station)
     marks = [mark.line for mark in structure.marks(rotation)]
     points = np.vstack([*structure.outline(), *structure.outline(rotation), *marks])
     low, high = points.min(axis=0), points.max(axis=0)
@@ -197,38 +197,40 @@ def _draw_state(axes: Axes, structure: Structure, fate: Fate, middle: float, top
     axes.text(middle + bar * scale / 2 + 1, foot - 2.0, f"{bar:g} m", va="center", fontsize=7)
     frame = Rectangle((middle - 16, foot - 8.5), 32, 4.5, facecolor=colour, edgecolor="0.25", linewidth=0.5)
     axes.add_patch(frame)
-    word = f"{sign} {fate.verdict}"
+    word = f"{sign} {station.verdict}"
     axes.text(middle, foot - 6.3, word, ha="center", va="center", color=ink, fontweight="bold")
 
 
-def drawn_rotation(structure: Structure, fate: Fate) -> float:
+def drawn_rotation(structure: Structure, station: StationResult) -> float:
     """Return the signed rotation of a structure on page one, rad: fallen, at its largest rotation or at rest."""
-    side = -1 if fate.peak_side == -1 else 1
-    if math.isinf(fate.rotation_ratio) or fate.verdict is Verdict.OVERTURNS:
+    side = -1 if station.peak_side == -1 else 1
+    if math.isinf(station.rotation_ratio) or station.verdict is Verdict.OVERTURNS:
         return fallen_rotation(structure, side)
-    if not fate.rotation_ratio > NEGLIGIBLE:
+    if not station.rotation_ratio > NEGLIGIBLE:
         return 0.0
     sides = structure.mechanism().sides
-    return side * fate.rotation_ratio * sides[0 if side > 0 else -1].critical_rotation
+    return side * station.rotation_ratio * sides[0 if side > 0 else -1].critical_rotation
 
 
-def _lines(structure: Structure, fate: Fate, peak_acceleration: float) -> list[str]:
+def _lines(structure: Structure, station: StationResult, peak_acceleration: float) -> list[str]:
     """Return what stands below a drawing: members, rotation, statics, and what opens."""
     static = structure.static_multiplier
-    two_sides = not (rests(fate.rotation_ratio) or structure.symmetric)
-    side = f" {structure.side_names[fate.peak_side < 0]}" if two_sides and fate.peak_side else ""
+    two_sides = not (rests(station.rotation_ratio) or structure.symmetric)
+    side = f" {structure.side_names[station.peak_side < 0]}" if two_sides and station.peak_side else ""
     lines = [
-        f"{fate.count} overturn" if fate.members else "one run",
-        f"as given {to_spread(fate.rotation_ratio, fate)}{side}",
+        f"{station.count} overturn" if station.members else "one run",
+        f"as given {to_spread(station.rotation_ratio, station)}{side}",
     ]
-    if fate.members and not rests(fate.rotation_ratio_high) and fate.rotation_ratio_low < math.inf:
-        low, high = (to_spread(each, fate) for each in (fate.rotation_ratio_low, fate.rotation_ratio_high))
+    if station.members and not rests(station.rotation_ratio_high) and station.rotation_ratio_low < math.inf:
+        low, high = (
+            to_spread(each, station) for each in (station.rotation_ratio_low, station.rotation_ratio_high)
+        )
         lines.append(f"5–95 %: {low} to {'falling' if high == 'overturns' else high}")
     lines.append(f"static {number(static, 2)} g, PGA {number(peak_acceleration / static, 2)} ×")
-    for crack in (fate.crack, fate.elsewhere_crack):
+    for crack in (station.crack, station.elsewhere_crack):
         lines.append(crack.replace("hinges at", "hinges").replace("°,", ","))
-    if fate.elsewhere_crack and fate.elsewhere_members:
-        lines.append(f"there {fate.elsewhere_overturning_members} of {fate.elsewhere_members} overturn")
+    if station.elsewhere_crack and station.elsewhere_members:
+        lines.append(f"there {station.elsewhere_overturning_members} of {station.elsewhere_members} overturn")
     return [part for line in lines for part in wrap(line, _LETTERS)]
 
 
@@ -237,7 +239,7 @@ def _lines(structure: Structure, fate: Fate, peak_acceleration: float) -> list[s
 
 @styled
 def histories_figure(
-    histories: Sequence[History], labels: Mapping[str, str], motions: Sequence[Motion]
+    histories: Sequence[History], labels: Mapping[str, str], motions: Sequence[Trace]
 ) -> Figure:
     """Draw the rotation of each structure, one below the other, and beneath them the ground, on one time axis.
 
@@ -248,7 +250,7 @@ def histories_figure(
     figure = new_figure(row * len(histories) + below * len(motions) + 9)
     panel = panel_at(figure, left, 1, width, row * len(histories))
     for place, history in enumerate(histories):
-        _draw_history(panel, history, -place, labels[history.fate.structure], several=len(motions) > 1)
+        _draw_history(panel, history, -place, labels[history.station.structure], several=len(motions) > 1)
     span = moving_span((history.times, history.ratios) for history in histories)
     panel.set(xlim=span, ylim=(0.5 - len(histories), 0.5), xticks=[], yticks=[])
     panel.spines[["left", "bottom"]].set_visible(False)
@@ -260,17 +262,17 @@ def histories_figure(
 
 def _draw_history(panel: Axes, history: History, level: int, label: str, several: bool) -> None:
     """Draw one history about `level`, between its `label` and what happened; of `several` components, with its own."""
-    fate, case, ratios = history.fate, history.case, history.ratios
+    station, case, ratios = history.station, history.case, history.ratios
     predicted = case.predicted_rotation_ratio
     largest = (each for each in (float(np.abs(ratios).max()), predicted) if 0 < each < math.inf)
     reach = min(1.25 * max(largest, default=1.0), _HIGHEST)
-    band = min(fate.rotation_ratio_low, reach), min(fate.rotation_ratio_high, reach)
+    band = min(station.rotation_ratio_low, reach), min(station.rotation_ratio_high, reach)
     draw_rotation(
         panel,
         history.times,
         np.clip(ratios, -reach, reach),
         predicted if predicted <= reach else math.inf,
-        band if fate.members else None,
+        band if station.members else None,
         level=level,
         scale=0.45 / reach,
         most=_POINTS,

@@ -8,10 +8,24 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from rocking.assessment.fate import ORDER, Fate, worst_first
-from rocking.assessment.rows.of_record import RATIO_COLUMNS, ComparisonRow, FailureRow, PulseRow, RecordRow
+from rocking.assessment.rows.of_record import (
+    RATIO_COLUMNS,
+    ComparisonRow,
+    FailureRow,
+    PulseRow,
+    RecordRow,
+    VerdictRow,
+)
 from rocking.assessment.rows.of_study import AgreementRow
-from rocking.assessment.verdict import Agreement, Method, Verdict, agreement, within_factor_two
+from rocking.assessment.verdict import (
+    ORDER,
+    Agreement,
+    Method,
+    Verdict,
+    agreement,
+    within_factor_two,
+    worst_first,
+)
 from rocking.quantities import GRAVITY, counted
 from rocking.reports import printing
 from rocking.reports.document import compile_document
@@ -64,7 +78,7 @@ def summary_data(
     settings: at least tolerance and acceleration_scale; study, client, author and date where they are given.
     trade: figure and conclusion, where it was measured.
     """
-    fates = sorted(rows_of(Fate, tables["verdicts"]), key=lambda fate: fate.severity, reverse=True)
+    verdicts = sorted(rows_of(VerdictRow, tables["verdicts"]), key=lambda row: row.severity, reverse=True)
     comparison, failures, records = tables["comparison"], tables["failures"], tables["record"]
     unsafe = comparison[comparison["agreement"] == Agreement.TOO_LOW]
     unsafe = unsafe.sort_values("integrated_rotation_ratio", ascending=False, kind="stable")
@@ -78,9 +92,9 @@ def summary_data(
         "subtitle": f"{counted(records['record'].nunique(), 'record')}, "
         f"{counted(len(tables['structures']), 'structure')}, {counted(len(comparison), 'case')}.",
         "notices": _notices(records, comparison, len(failures)),
-        "map": severity_map(fates, records),
+        "map": severity_map(verdicts, records),
         "methods": method_table(tables),
-        "structures": structure_table(fates),
+        "structures": structure_table(verdicts),
         "scatter": [picture(prediction_scatter(comparison), alt)] if drawable else [],
         "agreement": table_of(rows_of(AgreementRow, tables["agreement"]), *AGREEMENT_COLUMNS),
         "unsafe": table_of(rows_of(ComparisonRow, unsafe.head(MOST_LISTED)), *UNSAFE_COLUMNS),
@@ -113,13 +127,13 @@ def _notices(records: "DataFrame", comparison: "DataFrame", failures: int) -> li
 # What becomes of what --------------------------------------------------------------------------------------
 
 
-def severity_map(fates: Sequence[Fate], records: "DataFrame") -> dict[str, object]:
-    """Return verdict and share by record and structure, both the worst first. fates: the worst first."""
-    names = [worst_first((getattr(fate, which), fate) for fate in fates) for which in ("record", "structure")]
+def severity_map(verdicts: Sequence[VerdictRow], records: "DataFrame") -> dict[str, object]:
+    """Return verdict and share by record and structure, both the worst first. verdicts: the worst first."""
+    names = [worst_first((getattr(row, which), row) for row in verdicts) for which in ("record", "structure")]
     rows, columns = names[0][:MOST_MAPPED], names[1][:MOST_STRUCTURES]
     others = [(len(names[0]) - len(rows), "record"), (len(names[1]) - len(columns), "structure")]
     rest = " and ".join(counted(count, noun) for count, noun in others if count)
-    by_pair = {(fate.record, fate.structure): fate for fate in fates}
+    by_pair = {(row.record, row.structure): row for row in verdicts}
     peaks = records.groupby("record", observed=True)[["peak_acceleration_m_s2", "peak_velocity_m_s"]].max()
     peaks = (peaks / [GRAVITY, 1.0]).reindex(rows)
     return {
@@ -136,22 +150,23 @@ def severity_map(fates: Sequence[Fate], records: "DataFrame") -> dict[str, objec
     }
 
 
-def _cell(fate: Fate | None) -> dict[str, str]:
-    _, fill, ink, _ = printing.LOOKS[fate.verdict if fate else Verdict.UNKNOWN]
-    return {"text": printing.cell_text(fate), "fill": fill, "ink": ink}
+def _cell(verdict_row: VerdictRow | None) -> dict[str, str]:
+    verdict = verdict_row.verdict if verdict_row else Verdict.UNKNOWN
+    _, fill, ink, _ = printing.LOOKS[verdict]
+    return {"text": printing.cell_text(verdict_row), "fill": fill, "ink": ink}
 
 
-def structure_table(fates: Sequence[Fate]) -> dict[str, object]:
+def structure_table(verdicts: Sequence[VerdictRow]) -> dict[str, object]:
     """Return one row per structure: under how many records it overturns, and the record that is worst for it."""
-    worst = {fate.structure: fate for fate in reversed(fates)}
+    worst = {row.structure: row for row in reversed(verdicts)}
     counts: dict[str, Counter[Verdict]] = {}
-    for fate in fates:
-        counts.setdefault(fate.structure, Counter())[fate.verdict] += 1
-    present = {fate.verdict for fate in fates}
-    verdicts = [verdict for verdict in ORDER if verdict in present or verdict is not Verdict.UNKNOWN]
-    heads = [printing.sentence(verdict) for verdict in verdicts]
+    for row in verdicts:
+        counts.setdefault(row.structure, Counter())[row.verdict] += 1
+    present = {row.verdict for row in verdicts}
+    kinds = [verdict for verdict in ORDER if verdict in present or verdict is not Verdict.UNKNOWN]
+    heads = [printing.sentence(verdict) for verdict in kinds]
     return table_of(
-        [(name, *[counts[name][verdict] for verdict in verdicts], worst[name]) for name in counts],
+        [(name, *[counts[name][verdict] for verdict in kinds], worst[name]) for name in counts],
         ("Structure", "1.6", "l", lambda row: strong(row[0])),
         *((head, "auto", "r", lambda row, at=at: str(row[at])) for at, head in enumerate(heads, start=1)),
         ("Worst record", "1.6", "l", lambda row: row[-1].record),

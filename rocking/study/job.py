@@ -5,33 +5,19 @@ import fcntl
 import os
 import signal
 import sys
-from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
-from time import process_time
 from typing import Any
 
-from rocking.assessment.assess import Failure, assess_structures
+from rocking.assessment.assess import CaseStore, Clock, Extent, assess_record
+from rocking.assessment.case import Failure, RecordResult
 from rocking.assessment.compilation import compile_all
-from rocking.assessment.ensemble import GroundMotions, processed
-from rocking.assessment.fate import BOTH_COMPONENTS, RecordTables
-from rocking.assessment.rows.of_record import (
-    HistoryRow,
-    HorizontalMotion,
-    TimingRow,
-    VariationRow,
-    ensemble_row,
-    history_rows,
-    horizontal_motions,
-    identity_of,
-)
+from rocking.assessment.component import horizontal_motions
+from rocking.assessment.rows.of_record import HistoryRow, RecordRows, history_rows, rows_of_record
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.variations import Variation, candidates, ensemble_over_cracks, processed_variants
-from rocking.assessment.verdict import Method
 from rocking.errors import ConfigurationError, RecordError, RockingError
-from rocking.motion.response import Response
 from rocking.records import Accelerogram, CatalogueRecord, aligned, load_catalogue, open_station
 from rocking.records.processing import process
 from rocking.records.station import station_of
@@ -62,6 +48,11 @@ class Study:
         """What a record is compared with: in full where a report or histories are made, which show every case."""
         whole = self.settings.reports or self.settings.histories
         return replace(self.settings, fidelity="full") if whole else self.settings
+
+    @cached_property
+    def extent(self) -> Extent:
+        """How far a case is followed."""
+        return Extent(self.assessment, self.settings.candidates, self.settings.processing_variants)
 
     def open(self, record: CatalogueRecord, channels: list[Accelerogram] | None = None) -> Opened:
         """Return the components of `record`, processed as the settings say. channels: of its files, if they were read.
@@ -110,79 +101,6 @@ def begin_job(config: Mapping[str, Any], params: Any) -> tuple[Study, list[Catal
     return Study(structures, settings, params.settings_sha256), records
 
 
-@dataclass(frozen=True)
-class Assessed:
-    """One record in memory: its components as they acted, every row, and the responses by component and structure."""
-
-    record: CatalogueRecord
-    study: Study
-    accelerograms: list[Accelerogram] = field(default_factory=list)
-    tables: RecordTables = field(default_factory=RecordTables)
-    responses: dict[tuple[str, str], Response] = field(default_factory=dict)
-    durations: dict[str, float] = field(default_factory=lambda: defaultdict(float))
-
-    @contextlib.contextmanager
-    def stage(self, name: str, component: str = "", structure: str = "") -> Iterator[None]:
-        """Add the CPU time of what is done within to that of a stage, s; its error becomes a row of the failures."""
-        started = process_time()
-        try:
-            yield
-        except RockingError as error:
-            self.tables.fail(self.record.id, component, Failure(name, structure, str(error)))
-        finally:
-            self.durations[name] += process_time() - started
-
-    def assess(
-        self,
-        accelerogram: Accelerogram,
-        motion: HorizontalMotion,
-        vertical: Accelerogram | None,
-        alone: bool,
-    ) -> None:
-        """Append what one component gives: cases, other cracks, other processing. motion: of it, or of its pair."""
-        study = self.study
-        tables = self.tables
-        component = accelerogram.component
-        beside = None if vertical is None else aligned(vertical, accelerogram)
-        assessment = assess_structures(accelerogram, study.structures, study.assessment, beside, alone)
-        identity = identity_of(self.record.id, accelerogram, study.settings_sha256)
-        tables.add(identity, assessment, study.assessment, self.record.licence, beside, motion)
-        for stage, duration in assessment.durations.items():
-            self.durations[stage] += duration
-        variations: dict[str, list[Variation]] = {case.structure: [] for case in assessment.cases}
-        for case in assessment.cases:
-            if response := case.responses.get(Method.MECHANISM_ON_RECORD):
-                self.responses[component, case.structure] = response
-            pulse = case.prediction.pulse if case.prediction else None
-            structure = study.structures[case.structure]
-            number = study.settings.candidates
-            with self.stage("variations", component, case.structure):
-                variations[case.structure] += candidates(
-                    structure, accelerogram, pulse, number, study.assessment
-                )
-        if study.settings.processing_variants:
-            as_recorded = {case.structure: case.integrated_rotation_ratio for case in assessment.cases}
-            structures = {name: study.structures[name] for name in as_recorded}
-            with self.stage("variations", component):
-                motions = processed(accelerogram)
-                of_each = processed_variants(structures, motions, study.assessment, as_recorded, beside)
-                for name, several in of_each.items():
-                    variations[name] += several
-        for name, several in variations.items():
-            tables.variations.extend(VariationRow.of(identity, each, structure=name) for each in several)
-
-    def assess_directions(self, pair: GroundMotions) -> None:
-        """Append the ensembles over all directions of a record that has two horizontal components."""
-        settings = self.study.assessment
-        identity = identity_of(self.record.id, self.accelerograms[0], self.study.settings_sha256)
-        identity = replace(identity, component=BOTH_COMPONENTS)
-        for name in dict.fromkeys(case.structure for case in self.tables.comparison):
-            structure, quick = self.study.structures[name], settings.fidelity == "auto"
-            with self.stage("directions", BOTH_COMPONENTS, name):
-                members = ensemble_over_cracks(structure, pair, settings, verdict_only=quick)
-                self.tables.ensemble.append(ensemble_row(identity, name, members))
-
-
 def run_job(
     records: Iterable[CatalogueRecord],
     study: Study,
@@ -199,67 +117,66 @@ def run_job(
     """
     with written_part(part) as add:
         for record in records:
-            assessed = assess_record(record, study)
-            tables = assessed.tables
+            result = assess_catalogued(record, study)
+            rows = rows_of(result, record, study)
             folder = results / record.id
             content = None
             if study.settings.reports:
                 from rocking.reports.explore import record_content  # matplotlib takes a second to import
 
-                write_report(assessed, folder)
-                content = record_content(
-                    record.id, assessed.accelerograms, study.structures, tables, assessed.responses
-                )
+                write_report(result, rows, study, folder)
+                content = record_content(result, rows, study.structures)
             else:
                 remove_copies(folder)
             if study.settings.histories:
-                rows = history_rows(record.id, assessed.responses)
-                write_rows(HistoryRow, rows, folder / HistoryRow.table.file_name)
-            add(tables, content)
-            tell(f"{record.id}: {record_line(tables.verdicts, tables.failures)}")
+                histories = history_rows(record.id, result.responses)
+                write_rows(HistoryRow, histories, folder / HistoryRow.table.file_name)
+            add(rows, content)
+            tell(f"{record.id}: {record_line(result.worst_first, rows.failures)}")
         for path in files:
             if not os.path.isfile(path):
                 raise RecordError(f"{path}: the file went away while the study ran; bring it back.")
 
 
-def write_report(assessed: Assessed, folder: Path) -> None:
+def write_report(result: RecordResult, rows: RecordRows, study: Study, folder: Path) -> None:
     """Write report.pdf of one record into `folder`, beside the tables that it names."""
     from rocking.reports.record import RecordReport, failure_report  # matplotlib takes a second to import
 
-    tables = assessed.tables
-    record = assessed.record.id
-    study = assessed.study
-    tables.write(folder)
-    if tables.comparison:
-        settings = study.settings.mapping()
-        report = RecordReport(
-            record, assessed.accelerograms, study.structures, tables, settings, assessed.responses
-        ).pdf()
+    rows.write(folder)
+    if rows.comparison:
+        report = RecordReport(result, rows, study.structures, study.settings.mapping()).pdf()
     else:
-        report = failure_report(record, " ".join(failure.message for failure in tables.failures))
+        report = failure_report(result.record, " ".join(failure.message for failure in rows.failures))
     write_whole(folder / "report.pdf", report)
 
 
-def assess_record(record: CatalogueRecord, study: Study, opened: Opened | None = None) -> Assessed:
-    """Read and assess `record`; what fails becomes a row of its failures. opened: its components, if they were read."""
-    assessed = Assessed(record, study)
-    horizontal: list[Accelerogram] = assessed.accelerograms
-    vertical = None
-    with assessed.stage("read"):
-        components, vertical = opened or study.open(record)
-        horizontal += components
-    if horizontal:
-        with assessed.stage("velocity pulse"):
+def assess_catalogued(
+    record: CatalogueRecord, study: Study, opened: Opened | None = None, store: CaseStore | None = None
+) -> RecordResult:
+    """Read and assess `record`; one that cannot be read has a failure instead. opened: its components, if they were
+    read."""
+    clock = Clock()
+    try:
+        with clock.stage("read"):
+            horizontal, vertical = opened or study.open(record)
+        with clock.stage("velocity pulse"):
             motions = horizontal_motions(horizontal)
-        pair = None
-        ensemble = study.assessment.ensemble
-        if len(horizontal) == 2 and ensemble.members:
-            with assessed.stage("directions", BOTH_COMPONENTS):
-                pair = GroundMotions.of(*horizontal, vertical=vertical, processing=ensemble.processing)
-        for accelerogram, motion in zip(horizontal, motions, strict=True):
-            assessed.assess(accelerogram, motion, vertical, alone=pair is None)
-        if pair:
-            assessed.assess_directions(pair)
-    for stage, duration in assessed.durations.items():
-        assessed.tables.timings.append(TimingRow(record=record.id, stage=stage, duration_s=duration))
-    return assessed
+    except RockingError as error:
+        unread = Failure("read", str(error))
+        return RecordResult(record=record.id, failures=(("", unread),), durations=dict(clock.durations))
+    return assess_record(
+        record.id,
+        horizontal,
+        study.structures,
+        study.extent,
+        vertical,
+        motions=motions,
+        store=store,
+        clock=clock,
+    )
+
+
+def rows_of(result: RecordResult, record: CatalogueRecord, study: Study) -> RecordRows:
+    """Return what the tables of a study hold of a record."""
+    friction = study.settings.friction_coefficient
+    return rows_of_record(result, study.settings_sha256, record.licence, friction)

@@ -11,8 +11,7 @@ from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.assessment.fate import PER_RECORD, Fate, RecordTables
-from rocking.assessment.rows.of_record import TimingRow
+from rocking.assessment.rows.of_record import RECORD_TABLES, RecordRows, TimingRow
 from rocking.assessment.rows.of_study import SUMMARY_TABLES, TradeRow
 from rocking.errors import RockingError
 from rocking.tables import Row, csv_lines, frame, rows_written, whole, write_whole, written_together
@@ -21,11 +20,9 @@ from rocking.tables.csv_rows import check_columns, readable
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-IN_PARTS: tuple[type[Row], ...] = (*PER_RECORD, Fate)
-"""The rows of every table of a job."""
 PAGE = "explore.jsonl"
 """Beside them: what the page to explore shows of each record, one JSON value a line."""
-_ROWS: tuple[type[Row], ...] = (*PER_RECORD, *SUMMARY_TABLES, TradeRow)
+_ROWS: tuple[type[Row], ...] = (*RECORD_TABLES, *SUMMARY_TABLES, TradeRow)
 _TABLES = {each.table.name: each for each in _ROWS}
 _JOB = re.compile(r"\d{5}_of_\d{5}")
 
@@ -36,20 +33,21 @@ def part(results: Path, job: str) -> Path:
 
 
 @contextmanager
-def written_part(folder: Path) -> Iterator[Callable[[RecordTables, Mapping[str, Any] | None], None]]:
+def written_part(folder: Path) -> Iterator[Callable[[RecordRows, Mapping[str, Any] | None], None]]:
     """Yield what adds a record to the files in `folder`, which appear together at the end, or not at all.
 
     It takes the tables of the record and, where there is one, what the page to explore shows of it.
     """
     with written_together(), ExitStack() as stack:
         tables = {
-            each: stack.enter_context(rows_written(each, folder / each.table.file_name)) for each in IN_PARTS
+            each: stack.enter_context(rows_written(each, folder / each.table.file_name))
+            for each in RECORD_TABLES
         }
         page = stack.enter_context(whole(folder / PAGE))
 
-        def add(record: RecordTables, content: Mapping[str, Any] | None) -> None:
-            for each, write in tables.items():
-                write(getattr(record, each.table.name))
+        def add(record: RecordRows, content: Mapping[str, Any] | None) -> None:
+            for each, rows in record.tables.items():
+                tables[each](rows)
             if content is not None:
                 page.write(json.dumps(content, allow_nan=False, separators=(",", ":")).encode() + b"\n")
 
@@ -82,7 +80,7 @@ def table_lines(row_class: type[Row], folders: Iterable[Path], records: Iterable
 def remove_copies(folder: Path) -> None:
     """Remove the tables of one record from its folder: copies of a run before, or tables of an earlier version."""
     if folder.is_dir():
-        for each in PER_RECORD:
+        for each in RECORD_TABLES:
             (folder / each.table.file_name).unlink(missing_ok=True)
 
 
@@ -136,7 +134,7 @@ class Results:
         """
         target = self.folder / record if folder is None else Path(folder)
         parts = parts_in(self.folder)
-        tables = {each: list(table_lines(each, parts, [record])) for each in PER_RECORD}
+        tables = {each: list(table_lines(each, parts, [record])) for each in RECORD_TABLES}
         if len(tables[TimingRow]) == 1:  # which every record has, also one that could not be read
             raise RockingError(
                 f"{self.folder} holds no tables of {record!r}; name a record of a study that has been run."
@@ -144,7 +142,7 @@ class Results:
         with written_together():
             for each, lines in tables.items():
                 write_whole(target / each.table.file_name, lines)
-        return [target / each.table.file_name for each in PER_RECORD]
+        return [target / each.table.file_name for each in RECORD_TABLES]
 
     def __getattr__(self, name: str) -> "DataFrame":
         if name not in _TABLES:

@@ -13,8 +13,7 @@ from pathlib import Path
 from threading import Thread
 from typing import Any, TextIO
 
-from rocking.assessment.fate import Fate
-from rocking.assessment.rows.of_record import FailureRow
+from rocking.assessment.rows.of_record import FailureRow, VerdictRow
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted
 from rocking.study import close_doors
@@ -93,7 +92,7 @@ def run(folder: Path, options: Sequence[str]) -> int:
         print(f"Finished: {options[0]}; what it wrote lies in {results}")
         return 0
     failures = read_table(FailureRow, summary)
-    verdicts = read_table(Fate, summary)
+    verdicts = read_table(VerdictRow, summary)
     for line in (*closing_lines(verdicts, failures), *paths_to_read(results, verdicts)):
         print(fitting(line, sys.stdout))
     return int(bool(failures))

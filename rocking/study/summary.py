@@ -8,7 +8,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from rocking.assessment.rows.of_record import ComparisonRow
+from rocking.assessment.rows.of_record import RECORD_TABLES, ComparisonRow
 from rocking.assessment.rows.of_study import (
     AGREEMENT_COLUMNS,
     SUMMARY_TABLES,
@@ -23,7 +23,7 @@ from rocking.errors import ConfigurationError, RockingError
 from rocking.records import Accelerogram, CatalogueRecord
 from rocking.structures import Structure
 from rocking.study.job import Study
-from rocking.study.results import IN_PARTS, page_contents, part, remove_other_parts, table_lines
+from rocking.study.results import page_contents, part, remove_other_parts, table_lines
 from rocking.tables import Row, data_package, frame, write_tables, write_whole
 
 _GOVERNING = ("structure", "record", "level", "overturning_share")
@@ -44,7 +44,7 @@ def summarise(study: Study, records: Iterable[CatalogueRecord], jobs: Sequence[s
     # Two descriptions of every column, because a data package may not name files outside its own folder.
     of_summary = {each: each.table.file_name for each in SUMMARY_TABLES}
     folders = [each.relative_to(results).as_posix() for each in parts]
-    of_jobs = {each: [f"{folder}/{each.table.file_name}" for folder in folders] for each in IN_PARTS}
+    of_jobs = {each: [f"{folder}/{each.table.file_name}" for folder in folders] for each in RECORD_TABLES}
     write_whole(target / "datapackage.json", data_package("rocking-study-summary", of_summary))
     write_whole(results / "datapackage.json", data_package("rocking-study", of_jobs))
     versions = {"python": platform.python_version()}
@@ -73,7 +73,7 @@ def write_summary(
 ) -> None:
     """Write the tables of the summary into `target`: of `records`, in their order, from their jobs in `parts`."""
     for each in SUMMARY_TABLES:
-        if each in IN_PARTS:
+        if each in RECORD_TABLES:
             write_whole(target / each.table.file_name, table_lines(each, parts, records))
     cases = frame(ComparisonRow, target / ComparisonRow.table.file_name, AGREEMENT_COLUMNS)
     tables: dict[type[Row], Iterable[Row]] = {

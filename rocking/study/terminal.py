@@ -13,9 +13,8 @@ from threading import Thread
 from types import TracebackType
 from typing import BinaryIO, TextIO
 
-from rocking.assessment.fate import ORDER, Fate, worst_first
-from rocking.assessment.rows.of_record import FailureRow
-from rocking.assessment.verdict import Verdict, rocks
+from rocking.assessment.rows.of_record import FailureRow, VerdictRow
+from rocking.assessment.verdict import ORDER, Judgement, Verdict, rocks, worst_first
 from rocking.errors import RecordError, RockingError
 from rocking.quantities import counted
 from rocking.tables import read_table
@@ -31,7 +30,7 @@ _LONGEST = 1000
 """Characters of a line: what the system writes to a pipe at once, by whatever process, is at least 4096 bytes."""
 
 
-def record_line(verdicts: Iterable[Fate], failures: Iterable[FailureRow]) -> str:
+def record_line(judgements: Iterable[Judgement], failures: Iterable[FailureRow]) -> str:
     """Say in one line what came of a record: "overturns: pier; undecided: wall (12 of 64); stands: arch 0.31".
 
     The numbers are members of the ensemble that overturn, or the largest rotation over the critical one of the worst
@@ -42,38 +41,38 @@ def record_line(verdicts: Iterable[Fate], failures: Iterable[FailureRow]) -> str
         for each in failures
     )
     parts: dict[str, list[str]] = {"failed": [" ".join(reasons)], **{word: [] for word in ORDER}}
-    for fate in sorted(verdicts, key=lambda fate: fate.severity, reverse=True):
-        number = f" {fate.rotation_ratio:.2g}" if rocks(fate.rotation_ratio) else ""
-        if fate.verdict is Verdict.UNDECIDED:
-            number = " (with another crack)" if fate.elsewhere_crack else f" ({fate.count})"
-        parts[fate.verdict].append(fate.structure + number)
+    for each in sorted(judgements, key=lambda each: each.severity, reverse=True):
+        number = f" {each.rotation_ratio:.2g}" if rocks(each.rotation_ratio) else ""
+        if each.verdict is Verdict.UNDECIDED:
+            number = " (with another crack)" if each.elsewhere_crack else f" ({each.count})"
+        parts[each.verdict].append(each.structure + number)
     if len(undecided := parts[Verdict.UNDECIDED]) > _FEW:
-        parts[Verdict.UNDECIDED] = [str(len(undecided)), f"in {Fate.table.file_name}"]
+        parts[Verdict.UNDECIDED] = [str(len(undecided)), f"in {VerdictRow.table.file_name}"]
     return "; ".join(f"{word}: {text}" for word, names in parts.items() if (text := ", ".join(names)))
 
 
-def closing_lines(verdicts: Sequence[Fate], failures: Iterable[FailureRow]) -> Iterator[str]:
+def closing_lines(verdicts: Sequence[VerdictRow], failures: Iterable[FailureRow]) -> Iterator[str]:
     """Yield a table of the structures that do not stand everywhere: two counts, and the names of the records.
 
     Below it stand the records that failed.
     """
-    worst = sorted(verdicts, key=lambda fate: fate.severity, reverse=True)
-    doubtful = [fate for fate in worst if fate.verdict is not Verdict.STANDS]
-    of_all = Counter(fate.structure for fate in doubtful)
-    counts = Counter((fate.structure, fate.verdict) for fate in doubtful)
+    worst = sorted(verdicts, key=lambda each: each.severity, reverse=True)
+    doubtful = [each for each in worst if each.verdict is not Verdict.STANDS]
+    of_all = Counter(each.structure for each in doubtful)
+    counts = Counter((each.structure, each.verdict) for each in doubtful)
     ordered = sorted(of_all, key=lambda name: (-counts[name, Verdict.OVERTURNS], -of_all[name]))
-    records = counted(len({fate.record for fate in verdicts}), "record")
+    records = counted(len({each.record for each in verdicts}), "record")
     if ordered:
         width = max(9, *map(len, ordered[:_MOST]))
         yield f"Of {records}:"
         yield f"  {'':<{width}}  overturns  undecided  records (?: undecided, –: unknown)"
         for name in ordered[:_MOST]:
-            of_it = (fate for fate in doubtful if fate.structure == name)
-            names = ", ".join(fate.record + _MARKS.get(fate.verdict, "") for fate in of_it)
+            of_it = (each for each in doubtful if each.structure == name)
+            names = ", ".join(each.record + _MARKS.get(each.verdict, "") for each in of_it)
             numbers = (counts[name, verdict] for verdict in (Verdict.OVERTURNS, Verdict.UNDECIDED))
             yield f"  {name:<{width}}  {'  '.join(f'{number:>9}' for number in numbers)}  {names}"
         if len(ordered) > _MOST:
-            yield f"  and {counted(len(ordered) - _MOST, 'more structure')}, in {Fate.table.file_name}"
+            yield f"  and {counted(len(ordered) - _MOST, 'more structure')}, in {VerdictRow.table.file_name}"
     elif verdicts:
         yield f"Every structure stands under {records}."
     if failed := sorted({failure.record for failure in failures}):
@@ -90,12 +89,12 @@ def check_any_read(summary: Path, records: Collection[str]) -> None:
         raise RecordError(f"none of {number} could be read; the first: {next(iter(unread.values()))}")
 
 
-def paths_to_read(results: Path, verdicts: Iterable[Fate]) -> Iterator[str]:
+def paths_to_read(results: Path, verdicts: Iterable[VerdictRow]) -> Iterator[str]:
     """Yield a line for each of the files that come next for a reader, the report of the worst record among them."""
     summary = results / "summary"
     yield from (f"Page to explore: {page}" for page in sorted(summary.glob("*.html")))
     yield f"Summary: {report if (report := summary / 'summary.pdf').is_file() else summary}"
-    records = worst_first((fate.record, fate) for fate in verdicts)
+    records = worst_first((each.record, each) for each in verdicts)
     if records and (report := results / records[0] / "report.pdf").is_file():
         yield f"Report of the worst record: {report}"
 

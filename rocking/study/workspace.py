@@ -2,20 +2,20 @@
 
 import math
 import re
+from collections.abc import Iterator
 from itertools import chain
 from pathlib import Path
 
-from rocking.assessment.rows.of_record import ComparisonRow
+from rocking.assessment.case import StationResult
 from rocking.assessment.rows.of_study import CapacityRow, StructureRow, capacity_rows, structure_rows
-from rocking.assessment.verdict import Method
 from rocking.errors import ConfigurationError, RecordError
 from rocking.quantities import counted
 from rocking.records import Accelerogram
 from rocking.records.catalogue import COLUMNS, CatalogueRecord, catalogue_text, read_rows
 from rocking.records.folder import list_folder, listing_text
 from rocking.records.read import read
-from rocking.structures import Outcome, load_structures
-from rocking.study.job import Study, assess_record, write_report
+from rocking.structures import load_structures
+from rocking.study.job import Study, assess_catalogued, rows_of, write_report
 from rocking.study.plan import settings_sha256, workflow_folder
 from rocking.study.settings import Settings, commented_yaml
 from rocking.tables import write_tables, write_whole
@@ -102,28 +102,31 @@ def assess_file(
         raise ConfigurationError(f"structure is {name!r}, but must be one of those in {structures}: {names}.")
     chosen = {each: all_structures[each] for each in all_structures if name in (None, each)}
     study = Study(chosen, Settings(), settings_sha256(Settings(), all_structures))
-    assessed = assess_record(record, study, study.open(record, channels))
+    result = assess_catalogued(record, study, study.open(record, channels))
+    rows = rows_of(result, record, study)
     if output is not None:
-        write_report(assessed, output / record.id)
-        rows = {StructureRow: structure_rows(chosen), CapacityRow: capacity_rows(chosen)}
-        write_tables(rows, output / "summary")
-    lines = [_told(row) for row in assessed.tables.comparison]
-    failures = assessed.tables.failures
-    return lines + [f"not assessed: {each.structure or each.stage}: {each.message}" for each in failures]
+        write_report(result, rows, study, output / record.id)
+        tables = {StructureRow: structure_rows(chosen), CapacityRow: capacity_rows(chosen)}
+        write_tables(tables, output / "summary")
+    lines = [line for station in result.worst_first for line in _told(station, record.scale_factor)]
+    return lines + [f"not assessed: {each.structure or each.stage}: {each.message}" for each in rows.failures]
 
 
-def _told(row: ComparisonRow) -> str:
-    """What became of a structure under a component, and what one pulse predicts."""
-    outcome = str(row.answer_outcome)
-    if row.answer_method is not Method.MECHANISM_ON_RECORD:
-        settled = "overturns" if row.answer_outcome is Outcome.OVERTURNS else "does not overturn"
-        outcome = f"{settled} ({row.answer_reason})"
-    facts = [f"{row.component or 'component not named'}, {row.structure}: {outcome}"]
-    if math.isfinite(row.integrated_rotation_ratio):  # overturning stands in the outcome
-        facts += [f"largest rotation {row.integrated_rotation_ratio:.4g} of the critical one"]
-    if not math.isnan(predicted := row.predicted_rotation_ratio):
-        words = "overturning" if math.isinf(predicted) else f"{predicted:.4g}"
-        facts += [f"one pulse predicts {words} ({row.regime})"]
-    if row.scale_factor != 1:
-        facts += [f"the accelerations of the file were multiplied by {row.scale_factor:g}"]
-    return "; ".join(facts)
+def _told(station: StationResult, scale_factor: float) -> Iterator[str]:
+    """Yield the verdict on a structure with its count and reason, then what each component does by itself."""
+    yield f"{station.structure}: {station.verdict}; {station.leaning or station.why}"
+    for component, case in station.cases.items():
+        if case.answer is None:
+            continue
+        facts = [f"  {component or 'component not named'}: {case.answer.outcome}"]
+        if case.answer.reason:
+            facts.append(case.answer.reason)
+        if math.isfinite(case.integrated_rotation_ratio):  # overturning stands in the outcome
+            facts.append(f"largest rotation {case.integrated_rotation_ratio:.4g} of the critical one")
+        predicted = case.predicted_rotation_ratio
+        if case.prediction is not None:
+            words = "overturning" if math.isinf(predicted) else f"{predicted:.4g}"
+            facts.append(f"one pulse predicts {words} ({case.prediction.maximum.regime})")
+        if scale_factor != 1:
+            facts.append(f"the accelerations of the file were multiplied by {scale_factor:g}")
+        yield "; ".join(facts)

@@ -2,10 +2,10 @@
 
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import MISSING, dataclass, replace
 from enum import Enum, StrEnum
-from typing import Any, ClassVar, Self, TypeVar, dataclass_transform
+from typing import Any, ClassVar, TypeVar, dataclass_transform
 
 from rocking.described import Described, described, described_values
 
@@ -41,41 +41,10 @@ class Row:
     __slots__ = ()
     table: ClassVar[Table]
 
-    @classmethod
-    def of(cls, *sources: object, **values: Any) -> Self:
-        """Return a row of `values`; each other column is the attribute of its name of the first source that has one.
-
-        The unit may be missing there: `peak_time_s` is the `peak_time` of a response. a_b is b of a where a source has
-        no a_b itself: `elsewhere_crack` is `ensemble.elsewhere.crack`. A source is any object, or a mapping. What is
-        None, or what no source has, leaves its cell empty.
-        """
-        for each in cls.table.columns:
-            if each.name not in values:
-                offers = (_offer(source, name) for source in sources for name in (each.name, each.attribute))
-                values[each.name] = next((offer for offer in offers if offer is not MISSING), None)
-            if values[each.name] is None:
-                values[each.name] = empty(each)
-        return cls(**values)
-
 
 def empty(column: Described) -> Any:
     """Return what stands for no value."""
     return None if column.optional else {float: math.nan, str: "", tuple: ()}.get(column.holds)
-
-
-def _offer(source: object, name: str) -> Any:
-    """The value of `source` for `name`, b of its a for the name a_b; a method is none."""
-    value = source.get(name, MISSING) if isinstance(source, Mapping) else getattr(source, name, MISSING)
-    if value is not MISSING:
-        return MISSING if callable(value) else value
-    parts = name.split("_")
-    for place in range(len(parts) - 1, 0, -1):
-        inner = getattr(source, "_".join(parts[:place]), MISSING)
-        if inner is None:
-            return None
-        if inner is not MISSING and (value := _offer(inner, "_".join(parts[place:]))) is not MISSING:
-            return value
-    return MISSING
 
 
 R = TypeVar("R", bound=Row)

@@ -8,7 +8,6 @@ import math
 import os
 from enum import StrEnum
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -19,6 +18,7 @@ from hypothesis import strategies as st
 from rocking import tables
 from rocking.errors import RockingError
 from rocking.tables import Row, cell, column, frame, read_rows, row, write_rows, write_whole
+from tests.unit.assessment.made_rows import filled
 
 
 class Colour(StrEnum):
@@ -48,8 +48,7 @@ class MadeRow(Head):
 
 
 def made(record: str = "one", speed: float = 1.0, **others) -> MadeRow:
-    others = {"speed_rad_s": speed, "count": 1, "colour": Colour.RED, **others}
-    return MadeRow.of(record=record, **others)
+    return filled(MadeRow, record=record, **{"speed_rad_s": speed, "count": 1, "colour": Colour.RED} | others)
 
 
 TEXT = st.text(max_size=12) | st.text("=+-@\t\r\n'\\u\x00\u2028n", max_size=6)
@@ -98,14 +97,6 @@ def test_a_frame_has_the_type_of_each_column(tmp_path: Path) -> None:
     assert table["holds"].isna().tolist() == [False, True]
     assert list(frame(MadeRow, tmp_path / "made.csv", ["count"])) == ["count"]
     assert frame(MadeRow, []).dtypes.equals(table.dtypes)
-
-
-@pytest.mark.parametrize("name", ["speed.rad.s", "speed_rad.s", "speed.rad_s", "speed_rad_s"])
-def test_a_column_is_filled_from_an_attribute_of_an_attribute_wherever_its_name_parts(name: str) -> None:
-    source: object = 2.5
-    for part in reversed(name.split(".")):
-        source = SimpleNamespace(**{part: source})
-    assert MadeRow.of(source).speed_rad_s == 2.5
 
 
 def test_a_row_of_another_class_is_refused_and_nothing_is_written(tmp_path: Path) -> None:

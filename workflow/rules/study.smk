@@ -6,9 +6,10 @@ from rocking.study import close_doors
 
 close_doors()  # before the imports that open them
 
+from rocking.assessment.rows.of_record import RECORD_TABLES
 from rocking.assessment.rows.of_study import SUMMARY_TABLES
 from rocking.study.plan import check_config_file, config_file, make_plan
-from rocking.study.results import IN_PARTS, PAGE, part
+from rocking.study.results import PAGE, part
 from rocking.study.run import begin
 from rocking.study.terminal import check_any_read
 from snakemake.utils import update_config
@@ -34,7 +35,7 @@ FRAGILITY = f"{RESULTS}/fragility/fragility.csv"
 def part_of(job):
     """The files of a job over all its records."""
     return [
-        f"{part(Path(RESULTS), job)}/{name}" for name in (*(each.table.file_name for each in IN_PARTS), PAGE)
+        f"{part(Path(RESULTS), job)}/{name}" for name in (*(each.table.file_name for each in RECORD_TABLES), PAGE)
     ]
 
 

@@ -118,27 +118,40 @@ def _row(
     kind, true_kind = ((each > 0) + (each > 1.5) for each in (ratio, truth))
     agrees = None if math.isnan(ratio) else kind == true_kind
     error = abs(ratio / truth - 1) if agrees and 0 < truth < math.inf else 0.0 if agrees else math.nan
-    more: dict[str, object] = {"another_model": (case.structure, code) in codes.ANOTHER_MODEL, "error": error}
+    another_model = (case.structure, code) in codes.ANOTHER_MODEL
+    same_restitution = math.nan
     if 0 <= answer.restitution <= 1:
         same = Mechanism(replace(side, restitution=answer.restitution))
-        more["same_restitution_rotation_ratio"] = integrate(same, case.motion).rotation_ratio
-    if more["another_model"]:
+        same_restitution = integrate(same, case.motion).rotation_ratio
+    envelope = math.nan
+    missed_impacts = None
+    if another_model:
         mechanisms = [mechanism for _, mechanism in cracks(codes.structures()[case.structure])]
         envelope = max(integrate(each, case.motion).rotation_ratio for each in mechanisms)
-        more |= {"error": math.nan, "envelope_rotation_ratio": envelope}
+        error = math.nan
     elif answer.landings is not None:
-        more["missed_impacts"] = missed(answer.landings, expected, 0.02 / side.frequency_parameter)
-    return CodeRow.of(
-        answer,
+        missed_impacts = missed(answer.landings, expected, 0.02 / side.frequency_parameter)
+    return CodeRow(
         case=case.name,
         structure=case.structure,
         motion=case.kind,
         code=code,
+        another_model=another_model,
+        rotation_ratio=ratio,
+        rotation_ratio_error=answer.rotation_ratio_error,
         reference_rotation_ratio=truth,
+        error=error,
         verdict_agrees=agrees,
+        duration_s=answer.duration,
         reference_impacts=expected.size,
+        missed_impacts=missed_impacts,
         reference_restitution=side.restitution,
-        **more,
+        restitution=answer.restitution,
+        restitution_error=answer.restitution_error,
+        same_restitution_rotation_ratio=same_restitution,
+        envelope_rotation_ratio=envelope,
+        outside_hinges=answer.outside_hinges,
+        reason=answer.reason,
     )
 
 

@@ -186,15 +186,17 @@ def ida_rows(
 
 def fragility_rows(structure: str, curve: Fragility, governing: bool) -> Iterator[FragilityRow]:
     """Yield a row for each level. governing: whether it is the curve with the worst of the cracks that may form."""
-    names = ("probability", "probability_low", "probability_high", "lognormal")
     for place, level in enumerate(curve.levels.tolist()):
-        yield FragilityRow.of(
-            curve,
+        yield FragilityRow(
             structure=structure,
             governing=governing,
             intensity_measure=curve.measure,
+            threshold=curve.threshold,
             level=level,
-            **{name: float(getattr(curve, name)[place]) for name in names},
+            probability=float(curve.probability[place]),
+            probability_low=float(curve.probability_low[place]),
+            probability_high=float(curve.probability_high[place]),
+            lognormal=float(curve.lognormal[place]),
         )
 
 
@@ -202,17 +204,25 @@ def fragility_summary_row(
     structure: str, curve: Fragility, governing: bool, hazard: Sequence[HazardRow] | None
 ) -> FragilitySummaryRow:
     """Return what a curve comes down to. hazard: of its intensity measure."""
-    return FragilitySummaryRow.of(
-        curve,
-        annual_rate(curve, hazard) if hazard else {},
+    rates = annual_rate(curve, hazard) if hazard else {}
+    return FragilitySummaryRow(
         structure=structure,
         governing=governing,
         intensity_measure=curve.measure,
+        threshold=curve.threshold,
         records=len(curve.stations),
         stations=curve.independent,
+        median=curve.median,
         median_low=curve.interval[0],
         median_high=curve.interval[1],
+        lognormal_median=curve.lognormal_median,
+        dispersion=curve.dispersion,
+        misfit=curve.misfit,
         reversals=int((curve.reversals > 0).sum()),
+        annual_rate=rates.get("annual_rate", math.nan),
+        annual_rate_low=rates.get("annual_rate_low", math.nan),
+        annual_rate_high=rates.get("annual_rate_high", math.nan),
+        annual_rate_remainder=rates.get("annual_rate_remainder", math.nan),
     )
 
 
@@ -233,13 +243,17 @@ def intensity_measure_rows(
             if len(set(stations)) < 2:
                 continue
             levels = logs[both, None] + factors[both]
-            yield IntensityMeasureRow.of(
-                explanation(levels, falls[both], values[both], stations),
+            explained = explanation(levels, falls[both], values[both], stations)
+            yield IntensityMeasureRow(
                 structure=structure,
                 intensity_measure=measure.name,
+                efficiency=explained["efficiency"],
                 figure=figure,
                 records=len(stations),
                 stations=len(set(stations)),
+                slope=explained.get("slope", math.nan),
+                p_value=explained.get("p_value", math.nan),
+                power=explained.get("power", math.nan),
             )
 
 

@@ -1,12 +1,16 @@
-"""The rows of the tables of one record: each class says what its columns are, and `of` fills them by name."""
+"""The rows of the tables of one record: each class says what its columns are, a function beside it fills them."""
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rocking.assessment.verdict import (
+    BOTH_COMPONENTS,
+    POLARITIES,
     Agreement,
+    Judgement,
     Method,
     Verdict,
     agreement,
@@ -14,19 +18,19 @@ from rocking.assessment.verdict import (
     ratio_in_words,
     within_factor_two,
 )
-from rocking.errors import PulseError, RecordError
-from rocking.motion.response import Response
-from rocking.pulses import Pulse, PulseAnalysis, PulseEvidence, VelocityPulse, velocity_pulse
-from rocking.records import Accelerogram, RotD, rotd
+from rocking.pulses import Pulse, PulseEvidence
+from rocking.records import Accelerogram
 from rocking.records.measures import record_measures
-from rocking.records.rotation import azimuth_of_axis
 from rocking.sine_pulse import Regime
 from rocking.structures import Outcome
-from rocking.tables import Row, column, row
+from rocking.tables import Row, column, row, write_tables, written_together
 
 if TYPE_CHECKING:  # else who reads a table would load numba
-    from rocking.assessment.assess import Case
+    from rocking.assessment.case import CaseResult, Failure, RecordResult, StationResult
+    from rocking.assessment.component import Component
     from rocking.assessment.ensemble import Ensemble
+    from rocking.assessment.variations import Variation
+    from rocking.motion.response import Response
 
 RECORD = "Identifier of the record in the catalogue"
 COMPONENT = "Component of the ground motion, as the file names it"
@@ -49,8 +53,13 @@ class ComponentRow(Row):
 
 def identity_of(record: str, accelerogram: Accelerogram, settings_sha256: str) -> ComponentRow:
     """Return what every row about a component of `record` holds."""
-    sha256 = accelerogram.source.sha256
-    return ComponentRow.of(accelerogram, record=record, record_sha256=sha256, settings_sha256=settings_sha256)
+    return ComponentRow(
+        record=record,
+        component=accelerogram.component,
+        scale_factor=accelerogram.scale_factor,
+        record_sha256=accelerogram.source.sha256,
+        settings_sha256=settings_sha256,
+    )
 
 
 @row()
@@ -213,6 +222,20 @@ class EnsembleRow(MembersRow):
     worst_processing: str = column("Processing of the largest mean rotation; empty with one")
 
 
+@row("verdicts")
+class VerdictRow(MembersRow, Judgement):
+    """One row per record and structure: the verdict over all components, its count and its reason.
+
+    The component is that of the governing case.
+    """
+
+    rotation_ratio: float = column("Largest rotation over critical rotation as recorded; INF if it overturns")
+    direction: str = column("Direction of the largest rotation; empty with one")
+    polarity: str = column("Sign of the motion of the largest rotation: as recorded, reversed; or empty")
+    peak_side: int | None = column(PEAK_SIDE)
+    why: str = column("Reason for the verdict")
+
+
 @row("variations")
 class VariationRow(CaseRow):
     """One row per crack that may form, and one per processing of the record: the case with this changed alone."""
@@ -256,142 +279,346 @@ class TimingRow(Row):
     duration_s: float = column("CPU time")
 
 
-@dataclass(frozen=True)
-class HorizontalMotion:
-    """The motion of a pair of horizontal components, or of one that stands alone.
-
-    velocity_pulse: None where the motion is still or too short for one. velocity_pulse_azimuth: of its axis, degrees
-    clockwise from north in [0, 180); None where a component does not state its own. rotd: None of one component alone.
-    """
-
-    velocity_pulse: VelocityPulse | None
-    velocity_pulse_azimuth: float | None
-    rotd: RotD | None
-
-
-def horizontal_motions(accelerograms: Sequence[Accelerogram]) -> list[HorizontalMotion]:
-    """Return the motion that each of the horizontal components of a record belongs to.
-
-    Two components that share time step and start are a pair; fewer, more or others stand each alone.
-    """
-    if len(accelerograms) == 2:
-        first, second = accelerograms
-        with suppress(RecordError):  # two that do not belong together stand alone
-            pair = _motion(first, second, rotd(first, second))
-            return [pair, pair]
-    return [_motion(accelerogram) for accelerogram in accelerograms]
-
-
-def _motion(
-    first: Accelerogram, second: Accelerogram | None = None, peaks: RotD | None = None
-) -> HorizontalMotion:
-    try:
-        pulse = velocity_pulse(first, second)
-    except PulseError:  # the motion holds none, which is no failure of the record
-        return HorizontalMotion(None, None, peaks)
-    azimuth = (
-        first.azimuth if second is None else azimuth_of_axis(first.azimuth, second.azimuth, pulse.orientation)
-    )
-    return HorizontalMotion(pulse, None if azimuth is None else azimuth % 180, peaks)
-
-
-def record_row(
-    identity: ComponentRow,
-    accelerogram: Accelerogram,
-    licence: str,
-    vertical: Accelerogram | None,
-    motion: HorizontalMotion,
-    dominant: Pulse | None,
-) -> RecordRow:
-    """Return the row of one component; `vertical` acts with it, `motion` is that of the pair it belongs to.
-
-    dominant: its sine pulse of largest energy gain.
-    """
-    pulse = motion.velocity_pulse
-    return RecordRow.of(
-        identity,
-        accelerogram,
-        accelerogram.source,
-        record_measures(accelerogram),
-        motion,
-        file=accelerogram.source.path,
-        licence=licence,
-        samples=accelerogram.acceleration.size,
+def record_row(identity: ComponentRow, component: "Component", licence: str) -> RecordRow:
+    """Return the row of one component: what was read, done and measured."""
+    accelerogram = component.accelerogram
+    vertical = component.vertical
+    measures = record_measures(accelerogram)
+    pulse = component.motion.velocity_pulse
+    rotd = component.motion.rotd
+    dominant = component.analysis.dominant if component.analysis else None
+    pulse_period_ratio = math.nan
+    pulse_periods_unlike = None
+    if pulse and dominant:
+        pulse_period_ratio = dominant.period / pulse.period
+        pulse_periods_unlike = pulse.is_unlike(dominant)
+    return RecordRow(
+        record=identity.record,
+        component=identity.component,
+        event=accelerogram.event,
+        magnitude=accelerogram.magnitude,
+        epicentral_distance_m=accelerogram.epicentral_distance,
+        magnitude_type=accelerogram.magnitude_type,
+        event_time=accelerogram.event_time,
+        station=accelerogram.station,
         station_latitude_deg=accelerogram.latitude,
         station_longitude_deg=accelerogram.longitude,
-        vertical_component=vertical and (vertical.component or "not named"),
-        vertical_peak_acceleration_m_s2=vertical and vertical.peak_acceleration,
-        rotd50_peak_acceleration_m_s2=motion.rotd and motion.rotd.rotd50,
-        rotd100_peak_acceleration_m_s2=motion.rotd and motion.rotd.rotd100,
-        velocity_pulse_like=pulse and pulse.pulse_like,
-        pulse_period_ratio=pulse and dominant and dominant.period / pulse.period,
-        pulse_periods_unlike=pulse and dominant and pulse.is_unlike(dominant),
+        start_time=accelerogram.start_time,
+        file=accelerogram.source.path,
+        format=accelerogram.source.format,
+        unit=accelerogram.source.unit,
+        licence=licence,
+        vertical_component=(vertical.component or "not named") if vertical else "",
+        vertical_peak_acceleration_m_s2=vertical.peak_acceleration if vertical else math.nan,
+        samples=accelerogram.acceleration.size,
+        time_step_s=accelerogram.time_step,
+        duration_s=accelerogram.duration,
+        peak_acceleration_m_s2=measures.peak_acceleration,
+        peak_velocity_m_s=measures.peak_velocity,
+        peak_displacement_m=measures.peak_displacement,
+        arias_intensity_m_s=measures.arias_intensity,
+        significant_duration_s=measures.significant_duration,
+        rotd50_peak_acceleration_m_s2=rotd.rotd50 if rotd else math.nan,
+        rotd100_peak_acceleration_m_s2=rotd.rotd100 if rotd else math.nan,
+        velocity_pulse_period_s=pulse.period if pulse else math.nan,
+        velocity_pulse_peak_velocity_m_s=pulse.peak_velocity if pulse else math.nan,
+        velocity_pulse_orientation_rad=pulse.orientation if pulse else math.nan,
+        velocity_pulse_azimuth_deg=_or_nan(component.motion.velocity_pulse_azimuth),
+        velocity_pulse_indicator=pulse.indicator if pulse else math.nan,
+        velocity_pulse_like=pulse.pulse_like if pulse else None,
+        pulse_period_ratio=pulse_period_ratio,
+        pulse_periods_unlike=pulse_periods_unlike,
+        high_pass_frequency_hz=accelerogram.high_pass_frequency,
+        processing=accelerogram.processing,
+        warnings=accelerogram.warnings,
+        scale_factor=identity.scale_factor,
+        record_sha256=identity.record_sha256,
+        settings_sha256=identity.settings_sha256,
     )
 
 
-def pulse_rows(
-    identity: ComponentRow, analysis: PulseAnalysis | None, candidates: Sequence[PulseEvidence] = ()
-) -> Iterator[PulseRow]:
+def _or_nan(value: float | None) -> float:
+    return math.nan if value is None else value
+
+
+def pulse_rows(identity: ComponentRow, component: "Component") -> Iterator[PulseRow]:
     """Yield the rows of the ranked alternatives, the dominant pulse first, then those of the pursuit sequence.
 
-    candidates: the pulses that predict; those that are not among the alternatives follow.
+    Pulses that predict, but are not among the alternatives, follow.
     """
+    analysis = component.analysis
     if analysis is None:
         return
-    others = [evidence for evidence in candidates if evidence not in analysis.ranked]
-    kinds = {"alternative": analysis.ranked, "sequence": analysis.sequence, "predicting": others}
+    others = [evidence for evidence in component.candidates if evidence not in analysis.ranked]
+    kinds: dict[str, Sequence[PulseEvidence]] = {
+        "alternative": analysis.ranked,
+        "sequence": analysis.sequence,
+        "predicting": others,
+    }
     for kind, pulses in kinds.items():
         for rank, evidence in enumerate(pulses, start=1):
-            yield PulseRow.of(
-                identity,
-                evidence,
-                evidence.pulse,
+            dominant = evidence is analysis.evidence and kind == "alternative"
+            pulse = evidence.pulse
+            yield PulseRow(
+                record=identity.record,
+                component=identity.component,
                 kind=kind,
                 rank=rank,
+                amplitude_m_s2=pulse.amplitude,
+                circular_frequency_rad_s=pulse.circular_frequency,
+                period_s=pulse.period,
+                start_time_s=pulse.start_time,
+                gain_m2_s3=evidence.gain,
                 gain_ratio=evidence.gain / analysis.evidence.gain,
-                flags=analysis.flags if evidence is analysis.evidence and kind == "alternative" else (),
+                explained_energy=evidence.explained_energy,
+                effective_length_m=evidence.effective_length,
+                flags=analysis.flags if dominant else (),
+                scale_factor=identity.scale_factor,
+                record_sha256=identity.record_sha256,
+                settings_sha256=identity.settings_sha256,
             )
 
 
-def comparison_row(identity: ComponentRow, case: "Case", friction_coefficient: float) -> ComparisonRow:
-    """Return the row of one case: the closed form beside the integration of the whole record."""
-    ratios = case.predicted_rotation_ratio, case.integrated_rotation_ratio
-    by_method = {RATIO_COLUMNS[method]: each.rotation_ratio for method, each in case.responses.items()}
+def comparison_row(identity: ComponentRow, case: "CaseResult", friction_coefficient: float) -> ComparisonRow:
+    """Return the row of one case that gave a result: the closed form beside the integration of the whole record."""
+    assert case.answer is not None
+    predicted = case.predicted_rotation_ratio
+    integrated = case.integrated_rotation_ratio
+    by_method = {method: response.rotation_ratio for method, response in case.responses.items()}
     prediction = case.prediction
+    response = case.response
     estimate = case.overturning_estimate
-    return ComparisonRow.of(
-        identity,
-        by_method,
-        case,
-        prediction,
-        case.responses.get(Method.MECHANISM_ON_RECORD),
-        case.check,
-        prediction_over_integration=ratio(*ratios),
-        prediction_in_words=ratio_in_words(*ratios),
-        within_factor_two=within_factor_two(*ratios),
-        agreement=agreement(*ratios),
-        regime=prediction and prediction.maximum.regime,
+    return ComparisonRow(
+        record=identity.record,
+        component=identity.component,
+        structure=case.structure,
+        predicted_rotation_ratio=predicted,
+        integrated_rotation_ratio=integrated,
+        prediction_over_integration=ratio(predicted, integrated),
+        prediction_in_words=ratio_in_words(predicted, integrated),
+        within_factor_two=within_factor_two(predicted, integrated),
+        agreement=agreement(predicted, integrated),
+        regime=prediction.maximum.regime if prediction else None,
+        printed_rotation_ratio=prediction.printed_rotation_ratio if prediction else math.nan,
+        block_on_record_rotation_ratio=by_method.get(Method.BLOCK_ON_RECORD, math.nan),
+        mechanism_on_pulse_rotation_ratio=by_method.get(Method.MECHANISM_ON_PULSE, math.nan),
+        pulse_rank=prediction.pulse_rank if prediction else None,
+        amplitude_ratio=prediction.amplitude_ratio if prediction else math.nan,
+        frequency_ratio=prediction.frequency_ratio if prediction else math.nan,
+        impacts=response.impacts if response else None,
+        peak_side=response.peak_side if response else None,
+        peak_time_s=response.peak_time if response else math.nan,
+        required_friction=case.check.required_friction,
         slides=case.check.slides(friction_coefficient),
-        overturning_estimate=estimate and estimate.share,
+        bounces=case.check.bounces,
+        ties=case.check.ties,
+        warning=response.warning if response else "",
+        answer_method=case.answer.method,
+        answer_outcome=case.answer.outcome,
+        answer_reason=case.answer.reason,
+        overturning_estimate=estimate.share if estimate else math.nan,
+        overturning_estimate_low=estimate.low if estimate else math.nan,
+        overturning_estimate_high=estimate.high if estimate else math.nan,
+        scale_factor=identity.scale_factor,
+        record_sha256=identity.record_sha256,
+        settings_sha256=identity.settings_sha256,
     )
 
 
 def ensemble_row(identity: ComponentRow, structure: str, ensemble: "Ensemble") -> EnsembleRow:
     """Return the row of one ensemble."""
-    return EnsembleRow.of(
-        identity,
-        ensemble,
-        ensemble.settings,
+    elsewhere = ensemble.elsewhere
+    return EnsembleRow(
+        record=identity.record,
+        component=identity.component,
         structure=structure,
+        verdict=ensemble.verdict,
+        overturning_members=ensemble.overturning_members,
+        members=ensemble.members,
+        overturning_share=ensemble.overturning_share,
+        crack=ensemble.crack,
+        elsewhere_crack=elsewhere.crack if elsewhere else "",
+        elsewhere_overturning_members=elsewhere.overturning_members if elsewhere else None,
+        elsewhere_members=elsewhere.members if elsewhere else None,
+        rotation_ratio_low=ensemble.rotation_ratio_low,
+        rotation_ratio_median=ensemble.rotation_ratio_median,
+        rotation_ratio_high=ensemble.rotation_ratio_high,
+        failed_members=ensemble.failed_members,
+        risk=ensemble.settings.risk,
+        amplitude_range=ensemble.settings.amplitude_range,
+        restitution_range=ensemble.settings.restitution_range,
         worst_direction=ensemble.worst("direction"),
-        worst_polarity={"1.0": "as recorded", "-1.0": "reversed"}.get(ensemble.worst("polarity"), ""),
+        worst_polarity=POLARITIES.get(ensemble.worst("polarity"), ""),
         worst_processing=ensemble.worst("processing"),
+        scale_factor=identity.scale_factor,
+        record_sha256=identity.record_sha256,
+        settings_sha256=identity.settings_sha256,
     )
 
 
-def history_rows(record: str, responses: Mapping[tuple[str, str], Response]) -> Iterator[HistoryRow]:
+def verdict_row(identity: ComponentRow, station: "StationResult") -> VerdictRow:
+    """Return what became of one structure. identity: of the component that rotates most."""
+    return VerdictRow(
+        record=identity.record,
+        component=station.component,
+        structure=station.structure,
+        verdict=station.verdict,
+        overturning_members=station.overturning_members,
+        members=station.members,
+        overturning_share=station.overturning_share,
+        crack=station.crack,
+        elsewhere_crack=station.elsewhere_crack,
+        elsewhere_overturning_members=station.elsewhere_overturning_members,
+        elsewhere_members=station.elsewhere_members,
+        rotation_ratio_low=station.rotation_ratio_low,
+        rotation_ratio_median=station.rotation_ratio_median,
+        rotation_ratio_high=station.rotation_ratio_high,
+        rotation_ratio=station.rotation_ratio,
+        direction=station.direction,
+        polarity=station.polarity,
+        peak_side=station.peak_side,
+        why=station.why,
+        scale_factor=identity.scale_factor,
+        record_sha256=identity.record_sha256,
+        settings_sha256=identity.settings_sha256,
+    )
+
+
+def variation_row(identity: ComponentRow, structure: str, variation: "Variation") -> VariationRow:
+    """Return the row of one case with another crack or another processing."""
+    return VariationRow(
+        record=identity.record,
+        component=identity.component,
+        structure=structure,
+        crack=variation.crack,
+        position_m=variation.position,
+        processing=variation.processing,
+        predicted_rotation_ratio=variation.predicted_rotation_ratio,
+        integrated_rotation_ratio=variation.integrated_rotation_ratio,
+        scale_factor=identity.scale_factor,
+        record_sha256=identity.record_sha256,
+        settings_sha256=identity.settings_sha256,
+    )
+
+
+def failure_row(record: str, component: str, structure: str, failure: "Failure") -> FailureRow:
+    """Return the row of what gave no result. component, structure: "" for all."""
+    return FailureRow(
+        record=record,
+        component=component,
+        structure=structure,
+        stage=failure.stage,
+        message=failure.message,
+    )
+
+
+def history_rows(record: str, responses: Mapping[tuple[str, str], "Response"]) -> Iterator[HistoryRow]:
     """Yield the history of each response by component and structure; of one without a history there are no rows."""
     for (component, structure), response in responses.items():
-        if response.times is not None:
-            for step in response.frame().to_dict("records"):
-                yield HistoryRow.of(record=record, component=component, structure=structure, **step)
+        if response.times is None or response.rotation is None or response.angular_velocity is None:
+            continue
+        steps = zip(
+            response.times.tolist(),
+            response.rotation.tolist(),
+            response.angular_velocity.tolist(),
+            strict=True,
+        )
+        for time, rotation, angular_velocity in steps:
+            yield HistoryRow(
+                record=record,
+                component=component,
+                structure=structure,
+                time_s=time,
+                rotation_rad=rotation,
+                angular_velocity_rad_s=angular_velocity,
+            )
+
+
+@dataclass(frozen=True)
+class RecordRows:
+    """The rows of every table of one record."""
+
+    record: Sequence[RecordRow] = ()
+    pulses: Sequence[PulseRow] = ()
+    comparison: Sequence[ComparisonRow] = ()
+    ensemble: Sequence[EnsembleRow] = ()
+    variations: Sequence[VariationRow] = ()
+    failures: Sequence[FailureRow] = ()
+    timings: Sequence[TimingRow] = ()
+    verdicts: Sequence[VerdictRow] = ()
+
+    @property
+    def tables(self) -> dict[type[Row], Sequence[Row]]:
+        """The rows by their class."""
+        return {
+            RecordRow: self.record,
+            PulseRow: self.pulses,
+            ComparisonRow: self.comparison,
+            EnsembleRow: self.ensemble,
+            VariationRow: self.variations,
+            FailureRow: self.failures,
+            TimingRow: self.timings,
+            VerdictRow: self.verdicts,
+        }
+
+    def write(self, folder: Path) -> None:
+        """Write every table into `folder`, all or none."""
+        with written_together():
+            write_tables(self.tables, folder)
+
+
+RECORD_TABLES: tuple[type[Row], ...] = tuple(RecordRows().tables)
+"""The rows of every table of one record."""
+
+
+def rows_of_record(
+    result: "RecordResult", settings_sha256: str = "", licence: str = "", friction_coefficient: float = 0.6
+) -> RecordRows:
+    """Return what the tables hold of a record.
+
+    settings_sha256: names settings, structures and package. friction_coefficient: beyond which a contact slides.
+    """
+    record = result.record
+    identities = [identity_of(record, each, settings_sha256) for each in result.accelerograms]
+    by_component = dict(zip(result.names, identities, strict=True))
+    comparison: list[ComparisonRow] = []
+    ensemble: list[EnsembleRow] = []
+    variations: list[VariationRow] = []
+    failures = [failure_row(record, component, "", failure) for component, failure in result.failures]
+    if identities:
+        by_component[BOTH_COMPONENTS] = replace(identities[0], component=BOTH_COMPONENTS)
+    for component, identity in by_component.items():
+        for case in result.cases(component):
+            if case.answer is not None:
+                comparison.append(comparison_row(identity, case, friction_coefficient))
+            if case.ensemble is not None:
+                ensemble.append(ensemble_row(identity, case.structure, case.ensemble))
+            variations += [variation_row(identity, case.structure, each) for each in case.variations]
+            failures += [
+                failure_row(record, identity.component, case.structure, each) for each in case.failures
+            ]
+    verdicts = [
+        verdict_row(by_component[station.worst.component] if station.worst else identities[0], station)
+        for station in result.stations.values()
+    ]
+    timings = [
+        TimingRow(record=record, stage=stage, duration_s=duration)
+        for stage, duration in result.durations.items()
+    ]
+    return RecordRows(
+        record=[
+            record_row(identity, component, licence)
+            for identity, component in zip(identities, result.components, strict=True)
+        ],
+        pulses=[
+            each
+            for identity, component in zip(identities, result.components, strict=True)
+            for each in pulse_rows(identity, component)
+        ],
+        comparison=comparison,
+        ensemble=ensemble,
+        variations=variations,
+        failures=failures,
+        timings=timings,
+        verdicts=verdicts,
+    )

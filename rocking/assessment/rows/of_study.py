@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rocking.assessment.fate import Fate
 from rocking.assessment.rows import of_record as rows
 from rocking.records import Accelerogram
 from rocking.structures import Structure
@@ -90,17 +89,19 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow
         mechanism = structure.mechanism()
         side = mechanism.positive
         linearised, uplift = mechanism.equivalent_block("linearised"), mechanism.equivalent_block("uplift")
-        yield StructureRow.of(
-            side,
-            structure,
+        yield StructureRow(
             structure=name,
             type=structure.type_name,
             geometry=structure.description,
             crack=structure.crack_name,
+            frequency_parameter_rad_s=side.frequency_parameter,
+            critical_rotation_rad=side.critical_rotation,
             uplift_multiplier=mechanism.uplift_multiplier,
+            static_multiplier=structure.static_multiplier,
             acceleration_scale_linearised=linearised.acceleration_scale,
             acceleration_scale_uplift=uplift.acceleration_scale,
             linearised_over_true_uplift=linearised.uplift_multiplier / side.uplift_multiplier,
+            restitution=side.restitution,
             restoring_defect=mechanism.block_defects.restoring,
             forcing_defect=mechanism.block_defects.forcing,
         )
@@ -112,15 +113,23 @@ def capacity_rows(structures: Mapping[str, Structure]) -> Iterator[CapacityRow]:
         both = {"positive": 1, "negative": -1}
         for side, sign in list(both.items())[: len(structure.mechanism().sides)]:
             curve = structure.capacity_curve(sign, CAPACITY_POINTS)
-            columns = {
-                "rotation_rad": curve.rotation.tolist(),
-                "multiplier": curve.multiplier.tolist(),
-                "displacement_m": curve.displacement.tolist(),
-                "effective_displacement_m": curve.effective_displacement.tolist(),
-            }
-            for values in zip(*columns.values(), strict=True):
-                point = dict(zip(columns, values, strict=True))
-                yield CapacityRow.of(point, curve, structure=name, side=side)
+            points = zip(
+                curve.rotation.tolist(),
+                curve.multiplier.tolist(),
+                curve.displacement.tolist(),
+                curve.effective_displacement.tolist(),
+                strict=True,
+            )
+            for rotation, multiplier, displacement, effective_displacement in points:
+                yield CapacityRow(
+                    structure=name,
+                    side=side,
+                    rotation_rad=rotation,
+                    multiplier=multiplier,
+                    displacement_m=displacement,
+                    effective_displacement_m=effective_displacement,
+                    participating_mass_ratio=curve.participating_mass_ratio,
+                )
 
 
 AGREEMENT_COLUMNS = (
@@ -167,12 +176,13 @@ def spectrum_rows(
         ratios = rocking_spectrum(accelerogram, frequency_parameters, uplift_multipliers, restitution)
         blocks = product(frequency_parameters.tolist(), uplift_multipliers.tolist())
         for (frequency, multiplier), ratio in zip(blocks, np.ravel(ratios).tolist(), strict=True):
-            yield SpectrumRow.of(
-                accelerogram,
+            yield SpectrumRow(
+                component=accelerogram.component,
                 frequency_parameter_rad_s=frequency,
                 uplift_multiplier=multiplier,
                 restitution=restitution,
                 rotation_ratio=ratio,
+                scale_factor=accelerogram.scale_factor,
                 record_sha256=accelerogram.source.sha256,
             )
 
@@ -182,7 +192,7 @@ SUMMARY_TABLES: tuple[type[Row], ...] = (
     rows.PulseRow,
     rows.ComparisonRow,
     rows.EnsembleRow,
-    Fate,
+    rows.VerdictRow,
     AgreementRow,
     StructureRow,
     CapacityRow,

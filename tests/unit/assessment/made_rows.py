@@ -1,14 +1,27 @@
-"""Rows of tables with what a test is about, else empty: the structure pier under record a, unless said.
+"""Results and rows with what a test is about, else empty: the structure pier under record a, unless said.
 
 And a structure that cannot be described.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, TypeVar
 
-from rocking.assessment.rows.of_record import ComparisonRow, EnsembleRow, FailureRow
-from rocking.assessment.verdict import Verdict
+import numpy as np
+
+from rocking.assessment.case import CaseResult, Failure, StationResult
+from rocking.assessment.ensemble import Ensemble
+from rocking.assessment.fidelity import Answer
+from rocking.assessment.rows.of_record import ComparisonRow, FailureRow, VerdictRow, identity_of, verdict_row
+from rocking.assessment.settings import EnsembleSettings
+from rocking.assessment.verdict import BOTH_COMPONENTS, Method
 from rocking.errors import StructureError
-from rocking.structures import Outcome
+from rocking.motion.response import Response
+from rocking.records import Accelerogram
+from rocking.structures import Block, Outcome
+from rocking.tables.row import Row, empty
+
+R = TypeVar("R", bound=Row)
 
 
 @dataclass(frozen=True)
@@ -17,19 +30,62 @@ class Impossible:
         raise StructureError("it cannot stand.")
 
 
-def case(component: str, ratio: float, structure: str = "pier", record: str = "a", **more) -> ComparisonRow:
-    ratios = {"integrated_rotation_ratio": ratio, "answer_outcome": Outcome.at(ratio), "answer_reason": ""}
-    return ComparisonRow.of(record=record, structure=structure, component=component, **ratios | more)
+def filled(row_class: type[R], **values: Any) -> R:
+    """A row of `values`; what is left out is empty."""
+    for each in row_class.table.columns:
+        if values.get(each.name) is None:
+            values[each.name] = empty(each)
+    return row_class(**values)
 
 
-def ensemble(component: str, verdict: Verdict, overturning: int, structure: str = "pier") -> EnsembleRow:
-    """Of 64 members."""
-    counts = {"overturning_members": overturning, "overturning_share": overturning / 64, "members": 64}
-    values = counts | {"verdict": verdict, "rotation_ratio_high": 0.5}
-    return EnsembleRow.of(record="a", structure=structure, component=component, **values)
+def case(component: str, ratio: float, structure: str = "pier", side: int = 0, falls: int | None = None):
+    """A case by the rotation ratio as recorded. falls: members that overturn, of 64; None: without an ensemble."""
+    outcome = Outcome.at(ratio)
+    response = Response(ratio, outcome, peak_side=side)
+    return CaseResult(
+        structure=structure,
+        component=component,
+        responses={Method.MECHANISM_ON_RECORD: response},
+        answer=Answer(Method.MECHANISM_ON_RECORD, outcome, "", response),
+        ensemble=None if falls is None else members(falls),
+    )
+
+
+def compared(component: str, ratio: float, structure: str = "pier", **more: Any) -> ComparisonRow:
+    """A row of the comparison by the rotation ratio of the integration."""
+    own = {"integrated_rotation_ratio": ratio, "answer_outcome": Outcome.at(ratio), "record": "a"}
+    return filled(ComparisonRow, component=component, structure=structure, **own | more)
+
+
+def members(falls: int, high: float = 0.5) -> Ensemble:
+    """Of 64, so many overturn, and the others rotate to `high`."""
+    return Ensemble(np.where(np.arange(64) < falls, np.inf, high), {}, EnsembleSettings())
+
+
+def broken(component: str, structure: str = "pier", message: str = "No.") -> CaseResult:
+    """A case that gave no result."""
+    return CaseResult(structure=structure, component=component, failures=(Failure("responses", message),))
+
+
+def station(*cases: CaseResult, falls_in_directions: int | None = None) -> StationResult:
+    """What became of a structure, from the cases of its components; with an ensemble over directions of 64."""
+    directions = None
+    if falls_in_directions is not None:
+        directions = replace(
+            CaseResult(structure=cases[0].structure, component=BOTH_COMPONENTS),
+            ensemble=members(falls_in_directions),
+        )
+    by_component = {each.component: each for each in cases}
+    return StationResult(cases[0].structure, Block(2.0, 0.2), by_component, directions)
+
+
+def verdicts(stations: Sequence[StationResult], record: str = "a") -> list[VerdictRow]:
+    """Their rows."""
+    identity = identity_of(record, Accelerogram(np.zeros(2), 0.01), "")
+    return [verdict_row(identity, each) for each in stations]
 
 
 def failure(component: str, structure: str = "pier", message: str = "No.", record: str = "a") -> FailureRow:
-    return FailureRow.of(
+    return FailureRow(
         record=record, component=component, structure=structure, stage="responses", message=message
     )

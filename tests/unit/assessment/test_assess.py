@@ -7,20 +7,21 @@ from time import process_time
 import numpy as np
 import pytest
 
-from rocking.assessment.assess import AssessmentSettings, Method, assess_structures, predict
+from rocking.assessment.assess import assess_case, assess_record, predict
+from rocking.assessment.case import CaseResult
+from rocking.assessment.component import Component, HorizontalMotion, component_of, horizontal_motions
 from rocking.assessment.rows.of_record import (
     RATIO_COLUMNS,
-    ComponentRow,
     comparison_row,
-    horizontal_motions,
+    identity_of,
     pulse_rows,
     record_row,
 )
 from rocking.assessment.rows.of_study import capacity_rows
-from rocking.assessment.settings import EnsembleSettings, PredictingPulse
-from rocking.assessment.verdict import NEGLIGIBLE, agreement, ratio, rests, within_factor_two
+from rocking.assessment.settings import AssessmentSettings, EnsembleSettings, PredictingPulse
+from rocking.assessment.verdict import NEGLIGIBLE, Method, agreement, ratio, rests, within_factor_two
 from rocking.motion import integrate
-from rocking.pulses import PULSE_METHODS, Pulse, extract_pulses
+from rocking.pulses import PULSE_METHODS, Pulse, PulseAnalysis, PulseEvidence, extract_pulses
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum, printed_maximum
 from rocking.structures import Block, Facade, Outcome
@@ -30,13 +31,18 @@ PULSE = Pulse(3.0, 2 * np.pi / 0.8, 2.0)
 RECORD = Accelerogram(PULSE.acceleration(np.arange(1000) * STEP), STEP, component="H1")
 BLOCK = Block(2.0, 0.2)
 SETTINGS = AssessmentSettings()
-IDENTITY = ComponentRow.of()
+IDENTITY = identity_of("made", RECORD, "")
 MOTION = Pulse(3.0, math.pi, 10.0).acceleration(np.arange(3000) * STEP)
 
 
+def assessed(record: Accelerogram, settings: AssessmentSettings = SETTINGS, vertical=None) -> CaseResult:
+    """The block under one component."""
+    return assess_case("block", BLOCK, component_of(record, settings.pulse, vertical), settings)
+
+
 @pytest.fixture(scope="module")
-def case():
-    return assess_structures(RECORD, {"block": BLOCK}, SETTINGS).cases[0]
+def case() -> CaseResult:
+    return assessed(RECORD)
 
 
 def test_a_record_that_is_one_pulse_is_predicted_by_its_pulse(case):
@@ -47,15 +53,15 @@ def test_a_record_that_is_one_pulse_is_predicted_by_its_pulse(case):
 
 def test_a_case_without_an_ensemble_alone_has_an_estimate_in_its_row(case):
     settings = AssessmentSettings(ensemble=EnsembleSettings(members=0))
-    (alone,) = assess_structures(RECORD, {"block": BLOCK}, settings).cases
+    alone = assessed(RECORD, settings)
     assert comparison_row(IDENTITY, alone, 0.6).overturning_estimate == alone.overturning_estimate.share
     assert math.isnan(comparison_row(IDENTITY, case, 0.6).overturning_estimate)
 
 
 def test_the_ranked_rows_of_pulses_are_the_alternatives_in_their_order():
-    analysis = extract_pulses(RECORD)
-    rows = [row for row in pulse_rows(IDENTITY, analysis, ()) if row.ranked]
-    assert [row.pulse for row in rows] == [evidence.pulse for evidence in analysis.ranked]
+    component = component_of(RECORD, SETTINGS.pulse)
+    rows = [row for row in pulse_rows(IDENTITY, component) if row.ranked]
+    assert [row.pulse for row in rows] == [evidence.pulse for evidence in component.analysis.ranked]
     assert [row.rank for row in rows] == list(range(1, len(rows) + 1)) and rows[0].gain_ratio == 1
 
 
@@ -78,21 +84,22 @@ def test_a_row_of_the_comparison_holds_what_each_method_says(case):
 
 def test_a_record_without_a_pulse_is_integrated_all_the_same():
     still = Accelerogram(np.zeros(1000), STEP)
-    assessment = assess_structures(still, {"block": BLOCK}, SETTINGS)
-    assert assessment.analysis is None
-    assert assessment.failures[0].stage == "pulses"
-    assert assessment.cases[0].prediction is None
-    assert assessment.cases[0].responses[Method.MECHANISM_ON_RECORD].outcome is Outcome.NO_UPLIFT
+    component = component_of(still, SETTINGS.pulse)
+    assert component.analysis is None and component.failure
+    rested = assessed(still)
+    assert rested.prediction is None
+    assert rested.responses[Method.MECHANISM_ON_RECORD].outcome is Outcome.NO_UPLIFT
 
 
 def test_what_is_timed_adds_up_to_no_more_than_was_spent(case):
     started = process_time()
-    assessment = assess_structures(RECORD, {"block": BLOCK, "stout": Block(2.0, 0.3)}, SETTINGS)
+    result = assess_record("made", [RECORD], {"block": BLOCK, "stout": Block(2.0, 0.3)})
     spent = process_time() - started
-    stages = [assessment.durations.pop(name) for name in ("pulses", "responses")]
+    durations = dict(result.durations)
+    stages = [durations.pop(name) for name in ("pulses", "responses", "variations")]
     assert min(stages) > 0 and sum(stages) <= spent
-    assert set(assessment.durations) == {*assessment.cases[0].responses, Method.CLOSED_FORM}
-    assert 0 < sum(assessment.durations.values()) <= stages[1]
+    assert set(durations) == {*case.responses, Method.CLOSED_FORM}
+    assert 0 < sum(durations.values()) <= stages[1]
     assert case.prediction.pulse == extract_pulses(RECORD).dominant, "which predicts by default"
 
 
@@ -119,16 +126,16 @@ def test_a_pulse_method_that_finds_nothing_costs_no_integration():
     # 1.1 s of record hold a sine of 0.5 s, but no wavelet of T_p = 0.24 s, which is 1.19 s long
     short = Accelerogram(Pulse(3.0, 4 * np.pi, 0.3).acceleration(np.arange(110) * STEP), STEP)
     settings = AssessmentSettings(pulse=PredictingPulse(choice="velocity"))
-    assessment = assess_structures(short, {"block": BLOCK}, settings)
-    assert [failure.stage for failure in assessment.failures] == ["pulses"]
-    assert assessment.cases[0].prediction is None and assessment.analysis is not None
-    assert assessment.cases[0].responses[Method.MECHANISM_ON_RECORD].rotation_ratio > 0
+    component = component_of(short, settings.pulse)
+    assert component.failure and component.analysis is not None
+    integrated = assessed(short, settings)
+    assert integrated.prediction is None and integrated.integrated_rotation_ratio > 0
 
 
 def test_a_steady_vertical_acceleration_scales_gravity(case):
     # −0.2 g for the whole record: λ and p² fall by a fifth, so what 0.8 of the motion does to a block of 0.8 g is done.
     vertical = Accelerogram(np.full(1000, -0.2 * 9.80665), STEP)
-    (lifted,) = assess_structures(RECORD, {"block": BLOCK}, SETTINGS, vertical).cases
+    lifted = assessed(RECORD, vertical=vertical)
     assert lifted.integrated_rotation_ratio > case.integrated_rotation_ratio
 
 
@@ -163,6 +170,15 @@ def test_ratio_is_known_only_where_both_are_lifted_and_stay_up():
     assert math.isnan(ratio(0.2, 0.0))
 
 
+def row_of(record: Accelerogram, motion: HorizontalMotion, dominant: Pulse | None, vertical=None):
+    """The row of a record whose dominant pulse is `dominant`."""
+    analysis = None
+    if dominant is not None:
+        evidence = PulseEvidence(dominant, 1.0, 0.5, 0.0)
+        analysis = PulseAnalysis(record, (evidence,), (), record.acceleration, (), (0.1, 5.0))
+    return record_row(IDENTITY, Component(record, vertical, motion, analysis, ()), "")
+
+
 def component(share: float, name: str, azimuth: float | None = None, **changes) -> Accelerogram:
     return replace(Accelerogram(share * MOTION, STEP, name, azimuth=azimuth), **changes)
 
@@ -174,12 +190,12 @@ def test_a_pair_has_one_motion_and_its_axis_from_north():
     assert one.velocity_pulse_azimuth == pytest.approx(math.degrees(0.3))
     assert one.velocity_pulse.orientation == pytest.approx(0.3)
     assert one.rotd.rotd100 == pytest.approx(3.0, rel=1e-3)
-    written = record_row(IDENTITY, north, "", None, one, Pulse(1.0, math.pi))
+    written = row_of(north, one, Pulse(1.0, math.pi))
     assert written.rotd50_peak_acceleration_m_s2 == one.rotd.rotd50
     assert written.rotd100_peak_acceleration_m_s2 == one.rotd.rotd100
     assert written.pulse_periods_unlike is one.velocity_pulse.is_unlike(Pulse(1.0, math.pi))
     assert written.pulse_period_ratio == pytest.approx(2.0 / one.velocity_pulse.period)
-    alone = record_row(IDENTITY, north, "", component(0.1, ""), horizontal_motions([north])[0], None)
+    alone = row_of(north, horizontal_motions([north])[0], None, vertical=component(0.1, ""))
     assert math.isnan(alone.rotd100_peak_acceleration_m_s2) and math.isnan(alone.pulse_period_ratio)
     assert alone.vertical_component == "not named"
 
@@ -201,7 +217,7 @@ def test_a_still_or_short_record_has_no_velocity_pulse():
     for short in (Accelerogram(np.zeros(3000), STEP), Accelerogram(np.ones(50), STEP)):
         (motion,) = horizontal_motions([short])
         assert motion.velocity_pulse is None and motion.velocity_pulse_azimuth is None
-        assert record_row(IDENTITY, short, "", None, motion, Pulse(1.0, 1.0)).pulse_periods_unlike is None
+        assert row_of(short, motion, Pulse(1.0, 1.0)).pulse_periods_unlike is None
 
 
 def test_periods_more_than_a_factor_2_apart_are_unlike():

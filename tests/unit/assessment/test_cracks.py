@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import rocking
-from rocking.assessment.assess import assess_structures
+from rocking.assessment.assess import assess_case
+from rocking.assessment.component import component_of
 from rocking.assessment.ensemble import GroundMotions, ensemble, processed
 from rocking.assessment.fragility import fragility
 from rocking.assessment.settings import AssessmentSettings
@@ -83,7 +84,8 @@ def test_auto_rests_only_where_every_crack_does():
     given = WALL.mechanism().uplift_multiplier
     assert WALL.static_multiplier < 0.999 * given
     motion = record(0.5 * (given + WALL.static_multiplier) * 9.80665)
-    (case,) = assess_structures(motion, {"wall": WALL}, AssessmentSettings(fidelity="auto"), alone=True).cases
+    settings = AssessmentSettings(fidelity="auto")
+    case = assess_case("wall", WALL, component_of(motion, settings.pulse), settings)
     assert case.answer.reason != "the ground never reaches the uplift acceleration"
 
 

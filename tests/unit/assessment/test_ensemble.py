@@ -301,8 +301,7 @@ def test_an_assessment_goes_to_another_process_and_back(structure):
     for again in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result)):
         assert again.verdict is result.verdict
         assert np.array_equal(again.rotation_ratios, result.rotation_ratios)
-        (case,) = again.cases.values()
-        assert assess(_record(4.0), case.mechanism, members=16).rotation_ratio == result.rotation_ratio
+        assert assess(_record(4.0), again.mechanism, members=16).rotation_ratio == result.rotation_ratio
 
 
 def test_an_ensemble_grows_where_more_members_may_decide():

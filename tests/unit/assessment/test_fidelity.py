@@ -7,11 +7,12 @@ import pytest
 from scipy.constants import g
 
 from rocking.assessment import fidelity
-from rocking.assessment.assess import AssessmentSettings, Method, assess_structures
+from rocking.assessment.assess import assess_case
+from rocking.assessment.component import component_of
 from rocking.assessment.ensemble import GroundMotions, ensemble
 from rocking.assessment.fidelity import NUDGES, Tier, cheapest_answer, estimated, read_tiers, stays_at_rest
-from rocking.assessment.settings import EnsembleSettings
-from rocking.assessment.verdict import Verdict
+from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
+from rocking.assessment.verdict import Method, Verdict
 from rocking.motion.integration import integrate
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
@@ -74,7 +75,8 @@ def test_where_an_ensemble_would_follow_the_block_may_settle_it():
     assert ensemble(MECHANISM, GroundMotions.of(motion)).verdict is Verdict.STANDS
     falls = cheapest_answer(MECHANISM, record(40.0), ensemble_follows=True, risk=0.1)
     assert falls.method is Method.BLOCK_ON_RECORD and falls.outcome is Outcome.OVERTURNS
-    (case,) = assess_structures(motion, {"block": BLOCK}, AssessmentSettings(fidelity="auto")).cases
+    settings = AssessmentSettings(fidelity="auto")
+    case = assess_case("block", BLOCK, component_of(motion, settings.pulse), settings)
     assert case.answer.method is Method.BLOCK_ON_RECORD and case.ensemble is None
 
 
@@ -102,7 +104,7 @@ def test_a_block_unlike_its_mechanism_settles_nothing_and_gets_no_estimate():
     answer = cheapest_answer(mechanism, strong, ensemble_follows=True)
     assert answer.method is Method.MECHANISM_ON_RECORD
     settings = AssessmentSettings(fidelity="auto", ensemble=EnsembleSettings(members=0))
-    (case,) = assess_structures(strong, {"tied": tied}, settings).cases
+    case = assess_case("tied", tied, component_of(strong, settings.pulse), settings)
     assert case.overturning_estimate is None
 
 

@@ -3,37 +3,39 @@
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 from html import unescape
 
 import numpy as np
 import pytest
 
-from rocking.assessment.assess import AssessmentSettings, assess_structures
-from rocking.assessment.ensemble import processed
-from rocking.assessment.fate import Fate, RecordTables
+from rocking.assessment.assess import Extent, assess_record
+from rocking.assessment.case import StationResult
+from rocking.assessment.component import horizontal_motions
 from rocking.assessment.rows.of_record import (
     ComparisonRow,
     FailureRow,
     PulseRow,
     RecordRow,
-    VariationRow,
-    horizontal_motions,
-    identity_of,
+    RecordRows,
+    VerdictRow,
+    rows_of_record,
 )
 from rocking.assessment.rows.of_study import AgreementRow, StructureRow, agreement_rows, structure_rows
-from rocking.assessment.variations import candidates, processed_variants
-from rocking.assessment.verdict import Method, Verdict
+from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.verdict import Verdict
 from rocking.pulses import Pulse
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.reports.record import RecordReport
 from rocking.structures import Arch, Block, Wall
 from rocking.tables import frame
+from tests.unit.assessment.made_rows import case, station
 
 SUMMARISED = {
     "record": RecordRow,
     "pulses": PulseRow,
     "comparison": ComparisonRow,
-    "verdicts": Fate,
+    "verdicts": VerdictRow,
     "failures": FailureRow,
 }
 ASSESSMENT = AssessmentSettings()
@@ -58,10 +60,10 @@ def pages(document: bytes) -> list[list[Word]]:
     ]
 
 
-def fate(verdict: Verdict, rotation_ratio: float, **more) -> Fate:
+def judged(verdict: Verdict, rotation_ratio: float, structure: str = "", peak_side: int = 1) -> StationResult:
     """What became of a structure, by its verdict and the rotation ratio as given."""
-    values = {"record": "one", "component": "EW", "overturning_members": 0, "members": 0, "peak_side": 1}
-    return Fate.of(verdict=verdict, rotation_ratio=rotation_ratio, **values | more)
+    falls = {Verdict.STANDS: 0, Verdict.OVERTURNS: 64, Verdict.UNDECIDED: 32}[verdict]
+    return station(case("EW", rotation_ratio, structure, peak_side, falls=falls))
 
 
 def shaken(component: str = "EW", scale_factor: float = 1.0, **identity) -> Accelerogram:
@@ -76,24 +78,30 @@ def shaken(component: str = "EW", scale_factor: float = 1.0, **identity) -> Acce
 
 
 def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[str, object]) -> RecordReport:
-    """Compute every table of `record` and return its report."""
-    tables, responses = RecordTables(), {}
-    for accelerogram in accelerograms:
-        computed = assess_structures(accelerogram, structures, ASSESSMENT)
-        identity = identity_of(record, accelerogram, "cd" * 32)
-        tables.add(identity, computed, ASSESSMENT, "CC0-1.0", None, horizontal_motions([accelerogram])[0])
-        for case in computed.cases:
-            responses[accelerogram.component, case.structure] = case.responses[Method.MECHANISM_ON_RECORD]
-        records = processed(accelerogram)
-        pulse = computed.analysis.dominant if computed.analysis else None
-        for name, structure in structures.items():
-            varied = candidates(structure, accelerogram, pulse, 7, ASSESSMENT)
-            varied += processed_variants({name: structure}, records, ASSESSMENT)[name]
-            tables.variations.extend(VariationRow.of(identity, each, structure=name) for each in varied)
-    return RecordReport(record, accelerograms, structures, tables, SETTINGS, responses)
+    """Compute every table of `record`, each component for itself, and return its report."""
+    extent = Extent(ASSESSMENT, crack_heights=7, processing_variants=True)
+    result = assess_record(
+        record, accelerograms, structures, extent, motions=horizontal_motions(accelerograms)
+    )
+    rows = rows_of_record(result, "cd" * 32, "CC0-1.0")
+    return RecordReport(result, rows, structures, SETTINGS)
 
 
-def summarised(tables: RecordTables, structures: dict[str, object]) -> dict[str, object]:
+def of_structures(report: RecordReport, kinds: dict[str, str], record: str = "one") -> RecordReport:
+    """The report with other structures: by name the one of the report whose results it has."""
+    stations = {}
+    for name, kind in kinds.items():
+        source = report.result.stations[kind]
+        cases = {component: replace(each, structure=name) for component, each in source.cases.items()}
+        stations[name] = replace(source, structure=name, cases=cases)
+    result = replace(report.result, record=record, stations=stations)
+    rows = rows_of_record(result, "cd" * 32, "CC0-1.0")
+    return RecordReport(
+        result, rows, {name: report.structures[kind] for name, kind in kinds.items()}, SETTINGS
+    )
+
+
+def summarised(tables: RecordRows, structures: dict[str, object]) -> dict[str, object]:
     """Return the summary tables of one record as data frames."""
     tables_of_study = {
         name: frame(rows_class, getattr(tables, name)) for name, rows_class in SUMMARISED.items()

@@ -14,7 +14,7 @@ from rocking.records.measures import record_measures
 from rocking.reports.drawings import draw_structure, fallen_rotation
 from rocking.reports.record_figures import (
     History,
-    Motion,
+    Trace,
     comparison_figure,
     drawn_rotation,
     ground_figure,
@@ -24,9 +24,9 @@ from rocking.reports.record_figures import (
 )
 from rocking.reports.style import MOST_POINTS, TEXT_WIDTH, thinned
 from rocking.structures import Arch, Block, LoadedWall, Wall
-from tests.unit.assessment.made_rows import case
+from tests.unit.assessment.made_rows import compared
 
-from .conftest import fate
+from .conftest import judged
 
 STRUCTURES = [Block.of_size(1.0, 4.0), Wall(1.6, 1.4, 0.4), Arch(10, 1.5, 2.75)]
 
@@ -50,10 +50,10 @@ def test_a_structure_is_drawn_as_its_outline():
 
 def test_page_one_draws_a_structure_as_it_fell_rocked_or_stands():
     block, critical = STRUCTURES[0], STRUCTURES[0].mechanism().critical_rotation
-    assert drawn_rotation(block, fate(Verdict.STANDS, 0.0)) == 0
-    assert drawn_rotation(block, fate(Verdict.STANDS, 0.4, peak_side=-1)) == pytest.approx(-0.4 * critical)
-    assert drawn_rotation(block, fate(Verdict.OVERTURNS, math.inf)) > critical
-    assert drawn_rotation(block, fate(Verdict.UNDECIDED, math.inf, peak_side=-1)) < -critical
+    assert drawn_rotation(block, judged(Verdict.STANDS, 0.0)) == 0
+    assert drawn_rotation(block, judged(Verdict.STANDS, 0.4, peak_side=-1)) == pytest.approx(-0.4 * critical)
+    assert drawn_rotation(block, judged(Verdict.OVERTURNS, math.inf)) > critical
+    assert drawn_rotation(block, judged(Verdict.UNDECIDED, math.inf, peak_side=-1)) < -critical
 
 
 def test_a_thinned_trace_keeps_its_peaks_and_few_points():
@@ -71,7 +71,7 @@ def test_a_wall_is_drawn_as_fallen_by_the_rotation_of_the_side_it_falls_to():
     assert away.critical_rotation != pytest.approx(back.critical_rotation, rel=0.1)
     share = fallen_rotation(wall, 1) / away.critical_rotation
     assert fallen_rotation(wall, -1) == pytest.approx(-share * back.critical_rotation, rel=1e-12)
-    inwards = fate(Verdict.STANDS, 0.4, peak_side=-1, structure="wall")
+    inwards = judged(Verdict.STANDS, 0.4, peak_side=-1, structure="wall")
     assert drawn_rotation(wall, inwards) == pytest.approx(-0.4 * back.critical_rotation, rel=1e-12)
     (axes,) = strip_figure([inwards], {"wall": wall}, {"wall": "wall"}, 0.3).axes
     assert any("inwards" in text.get_text() for text in axes.texts)
@@ -80,7 +80,7 @@ def test_a_wall_is_drawn_as_fallen_by_the_rotation_of_the_side_it_falls_to():
 def test_the_map_of_energy_is_darkest_where_the_pulse_begins_and_marks_it_there():
     pulse = Pulse(4.0, 2 * np.pi / 0.9, 5.0)
     record = Accelerogram(pulse.acceleration(np.arange(3000) * 0.01), 0.01)
-    energy = pulses_figure([Motion(record, [pulse])]).axes[1]
+    energy = pulses_figure([Trace(record, [pulse])]).axes[1]
     (picture,) = energy.images
     gains, (left, right, low, high) = picture.get_array(), picture.get_extent()
     row, column = np.unravel_index(gains.argmax(), gains.shape)
@@ -96,8 +96,8 @@ def test_each_history_fills_its_row_in_the_order_of_the_names(example):
     times, ratios = np.arange(4.0), np.array([0.0, 0.4, -0.2, 0.0])
     rows = [
         History(
-            fate(Verdict.STANDS, 0.4, structure=name),
-            case("EW", 0.4, predicted_rotation_ratio=0.2),
+            judged(Verdict.STANDS, 0.4, structure=name),
+            compared("EW", 0.4, predicted_rotation_ratio=0.2),
             times,
             ratios,
         )
@@ -113,8 +113,8 @@ def test_each_history_fills_its_row_in_the_order_of_the_names(example):
 
 def test_a_prediction_that_misses_the_overturning_is_bold_and_overturning_in_the_picture():
     cases = [
-        case("EW", 0.3, predicted_rotation_ratio=0.4, agreement=Agreement.SAME),
-        case("NS", math.inf, predicted_rotation_ratio=0.1, agreement=Agreement.TOO_LOW),
+        compared("EW", 0.3, predicted_rotation_ratio=0.4, agreement=Agreement.SAME),
+        compared("NS", math.inf, predicted_rotation_ratio=0.1, agreement=Agreement.TOO_LOW),
     ]
     panel = comparison_figure(cases, {"pier": "pier"}, several=True).axes[0]
     bold = max(panel.collections, key=lambda each: each.get_linewidth()[0])
@@ -131,7 +131,7 @@ def test_every_panel_stands_in_its_figure_and_shows_all_of_what_it_draws(example
     margin = 0.15 * (end - begin)
     assert motion.span == pytest.approx((max(0.0, begin - margin), end + margin))
     several = [motion, motion]
-    strip = strip_figure(example.fates, example.structures, example.labels, example.peak_acceleration)
+    strip = strip_figure(example.stations, example.structures, example.labels, example.peak_acceleration)
     for figure in (ground_figure(several), pulses_figure(several), strip):
         assert figure.get_figwidth() * 25.4 == pytest.approx(TEXT_WIDTH)
         boxes = [axes.get_position() for axes in figure.axes]

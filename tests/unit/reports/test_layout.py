@@ -1,15 +1,14 @@
 """How a report falls onto pages: no table torn after a row or three, no page nearly empty."""
 
 import itertools
-from dataclasses import replace
 
 import pytest
 
-from rocking.assessment.fate import RecordTables
+from rocking.assessment.rows.of_record import RecordRows
 from rocking.reports.document import compile_document
 from rocking.reports.summary import summary_report
 
-from .conftest import SETTINGS, SUMMARISED, Word, pages, summarised
+from .conftest import SETTINGS, SUMMARISED, Word, of_structures, pages, summarised
 
 TEMPLATE = """
 #import "layout.typ": data, document-page, ruled
@@ -72,18 +71,7 @@ def test_no_table_goes_on_over_a_page_after_one_row(count, tmp_path):
 def test_the_report_of_a_record_is_well_laid(example, count):
     """With names of 60 characters too."""
     names = sixty("structure", count)
-    rows = {
-        table: [
-            replace(row, structure=name)
-            for name in names
-            for row in getattr(example.tables, table)
-            if row.structure == "wall 3 m"
-        ]
-        for table in ("comparison", "ensemble", "variations")
-    }
-    structures = dict.fromkeys(names, example.structures["wall 3 m"])
-    tables = replace(example.tables, **rows)
-    document = replace(example, structures=structures, tables=tables).pdf()
+    document = of_structures(example, dict.fromkeys(names, "wall 3 m")).pdf()
     words = [word[4] for page in assert_well_laid(document) for word in page]
     numbers = {after for word, after in itertools.pairwise(words) if word == "Table" and after.endswith(".")}
     assert numbers == {f"{number}." for number in range(1, 6)}, "each table has a number of its own"
@@ -94,13 +82,10 @@ def test_the_summary_is_well_laid(example, count, records):
     """Structures that overturn, rock and rest in turn, under one record and under many."""
     names, kinds = sixty("structure", count), list(example.structures)
     kind = {name: kinds[place % len(kinds)] for place, name in enumerate(names)}
-    tables = RecordTables()
-    for record in sixty("record", records):
-        for table in SUMMARISED:
-            for row in getattr(example.tables, table):
-                own = [{"structure": name} for name in names if kind[name] == getattr(row, "structure", "")]
-                own = own if hasattr(row, "structure") else [{}]
-                getattr(tables, table).extend(replace(row, record=record, **each) for each in own)
+    rows = [of_structures(example, kind, record).tables for record in sixty("record", records)]
+    tables = RecordRows(
+        **{table: [row for each in rows for row in getattr(each, table)] for table in SUMMARISED}
+    )
     structures = {name: example.structures[kind[name]] for name in names}
     document = assert_well_laid(summary_report(summarised(tables, structures), SETTINGS))
     rows = [sum(word[4] == "transept," for word in page) for page in document]

@@ -13,7 +13,7 @@ from rocking.reports.record import RecordReport, failure_report
 from rocking.structures import Block
 from rocking.tables import cell
 
-from .conftest import HOSTILE, assessed, pages, shaken
+from .conftest import HOSTILE, assessed, of_structures, pages, shaken
 
 NUMBER = re.compile(r"[−-]?\d+(?:\.\d+)?(?:×10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
 CSV_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
@@ -155,12 +155,7 @@ def test_nothing_that_lifts_no_structure_and_no_pulse_are_told_first():
 
 def test_of_a_hundred_structures_all_are_in_the_tables_and_few_are_drawn(example):
     names = [f"block {place}" for place in range(100)]
-    repeated = [replace(example.tables.comparison[0], structure=each) for each in names]
-    tables = replace(example.tables, comparison=repeated, ensemble=[], variations=[])
-    structures = dict.fromkeys(names, example.structures["block 4 m"])
-    response = example.responses[example.tables.comparison[0].case]
-    responses = {("EW", name): response for name in names}
-    data = replace(example, structures=structures, tables=tables, responses=responses).data()
+    data = of_structures(example, dict.fromkeys(names, "block 4 m")).data()
     assert len(data["verdicts"]["rows"]) == len(data["methods"]["rows"]) == 100
     assert "and 88 others" in data["headlines"][0]["names"]
     assert "Another 90 structures" in data["histories-note"]

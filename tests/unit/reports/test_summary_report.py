@@ -6,21 +6,20 @@ from dataclasses import replace
 import pandas
 import pytest
 
-from rocking.assessment.fate import BOTH_COMPONENTS, RecordTables
 from rocking.assessment.intensity import INTENSITY_MEASURES
 from rocking.assessment.rows.of_fragility import FragilityRow, FragilitySummaryRow
 from rocking.assessment.rows.of_record import (
     ComparisonRow,
-    EnsembleRow,
     FailureRow,
     RecordRow,
+    RecordRows,
     TimingRow,
+    VerdictRow,
 )
 from rocking.assessment.rows.of_study import agreement_rows
 from rocking.assessment.verdict import (
     Agreement,
     Method,
-    Verdict,
     agreement,
     ratio,
     ratio_in_words,
@@ -31,13 +30,16 @@ from rocking.reports.style import svg
 from rocking.reports.summary import prediction_scatter, summary_data, summary_report
 from rocking.structures import Outcome
 from rocking.tables import frame
+from tests.unit.assessment.made_rows import case as run
+from tests.unit.assessment.made_rows import filled, station, verdicts
 
 from .conftest import SETTINGS, summarised
 
 
 def case(structure: str, predicted: float, integrated: float, record: str = "one") -> ComparisonRow:
     """One row of the comparison table."""
-    return ComparisonRow.of(
+    return filled(
+        ComparisonRow,
         record=record,
         component="EW",
         structure=structure,
@@ -63,7 +65,7 @@ CASES = [
 
 
 def summary_tables(comparison, **tables):
-    return summarised(RecordTables(comparison=comparison, **tables), {})
+    return summarised(RecordRows(comparison=comparison, **tables), {})
 
 
 def test_agreement_counts_all_and_each_structure():
@@ -77,36 +79,37 @@ def test_agreement_counts_all_and_each_structure():
     assert next(agreement_rows(frame(ComparisonRow, more))).median_ratio == 1.25  # of 1/7, 5/4 and 8
 
 
-def ensemble(record: str, structure: str, overturning: int, verdict: Verdict, component="EW") -> EnsembleRow:
-    """One row of the ensemble table, of 64 members."""
-    case = {"record": record, "structure": structure, "component": component, "scale_factor": 1.0}
-    members = {"overturning_members": overturning, "members": 64, "overturning_share": overturning / 64}
-    band = {"rotation_ratio_low": 0.4, "rotation_ratio_high": 0.4}
-    return EnsembleRow.of(case, members, band, verdict=verdict, failed_members=0)
+def verdict(
+    record: str, structure: str, ratio: float, falls: int, in_directions: int | None = None
+) -> VerdictRow:
+    """The row of a structure by the rotation ratio as recorded and the members that overturn, of 64."""
+    result = station(run("EW", ratio, structure, falls=falls), falls_in_directions=in_directions)
+    return verdicts([result], record)[0]
 
 
 def test_the_summary_counts_the_verdicts_of_each_structure_and_names_its_worst_record():
-    ensembles = [
-        ensemble("one", "pier", 64, Verdict.OVERTURNS),
-        ensemble("one", "pier", 20, Verdict.UNDECIDED, BOTH_COMPONENTS),
-        ensemble("two", "arch", 0, Verdict.STANDS),
-        ensemble("two", "wall", 63, Verdict.OVERTURNS),
-        ensemble("three", "wall", 12, Verdict.UNDECIDED),
+    judged = [
+        verdict("one", "pier", math.inf, 64, in_directions=20),
+        verdict("two", "arch", 0.8, 0),
+        verdict("two", "wall", math.inf, 64),
+        verdict("three", "wall", 0.7, 12),
     ]
-    data = summary_data(summary_tables(CASES, ensemble=ensembles), SETTINGS)
+    data = summary_data(summary_tables(CASES, verdicts=judged), SETTINGS)
     rows = {row[0]["text"]: row[1:] for row in data["structures"]["rows"]}
-    assert rows["wall"][:5] == ["1", "1", "0", "two", "63 of 64"]
-    assert rows["pier"][3:] == ["one", "20 of 64", "overturns", "0.40"]
+    assert rows["wall"][:5] == ["1", "1", "0", "two", "64 of 64"]
+    assert rows["pier"][3:] == ["one", "20 of 64", "overturns", "0.50 – overturns"]
 
 
 def test_the_map_holds_sign_and_share_with_the_worst_record_and_structure_first():
-    ensembles = [ensemble("two", "wall", 63, Verdict.OVERTURNS), ensemble("three", "wall", 0, Verdict.STANDS)]
-    content = summary_data(summary_tables(CASES, ensemble=ensembles), SETTINGS)["map"]
+    alone = verdicts([station(run("EW", math.inf, "pier"))], "one")
+    alone += verdicts([station(run("EW", 0.8, "arch"))], "two")
+    judged = [*alone, verdict("two", "wall", math.inf, 60), verdict("three", "wall", 0.7, 0)]
+    content = summary_data(summary_tables(CASES, verdicts=judged), SETTINGS)["map"]
     assert content["heads"] == ["pier", "wall", "arch"]
     assert [row["record"] for row in content["rows"]] == ["one", "two", "three"]
     assert [[cell["text"] for cell in row["cells"]] for row in content["rows"]] == [
         ["▲", "–", "–"],
-        ["–", "▲ 98", "● 0.80"],
+        ["–", "? 94", "● 0.80"],
         ["–", "● 0", "–"],
     ]
 
@@ -125,7 +128,7 @@ def test_each_method_is_held_against_the_integration_with_what_it_took(example):
 
 
 def test_a_study_without_a_readable_record_says_so_first():
-    failure = FailureRow.of(record="bad", stage="read", message="bad.at2: is empty.")
+    failure = filled(FailureRow, record="bad", stage="read", message="bad.at2: is empty.")
     tables = summary_tables([], failures=[failure])
     assert "No record could be read" in summary_data(tables, SETTINGS)["notices"][0]["text"]
     assert summary_report(tables, SETTINGS).startswith(b"%PDF")
@@ -142,7 +145,7 @@ def test_long_lists_are_cut_and_say_how_much_was_left_out():
     assert {row.agreement for row in unsafe} == {Agreement.TOO_LOW}
     fallen = [case("wall", 0.1, math.inf, "fallen")]
     names = [f"r{place}" for place in range(250)]
-    records = [RecordRow.of(record=each, component="EW", scale_factor=2.0, samples=1) for each in names]
+    records = [filled(RecordRow, record=each, component="EW", scale_factor=2.0, samples=1) for each in names]
     data = summary_data(summary_tables([*unsafe, *fallen], record=records), SETTINGS)
     names = [row[0] for row in data["unsafe"]["rows"]]
     assert names[0] == "fallen" and len(names) == 20
@@ -182,14 +185,12 @@ FRAGILITY = {
     "fragility": frame(
         FragilityRow,
         [
-            FragilityRow.of(
-                {"governing": governing}, PIER, level=level, probability=level, probability_low=0.0
-            )
+            filled(FragilityRow, **PIER | {"governing": governing, "level": level, "probability": level})
             for governing in (False, True)
             for level in (0.1, 0.2, 0.4)
         ],
     ),
-    "fragility_summary": frame(FragilitySummaryRow, [FragilitySummaryRow.of(PIER, MEDIAN)]),
+    "fragility_summary": frame(FragilitySummaryRow, [filled(FragilitySummaryRow, **PIER, **MEDIAN)]),
 }
 
 

@@ -17,6 +17,7 @@ import yaml
 
 import rocking
 from rocking.errors import ConfigurationError
+from rocking.structures import load_structures
 from rocking.study.cli import main
 from rocking.study.plan import check_config_file, make_plan, workflow_folder
 from rocking.tables.yaml_file import scalar_value
@@ -94,7 +95,29 @@ def test_assess_tells_overturning_from_no_uplift(record, blocks, capsys):
     """Peak 0.5 g: below the uplift at tan α = 1 of the squat block, far above that of the slender one (1/6)."""
     assert main(["assess", str(record), str(blocks), "--unit", "g"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert [line.split(": ")[1].split(";")[0] for line in lines] == ["overturns", "no uplift"]
+    told = [line.split(": ")[1].split(";")[0] for line in lines]
+    assert told == ["overturns", "overturns", "stands", "no uplift"], "verdict, then the component by itself"
+
+
+def test_terminal_tables_and_python_say_the_same_of_every_shipped_structure(tmp_path, capsys):
+    """Under the shipped record of two components, of which eight directions make one ensemble."""
+    shipped = ROOT / "records" / "20161113_110259_WTMC_20.V2A"
+    structures = ROOT / "workflow" / "structures.yaml"
+    assert main(["assess", str(shipped), str(structures), "--output", str(tmp_path)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    table = rows(tmp_path / "20161113_110259_WTMC_20" / "verdicts.csv")
+    first, second, _ = rocking.read(shipped)
+    bodies = load_structures(structures)
+    assert {row["structure"] for row in table} == set(bodies)
+    for row in table:
+        name, verdict = row["structure"], row["verdict"]
+        assert any(line.startswith(f"{name}: {verdict}; ") for line in lines)
+        assessment = rocking.assess([first, second], bodies[name])
+        assert (assessment.verdict, str(assessment.overturning_members)) == (
+            verdict,
+            row["overturning_members"],
+        )
+        assert assessment.leaning == "" or f"{name}: {verdict}; {assessment.leaning}" in lines
 
 
 def test_assess_opens_a_file_once_and_writes_report_and_tables_like_a_study(

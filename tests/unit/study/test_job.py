@@ -12,20 +12,26 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assess import assess
-from rocking.assessment.fate import PER_RECORD
-from rocking.assessment.rows.of_record import ComparisonRow, FailureRow, HistoryRow, PulseRow
+from rocking.assessment.rows.of_record import (
+    RECORD_TABLES,
+    ComparisonRow,
+    FailureRow,
+    HistoryRow,
+    PulseRow,
+    RecordRows,
+)
 from rocking.assessment.rows.of_study import TradeMethod, TradeRow
 from rocking.motion import integrate
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SHIPPED, SyntheticRecord, at2_text
 from rocking.structures import Block
-from rocking.study.job import Study, assess_record, run_job
+from rocking.study.job import Study, assess_catalogued, rows_of, run_job
 from rocking.study.results import Results, page_contents, part
 from rocking.study.settings import Settings, StudyTrade
 from rocking.study.summary import summarise, write_summary
 from rocking.tables import csv_lines, frame, read_rows, write_tables
-from tests.unit.assessment.made_rows import Impossible
+from tests.unit.assessment.made_rows import Impossible, filled
 
 ROOT = Path(__file__).parents[3]
 CONTENT = at2_text(SyntheticRecord("made", 1, 4.0, 0.6, 1.0, 1.0, 6.0, 0.01)).encode()
@@ -42,9 +48,13 @@ def _record(folder: Path, identifier: str = "made", content: bytes = CONTENT) ->
     return CatalogueRecord(identifier, f"{identifier}.AT2", sha256, unit="g", folder=folder)
 
 
+def _rows(record: CatalogueRecord, study: Study, opened=None) -> RecordRows:
+    return rows_of(assess_catalogued(record, study, opened), record, study)
+
+
 def _assessed(record: CatalogueRecord, study: Study, folder: Path) -> list[str]:
     """Write the tables of `record` into `folder` and return the sentences of what failed."""
-    tables = assess_record(record, study).tables
+    tables = _rows(record, study)
     tables.write(folder)
     return [failure.message for failure in tables.failures]
 
@@ -63,7 +73,7 @@ def test_a_record_that_fails_has_all_its_tables_and_says_why(tmp_path: Path) -> 
     record = _record(tmp_path, content=b"not a record")
     (sentence,) = _assessed(record, _study(), tmp_path / "out")
     assert "made.AT2" in sentence
-    for each in PER_RECORD:
+    for each in RECORD_TABLES:
         rows = list(read_rows(each, tmp_path / "out" / each.table.file_name))
         assert len(rows) == (1 if each.table.name in ("failures", "timings") else 0), each.table.name
 
@@ -99,7 +109,7 @@ def test_the_summary_holds_every_row_of_every_record_in_its_order(in_two_jobs) -
     parts = [part(results, f"0000{place}_of_00002") for place in (1, 0)]
     write_summary(parts, [record.id for record in records], {}, results / "summary")
     for each in (PulseRow, ComparisonRow, FailureRow):
-        found = [getattr(assess_record(record, _study()).tables, each.table.name) for record in records]
+        found = [getattr(_rows(record, _study()), each.table.name) for record in records]
         lines = list(csv_lines(each, chain.from_iterable(found)))
         assert "".join(lines) == (results / "summary" / each.table.file_name).read_text(encoding="utf-8")
         assert each is FailureRow or len(lines) > 3
@@ -117,8 +127,15 @@ def test_a_summary_draws_the_trade_where_its_study_measures_it(tmp_path, monkeyp
     changed = {"reports": True, "trade": StudyTrade(in_summary), "results": str(results)}
     study = replace(_study(), settings=replace(_study().settings, **changed))
     run_job([_record(tmp_path)], study, part(results, "00000_of_00001"), results)
-    counts = {"cases": 1, "wrong_verdicts": 0, "unsafe_verdicts": 0}
-    row = TradeRow.of(counts, method=TradeMethod.FINE, structure="", error=1e-7, cpu_s=1e-3)
+    row = filled(
+        TradeRow,
+        method=TradeMethod.FINE,
+        cases=1,
+        wrong_verdicts=0,
+        unsafe_verdicts=0,
+        error=1e-7,
+        cpu_s=1e-3,
+    )
     write_tables({TradeRow: [row]}, results / "summary")
     hashes = SimpleNamespace(settings_sha256="", package_sha256="")
     summarise(study, [_record(tmp_path)], ["00000_of_00001"], hashes)
@@ -129,7 +146,7 @@ def test_the_tables_of_one_record_are_those_that_it_has_alone(in_two_jobs, tmp_p
     results, records = in_two_jobs
     for record in records:
         written = Results(results).write_record(record.id, tmp_path / "copy" / record.id)
-        assert [path.name for path in written] == [each.table.file_name for each in PER_RECORD]
+        assert [path.name for path in written] == [each.table.file_name for each in RECORD_TABLES]
         _assessed(record, _study(), tmp_path / "alone")
         for path in written:
             if path.name != "timings.csv":
@@ -154,7 +171,7 @@ def test_a_pair_has_the_ensemble_over_its_directions_that_assess_has(tmp_path: P
     block = Block(2.0, 0.2, restitution=0.9)
     study = _study(block=block)
     study = replace(study, settings=replace(study.settings, fidelity=fidelity))
-    (*alone, both) = assess_record(_record(tmp_path), study, (pair, None)).tables.ensemble
+    (*alone, both) = _rows(_record(tmp_path), study, (pair, None)).ensemble
     joined = assess(pair, block)
     assert both.component == "both" and both.verdict is joined.verdict
     assert not alone, "it speaks for its components"
@@ -175,7 +192,7 @@ def test_a_job_reads_each_file_once_and_writes_all_from_what_it_has(tmp_path: Pa
     assert opened.count(str(tmp_path / "made.AT2")) == 1
     folder = tmp_path / "results" / "made"
     assert (folder / "report.pdf").read_bytes().startswith(b"%PDF")
-    assert {each.table.file_name for each in PER_RECORD} <= {path.name for path in folder.iterdir()}
+    assert {each.table.file_name for each in RECORD_TABLES} <= {path.name for path in folder.iterdir()}
     (content,) = page_contents([tmp_path / "part"], ["made"])
     assert content["cases"]["block"]["history"] and content["motions"]
 

@@ -5,8 +5,7 @@ from pathlib import Path
 import pytest
 
 import rocking
-from rocking.assessment.fate import PER_RECORD
-from rocking.assessment.rows.of_record import TimingRow
+from rocking.assessment.rows.of_record import RECORD_TABLES, TimingRow
 from rocking.assessment.rows.of_study import SUMMARY_TABLES, StructureRow
 from rocking.errors import RockingError
 from rocking.study.cli import main
@@ -25,7 +24,7 @@ def folder(tmp_path: Path) -> Path:
             write_rows(each, [], tmp_path / "summary" / each.table.file_name)
     for number, record in enumerate(("b", "a")):
         folder = part(tmp_path, f"0000{number}_of_00002")
-        for each in PER_RECORD:
+        for each in RECORD_TABLES:
             write_rows(each, [_timing(record)] if each is TimingRow else [], folder / each.table.file_name)
     return tmp_path
 
@@ -52,7 +51,7 @@ def test_the_tables_of_a_record_are_written_where_they_are_asked_for(folder: Pat
     assert main(["tables", str(folder), "a"]) == 0
     assert capsys.readouterr().out == f"{folder / 'a'}\n"
     assert [row.record for row in read_rows(TimingRow, folder / "a" / "timings.csv")] == ["a"]
-    assert len(rocking.open_results(folder).write_record("b", folder / "elsewhere")) == len(PER_RECORD)
+    assert len(rocking.open_results(folder).write_record("b", folder / "elsewhere")) == len(RECORD_TABLES)
     assert main(["tables", str(folder), "c"]) == 1
     assert "holds no tables of 'c'" in capsys.readouterr().err
 

@@ -6,53 +6,57 @@ from pathlib import Path
 
 import pytest
 
-from rocking.assessment.fate import fates
-from rocking.assessment.verdict import Verdict
 from rocking.study import terminal
 from rocking.study.terminal import Progress, closing_lines, line_writer, paths_to_read, record_line
-from tests.unit.assessment.made_rows import case, ensemble, failure
+from tests.unit.assessment.made_rows import broken, case, failure, station, verdicts
 
 
 def test_the_worst_component_counts() -> None:
-    ratios = [("pier", 0.5), ("pier", math.inf), ("wall", 0.25), ("wall", 0.0005), ("arch", 0.0)]
-    cases = [case("", ratio, structure) for structure, ratio in ratios]
-    assert record_line(fates(cases), []) == "overturns: pier; stands: wall 0.25, arch"
+    stations = [
+        station(case("EW", 0.5), case("NS", math.inf)),
+        station(case("EW", 0.25, "wall"), case("NS", 0.0005, "wall")),
+        station(case("EW", 0.0, "arch")),
+    ]
+    assert record_line(stations, []) == "overturns: pier; stands: wall 0.25, arch"
 
 
 def test_undecided_is_ordered_by_share_and_counted_where_there_is_much_of_it() -> None:
-    cases = [case("EW", 0.25, name) for name in ("pier", "wall", "arch")]
-    ensembles = [
-        ensemble("EW", Verdict.UNDECIDED, count, name) for name, count in (("pier", 5), ("wall", 60))
+    stations = [
+        station(case("EW", 0.25, "pier", falls=5)),
+        station(case("EW", 0.25, "wall", falls=60)),
+        station(case("EW", 0.25, "arch", falls=0)),
     ]
-    ensembles.append(ensemble("EW", Verdict.STANDS, 0, "arch"))
-    line = record_line(fates(cases, ensembles), [])
+    line = record_line(stations, [])
     assert line == "undecided: wall (60 of 64), pier (5 of 64); stands: arch 0.25"
-    many = [ensemble("EW", Verdict.UNDECIDED, 5, f"pier {number}") for number in range(7)]
-    cases += [case("EW", 0.25, each.structure) for each in many]
-    line = record_line(fates(cases, ensembles + many), [])
+    many = [station(case("EW", 0.25, f"pier {number}", falls=5)) for number in range(7)]
+    line = record_line(stations + many, [])
     assert line == "undecided: 9, in verdicts.csv; stands: arch 0.25"
 
 
 def test_a_failure_stands_first_without_repeating_the_record() -> None:
     failures = [failure("", "wall", "it cannot stand."), failure("", "", "a: it cannot be read.")]
-    line = record_line(fates([case("", 0.5)]), failures)
+    line = record_line([station(case("", 0.5))], failures)
     assert line == "failed: wall: it cannot stand. it cannot be read.; stands: pier 0.5"
 
 
 def test_the_table_at_the_end_counts_what_overturns_and_what_is_undecided_apart() -> None:
-    cases = [
-        *(case("EW", math.inf), case("EW", math.inf, record="b"), case("EW", math.inf, "wall")),
-        *(case("EW", 0.1, structure, "b") for structure in ("wall", "arch")),
+    first = [station(case("EW", math.inf, falls=60)), station(case("EW", math.inf, "wall"))]
+    second = [
+        station(case("EW", math.inf)),
+        station(case("EW", 0.1, "wall")),
+        station(case("EW", 0.1, "arch")),
     ]
-    doubts = [ensemble("EW", Verdict.UNDECIDED, 60)]
-    lines = list(closing_lines(fates(cases, doubts), [failure("", "", "not read.", "c")]))
+    rows = [*verdicts(first, "a"), *verdicts(second, "b")]
+    lines = list(closing_lines(rows, [failure("", "", "not read.", "c")]))
     assert [line.split() for line in lines[2:4]] == [["pier", "1", "1", "b,", "a?"], ["wall", "1", "0", "a"]]
     assert lines[4:] == ["1 record failed, wholly or in part: c"]
 
 
 def test_nothing_overturns() -> None:
-    assert list(closing_lines(fates([case("", 0.1)]), [])) == ["Every structure stands under 1 record."]
-    assert list(closing_lines(fates([], failures=[failure("")]), []))[2].endswith("a–")
+    stands = verdicts([station(case("", 0.1))])
+    assert list(closing_lines(stands, [])) == ["Every structure stands under 1 record."]
+    unknown = verdicts([station(broken(""))])
+    assert list(closing_lines(unknown, []))[2].endswith("a–")
 
 
 def test_the_paths_are_those_that_exist(tmp_path: Path) -> None:

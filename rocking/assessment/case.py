@@ -1,0 +1,401 @@
+"""Case: one motion, one structure, one result; and what became of a structure over all components of a record.
+
+`StationResult` is the only place where a verdict on a structure is decided. Tables, reports, the page to explore, the
+terminal and `rocking.assess` ask it, or read the row that it was written into.
+"""
+
+import hashlib
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from functools import cached_property
+
+from rocking.assessment.component import Component, component_names
+from rocking.assessment.ensemble import Ensemble, GroundMotions
+from rocking.assessment.fidelity import Answer, Estimate
+from rocking.assessment.variations import Variation
+from rocking.assessment.verdict import BOTH_COMPONENTS, POLARITIES, Judgement, Method, Verdict
+from rocking.motion.response import UNKNOWN, ModelCheck, Response
+from rocking.pulses import Pulse
+from rocking.records import Accelerogram
+from rocking.sine_pulse import Maximum
+from rocking.structures import EquivalentBlock, Mechanism, Outcome, Structure
+
+DECISIVE = ("responses", "directions")
+"""Stages whose failure leaves a structure without a result; the others only leave out what stands beside it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """The ground motion that a structure meets: one horizontal component or a pair, and the vertical one.
+
+    components: one or two, with the same samples where they are two. vertical: sample by sample as the components; None
+    where none acts.
+    """
+
+    components: tuple[Accelerogram, ...]
+    vertical: Accelerogram | None = None
+
+    @property
+    def name(self) -> str:
+        """The component, or `BOTH_COMPONENTS` for a pair."""
+        if len(self.components) == 2:
+            return BOTH_COMPONENTS
+        return self.components[0].component
+
+    @cached_property
+    def fingerprint(self) -> str:
+        """Hash of the samples and of all that is known of them; where the file lies is left out."""
+        digest = hashlib.sha256()
+        for each in (*self.components, self.vertical):
+            digest.update(_content(each).encode())
+        return digest.hexdigest()
+
+    def ground_motions(self, processing: bool) -> GroundMotions:
+        """Return the motions that this one stands for. Raises RecordError for components that are no pair."""
+        return GroundMotions.of(*self.components, vertical=self.vertical, processing=processing)
+
+
+def _content(accelerogram: Accelerogram | None) -> str:
+    """Everything that an accelerogram says, its samples by their hash; whether it came from a file, not from which."""
+    if accelerogram is None:
+        return "none\n"
+    facts = {
+        each.name: getattr(accelerogram, each.name)
+        for each in fields(accelerogram)
+        if each.name not in ("acceleration", "source")
+    }
+    from_file = bool(accelerogram.source.path)
+    return f"{accelerogram.sha256} {from_file} {sorted(facts.items())!r}\n"
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A stage that gave no result, and why."""
+
+    stage: str
+    message: str
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """The closed forms of one structure under one pulse.
+
+    pulse_rank: of the pulse among those that its method offers. amplitude_ratio, frequency_ratio: a and ω_g/p.
+    """
+
+    block: EquivalentBlock
+    pulse: Pulse
+    pulse_rank: int
+    amplitude_ratio: float
+    frequency_ratio: float
+    printed_rotation_ratio: float
+    maximum: Maximum
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CaseResult:
+    """What came of one structure under one motion.
+
+    component: name of the motion. prediction: None without a pulse. responses: by method. check: whether the model held
+    along the response of the mechanism to the record. answer: of the mechanism on the record, or of the cheapest method
+    that settles the case; None of a pair, and where the case failed. ensemble: None where none ran.
+    overturning_estimate: from the peak velocity, where no ensemble ran; None of a structure unlike those behind the
+    estimate. variations: other cracks, then other processings. durations: CPU time of each method that was compared, s.
+    fingerprint: of motion, structure, settings and version of the computation.
+    """
+
+    structure: str
+    component: str
+    prediction: Prediction | None = None
+    responses: Mapping[Method, Response] = field(default_factory=dict)
+    check: ModelCheck = UNKNOWN
+    answer: Answer | None = None
+    ensemble: Ensemble | None = None
+    overturning_estimate: Estimate | None = None
+    variations: tuple[Variation, ...] = ()
+    failures: tuple[Failure, ...] = ()
+    durations: Mapping[Method, float] = field(default_factory=dict)
+    fingerprint: str = ""
+
+    @property
+    def predicted_rotation_ratio(self) -> float:
+        """Rotation ratio of the closed form; nan without a pulse."""
+        return self.prediction.maximum.rotation_ratio if self.prediction else math.nan
+
+    @property
+    def response(self) -> Response | None:
+        """The integration of the mechanism under the record; None where a cheaper method settled the case."""
+        return self.responses.get(Method.MECHANISM_ON_RECORD)
+
+    @property
+    def integrated_rotation_ratio(self) -> float:
+        """Rotation ratio of the mechanism on the record; nan where a cheaper method settled the case."""
+        return self.response.rotation_ratio if self.response else math.nan
+
+    @property
+    def overturns(self) -> bool:
+        """Whether the single run, or what settles it more cheaply, overturns."""
+        return self.answer is not None and self.answer.outcome is Outcome.OVERTURNS
+
+    @property
+    def failure(self) -> Failure | None:
+        """Why there is no result; None where there is one."""
+        return next((each for each in self.failures if each.stage in DECISIVE), None)
+
+    @property
+    def severity(self) -> tuple[bool, float]:
+        """Key by which the worst of several components comes last."""
+        return self.overturns, _or_least(self.integrated_rotation_ratio)
+
+
+@dataclass(frozen=True, eq=False)
+class Governing:
+    """The mechanism that governs: what opens, the share of members that overturn, and their median rotation ratio."""
+
+    description: str
+    overturning_share: float
+    rotation_ratio: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class StationResult(Judgement):
+    """What became of one structure under one record, all components and directions considered.
+
+    The ensemble over all directions decides, or where there is none that of the component that overturns, then rotates,
+    most; without any ensemble the single run of the worst component. A component that gave no result makes the verdict
+    unknown, unless another component overturns or an ensemble over all directions decides. Without an ensemble, another
+    crack that overturns leaves undecided what stands as given.
+
+    structure: its name. body: the structure itself. cases: by component, those that failed too. directions: the case of
+    the pair; None of one component, or without ensembles.
+    """
+
+    structure: str
+    body: Structure | Mechanism
+    cases: Mapping[str, CaseResult]
+    directions: CaseResult | None = None
+
+    @cached_property
+    def worst(self) -> CaseResult | None:
+        """The case of the component that overturns, then rotates, most; None where no component gave a result."""
+        answered = [each for each in self.cases.values() if each.answer is not None]
+        return max(answered, key=lambda case: case.severity, default=None)
+
+    @cached_property
+    def decisive(self) -> CaseResult | None:
+        """The case whose ensemble decides; None without an ensemble."""
+        if self.directions is not None and self.directions.ensemble is not None:
+            return self.directions
+        with_ensemble = [each for each in self.cases.values() if each.ensemble is not None]
+        return max(with_ensemble, key=_ensemble_severity, default=None)
+
+    @property
+    def ensemble(self) -> Ensemble | None:
+        """The ensemble that decides; None without one."""
+        return self.decisive.ensemble if self.decisive else None
+
+    @property
+    def component(self) -> str:
+        """The component of the case that decides, or `BOTH_COMPONENTS`."""
+        deciding = self.decisive or self.worst or next(iter(self.cases.values()))
+        return deciding.component
+
+    @cached_property
+    def _failed(self) -> list[CaseResult]:
+        both = [*self.cases.values(), *([self.directions] if self.directions else [])]
+        return [each for each in both if each.failure]
+
+    @cached_property
+    def _fallen_crack(self) -> str:
+        """A crack that overturns in a single run, where no ensemble tells more; "" where none does."""
+        if self.ensemble is not None:
+            return ""
+        variations = (each for case in self.cases.values() for each in case.variations)
+        fallen = (
+            each.crack for each in variations if each.crack and math.isinf(each.integrated_rotation_ratio)
+        )
+        return next(fallen, "")
+
+    @cached_property
+    def _decision(self) -> tuple[Verdict, str]:
+        """The verdict with its reason."""
+        if self.worst is None:
+            first = self._failed[0].failure if self._failed else None
+            return Verdict.UNKNOWN, first.message if first else "no component gave a result"
+        decided, why = self._of_members_or_run()
+        over_all = self.decisive is not None and self.decisive is self.directions
+        if self._failed and decided is not Verdict.OVERTURNS and not over_all:
+            missing = ", ".join(each.component or "not named" for each in self._failed)
+            return Verdict.UNKNOWN, f"the component {missing} gave no result"
+        return decided, why
+
+    def _of_members_or_run(self) -> tuple[Verdict, str]:
+        assert self.worst is not None
+        assert self.worst.answer is not None
+        if self.ensemble is not None:
+            return self.ensemble.verdict, f"{self.count} members overturn"
+        why = self.worst.answer.reason or "one run as recorded, without an ensemble"
+        if self.worst.overturns:
+            return Verdict.OVERTURNS, why
+        if self._fallen_crack:
+            crack = self._fallen_crack
+            return Verdict.UNDECIDED, f"one run as recorded stands, and with the {crack} it overturns"
+        return Verdict.STANDS, why
+
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict on the structure."""
+        return self._decision[0]
+
+    @property
+    def why(self) -> str:
+        """The reason for the verdict."""
+        return self._decision[1]
+
+    @property
+    def members(self) -> int:
+        """Number of members; 0 without an ensemble."""
+        return self.ensemble.members if self.ensemble else 0
+
+    @property
+    def overturning_members(self) -> int:
+        """Number of members that overturn."""
+        return self.ensemble.overturning_members if self.ensemble else 0
+
+    @property
+    def overturning_share(self) -> float:
+        """Share of the members that overturn; of a single run 0 or 1, nan where nothing is known."""
+        if self.ensemble is not None:
+            return self.ensemble.overturning_share
+        if self.worst is None or self.verdict is Verdict.UNKNOWN:
+            return math.nan
+        return float(self.verdict is Verdict.OVERTURNS)
+
+    @property
+    def crack(self) -> str:
+        """The crack of least λ, which statics chooses; "" where only one may form."""
+        return self.ensemble.crack if self.ensemble else ""
+
+    @property
+    def elsewhere(self) -> Ensemble | None:
+        """The ensemble of another crack with which it does not stand; None without one."""
+        return self.ensemble.elsewhere if self.ensemble else None
+
+    @property
+    def elsewhere_crack(self) -> str:
+        """Another crack, with which the structure does not stand; "" without one."""
+        return self.elsewhere.crack if self.elsewhere else self._fallen_crack
+
+    @property
+    def elsewhere_members(self) -> int | None:
+        """Members with that crack; None where there are none."""
+        return self.elsewhere.members if self.elsewhere else None
+
+    @property
+    def elsewhere_overturning_members(self) -> int | None:
+        """Members that overturn with that crack; None where there are none."""
+        return self.elsewhere.overturning_members if self.elsewhere else None
+
+    @property
+    def governing(self) -> Governing:
+        """The mechanism of statics, or the one that does not stand though that does; "" where there is one only."""
+        worst = self.elsewhere or self.ensemble
+        if worst is None:
+            return Governing(self._fallen_crack, self.overturning_share, self.rotation_ratio)
+        return Governing(worst.crack, worst.overturning_share, worst.rotation_ratio_median)
+
+    @property
+    def rotation_ratio(self) -> float:
+        """Largest rotation over critical rotation as recorded, the worst component; inf if it overturns."""
+        return self.worst.integrated_rotation_ratio if self.worst else math.nan
+
+    @property
+    def rotation_ratio_low(self) -> float:
+        """5 % quantile of the rotation ratio of the members; nan without any."""
+        return self.ensemble.rotation_ratio_low if self.ensemble else math.nan
+
+    @property
+    def rotation_ratio_median(self) -> float:
+        """Median of the rotation ratio of the members; nan without any."""
+        return self.ensemble.rotation_ratio_median if self.ensemble else math.nan
+
+    @property
+    def rotation_ratio_high(self) -> float:
+        """95 % quantile of the rotation ratio of the members; nan without any."""
+        return self.ensemble.rotation_ratio_high if self.ensemble else math.nan
+
+    @property
+    def direction(self) -> str:
+        """Direction of the largest rotation; "" where there is one only."""
+        of_members = self.ensemble.worst("direction") if self.ensemble else ""
+        if of_members or self.worst is None:
+            return of_members
+        answered = [each for each in self.cases.values() if each.answer is not None]
+        return self.worst.component if len(answered) > 1 else ""
+
+    @property
+    def polarity(self) -> str:
+        """Sign of the motion of the largest rotation: as recorded, reversed; or ""."""
+        return POLARITIES.get(self.ensemble.worst("polarity"), "") if self.ensemble else ""
+
+    @property
+    def peak_side(self) -> int | None:
+        """Side of the largest rotation or of the overturning, 1 or -1; 0 without uplift, None without integration."""
+        response = self.worst.response if self.worst else None
+        return response.peak_side if response else None
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RecordResult:
+    """What came of all structures under one record.
+
+    components: those that could be opened, as they acted. stations: by the name of the structure. failures: of what
+    concerns no single structure, by component ("" for all). durations: CPU time of each stage, s.
+    """
+
+    record: str
+    components: tuple[Component, ...] = ()
+    stations: Mapping[str, StationResult] = field(default_factory=dict)
+    failures: tuple[tuple[str, Failure], ...] = ()
+    durations: Mapping[str, float] = field(default_factory=dict)
+
+    @cached_property
+    def worst_first(self) -> list[StationResult]:
+        """What became of each structure, the worst first."""
+        return sorted(self.stations.values(), key=lambda station: station.severity, reverse=True)
+
+    @property
+    def names(self) -> list[str]:
+        """The names of the components, in their order, by which they are asked for."""
+        return component_names(self.accelerograms)
+
+    @property
+    def accelerograms(self) -> list[Accelerogram]:
+        """The components."""
+        return [each.accelerogram for each in self.components]
+
+    @property
+    def responses(self) -> dict[tuple[str, str], Response]:
+        """The integrations of the mechanisms under the record, by component and structure."""
+        return {
+            (component, case.structure): case.response
+            for component in self.names
+            for case in self.cases(component)
+            if case.response is not None
+        }
+
+    def cases(self, component: str) -> list[CaseResult]:
+        """Return the cases of one component, or of `BOTH_COMPONENTS`, in the order of the structures."""
+        if component == BOTH_COMPONENTS:
+            return [each.directions for each in self.stations.values() if each.directions is not None]
+        return [each.cases[component] for each in self.stations.values() if component in each.cases]
+
+
+def _ensemble_severity(case: CaseResult) -> tuple[float, float]:
+    assert case.ensemble is not None
+    return _or_least(case.ensemble.overturning_share), _or_least(case.ensemble.rotation_ratio_high)
+
+
+def _or_least(value: float) -> float:
+    return -1.0 if math.isnan(value) else value
