@@ -35,7 +35,8 @@ FRAGILITY = f"{RESULTS}/fragility/fragility.csv"
 def part_of(job):
     """The files of a job over all its records."""
     return [
-        f"{part(Path(RESULTS), job)}/{name}" for name in (*(each.table.file_name for each in RECORD_TABLES), PAGE)
+        f"{part(Path(RESULTS), job)}/{name}"
+        for name in (*(each.table.file_name for each in RECORD_TABLES), PAGE)
     ]
 
 
