@@ -17,7 +17,7 @@ import pandas as pd
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram, Source
-from rocking.records.station import download
+from rocking.records.files import download
 from rocking.tables import Row, column, read_rows, row
 
 REPOSITORY = "ZhiangChen/virtual_shake_robot_pybullet"

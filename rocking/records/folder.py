@@ -15,9 +15,11 @@ from rocking.errors import CatalogueError, RecordError, UndeclaredError
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue import is_safe_id, read_rows, stays_inside
+from rocking.records.formats.format import plain
+from rocking.records.joining import why_apart
 from rocking.records.processing import process, velocity
-from rocking.records.read import bare_text, bytes_of, is_unnamed, plain, printable, read, recognise, unpack
-from rocking.records.station import why_apart
+from rocking.records.read import bare_text, bytes_of, is_unnamed, printable, read, recognise, unpack
+from rocking.tables import read_start
 
 Row = dict[str, str]
 
@@ -112,9 +114,7 @@ def list_folder(
 def _files(folder: Path) -> Iterator[Path]:
     """Yield the files under `folder` in the order of names, but for hidden ones and catalogues."""
     for path in sorted(path for path in folder.rglob("*") if path.is_file()):
-        head = b""
-        with suppress(OSError), path.open("rb") as stream:
-            head = stream.read(11).removeprefix(b"\xef\xbb\xbf")
+        head = read_start(path, 11).removeprefix(b"\xef\xbb\xbf")
         is_catalogue = path.suffix.lower() == ".csv" and head.startswith(b"id,file")
         if not (path.name.startswith(".") or is_catalogue):
             yield path

@@ -86,7 +86,8 @@ class ResponseSpectrum:
     @property
     def pseudo_acceleration(self) -> np.ndarray:
         """(m,) m/s²: ω² times the displacement."""
-        return (2 * math.pi / self.periods) ** 2 * self.displacement
+        pseudo: np.ndarray = (2 * math.pi / self.periods) ** 2 * self.displacement
+        return pseudo
 
 
 def response_spectrum(

@@ -7,9 +7,9 @@ no unit, and claiming every file of bare numbers would take other programs' file
 from functools import partial
 from pathlib import Path
 
-from rocking.errors import RecordError
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.read import LARGEST_FILE, bare_text, read_content, unpack
+from rocking.tables import read_start
 
 PLUGINS = {form.plugin: form.name for form in FORMATS if form.plugin}
 """Name in obspy → name in FORMATS. K-NET, EVT, SAC and miniSEED are obspy's own already."""
@@ -41,10 +41,7 @@ def read_format(form: Format, source, **options):
 def _bytes(source, limit: int) -> bytes:
     if hasattr(source, "read"):
         return source.read(limit)
-    if not Path(source).is_file():
-        raise RecordError(f"{source} is no file; give the path of one.")
-    with Path(source).open("rb") as stream:
-        return stream.read(limit)
+    return read_start(Path(source), limit)
 
 
 _FORMATS = {form.name: form for form in FORMATS}

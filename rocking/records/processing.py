@@ -78,7 +78,8 @@ def displacement(record: Accelerogram) -> np.ndarray:
 
 def integral(values: np.ndarray, time_step: float) -> np.ndarray:
     """Return the integral (n,) of `values` from the first sample on by the trapezoidal rule."""
-    return time_step * (np.cumsum(values) - (values + values[0]) / 2)
+    summed: np.ndarray = np.cumsum(values) - (values + values[0]) / 2
+    return time_step * summed
 
 
 def _levelled(record: Accelerogram, processing: Processing) -> Accelerogram:
@@ -149,7 +150,8 @@ def _butterworth(
         raise RecordError(f"the {kind} corner is {corner!r} Hz, but must be below {nyquist:g} Hz (Nyquist).")
     sections = signal.butter(order, corner / nyquist, kind, output="sos")
     whole = np.pad(values, margin, mode="edge")
-    return signal.sosfiltfilt(sections, whole, padtype=None)[margin : margin + values.size]
+    filtered: np.ndarray = signal.sosfiltfilt(sections, whole, padtype=None)
+    return filtered[margin : margin + values.size]
 
 
 def _resampled(record: Accelerogram, processing: Processing) -> Accelerogram:
@@ -202,7 +204,7 @@ def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.nd
         course = np.cumsum(
             velocity - candidate[2]
         )  # a drift that is left makes it larger than the ground's own
-        return max(course.max(), -course.min())
+        return float(max(course.max(), -course.min()))
 
     end, degree, drift = min(_drifts(velocity, onset, ends), key=largest)
     sentence = (

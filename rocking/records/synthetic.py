@@ -76,8 +76,8 @@ def noise(recipe: SyntheticRecord, samples: int) -> np.ndarray:
     spectrum /= np.sqrt(np.mean(np.abs(spectrum) ** 2))
     frequency = np.fft.rfftfreq(samples, recipe.time_step)
     source = frequency**2 / (1 + (frequency / recipe.corner_frequency) ** 2)
-    series = np.fft.irfft(spectrum * source * np.exp(-np.pi * recipe.kappa * frequency), samples)
-    return series * (recipe.noise_peak / np.abs(series).max())
+    series: np.ndarray = np.fft.irfft(spectrum * source * np.exp(-np.pi * recipe.kappa * frequency), samples)
+    return series * float(recipe.noise_peak / np.abs(series).max())
 
 
 SHIPPED = SyntheticRecord("synthetic_strong_pulse", 1, 0.55 * GRAVITY, 1.0, 4.0, 0.15 * GRAVITY, 20.0, 0.005)

@@ -15,9 +15,9 @@ from typing import Any, TypeVar
 
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records.catalogue import CatalogueRecord, load_catalogue, repeated
+from rocking.records.files import fill_hashes, local_files, with_hashes
 from rocking.records.folder import unlisted
 from rocking.records.read import LARGEST_FILE
-from rocking.records.station import fill_hashes, local_files, with_hashes
 from rocking.structures import Structure, load_structures
 from rocking.study.settings import Settings, named_files, read_settings
 from rocking.tables import write_whole

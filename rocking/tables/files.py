@@ -14,6 +14,20 @@ from typing import BinaryIO
 from rocking.errors import RockingError
 
 
+@contextmanager
+def regular_file(path: Path) -> Iterator[BinaryIO]:
+    """Open the regular file at `path` for reading: the one door by which the package reads what a user put there.
+
+    Raises OSError for whatever cannot be opened, and for a pipe or a device, which it does not wait for.
+    """
+    handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+    if not stat.S_ISREG(os.fstat(handle).st_mode):
+        os.close(handle)
+        raise OSError(errno.EINVAL, "it is no regular file")
+    with os.fdopen(handle, "rb") as stream:
+        yield stream
+
+
 def read_whole(path: Path, largest: int, error: type[RockingError], name: str = "") -> bytes:
     """Return the bytes of a regular file of at most `largest` bytes, which is opened once.
 
@@ -22,11 +36,7 @@ def read_whole(path: Path, largest: int, error: type[RockingError], name: str = 
     """
     name = name or str(path)
     try:
-        handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
-        if not stat.S_ISREG(os.fstat(handle).st_mode):
-            os.close(handle)
-            raise OSError(errno.EINVAL, "it is no regular file")
-        with os.fdopen(handle, "rb") as stream:
+        with regular_file(path) as stream:
             content = stream.read(largest + 1)
     except (OSError, ValueError) as reason:
         why = getattr(reason, "strerror", None) or reason
@@ -34,6 +44,15 @@ def read_whole(path: Path, largest: int, error: type[RockingError], name: str = 
     if len(content) > largest:
         raise error(f"{name}: the file is larger than {largest} bytes, the most that is read.")
     return content
+
+
+def read_start(path: Path, size: int) -> bytes:
+    """Return the first `size` bytes of a regular file, all of a shorter one, and none of what cannot be opened."""
+    try:
+        with regular_file(path) as stream:
+            return stream.read(size)
+    except (OSError, ValueError):
+        return b""
 
 
 def write_whole(path: Path, content: bytes | Iterable[bytes]) -> None:

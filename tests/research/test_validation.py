@@ -13,7 +13,7 @@ from docs.research.shake_table import Campaign
 from docs.research.validation import IDENTIFIED, PRIOR, Measured, left_out, measure
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
-from rocking.records import station
+from rocking.records import files
 
 CATALOGUE = Path(__file__).parents[2] / "records" / "shake_table.csv"
 
@@ -80,7 +80,7 @@ def test_what_the_folder_lacks_is_fetched_and_checked(made, tmp_path, monkeypatc
 def test_a_redirect_to_http_is_refused():
     asked = Request("https://example.org/Test001.txt")
     with pytest.raises(RecordError, match="which is not https"):
-        station._Direct().redirect_request(asked, None, 302, "Found", {}, "http://example.org/a")
+        files._Direct().redirect_request(asked, None, 302, "Found", {}, "http://example.org/a")
 
 
 def test_no_prediction_sees_the_outcomes_of_its_motion(measured):

@@ -17,11 +17,10 @@ import pytest
 from rocking.described import described_values
 from rocking.errors import CatalogueError, RecordError
 from rocking.quantities import GRAVITY
-from rocking.records import CatalogueRecord, load_catalogue, open_record
-from rocking.records import station as stations
+from rocking.records import CatalogueRecord, files, load_catalogue, open_record
 from rocking.records.catalogue import catalogue_text, repeated
+from rocking.records.files import download, fill_hashes, path_of
 from rocking.records.folder import list_folder, listing_text
-from rocking.records.station import download, fill_hashes, path_of
 
 ROWS = (f"{i / 100},{i % 5},{i % 7},{i % 3}\n" for i in range(50))
 TABLE = "time,NS (gal),EW (gal),UD (gal)\n" + "".join(ROWS)
@@ -169,7 +168,7 @@ def answer(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[type[_An
     with http.server.ThreadingHTTPServer(("127.0.0.1", 0), _Answer) as server:
         threading.Thread(target=server.serve_forever, daemon=True).start()
         address = f"http://127.0.0.1:{server.server_port}"
-        monkeypatch.setattr(stations, "_RAW", f"{address}/{{repository}}/{{commit}}/{{path}}")
+        monkeypatch.setattr(files, "_RAW", f"{address}/{{repository}}/{{commit}}/{{path}}")
         yield _Answer
         server.shutdown()
 
@@ -191,7 +190,7 @@ def test_a_download_ends_at_a_size_and_after_a_time(folder, tmp_path: Path, answ
     with pytest.raises(RecordError, match=r"larger than \d+ bytes"):
         fetch(remote(folder))
     assert not [path for path in (tmp_path / "cache").rglob("*") if path.is_file()]
-    monkeypatch.setattr(stations, "LONGEST_DOWNLOAD", 0.2)
+    monkeypatch.setattr(files, "LONGEST_DOWNLOAD", 0.2)
     pause = threading.Event()
     monkeypatch.setattr(answer, "served", lambda _: (pause.wait(0.05) or b"0" for _ in range(1000)))
     with pytest.raises(RecordError, match=r"took more than 0\.2 s|timed out"):

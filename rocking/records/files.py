@@ -1,0 +1,170 @@
+"""The files of a record: where they lie on this machine, fetched if need be, and their hashes in the catalogue."""
+
+import hashlib
+import time
+import urllib.request
+from contextlib import suppress
+from dataclasses import replace
+from http.client import HTTPMessage
+from pathlib import Path
+from typing import IO
+from urllib.parse import quote
+
+from rocking.errors import RecordError
+from rocking.records.catalogue import CatalogueRecord, RecordFile, catalogue_text, load_catalogue, read_rows
+from rocking.records.formats.binary import MINISEED
+from rocking.records.read import LARGEST_FILE, bytes_of
+from rocking.records.traces import first_line
+from rocking.tables import read_start, write_whole
+
+_RETRIES = 3
+_PIECE = 2**16
+LONGEST_DOWNLOAD, _SILENCE = 300.0, 30.0
+"""s; of one file with all its tries, and without a byte."""
+_RAW = "https://raw.githubusercontent.com/{repository}/{commit}/{path}"
+
+
+def path_of(record: CatalogueRecord, file: RecordFile, mirror: str | Path | None = None) -> Path:
+    """Return where `file` of the record lies, downloaded into the user's cache folder if need be.
+
+    mirror: a folder that is looked into first. Raises RecordError naming the file when it cannot be had.
+    """
+    if record.example_name is not None:
+        from obspy.core.util.base import get_example_file  # which takes a second to import
+
+        try:
+            return Path(get_example_file(record.example_name))
+        except (OSError, ValueError):
+            raise RecordError(f"obspy installs no example file {record.example_name!r}.") from None
+    if path := beside_catalogue(record, file.name, mirror):
+        return path
+    if record.is_remote:
+        source = record.source_repository, record.source_commit, file.source_path
+        return download(file.name, *source, sha256=file.sha256)
+    places = " or ".join(str(folder) for folder in (mirror, record.folder) if folder)
+    raise RecordError(f"file {file.name!r} is not in {places}; mend the catalogue or add the file.")
+
+
+def local_files(record: CatalogueRecord, mirror: str | Path | None = None) -> list[Path]:
+    """Return the files on this machine that opening `record` would read; none that leads out of its folder.
+
+    Its own files and the StationXML it names; for a miniSEED file, packed or not, that names none and declares no unit,
+    every XML file beside it, among which the reader looks.
+    """
+    own = [] if record.example_name else [file.name for file in record.files]
+    paths: list[Path] = []
+    beside: list[Path] = []
+    for name in filter(None, [*own, record.inventory]):
+        with suppress(RecordError):
+            paths += filter(None, [beside_catalogue(record, name, mirror)])
+    for path in () if record.inventory or record.unit else paths:
+        head = read_start(path, 256)
+        if head.startswith(b"\x1f\x8b") or MINISEED.recognise(head):
+            beside += sorted(path.parent.glob("*.xml"))
+    return paths + beside
+
+
+def beside_catalogue(record: CatalogueRecord, file: str, mirror: str | Path | None) -> Path | None:
+    """Return `file` in the mirror or the catalogue's folder, None where neither holds it.
+
+    Raises RecordError for a link that leads out of them.
+    """
+    for folder in (mirror, record.folder):
+        if folder is None or not (path := Path(folder) / file).is_file():
+            continue
+        if not path.resolve().is_relative_to(Path(folder).resolve()):
+            raise RecordError(f"file {file!r} leads out of {folder}; keep it inside.")
+        return path
+    return None
+
+
+def download(file: str, repository: str, commit: str, path: str, *, sha256: str = "") -> Path:
+    """Return where the user's cache keeps `path` of a GitHub repository, downloaded if need be.
+
+    sha256: checked if given. Raises RecordError naming `file` when it cannot be had.
+    """
+    import pooch  # which only a download needs
+
+    name = f"{(sha256 or commit)[:16]}-{Path(path).name}"
+    address = _RAW.format(repository=repository, commit=commit, path=quote(path, safe="/"))
+    store = pooch.create(
+        path=pooch.os_cache("rocking"), base_url="",
+        registry={name: f"sha256:{sha256}" if sha256 else None}, urls={name: address}, retry_if_failed=_RETRIES,
+    )  # fmt: skip
+    pooch.get_logger().setLevel("WARNING")
+    try:
+        return Path(store.fetch(name, downloader=_Downloader()))
+    except Exception as error:
+        failed = f"file {file!r} cannot be fetched from {address}, {first_line(error)}"
+        raise RecordError(f"{failed}; try again or give a mirror folder.") from error
+
+
+class _Direct(urllib.request.HTTPRedirectHandler):
+    """Follow a redirect to https only: what comes over http may have been changed on the way."""
+
+    def redirect_request(
+        self,
+        req: urllib.request.Request,
+        fp: IO[bytes],
+        code: int,
+        msg: str,
+        headers: HTTPMessage,
+        newurl: str,
+    ) -> urllib.request.Request | None:
+        if not newurl.startswith("https://"):
+            raise RecordError(f"the server redirects to {newurl[:100]}, which is not https")
+        return super().redirect_request(req, fp, code, msg, headers, newurl)
+
+
+class _Downloader:
+    """Download for pooch, within a size that a record can have and a time, both for all tries together."""
+
+    def __init__(self) -> None:
+        self.ends = time.monotonic() + LONGEST_DOWNLOAD
+
+    def __call__(self, address: str, target: str, _: object) -> None:
+        request = urllib.request.Request(address, headers={"User-Agent": "rocking"})
+        opener = urllib.request.build_opener(_Direct)
+        with (
+            opener.open(request, timeout=self._remaining_time()) as answer,
+            Path(target).open("wb") as stream,
+        ):
+            size = 0
+            while piece := answer.read1(_PIECE):
+                size += len(piece)
+                if size > LARGEST_FILE:
+                    raise RecordError(f"the file is larger than {LARGEST_FILE} bytes, which no record is")
+                stream.write(piece)
+                self._remaining_time()
+
+    def _remaining_time(self) -> float:
+        remaining = self.ends - time.monotonic()
+        if remaining <= 0:
+            raise RecordError(f"the download took more than {LONGEST_DOWNLOAD:g} s")
+        return min(remaining, _SILENCE)
+
+
+def fill_hashes(path: str | Path, mirror: str | Path | None = None) -> tuple[str, ...]:
+    """Write the sha256 of each file into the rows of the catalogue at `path` that leave it blank; return their ids.
+
+    A file that is not there stays blank: opening it says so. The other cells stay as they are, and nothing is written
+    when nothing is to be filled. Raises CatalogueError for a catalogue with defects.
+    """
+    path = Path(path)
+    records = {record.id: (record, with_hashes(record, mirror)) for record in load_catalogue(path)}
+    cells = {name: {"sha256": new.sha256} for name, (old, new) in records.items() if new != old}
+    if cells:
+        rows = [row for _, row in read_rows(path)]
+        columns = list(dict.fromkeys([*rows[0], "sha256"]))
+        text = catalogue_text((row | cells.get(row["id"].strip(), {}) for row in rows), columns)
+        write_whole(path, text.encode())
+    return tuple(cells)
+
+
+def with_hashes(record: CatalogueRecord, mirror: str | Path | None = None) -> CatalogueRecord:
+    """Return `record` as it stands in the catalogue once fill_hashes has been there."""
+    hashes = [file.sha256 for file in record.files]
+    for i, file in enumerate(record.files):
+        with suppress(RecordError):
+            hashes[i] = file.sha256 or hashlib.sha256(bytes_of(path_of(record, file, mirror))).hexdigest()
+    return replace(record, sha256=";".join(hashes)) if any(hashes) else record

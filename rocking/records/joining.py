@@ -1,0 +1,134 @@
+"""Joining: when the files of one station are one motion, and what they hold on one span of time."""
+
+import re
+from collections import Counter
+from collections.abc import Collection, Sequence
+from datetime import datetime
+
+import numpy as np
+
+from rocking.errors import RecordError
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.read import is_unnamed
+
+SAME_STEP = 1e-6
+"""Share by which the time steps of one station's files may differ: the rounding of their headers."""
+LONGEST_TAIL = 0.02
+"""Share of the longest file that it may last beyond the shortest one where no file says when it begins.
+
+The channels of one recorder start together, and processing cuts each at an end of its own: by at most 1.5 % of real
+stations. What differs by more is another record, or lacks its beginning.
+"""
+_OFF_GRID = 0.1  # share of a time step by which the samples of two files may lie between one another
+
+
+def why_apart(channels: Sequence[Accelerogram], samples: Collection[int]) -> str:
+    """Return why channels of several files, of so many samples, cannot be one station's, or ""."""
+    names = Counter(channel.component for channel in channels if not channel.borehole)
+    if twice := next((name for name, n in names.items() if n > 1), ""):
+        return f"component {twice} comes {names[twice]} times"
+    steps = [channel.time_step for channel in channels]
+    if max(steps) / min(steps) - 1 > SAME_STEP:
+        return f"their time steps are {min(steps):g} and {max(steps):g} s"
+    have_starts = [bool(channel.start_time) for channel in channels]
+    tail = max(samples) - min(samples)
+    allowed = 0 if any(have_starts) else LONGEST_TAIL * max(samples)
+    if tail > allowed and not all(have_starts):
+        return f"they hold {min(samples)} and {max(samples)} samples and do not all say when they begin"
+    return ""
+
+
+def joined(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
+    """Return the channels of several files on their common span. Raises RecordError when they do not fit together."""
+    if why := why_apart(channels, [channel.acceleration.size for channel in channels]):
+        raise RecordError(f"its files do not fit together: {why}; give each file a row of its own.")
+    if all(channel.start_time for channel in channels):
+        return _on_common_span(channels)
+    return _to_the_shortest(channels)
+
+
+def _on_common_span(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
+    """Return channels that all say when they begin, from the latest start to the earliest end."""
+    step = channels[0].time_step
+    starts = [datetime.fromisoformat(channel.start_time).timestamp() for channel in channels]
+    late = (max(starts) - np.array(starts)) / step
+    first = np.round(late).astype(int).tolist()
+    off = np.abs(late - first).max()
+    if off > _OFF_GRID:
+        raise RecordError(f"resample the files: their samples lie {off:.2g} of a step between one another.")
+    size = min(channel.acceleration.size - place for channel, place in zip(channels, first, strict=True))
+    if size < 2:
+        raise RecordError("the files have no span of time in common; give each file a row of its own.")
+    begin = channels[int(np.argmax(starts))].start_time
+    sentence = f"Cut to the span common to the station's files, {size * step:g} s from {begin} on."
+    cut = []
+    for channel, place in zip(channels, first, strict=True):
+        samples = channel.acceleration[place : place + size]
+        is_whole = samples.size == channel.acceleration.size
+        cut.append(channel if is_whole else channel.processed_by(samples, sentence, start_time=begin))
+    return cut
+
+
+def _to_the_shortest(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
+    """Return channels that do not say when they begin from the first sample of each to the end of the shortest."""
+    size = min(channel.acceleration.size for channel in channels)
+    cut = []
+    for channel in channels:
+        surplus = channel.acceleration.size - size
+        sentence = (
+            f"The last {surplus} samples left out: the station's shortest file holds {size}, and all are taken to "
+            "begin together."
+        )
+        samples = channel.acceleration[:size]
+        cut.append(channel.processed_by(samples, sentence) if surplus else channel)
+    return cut
+
+
+_QUANTITY = re.compile(r"a|ag|a_g|acc\w*|ground[ _]?acc\w*|amplitude|values?|data", re.I)
+
+
+def names_no_direction(component: str) -> bool:
+    """Whether a component's name is but the place of its column, or a word for acceleration."""
+    return is_unnamed(component) or bool(_QUANTITY.fullmatch(component.strip()))
+
+
+SQUARE = 5.0
+"""Degrees by which two components may be off a right angle without a word."""
+
+
+def angle_between(first: Accelerogram, second: Accelerogram) -> float | None:
+    """Return the angle between two horizontal components, degrees in [0, 180), None where it is unknown."""
+    if first.azimuth is None or second.azimuth is None:
+        return None
+    return (second.azimuth - first.azimuth) % 180
+
+
+_LETTERS = {
+    "LN": "L", "LON": "L", "LONG": "L", "LONGITUDINAL": "L", "TR": "T", "TRAN": "T", "TRANS": "T", "TRANSVERSE": "T",
+    "RADIAL": "R", "RAD": "R", "TRANSVERSAL": "T",
+}  # fmt: skip
+_ACROSS = ({"L", "T"}, {"R", "T"}, {"FN", "FP"}, {"SN", "SP"}, {"X", "Y"}, {"H1", "H2"}, {"1", "2"})
+"""Names of two components that are at right angles by what they mean."""
+_CODE = re.compile(r"([A-Z][HNGL])([RT12XY])")
+
+
+def direction_doubt(horizontal: Sequence[Accelerogram]) -> str:
+    """Return a sentence where the angle of two horizontal components is neither known nor said by their names."""
+    if len(horizontal) != 2 or any(each.vertical for each in horizontal):
+        return ""
+    if angle_between(*horizontal) is not None:
+        return ""
+    names = [each.component for each in horizontal]
+    if all(map(names_no_direction, names)) or _are_across(names):
+        return ""
+    both = " and ".join(names)
+    return f"The angle between components {both} is not known: they are taken to be at right angles."
+
+
+def _are_across(names: Sequence[str]) -> bool:
+    """Whether two names are those of a pair at right angles, such as L and T, FN and FP, HN1 and HN2."""
+    letters = [_LETTERS.get(name.strip(" .").upper(), name.strip(" .").upper()) for name in names]
+    codes = [code for name in letters if (code := _CODE.fullmatch(name))]
+    if len(codes) == 2 and codes[0][1] == codes[1][1]:
+        letters = [code[2] for code in codes]
+    return set(letters) in _ACROSS
