@@ -22,6 +22,7 @@ from rocking.records import Accelerogram, CatalogueRecord, aligned, load_catalog
 from rocking.records.processing import process
 from rocking.records.station import station_of
 from rocking.structures import Structure, load_structures
+from rocking.study.folder import locked
 from rocking.study.plan import JOBS, sha256_of, structures_sha256
 from rocking.study.results import remove_copies, written_part
 from rocking.study.settings import Settings, read_settings
@@ -83,7 +84,7 @@ def begin_job(config: Mapping[str, Any], params: Any) -> tuple[Study, list[Catal
     """
     sys.excepthook = tell_error
     with contextlib.suppress(OSError):
-        fcntl.flock(os.open(JOBS, os.O_RDWR | os.O_CREAT), fcntl.LOCK_SH)  # never closed: held to the end
+        locked(JOBS, fcntl.LOCK_SH)  # never closed: held to the end
         # Ctrl-C comes from the scheduler, as SIGTERM.
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         signal.signal(signal.SIGTERM, signal.default_int_handler)

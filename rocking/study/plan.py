@@ -19,16 +19,19 @@ from rocking.records.files import fill_hashes, local_files, with_hashes
 from rocking.records.folder import unlisted
 from rocking.records.read import LARGEST_FILE
 from rocking.structures import Structure, load_structures
+from rocking.study.folder import REMEMBERED, check_own, results_folder, stands_inside
 from rocking.study.settings import Settings, named_files, read_settings
-from rocking.tables import write_whole
+from rocking.tables import read_whole, write_whole
 from rocking.tables.yaml_file import read_yaml
 
 T = TypeVar("T")
 
-JOBS = Path(".snakemake") / "rocking_jobs.lock"
+JOBS = REMEMBERED / "rocking_jobs.lock"
 """Held by every job of a study while it works, in the folder of the study."""
-_HASHES = Path(".snakemake") / "rocking_hashes.json"
+_HASHES = REMEMBERED / "rocking_hashes.json"
 """Beside what snakemake remembers of a study; it may be removed at any time."""
+_LARGEST_STORE = 500_000_000
+"""Bytes of it that are read; a hundred thousand files take about 25 million."""
 _SETTLED = 2.0
 """s; a file that changed more recently may change again without its times telling, so its hash is not kept."""
 _SOURCE = {".py", ".csv", ".json", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
@@ -62,8 +65,12 @@ class Plan:
         )
 
     def fill_hashes(self) -> None:
-        """Write the hashes that the catalogue leaves blank: the files are checked against them from now on."""
-        fill_hashes(self.settings.catalogue, self.settings.mirror)
+        """Write the hashes that the catalogue leaves blank: the files are checked against them from now on.
+
+        A catalogue outside the folder of the study stays as it is.
+        """
+        if stands_inside(Path(self.settings.catalogue)):
+            fill_hashes(self.settings.catalogue, self.settings.mirror)
 
     @cached_property
     def _files(self) -> dict[str, dict[str, str]]:
@@ -108,7 +115,7 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
     settings = attempt(read_settings, config) or named_files(config)
     catalogue = attempt(load_catalogue, settings.catalogue) or ()
     structures = attempt(load_structures, settings.structures) or {}
-    attempt(_check_writable, Path(settings.results))
+    attempt(_check_results, settings)
     if defects:
         raise ConfigurationError("\n".join(defects))
     records = {record.id: with_hashes(record, settings.mirror) for record in catalogue}
@@ -144,7 +151,9 @@ def check_config_file(path: Path) -> dict[str, Any]:
     return content or {}
 
 
-def _check_writable(results: Path) -> None:
+def _check_results(settings: Settings) -> None:
+    """Make sure that the results can be written where the settings put them, and that nothing leads elsewhere."""
+    results = results_folder(settings.results, settings.catalogue, settings.structures)
     folder = next(path for path in (results.absolute(), *results.absolute().parents) if path.exists())
     if not folder.is_dir():
         raise ConfigurationError(f"setting results: {folder} is a file, but must be a folder.")
@@ -152,6 +161,7 @@ def _check_writable(results: Path) -> None:
         raise ConfigurationError(
             f"setting results: nothing can be written in {folder}; mend its permissions or name another folder."
         )
+    check_own(results)
 
 
 def sha256_of(*contents: object) -> str:
@@ -190,8 +200,8 @@ class ContentHashes:
         self._store = store
         self._before: dict[str, str] = {}
         self._now: dict[str, str] = {}
-        with suppress(OSError, ValueError, TypeError):
-            self._before = dict(json.loads(store.read_text(encoding="utf-8")))
+        with suppress(RockingError, ValueError, TypeError, RecursionError):
+            self._before = dict(json.loads(read_whole(store, _LARGEST_STORE, RockingError)))
 
     def of(self, path: Path) -> str:
         """Return the sha256 of the file at `path`, "" for what no reader takes: another kind of file, or too large."""

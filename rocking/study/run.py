@@ -17,12 +17,13 @@ from rocking.assessment.rows.of_record import FailureRow, VerdictRow
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted
 from rocking.study import close_doors
+from rocking.study.folder import REMEMBERED, locked, new_log
 from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_plan, workflow_folder
 from rocking.study.settings import named_files
 from rocking.study.terminal import Progress, closing_lines, fitting, paths_to_read
 from rocking.tables import read_table
 
-_LOCK = Path(".snakemake") / "rocking_run.lock"
+_LOCK = REMEMBERED / "rocking_run.lock"
 """Held by the process that schedules the jobs of a study, in the folder of the study."""
 _ANSWERS = re.compile(
     r"(-[nhvlSDt]|--(dry-?run|help|version|list|list-rules|list-changes|lint|dag|rulegraph|filegraph|d3dag|summary|"
@@ -65,7 +66,6 @@ def run(folder: Path, options: Sequence[str]) -> int:
     results = folder / plan.settings.results
     summary = results / "summary"
     log = summary / "logs" / "run.log"
-    log.parent.mkdir(parents=True, exist_ok=True)
     with contextlib.chdir(folder):
         doubts = plan.doubts
     print(
@@ -134,7 +134,7 @@ def _logged(log: Path) -> Iterator[TextIO]:
     """Let this process and its children write into `log`, and yield the stream that they would have written to."""
     sys.stdout.flush()
     copies = {number: os.dup(number) for number in (1, 2)}
-    with log.open("wb") as stream, os.fdopen(os.dup(1), "w") as terminal:
+    with new_log(log) as stream, os.fdopen(os.dup(1), "w") as terminal:
         for number in copies:
             os.dup2(stream.fileno(), number)
         try:
@@ -151,8 +151,7 @@ def begin(plan: Plan) -> None:
     Waits for jobs that outlived their scheduler. When the process is asked to stop, its jobs are, and no other starts.
     """
     hold(Path.cwd())
-    with JOBS.open("a") as jobs:
-        fcntl.flock(jobs, fcntl.LOCK_EX)
+    os.close(locked(JOBS, fcntl.LOCK_EX))
     # Of snakemake: starts no more jobs, and waits for those that work.
     graceful: Any = signal.getsignal(signal.SIGTERM)
 
@@ -176,18 +175,14 @@ def begin(plan: Plan) -> None:
 
 
 @cache
-def hold(folder: Path) -> TextIO:
+def hold(folder: Path) -> int:
     """Keep every other run out of the study in `folder` until this process ends, however it ends.
 
     Raises RockingError when another run works there.
     """
-    lock = folder / _LOCK
-    lock.parent.mkdir(exist_ok=True)
-    stream = lock.open("a", encoding="utf-8")
     try:
-        fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        return locked(folder / _LOCK, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         raise RockingError(
             f"{folder}: another run works in this study; wait for its end or stop it."
         ) from None
-    return stream

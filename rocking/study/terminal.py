@@ -17,6 +17,7 @@ from rocking.assessment.rows.of_record import FailureRow, VerdictRow
 from rocking.assessment.verdict import ORDER, Judgement, Verdict, rocks, worst_first
 from rocking.errors import RecordError, RockingError
 from rocking.quantities import counted
+from rocking.study.folder import new_log
 from rocking.tables import read_table
 
 _MOST = 6
@@ -178,7 +179,7 @@ def tell(job: str, line: str) -> None:
 
 def line_writer(log: Path) -> Callable[[str], None]:
     """Return what adds a line to `log`, begun anew, and tells it."""
-    log.write_text("", encoding="utf-8")
+    new_log(log).close()
 
     def add(line: str) -> None:
         with log.open("a", encoding="utf-8") as stream:

@@ -5,6 +5,7 @@ import json
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from enum import StrEnum
+from io import TextIOWrapper
 from itertools import islice
 from pathlib import Path
 from types import SimpleNamespace
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from rocking.described import Described
 from rocking.errors import RockingError
-from rocking.tables.files import whole, write_whole
+from rocking.tables.files import regular_file, whole, write_whole
 from rocking.tables.row import R, Row, Table, cell, empty, value_of
 
 if TYPE_CHECKING:
@@ -82,8 +83,9 @@ def _read_values(row_class: type[Row], path: Path, names: Collection[str]) -> It
 
 @contextmanager
 def readable(path: Path) -> Iterator[Any]:
+    """Yield the text of a regular file. Raises RockingError where it cannot be read."""
     try:
-        with Path(path).open(encoding="utf-8", newline="") as stream:
+        with regular_file(Path(path)) as content, TextIOWrapper(content, encoding="utf-8", newline="") as stream:
             yield stream
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         reason = getattr(error, "strerror", None) or str(error)

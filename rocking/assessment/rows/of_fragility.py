@@ -17,10 +17,12 @@ from rocking.assessment.rows.of_record import RECORD, STRUCTURE
 from rocking.errors import ConfigurationError
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism
-from rocking.tables import Row, column, read_rows, row
+from rocking.tables import Row, column, read_rows, read_whole, row
 
 _STEPS = 400
 """Steps of the integral over the hazard curve, in equal parts of the logarithm of the level."""
+_LARGEST_HAZARD = 1_000_000
+"""Bytes of a hazard curve; fifty points take about one thousand."""
 ROTATION_RATIOS = (0.1, 0.3, 0.5, math.inf)
 """Largest rotations over the critical one whose exceedance has a curve; inf: overturning."""
 _MEASURE = f"Intensity measure: {MEASURES_IN_WORDS}"
@@ -39,6 +41,7 @@ def read_hazard(path: Path) -> list[HazardRow]:
 
     Raises ConfigurationError for fewer than two points, levels that do not ascend, or a rate that rises.
     """
+    read_whole(path, _LARGEST_HAZARD, ConfigurationError)
     points = list(read_rows(HazardRow, path))
     if len(points) < 2:
         raise ConfigurationError(f"{path} holds {len(points)} points, but must hold at least 2.")

@@ -22,6 +22,12 @@ ROOT = Path(__file__).parents[3]
 SHA256 = "0" * 64
 
 
+@pytest.fixture(autouse=True)
+def _in_the_study(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Plans are made in the folder of the study."""
+    monkeypatch.chdir(tmp_path)
+
+
 def _write(folder: Path, rows: str, structures: str = "", **settings: object) -> dict[str, object]:
     """Write a catalogue and a structure list into `folder` and return the settings that name them."""
     (folder / "catalogue.csv").write_text(f"id,file,sha256\n{rows}")
