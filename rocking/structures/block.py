@@ -1,6 +1,7 @@
 """Rigid bodies that rock about a corner (theory: section 2): rectangular block (Housner 1963), spire, any other."""
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
@@ -9,7 +10,8 @@ from rocking.errors import StructureError
 from rocking.structures.drawing import Path, rectangle, span, swept
 from rocking.structures.fields import OneSided, Value, length, restitution_value
 from rocking.structures.linkage import STILL, Restitution, Turning
-from rocking.structures.structure import Crackable, Structure
+from rocking.structures.stack import Course, Stack, counted_courses, courses_between
+from rocking.structures.structure import Crackable, Structure, free_to_both_sides
 
 Balanced = Annotated[Restitution, restitution_value("momentum", "housner")]
 
@@ -75,6 +77,14 @@ class Block(Structure):
         inertia = (self.breadth**2 + self.height**2) / 12
         return Turning(self.breadth / 2, [1.0], [0.5j * self.height], [inertia], slenderness=self.slenderness)
 
+    def stack(self, courses: int | None = None) -> Stack:
+        """Return it as one body, or as so many drums."""
+        free_to_both_sides(self)
+        number = 1 if courses is None else counted_courses(courses)
+        levels = np.linspace(0.0, self.height, number + 1)
+        faces = [(-self.breadth / 2, self.breadth / 2)] * (number + 1)
+        return Stack(courses_between(levels, faces, 1.0, [1.0] * number))
+
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         return [(0, rectangle(-self.breadth / 2, self.breadth / 2, 0.0, self.height))]
 
@@ -138,6 +148,18 @@ class RigidBody(Structure):
         end = np.arctan2(corner, self.centre_height) + np.pi / 2
         return Turning(corner, [1.0], [centre], [self.inertia], end_rotation=float(end))
 
+    def stack(self, courses: int | None = None) -> Stack:
+        """Return it as one body, as high as twice its centre of mass, for its courses are not known."""
+        free_to_both_sides(self)
+        if courses not in (None, 1):
+            raise StructureError(
+                f"courses is {courses!r}, but must be 1 for a body that is known by its centre of mass only; leave "
+                "it out."
+            )
+        face = (-self.left, self.right)
+        body = Course(face, face, 0.0, 2 * self.centre_height, 1.0, (0.0, self.centre_height), self.inertia)
+        return Stack((body,))
+
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         """The parallelogram with these corners and this centre of mass, for want of the true outline."""
         top = 2j * self.centre_height
@@ -152,6 +174,10 @@ class RigidBody(Structure):
         }
 
 
+_SECTION = {"circular": np.pi, "square": 4.0}
+"""Area of a horizontal section over the square of its half width."""
+_SECTION_SPREAD = {"circular": 1 / 4, "square": 1 / 3}
+"""Mean square of one horizontal coordinate over a section, in squares of its half width."""
 _SPREAD = {"circular": 3 / 20, "square": 1 / 5}
 """Mean square of one horizontal coordinate over a solid cone or pyramid, in squares of its half width."""
 
@@ -227,6 +253,39 @@ class Spire(Crackable):
         height = 2 * half_width / self.width * self.height
         moments = np.array([1.0, height / 4, height**2 / 10, _SPREAD[self.plan] * half_width**2])
         return half_width**2 * height * moments
+
+    def stack(self, courses: int | None = None) -> Stack:
+        """Return the courses above the crack where it is known, else all of them."""
+        free_to_both_sides(self)
+        number = counted_courses(courses)
+        foot = self.crack_height if self.crack == "known" else 0.0
+        levels = np.linspace(foot, self.height, number + 1)
+        return Stack(tuple(self._course(*ends) for ends in pairwise(levels.tolist())))
+
+    def _course(self, low: float, high: float) -> Course:
+        """The part between two heights [m]; its mass is its volume."""
+        slope = self.width / (2 * self.height)
+        half_widths = [slope * (self.height - level) for level in (low, high)]
+        moments = self._slice(low, high, 0.0)
+        if self.wall_thickness is not None:
+            moments = moments - self._slice(low, high, self.wall_thickness)
+        mass, first, second, across = moments
+        centre = first / mass
+        inertia = (second + across) / mass - centre**2
+        faces = [(-half, half) for half in half_widths]
+        return Course(*faces, low, high - low, float(mass), (0.0, float(low + centre)), float(mass * inertia))
+
+    def _slice(self, low: float, high: float, inset: float) -> np.ndarray:
+        """Volume and integrals of z, z² (from `low`) and x² of the solid whose surface lies `inset` [m] inwards."""
+        slope = self.width / (2 * self.height)
+        end = min(high, self.height - inset / slope)
+        if end <= low:
+            return np.zeros(4)
+        nodes, weights = np.polynomial.legendre.leggauss(3)  # exact for the polynomials of degree 4 here
+        z = (end - low) / 2 * (nodes + 1)
+        areas = (end - low) / 2 * weights * _SECTION[self.plan] * (slope * (self.height - low - z) - inset) ** 2
+        squares = (slope * (self.height - low - z) - inset) ** 2 * _SECTION_SPREAD[self.plan]
+        return np.array([areas.sum(), areas @ z, areas @ z**2, areas @ squares])
 
     def cracked_at(self, height: float) -> "Spire":
         return replace(self, crack_height=height)

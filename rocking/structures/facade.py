@@ -3,6 +3,7 @@
 x = 0 is the outer face, x < 0 the building; the positive side rocks outwards about the outer toe of the crack.
 """
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -11,10 +12,23 @@ from typing import Annotated, ClassVar
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.quantities import whole
+from rocking.quantities import GRAVITY, whole
 from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import Value, restitution_value
 from rocking.structures.linkage import STILL, Hung, Restitution, Turning
+from rocking.structures.stack import (
+    Course,
+    Held,
+    PointMass,
+    Stack,
+    counted_courses,
+    course_at,
+    courses_between,
+    joined,
+    loaded,
+    slab,
+)
+from rocking.structures.structure import free_to_both_sides
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity, check_inside
 
 _MOST_STOREYS = 50
@@ -169,6 +183,56 @@ class Facade(Tied):
             part = 0 if height > self.crack_height else STILL
             hung.append(Hung("tie", 1j * height, part, tie=None if mirrored else self._tie))
         return hung
+
+    def stack(self, courses: int | None = None) -> Stack:
+        """Return all above the crack as one body where it is known, else courses that end at the feet of storeys."""
+        free_to_both_sides(self)
+        whole_body = courses is None and self.crack == "known"
+        body = list(self._storey_courses(1 if whole_body else counted_courses(courses)))
+        if whole_body:
+            body = [joined(body[self.crack_storey - 1 :])]
+        held: list[Held] = []
+        slabs: tuple[Course, ...] = ()
+        foot, last = body[0].base, len(self.floor_loads) - 1
+        for storey, load in enumerate(self.floor_loads):
+            level, thickness = float(self.levels[storey + 1]), self.thicknesses[storey]
+            if not load or level <= foot:
+                continue
+            point = (-thickness / 2 - self.eccentricity, level)
+            place = course_at(body, level)
+            if storey == last and self.top_slab == "flat":
+                slabs = (self._flat_slab(thickness, load),)
+            elif self.loads_held:
+                held.append(Held(place, point, force=(0.0, -load)))
+            else:
+                body[place] = loaded(body[place], [PointMass(point, load / GRAVITY)])
+        if self.thrust:
+            height = self.height if self.thrust_height is None else self.thrust_height
+            if height > foot:
+                held.append(Held(course_at(body, height), (0.0, height), force=(self.thrust, 0.0)))
+        for height in self.tie_heights:
+            if height > foot:
+                held.append(Held(course_at(body, height), (0.0, height), tie=self._tie))
+        return Stack((*body, *slabs), tuple(held))
+
+    def _flat_slab(self, thickness: float, load: float) -> Course:
+        """The uppermost floor as a body that stays flat and moves along."""
+        if self.loads_held:
+            raise StructureError(
+                "loads_held is true under a flat slab, but contact dynamics needs the mass of a slab; leave loads_held "
+                "out, or choose another fidelity than contact."
+            )
+        return slab(-thickness, 0.0, self.height, load, upright=True)
+
+    def _storey_courses(self, courses: int) -> tuple[Course, ...]:
+        """Each storey in about as many courses as its share of the height asks, at least `courses` in all."""
+        made: list[Course] = []
+        for storey, (height, thickness) in enumerate(zip(self.storey_heights, self.thicknesses, strict=True)):
+            number = max(1, math.ceil(courses * height / self.height - 1e-9))
+            levels = self.levels[storey] + np.linspace(0.0, height, number + 1)
+            faces = [(-thickness, 0.0)] * (number + 1)
+            made += courses_between(levels, faces, self.unit_weight / GRAVITY, [1.0] * number)
+        return tuple(made)
 
     @property
     def joints(self) -> np.ndarray:

@@ -19,6 +19,7 @@ from rocking.structures.drawing import Dimension, Mark, Path, plane
 from rocking.structures.fields import Field, Form, Value, constructor
 from rocking.structures.linkage import STILL, Linkage, Motion, Restitution, momentum_balance
 from rocking.structures.mechanism import Mechanism
+from rocking.structures.stack import Stack
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -256,6 +257,16 @@ class Structure(ABC):
             np.where(there, positive.tangential, negative.tangential) + unknown,
         )
 
+    def stack(self, courses: int | None = None) -> Stack:
+        """Return it as rigid courses for contact dynamics; raises StructureError where that has no meaning.
+
+        courses: their number; None: the bodies of the mechanism where the crack is known, else COURSES.
+        """
+        raise StructureError(
+            f"a {self.type_name} is no stack of courses, so that contact dynamics cannot follow it; choose another "
+            "fidelity than contact."
+        )
+
     def dimensions(self) -> tuple[Dimension, ...]:
         """Return the dimension lines of the sizes it was described by, at rest; of a list, one for each value."""
         lines, paths = [], self._dimensions()
@@ -482,6 +493,15 @@ class Crackable(Structure):
     def cracked_by_statics(self) -> Self:
         """Return this structure cracked where statics chooses; the crack stays unknown."""
         return replace(self.candidates()[0].structure, crack=self.crack)  # type: ignore[call-arg,return-value]
+
+
+def free_to_both_sides(structure: Structure) -> None:
+    """Refuse contact dynamics of what leans on something: what it leans on is no course."""
+    if structure.one_sided:
+        raise StructureError(
+            "a one-sided structure leans on what is no course of it, so that contact dynamics cannot follow it; choose "
+            "another fidelity than contact."
+        )
 
 
 def typed_text(value: object, number: str = "{}") -> str:

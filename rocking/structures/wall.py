@@ -10,14 +10,17 @@ from typing import Annotated, Any, ClassVar, Self
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.quantities import finite
+from rocking.quantities import GRAVITY, finite
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import OneSided, Value, length, restitution_value
 from rocking.structures.linkage import Hung, Linkage, Motion, Restitution, cross, keeps_last
-from rocking.structures.structure import HIGHEST_SHARE, Crackable
+from rocking.structures.stack import Course, Held, Stack, counted_courses, course_at, courses_between, slab
+from rocking.structures.structure import HIGHEST_SHARE, Crackable, free_to_both_sides
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity
 
+_BEARING = 0.02
+"""Breadth of a bearing in a stack, over the thickness of the wall: a hinge has none."""
 _LINKAGE_MARGIN = 0.9
 """Share of the reach of the shorter half that the motion may use: the linkage locks at 1, where ψ' is
 infinite, and by 0.9 the hinge has moved so far past the upright position that the wall has fallen."""
@@ -184,6 +187,20 @@ class CrackedWall(Crackable):
     def _linkage(self, mirrored: bool) -> WallLinkage:
         return WallLinkage(self.lower_height, self.upper_height, self.thickness)
 
+    def stack(self, courses: int | None = None) -> Stack:
+        """Return its two blocks where the hinge is known, else so many courses, held sideways at the top."""
+        free_to_both_sides(self)
+        return Stack(self._wall_courses(courses, 1.0), top_held_at=(0.0, self.height))
+
+    def _wall_courses(self, courses: int | None, density: float) -> tuple[Course, ...]:
+        """The wall itself. density: mass per m³."""
+        levels = [0.0, self.lower_height, self.height]
+        if courses is not None or self.crack != "known":
+            levels = np.linspace(0.0, self.height, counted_courses(courses) + 1).tolist()
+        number = len(levels) - 1
+        faces = [(-self.thickness / 2, self.thickness / 2)] * (number + 1)
+        return courses_between(levels, faces, density, [1.0] * number)
+
     def cracked_at(self, height: float) -> Self:
         return replace(self, lower_height=height, upper_height=self.height - height)
 
@@ -287,6 +304,30 @@ class LoadedWall(CrackedWall, Tied):
     def _linkage(self, mirrored: bool) -> WallLinkage:
         weight = self.unit_weight * self.height * self.thickness
         return WallLinkage(self.lower_height, self.upper_height, self.thickness, weight, self._hung(mirrored))
+
+    def stack(self, courses: int | None = None) -> Stack:
+        """Return its two blocks where the hinge is known, else so many courses, below the slab or the bearing."""
+        free_to_both_sides(self)
+        wall = self._wall_courses(courses, self.unit_weight / GRAVITY)
+        half, top = self.thickness / 2, (-self.eccentricity, self.height)
+        ties = tuple(
+            Held(course_at(wall, height), (half, height), tie=self._tie) for height in self.tie_heights
+        )
+        if not self.top_load:
+            return Stack(wall, ties, top_held_at=(0.0, self.height))
+        if self.load_held and self.top_slab == "flat":
+            raise StructureError(
+                "load_held is true under a flat slab, but contact dynamics needs the mass of a slab; leave load_held "
+                "out, or choose another fidelity than contact."
+            )
+        if self.load_held:
+            weight = Held(len(wall) - 1, top, force=(0.0, -self.top_load))
+            return Stack(wall, (*ties, weight), top_held_at=(0.0, self.height))
+        edges = (-3 * half, 3 * half)
+        if self.top_slab == "hinged":
+            edges = (top[0] - _BEARING * half, top[0] + _BEARING * half)
+        floor = slab(*edges, self.height, self.top_load, guided=True)
+        return Stack((*wall, floor), ties)
 
     def _hung(self, mirrored: bool) -> list[Hung]:
         half, outwards = self.thickness / 2, -1.0 if mirrored else 1.0

@@ -1,0 +1,539 @@
+"""The compiled motion of a stack of rigid courses: contact dynamics in the plane with the time stepping of Moreau.
+
+Coordinates move with the ground, so that its acceleration is a force on every mass. Each joint may touch at its left
+and at its right end: a corner of either course on the face of the other. A contact is unilateral, its shock inelastic,
+and its friction Coulomb's. At a joint hold at most three impulses: normal at the left, normal at the right, and along
+the joint. What touches, and what slides, is guessed as it was in the step before; the impulses of all joints then
+follow at once from equations that couple neighbours only, and the guess is changed until every impulse presses, nothing
+goes into anything and friction stays in its cone. Where no guess does after MOST_GUESSES, the impulses are found one
+after the other until they no longer change.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from rocking.motion.runs import compiled, entry
+
+ALERT = 1e-2
+"""Gap up to which a joint may close within a step, m."""
+MOST_GUESSES = 60
+"""Guesses of what touches before the impulses are found one after the other."""
+ALL_AT_ONCE = 12
+"""Guesses in which all that was wrong is changed; from then on one contact at a time, which ends without friction."""
+SWEEPS = 5000
+"""Most sweeps over the contacts where they are found one after the other."""
+ROUNDING = 1e-9
+"""Impulse over that of the weight in a step, and velocity over g times the step, that count as none."""
+EDGE = 1e-6
+"""How far a corner may lie beyond the face that bears it, over the length of the face."""
+REST = 1.0
+"""How long the courses must have been nearly upright on still ground to stay up, s."""
+OPEN, LEFT, RIGHT, CLOSED = 0, 1, 2, 3
+"""What touches at a joint: the ends in a set of bits."""
+FALLS, STAYS, MOVES = 1, 0, 2
+"""How a run ends: a course fell, all rest, or the samples ended first."""
+
+
+class Bodies(NamedTuple):
+    """n courses on the ground, which is body 0.
+
+    centres: (n + 1, 2) of mass, m. corners: (n + 1, 4, 2) from the centre, the lower left first, counterclockwise, m.
+    mobility: (n + 1, 3) inverse inertias along x, z and the turn, 0 where a body is held. friction: coefficient.
+    pinned: x, z from the centre of the uppermost body of the point that is held sideways; nan where none is.
+    """
+
+    centres: np.ndarray
+    corners: np.ndarray
+    mobility: np.ndarray
+    friction: float
+    pinned: np.ndarray
+
+
+class Acting(NamedTuple):
+    """Forces (k, 5): body, point from its centre [m], force; ties (m, 7): body, point, stiffness, pretension, strength,
+    largest elongation before they break [m]. An infinite strength is elastic.
+    """
+
+    forces: np.ndarray
+    ties: np.ndarray
+
+
+class Limits(NamedTuple):
+    """step: s. gravity: m/s². fallen: turn from which nothing comes back, rad. settled: turn below which a stack on
+    still ground rests, rad. still: step from which the ground rests. every: steps between two states that are kept.
+    """
+
+    step: float
+    gravity: float
+    fallen: float
+    settled: float
+    still: int
+    every: int
+
+
+class Joints(NamedTuple):
+    """What the equations of the impulses need, by joint: the last is that of the pin.
+
+    gap: (j, 2) at the left and right end, inf where nothing faces. rows: (j, 3, 6) velocity of the upper body from the
+    lower one at each impulse, per velocity of both bodies. pushes: (j, 3, 6) what each impulse does to both bodies.
+    impulse: (j, 3). touches: (j,) of OPEN to CLOSED. slides: (j,) 0, or the sign of the friction on the upper body.
+    """
+
+    gap: np.ndarray
+    rows: np.ndarray
+    pushes: np.ndarray
+    impulse: np.ndarray
+    touches: np.ndarray
+    slides: np.ndarray
+
+
+class State(NamedTuple):
+    """Where a stack is and what it has done, and room to work in; n + 1 bodies, m ties.
+
+    place: (n + 1, 3) of the centres and turns. velocity: (n + 1, 3). turns: (n + 1,) where their largest was reached,
+    rad. most: (n + 1,) the largest turn of each, rad. stretched: (m,) largest elongation so far, m. faces:
+    (n + 1, 4, 2) where the corners are. scale: (n + 1,) impulse that counts as none at each joint. work: (n + 1, 3, 7)
+    the equations of the impulses.
+    """
+
+    place: np.ndarray
+    velocity: np.ndarray
+    turns: np.ndarray
+    most: np.ndarray
+    stretched: np.ndarray
+    faces: np.ndarray
+    scale: np.ndarray
+    work: np.ndarray
+
+
+@entry
+def follow(bodies, acting, kicks, limits, state, joints, history):
+    """Return how the run ends, the steps that were followed, and those whose impulses were found one after the other.
+
+    kicks: (steps, 2) velocity that the ground gains in each step, m/s. state: as it begins; what came of it is written
+    there. history: (k, n + 1, 6), filled with place from rest and velocity after every so many steps; none for k = 0.
+    """
+    count, step = len(bodies.centres), limits.step
+    place, velocity = state.place, state.velocity
+    _fill_scale(bodies, limits, state.scale)
+    quiet, swept, largest_of_all = 0, 0, 0.0
+    for number in range(len(kicks)):
+        _drift(place, velocity, step / 2)
+        _pull(bodies, acting, kicks[number], limits, state)
+        _find_contacts(bodies, place, state.faces, joints)
+        if not _solve(bodies, joints, velocity, state.scale, step, state.work):
+            swept += 1
+            _sweep(bodies, joints, velocity, state.scale, step)
+        _drift(place, velocity, step / 2)
+        largest = 0.0
+        for body in range(1, count):
+            turn = abs(place[body, 2])
+            state.most[body] = max(state.most[body], turn)
+            largest = max(largest, turn)
+        if largest > largest_of_all:
+            largest_of_all = largest
+            for body in range(count):
+                state.turns[body] = place[body, 2]
+        if limits.every > 0 and number % limits.every == 0 and number // limits.every < len(history):
+            _keep(bodies, state, history[number // limits.every])
+        if largest > limits.fallen:
+            return FALLS, number + 1, swept
+        quiet = quiet + 1 if number > limits.still and largest < limits.settled else 0
+        if quiet * step > REST:
+            return STAYS, number + 1, swept
+    return MOVES, len(kicks), swept
+
+
+@compiled
+def _drift(place, velocity, time):
+    for body in range(len(place)):
+        for axis in range(3):
+            place[body, axis] += time * velocity[body, axis]
+
+
+@compiled
+def _keep(bodies, state, line):
+    for body in range(len(state.place)):
+        for axis in range(3):
+            rest = bodies.centres[body, axis] if axis < 2 else 0.0
+            line[body, axis] = state.place[body, axis] - rest
+            line[body, 3 + axis] = state.velocity[body, axis]
+
+
+@compiled
+def _fill_scale(bodies, limits, scale):
+    """Write the impulse that counts as none at each joint, from the mass above it."""
+    count, above = len(bodies.centres), 0.0
+    for body in range(count - 1, -1, -1):
+        scale[body] = ROUNDING * above * limits.gravity * limits.step
+        if bodies.mobility[body, 1] > 0:
+            above += 1 / bodies.mobility[body, 1]
+    scale[count - 1] = scale[max(count - 2, 0)]
+    return scale
+
+
+@compiled
+def _pull(bodies, acting, kick, limits, state):
+    """Add to the velocities what the ground, gravity, forces and ties give within a step."""
+    step, mobility = limits.step, bodies.mobility
+    place, velocity, stretched = state.place, state.velocity, state.stretched
+    fall = step * limits.gravity + kick[1]
+    for body in range(1, len(place)):
+        if mobility[body, 1] > 0:
+            velocity[body, 1] -= fall
+        if mobility[body, 0] > 0:
+            velocity[body, 0] -= kick[0]
+    for number in range(len(acting.forces)):
+        body = int(acting.forces[number, 0])
+        across, up = _arm(place[body, 2], acting.forces[number, 1], acting.forces[number, 2])
+        share = fall / limits.gravity  # a force is a weight: it grows with g + ü_v
+        _give(velocity, mobility, body, across, up, share * acting.forces[number, 3], share * acting.forces[number, 4])
+    for number in range(len(acting.ties)):
+        tie = acting.ties[number]
+        body = int(tie[0])
+        across, up = _arm(place[body, 2], tie[1], tie[2])
+        stretch = place[body, 0] + across - bodies.centres[body, 0] - tie[1]
+        stretched[number] = max(stretched[number], stretch)
+        tension = 0.0
+        if stretch >= 0 and stretched[number] <= tie[6]:
+            plastic = max(stretched[number] - (tie[5] - tie[4]) / tie[3], 0.0) if tie[5] < np.inf else 0.0
+            tension = min(max(tie[4] + tie[3] * (stretch - plastic), 0.0), tie[5])
+        _give(velocity, mobility, body, across, up, -step * tension, 0.0)
+
+
+@compiled
+def _arm(turn, across, up):
+    cosine, sine = math.cos(turn), math.sin(turn)
+    return cosine * across - sine * up, sine * across + cosine * up
+
+
+@compiled
+def _give(velocity, mobility, body, across, up, push_x, push_z):
+    velocity[body, 0] += mobility[body, 0] * push_x
+    velocity[body, 1] += mobility[body, 1] * push_z
+    velocity[body, 2] += mobility[body, 2] * (across * push_z - up * push_x)
+
+
+@compiled
+def _find_contacts(bodies, place, faces, joints):
+    """Write the gap at both ends of every joint, and how fast it opens and slides per velocity of both bodies."""
+    count = len(place)
+    for body in range(count):
+        cosine, sine = math.cos(place[body, 2]), math.sin(place[body, 2])
+        for corner in range(4):
+            x, z = bodies.corners[body, corner]
+            faces[body, corner, 0] = place[body, 0] + cosine * x - sine * z
+            faces[body, corner, 1] = place[body, 1] + sine * x + cosine * z
+    for joint in range(count - 1):
+        lower, upper = faces[joint], faces[joint + 1]
+        # Along the top of the lower course, and along the bottom of the upper one.
+        low_x, low_z, low = _along(lower[3], lower[2])
+        high_x, high_z, high = _along(upper[0], upper[1])
+        for end in range(2):
+            joints.gap[joint, end] = np.inf
+            x, z = upper[end]
+            from_x, from_z = x - lower[3, 0], z - lower[3, 1]
+            offset = low_x * from_x + low_z * from_z
+            if -EDGE * low <= offset <= (1 + EDGE) * low:
+                height = low_x * from_z - low_z * from_x
+                _write(joints, joint, end, x, z, low_x, low_z, height, place)
+                continue
+            x, z = lower[3 - end]
+            from_x, from_z = x - upper[0, 0], z - upper[0, 1]
+            offset = high_x * from_x + high_z * from_z
+            if -EDGE * high <= offset <= (1 + EDGE) * high:
+                height = high_z * from_x - high_x * from_z
+                _write(joints, joint, end, x, z, high_x, high_z, height, place)
+    if not math.isnan(bodies.pinned[0]):
+        last = count - 1
+        _, up = _arm(place[last, 2], bodies.pinned[0], bodies.pinned[1])
+        joints.rows[last, 2, 0], joints.rows[last, 2, 2] = 1.0, -up
+
+
+@compiled
+def _along(first, last):
+    x, z = last[0] - first[0], last[1] - first[1]
+    length = math.hypot(x, z)
+    return x / length, z / length, length
+
+
+@compiled
+def _write(joints, joint, end, x, z, along_x, along_z, height, place):
+    """Write the rows of a contact at x, z; the row along the joint is that of the end with the smaller gap."""
+    joints.gap[joint, end] = max(height, 0.0)
+    _row(joints.rows[joint, end], joint, x, z, -along_z, along_x, place)
+    if end == 0 or joints.gap[joint, 1] < joints.gap[joint, 0]:
+        _row(joints.rows[joint, 2], joint, x, z, along_x, along_z, place)
+
+
+@compiled
+def _row(row, joint, x, z, push_x, push_z, place):
+    for side in range(2):
+        body, sign = joint + side, 2.0 * side - 1.0
+        lever = (x - place[body, 0]) * push_z - (z - place[body, 1]) * push_x
+        row[3 * side], row[3 * side + 1], row[3 * side + 2] = sign * push_x, sign * push_z, sign * lever
+
+
+@compiled
+def _solve(bodies, joints, velocity, scale, step, work):
+    """Find what touches and the impulses of this step, and add them to the velocities; return whether it was found."""
+    count = len(velocity)
+    for joint in range(count - 1):
+        facing = (LEFT if joints.gap[joint, 0] <= ALERT else 0) | (RIGHT if joints.gap[joint, 1] <= ALERT else 0)
+        joints.touches[joint] &= facing
+        if joints.touches[joint] == OPEN:
+            joints.slides[joint] = 0
+    speed = ROUNDING * 10.0 * step
+    for guess in range(MOST_GUESSES):
+        _impulses(bodies, joints, velocity, step, work)
+        if _mend(bodies, joints, velocity, scale, step, speed, guess < ALL_AT_ONCE):
+            for joint in range(count):
+                for k in range(3):
+                    _push(bodies, joints, velocity, joint, k, joints.impulse[joint, k])
+            return True
+    return False
+
+
+@compiled
+def _holds(bodies, joints, joint, k, count):
+    """Whether an impulse may act at a joint."""
+    if joint == count - 1:
+        return k == 2 and not math.isnan(bodies.pinned[0])
+    if k == 2:
+        return joints.touches[joint] != OPEN and joints.slides[joint] == 0
+    return joints.touches[joint] >> k & 1 == 1
+
+
+@compiled
+def _impulses(bodies, joints, velocity, step, work):
+    """Solve for the impulses of all joints: three equations each, coupled to those of its neighbours (Thomas)."""
+    count, mobility = len(velocity), bodies.mobility
+    for joint in range(count):
+        matrix = work[joint]
+        for k in range(3):
+            friction = joints.slides[joint] * bodies.friction if k < 2 else 0.0
+            for axis in range(6):
+                push = joints.rows[joint, k, axis] + friction * joints.rows[joint, 2, axis]
+                joints.pushes[joint, k, axis] = push
+        held = (
+            _holds(bodies, joints, joint, 0, count),
+            _holds(bodies, joints, joint, 1, count),
+            _holds(bodies, joints, joint, 2, count),
+        )
+        for k in range(3):
+            row = joints.rows[joint, k]
+            for column in range(7):
+                matrix[k, column] = 0.0
+            if not held[k]:
+                matrix[k, k] = 1.0
+                continue
+            rate = joints.gap[joint, k] / step if k < 2 else 0.0
+            for axis in range(3):
+                rate += row[axis] * velocity[joint, axis]
+                if joint < count - 1:
+                    rate += row[3 + axis] * velocity[joint + 1, axis]
+            matrix[k, 6] = -rate
+            for other in range(3):
+                if not held[other]:
+                    continue
+                push = joints.pushes[joint, other]
+                value = 0.0
+                for axis in range(3):
+                    value += row[axis] * mobility[joint, axis] * push[axis]
+                    if joint < count - 1:
+                        value += row[3 + axis] * mobility[joint + 1, axis] * push[3 + axis]
+                matrix[k, other] = value
+            if joint == 0:
+                continue
+            # The joint beneath acts on the lower body of this one; its impulses are those it has, less what they owe
+            # to the impulses here: p₋ = f − E p, of which work[joint − 1] holds E (3:6) and f (6).
+            before = work[joint - 1]
+            for other in range(3):
+                push = joints.pushes[joint - 1, other]
+                value = 0.0
+                for axis in range(3):
+                    value += row[axis] * mobility[joint, axis] * push[3 + axis]
+                if value != 0.0:
+                    matrix[k, 6] -= value * before[other, 6]
+                    for here in range(3):
+                        matrix[k, here] -= value * before[other, 3 + here]
+        if joint < count - 1:
+            _couple(bodies, joints, joint, held, matrix, count)
+        _eliminate(matrix)
+    for joint in range(count - 1, -1, -1):
+        matrix = work[joint]
+        for k in range(3):
+            value = matrix[k, 6]
+            if joint < count - 1:
+                for other in range(3):
+                    value -= matrix[k, 3 + other] * joints.impulse[joint + 1, other]
+            joints.impulse[joint, k] = value
+
+
+@compiled
+def _couple(bodies, joints, joint, held, matrix, count):
+    """Write how the impulses of the joint above act at this one, columns 3 to 5."""
+    upper = joint + 1
+    for other in range(3):
+        if not _holds(bodies, joints, upper, other, count):
+            continue
+        row_above = joints.rows[upper, other]
+        for k in range(3):
+            if not held[k]:
+                continue
+            value = 0.0
+            for axis in range(3):
+                push = row_above[axis]
+                if other < 2 and joints.slides[upper] != 0:
+                    push += joints.slides[upper] * bodies.friction * joints.rows[upper, 2, axis]
+                value += joints.rows[joint, k, 3 + axis] * bodies.mobility[upper, axis] * push
+            matrix[k, 3 + other] = value
+
+
+@compiled
+def _eliminate(matrix):
+    """Turn the first three columns of a (3, 7) into the unit matrix, the largest pivot first."""
+    for k in range(3):
+        pivot = k
+        for other in range(k + 1, 3):
+            if abs(matrix[other, k]) > abs(matrix[pivot, k]):
+                pivot = other
+        if pivot != k:
+            for column in range(7):
+                matrix[k, column], matrix[pivot, column] = matrix[pivot, column], matrix[k, column]
+        if matrix[k, k] == 0.0:
+            matrix[k, k] = 1e-300
+        factor = 1 / matrix[k, k]
+        for column in range(k, 7):
+            matrix[k, column] *= factor
+        for other in range(3):
+            share = matrix[other, k]
+            if other != k and share != 0.0:
+                for column in range(k, 7):
+                    matrix[other, column] -= share * matrix[k, column]
+
+
+@compiled
+def _rate(bodies, joints, velocity, joint, k):
+    """Velocity at which a joint opens or slides once all impulses have acted."""
+    value, row = 0.0, joints.rows[joint, k]
+    for side in range(2):
+        body = joint + side
+        for axis in range(3):
+            own = velocity[body, axis]
+            for other in range(3):
+                own += bodies.mobility[body, axis] * (
+                    joints.impulse[body, other] * joints.pushes[body, other, axis]
+                )
+                if body > 0:
+                    own += bodies.mobility[body, axis] * (
+                        joints.impulse[body - 1, other] * joints.pushes[body - 1, other, 3 + axis]
+                    )
+            value += row[3 * side + axis] * own
+    return value
+
+
+@compiled
+def _mend(bodies, joints, velocity, scale, step, speed, all_at_once):
+    """Change what was guessed wrongly; return whether nothing was."""
+    right = True
+    for joint in range(len(velocity) - 1):
+        touches, slides = joints.touches[joint], joints.slides[joint]
+        now = touches
+        for end in range(2):
+            bit = 1 << end
+            if touches & bit:
+                if joints.impulse[joint, end] < -scale[joint]:
+                    now &= ~bit
+            elif joints.gap[joint, end] <= ALERT:
+                closing = _rate(bodies, joints, velocity, joint, end) + joints.gap[joint, end] / step
+                if closing < -speed:
+                    now |= bit
+            if now != touches and not all_at_once:
+                break
+        if now == touches and touches != OPEN:
+            pressing = joints.impulse[joint, 0] + joints.impulse[joint, 1]
+            if slides == 0:
+                if abs(joints.impulse[joint, 2]) > bodies.friction * pressing + scale[joint]:
+                    joints.slides[joint] = 1 if joints.impulse[joint, 2] > 0 else -1
+                    right = False
+            elif slides * _rate(bodies, joints, velocity, joint, 2) > speed:
+                joints.slides[joint] = 0
+                right = False
+        if now != touches:
+            if touches == OPEN or now == OPEN:
+                joints.slides[joint] = 0
+            joints.touches[joint] = now
+            right = False
+        if not right and not all_at_once:
+            return False
+    return right
+
+
+@compiled
+def _push(bodies, joints, velocity, joint, k, impulse):
+    if impulse == 0.0:
+        return
+    for axis in range(3):
+        velocity[joint, axis] += bodies.mobility[joint, axis] * joints.pushes[joint, k, axis] * impulse
+        if joint < len(velocity) - 1:
+            velocity[joint + 1, axis] += bodies.mobility[joint + 1, axis] * joints.pushes[joint, k, 3 + axis] * impulse
+
+
+@compiled
+def _sweep(bodies, joints, velocity, scale, step):
+    """Find the impulses one after the other (Gauss and Seidel), up and down the stack, until none changes."""
+    count = len(velocity)
+    for joint in range(count):
+        for k in range(3):
+            joints.impulse[joint, k] = 0.0
+            for axis in range(6):
+                joints.pushes[joint, k, axis] = joints.rows[joint, k, axis]
+    pinned = not math.isnan(bodies.pinned[0])
+    for sweep in range(SWEEPS):
+        change = 0.0
+        for place in range(count if pinned else count - 1):
+            joint = place if sweep % 2 == 0 else (count if pinned else count - 1) - 1 - place
+            for k in range(3):
+                if joint < count - 1:
+                    if k < 2 and not joints.gap[joint, k] <= ALERT:
+                        continue
+                    if k == 2 and min(joints.gap[joint, 0], joints.gap[joint, 1]) > ALERT:
+                        continue
+                elif k < 2:
+                    continue
+                change = max(change, _correct(bodies, joints, velocity, joint, k, step) / scale[joint])
+        if change <= 1e3:  # a millionth of the weight's impulse
+            break
+    for joint in range(count - 1):
+        touches = 0
+        for end in range(2):
+            if joints.impulse[joint, end] > 0:
+                touches |= 1 << end
+        joints.touches[joint], joints.slides[joint] = touches, 0
+
+
+@compiled
+def _correct(bodies, joints, velocity, joint, k, step):
+    """Correct one impulse; return by how much it changed."""
+    row, before, last = joints.rows[joint, k], joints.impulse[joint, k], len(velocity) - 1
+    rate = joints.gap[joint, k] / step if k < 2 else 0.0
+    compliance = 0.0
+    for axis in range(3):
+        rate += row[axis] * velocity[joint, axis]
+        compliance += bodies.mobility[joint, axis] * row[axis] ** 2
+        if joint < last:
+            rate += row[3 + axis] * velocity[joint + 1, axis]
+            compliance += bodies.mobility[joint + 1, axis] * row[3 + axis] ** 2
+    after = before - rate / compliance
+    if joint < last:
+        if k < 2:
+            after = max(after, 0.0)
+        else:
+            most = bodies.friction * (joints.impulse[joint, 0] + joints.impulse[joint, 1])
+            after = min(max(after, -most), most)
+    joints.impulse[joint, k] = after
+    _push(bodies, joints, velocity, joint, k, after - before)
+    return abs(after - before)

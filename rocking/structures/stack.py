@@ -1,0 +1,255 @@
+"""The stack: a member as rigid courses in the plane, one on the other, for contact dynamics (theory: section 11).
+
+x to the right, z up, m. Masses and forces are in one unit per mass: kg and N, or kg per metre of wall and N per metre.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+
+from rocking.errors import StructureError
+from rocking.quantities import GRAVITY, whole
+from rocking.structures.mechanism import Tie
+
+MOST_COURSES = 40
+"""Courses that a stack may have: its cost grows with their number, and a wall of more is followed as well by these."""
+COURSES = 6
+"""Courses of a member that does not say how many it has. Six give the verdict of eight to thirteen in 82 of 87 trials
+of LMGC90 (docs/pages/validation.md)."""
+FRICTION = 5.0
+"""Friction coefficient at the joints: more than courses that only rock need, so that none slides."""
+_GAP = 1e-9
+"""Distance between two courses that counts as none, over the height of the stack."""
+
+
+@dataclass(frozen=True)
+class Course:
+    """One rigid body of a stack.
+
+    bottom, top: left and right edge of its lower and its upper face, m. base, height: of its lower face above the foot
+    of the stack, and of the body, m. mass. centre: of mass, m. inertia: about the centre of mass, mass · m².
+    guided: it moves sideways with the ground and does not turn, as a slab that floors hold; it is free to rise.
+    upright: it does not turn, as a slab that stays flat, but moves to the side with what it lies on.
+    """
+
+    bottom: tuple[float, float]
+    top: tuple[float, float]
+    base: float
+    height: float
+    mass: float
+    centre: tuple[float, float]
+    inertia: float
+    guided: bool = False
+    upright: bool = False
+
+    def __post_init__(self) -> None:
+        numbers = (*self.bottom, *self.top, self.base, self.height, self.mass, *self.centre, self.inertia)
+        if not np.all(np.isfinite(numbers)):
+            raise StructureError(
+                f"a course of the stack is {numbers!r}, but all its numbers must be finite; correct them."
+            )
+        narrow = self.bottom[1] <= self.bottom[0] or self.top[1] < self.top[0]
+        if narrow or min(self.height, self.mass, self.inertia) <= 0:
+            raise StructureError(
+                f"a course of the stack has the faces {self.bottom!r} and {self.top!r} m, the height {self.height!r} "
+                f"m, the mass {self.mass!r} and the inertia {self.inertia!r}, but its breadth, height, mass and "
+                "inertia must be positive; correct them."
+            )
+
+    @property
+    def corners(self) -> np.ndarray:
+        """The corners (4, 2) at rest from the lower left one, counterclockwise, m."""
+        low, high = self.base, self.base + self.height
+        left, right = self.bottom
+        return np.array([[left, low], [right, low], [self.top[1], high], [self.top[0], high]])
+
+    @property
+    def slenderness(self) -> float:
+        """The angle at which it lies on its own edge, rad."""
+        lever = min(self.centre[0] - self.bottom[0], self.bottom[1] - self.centre[0])
+        return float(np.arctan2(max(lever, 0.0), self.centre[1] - self.base))
+
+
+@dataclass(frozen=True)
+class Held:
+    """What acts on a course at a point: a constant force, which grows with gravity, or a tie.
+
+    course: its place in the stack from the lowest one, 0. point: at rest, m. force: to the right and upwards. tie:
+    pulls to the left once its point has moved to the right.
+    """
+
+    course: int
+    point: tuple[float, float]
+    force: tuple[float, float] = (0.0, 0.0)
+    tie: Tie | None = None
+
+
+@dataclass(frozen=True)
+class Stack:
+    """Courses on moving ground, from the lowest one up.
+
+    held: forces and ties. top_held_at: point of the uppermost course that something holds to the ground sideways only,
+    m; None: its top is free. friction: coefficient at every joint. The ground goes on to both sides of the foot.
+    Raises StructureError for no course, more than MOST_COURSES, or courses that do not lie on one another.
+
+    >>> from rocking import Block
+    >>> len(Block.of_size(breadth=0.6, height=4.0).stack().courses)
+    1
+    """
+
+    courses: tuple[Course, ...]
+    held: tuple[Held, ...] = field(default=())
+    top_held_at: tuple[float, float] | None = None
+    friction: float = FRICTION
+
+    def __post_init__(self) -> None:
+        if not 1 <= len(self.courses) <= MOST_COURSES:
+            raise StructureError(
+                f"the stack has {len(self.courses)} courses, but must have 1 to {MOST_COURSES}; join some."
+            )
+        slack = _GAP * self.height
+        for lower, upper in pairwise(self.courses):
+            apart = upper.base - (lower.base + lower.height)
+            overlap = min(lower.top[1], upper.bottom[1]) - max(lower.top[0], upper.bottom[0])
+            if abs(apart) > slack or overlap <= 0:
+                raise StructureError(
+                    f"a course of the stack at {upper.base:.6g} m does not lie on the one beneath it, which ends at "
+                    f"{lower.base + lower.height:.6g} m; give courses that touch."
+                )
+        if not self.friction >= 0:
+            raise StructureError(
+                f"friction is {self.friction!r}, but must be 0 or more; give the coefficient of the joints."
+            )
+        for each in self.held:
+            if not 0 <= each.course < len(self.courses):
+                raise StructureError(
+                    f"a force acts on course {each.course} of the stack, but there are {len(self.courses)}, "
+                    "counted from 0; correct it."
+                )
+
+    @property
+    def height(self) -> float:
+        """From the foot of the lowest course to the top of the uppermost one, m."""
+        first, last = self.courses[0], self.courses[-1]
+        return last.base + last.height - first.base
+
+    @cached_property
+    def fallen_turn(self) -> float:
+        """The turn [rad] of a course from which nothing comes back: twice what any course, or all above, bears alone."""
+        return 2 * max(0.3, *(self._slenderness_above(place) for place in range(len(self.courses))))
+
+    def _slenderness_above(self, place: int) -> float:
+        """The angle at which all courses from `place` up, as one body, stand on their edge, rad."""
+        above = [each for each in self.courses[place:] if not each.guided]
+        if not above:
+            return 0.0
+        masses = np.array([each.mass for each in above])
+        centre = masses @ np.array([each.centre for each in above]) / masses.sum()
+        left, right = above[0].bottom
+        lever = min(centre[0] - left, right - centre[0])
+        return float(np.arctan2(max(lever, 0.0), centre[1] - above[0].base))
+
+    @property
+    def longest_step(self) -> float:
+        """The longest time step [s] that follows it.
+
+        A twentieth of the time in which the shortest course falls over, 1/p, and half of the time in which its
+        stiffest tie moves the mass it is fixed to, √(m/k), beyond which an explicit force gains energy.
+        """
+        radii = [np.hypot(*(np.array(each.centre) - each.corners[0])) for each in self.courses]
+        steps = [0.05 * np.sqrt(4 * min(radii) / (3 * GRAVITY))]
+        for each in self.held:
+            if each.tie is not None and each.tie.stiffness > 0:
+                steps.append(0.5 * np.sqrt(self.courses[each.course].mass / each.tie.stiffness))
+        return float(min(steps))
+
+
+@dataclass(frozen=True)
+class PointMass:
+    """A mass fixed to a course at a point [m], as a floor that bears on a hinge and moves along."""
+
+    point: tuple[float, float]
+    mass: float
+
+
+def loaded(course: Course, masses: Sequence[PointMass]) -> Course:
+    """Return the course with point masses fixed to it."""
+    every = np.array([course.mass, *(each.mass for each in masses)])
+    places = np.array([course.centre, *(each.point for each in masses)])
+    centre = every @ places / every.sum()
+    inertia = course.inertia + every @ ((places - centre) ** 2).sum(axis=1)
+    return replace(course, mass=float(every.sum()), centre=tuple(centre.tolist()), inertia=float(inertia))
+
+
+def joined(courses: Sequence[Course]) -> Course:
+    """Return courses that stay together as one body."""
+    first, last = courses[0], courses[-1]
+    masses = np.array([each.mass for each in courses])
+    places = np.array([each.centre for each in courses])
+    centre = masses @ places / masses.sum()
+    inertias = np.array([each.inertia for each in courses])
+    inertia = inertias.sum() + masses @ ((places - centre) ** 2).sum(axis=1)
+    height = last.base + last.height - first.base
+    return Course(
+        first.bottom,
+        last.top,
+        first.base,
+        height,
+        float(masses.sum()),
+        tuple(centre.tolist()),
+        float(inertia),
+    )
+
+
+def slab(left: float, right: float, base: float, load: float, **how: bool) -> Course:
+    """Return a slab of the weight `load` on top of a stack, a tenth as high as it is broad; how: guided or upright."""
+    height = 0.1 * (right - left)
+    mass = load / GRAVITY
+    inertia = mass * ((right - left) ** 2 + height**2) / 12
+    middle = ((left + right) / 2, base + height / 2)
+    return Course((left, right), (left, right), base, height, mass, middle, inertia, **how)
+
+
+def course_at(courses: Sequence[Course], height: float) -> int:
+    """Return the place of the course that `height` [m] lies on, the lower one at a joint."""
+    tops = np.array([each.base + each.height for each in courses])
+    return min(int(np.searchsorted(tops, height - _GAP * tops[-1])), len(courses) - 1)
+
+
+def counted_courses(number: int | None) -> int:
+    """Return the number of courses, COURSES where none is given. Raises StructureError beyond MOST_COURSES."""
+    return COURSES if number is None else whole("courses", number, 1, MOST_COURSES)
+
+
+def courses_between(
+    levels: Sequence[float], faces: Sequence[tuple[float, float]], density: float, depths: Sequence[float]
+) -> tuple[Course, ...]:
+    """Return courses with straight flanks, one between each two of `levels` [m].
+
+    faces: left and right edge at each level, m. density: mass per m³. depths: of each course, m.
+    """
+    made = []
+    for (low, high), (lower, upper), depth in zip(pairwise(levels), pairwise(faces), depths, strict=True):
+        mass, centre, inertia = _trapezium(lower, upper, high - low)
+        place = (centre[0], low + centre[1])
+        weight = density * depth
+        made.append(Course(lower, upper, low, high - low, weight * mass, place, weight * inertia))
+    return tuple(made)
+
+
+def _trapezium(
+    lower: tuple[float, float], upper: tuple[float, float], height: float
+) -> tuple[float, tuple[float, float], float]:
+    """Area [m²], centroid above the lower face [m] and second moment about it [m⁴]: exact, by Gauss's three points."""
+    nodes = np.array([0.5 - np.sqrt(0.15), 0.5, 0.5 + np.sqrt(0.15)])
+    weights = np.array([5, 8, 5]) / 18 * height
+    left = lower[0] + nodes * (upper[0] - lower[0])
+    right = lower[1] + nodes * (upper[1] - lower[1])
+    width, middle, z = right - left, (right + left) / 2, nodes * height
+    area = float(weights @ width)
+    across, up = float(weights @ (width * middle)) / area, float(weights @ (width * z)) / area
+    squares = weights @ (width * ((middle - across) ** 2 + width**2 / 12 + (z - up) ** 2))
+    return area, (across, up), float(squares)

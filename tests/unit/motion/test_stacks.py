@@ -1,0 +1,169 @@
+"""Stacks of rigid courses by contact dynamics, held against mechanisms, closed forms, energy, statics and symmetry."""
+
+import numpy as np
+import pytest
+
+from rocking import (
+    Accelerogram,
+    Block,
+    Facade,
+    Frame,
+    LoadedWall,
+    MotionError,
+    Pulse,
+    Spire,
+    StructureError,
+    Wall,
+    integrate,
+)
+from rocking.motion.stacks import follow_stack
+from rocking.quantities import GRAVITY
+from rocking.structures.stack import Stack, courses_between, joined
+
+HINGED = LoadedWall.hinged_at(3.2, 1.6, 0.35, 18e3, top_load=1000.0, top_slab="flat", crack="known")
+BEARING = {"top_load": 3000.0, "eccentricity": 0.05, "crack": "known"}
+TIE = {"tie_heights": (6.0,), "tie_stiffness": 50e3, "tie_strength": 40e3}
+
+
+def sampled(pulse: Pulse) -> Accelerogram:
+    """The pulse in a hundred samples, and still ground."""
+    step = pulse.period / 100
+    samples = pulse.acceleration(np.arange(101) * step)
+    return Accelerogram(np.append(samples, np.zeros(2)), step)
+
+
+@pytest.mark.parametrize(
+    "structure",
+    [
+        Block.of_size(0.8, 4.0),
+        Wall(1.6, 1.6, 0.35, crack="known"),
+        HINGED,
+        LoadedWall.hinged_at(3.2, 1.6, 0.35, 18e3, **BEARING),
+        LoadedWall.hinged_at(3.2, 1.6, 0.35, 18e3, load_held=True, **BEARING),
+        Facade((3.5, 3.0), (0.6, 0.5), 20e3, floor_loads=(12e3, 6e3), thrust=1e3, crack="known"),
+        Facade((3.5, 3.0), (0.6, 0.6), 20e3, crack="known", **TIE),
+    ],
+    ids=["block", "wall", "slab", "bearing", "weight only", "façade with floors", "façade with a tie"],
+)
+def test_bodies_turn_as_their_mechanism_where_all_joints_close_at_once(structure):
+    """Its error is of first order: uplift and impact are found within a step, and exp(p t) ≤ 5 from there to the peak."""
+    mechanism = structure.mechanism()
+    amplitude = 1.8 * mechanism.uplift_multiplier * GRAVITY
+    motion = sampled(Pulse(amplitude, 5 * mechanism.positive.frequency_parameter))
+    exact = integrate(structure, motion, history=True)
+    largest, fastest = np.abs(exact.rotation).max(), np.abs(exact.angular_velocity).max()
+    errors = []
+    for step in (8e-4, 2e-4, 5e-5):
+        followed = follow_stack(structure.stack(), motion, step)
+        assert not followed.falls
+        assert np.sign(followed.turns[0]) == exact.peak_side
+        error = abs(followed.largest_turns[0] - largest)
+        assert error < 10 * step * fastest
+        errors.append(error)
+    assert errors[2] < errors[0] / 4
+
+
+def stacks() -> dict[str, Stack]:
+    spire = Spire(width=3.0, height=15.0, wall_thickness=0.25)
+    return {
+        "block": Block.of_size(0.6, 4.0).stack(),
+        "drums": Block.of_size(0.6, 4.0).stack(5),
+        "spire": spire.stack(),
+        "wall below a slab": LoadedWall.of_size(3.2, 0.25, 18e3, top_load=8e3, top_slab="flat").stack(4),
+        "wall": Wall(1.6, 1.6, 0.25).stack(),
+    }
+
+
+@pytest.mark.parametrize("name", stacks())
+def test_free_motion_gains_no_energy_but_what_the_step_lets_it(name):
+    """A contact pushes over half a step while its point still moves along: a gain of second order in the step."""
+    stack, gains = stacks()[name], []
+    free = np.array([not each.guided for each in stack.courses])
+    count = len(stack.courses)
+    start = np.zeros((count, 3))
+    start[:, 0] = 0.5 * np.linspace(0, 1, count + 1)[1:] * free
+    start[:, 2] = 0.3 * (-1.0) ** np.arange(count) * free
+    for step in (1e-3, 2.5e-4):
+        still = Accelerogram(np.zeros(round(4 / step)), step)
+        response = follow_stack(stack, still, step, history=True, initial_velocity=start)
+        masses = np.array([each.mass for each in stack.courses])
+        inertias = np.array([each.inertia for each in stack.courses])
+        places, velocities = response.places, response.velocities
+        moving = masses * (velocities[..., :2] ** 2).sum(axis=-1) + inertias * velocities[..., 2] ** 2
+        energy = (moving / 2 + masses * GRAVITY * places[..., 1]).sum(axis=1)
+        given = (masses * (start[:, :2] ** 2).sum(axis=-1) + inertias * start[:, 2] ** 2).sum() / 2
+        assert not response.falls
+        assert energy.max() <= given * (1 + 1e-9)
+        assert energy[-1] < 0.5 * given
+        gains.append(np.diff(energy).max() / given)
+    assert gains[1] < 1e-3
+    assert gains[1] < max(gains[0], 1e-5)
+
+
+@pytest.mark.parametrize(
+    "structure",
+    [Block.of_size(0.6, 4.0), Spire(3.0, 15.0, crack="known"), HINGED, Wall(1.6, 1.6, 0.25, crack="known")],
+)
+@pytest.mark.parametrize("share", [0.97, 1.03])
+def test_it_opens_under_a_steady_push_where_limit_analysis_has_it(structure, share):
+    push = share * structure.mechanism().uplift_multiplier * GRAVITY
+    steady = Accelerogram(np.concatenate([np.linspace(0, push, 2000), np.full(1000, push)]), 1e-3)
+    response = follow_stack(structure.stack(), steady, 1e-3)
+    assert (response.largest_turns.max() > 1e-4) == (share > 1)
+
+
+def test_courses_lift_together_where_each_joint_would_alone():
+    """λ of a free-standing stack is the least over its joints of the lever over the height of what stands on it."""
+    levels, widths = [0.0, 0.8, 2.0, 3.0], [0.9, 0.8, 0.3, 0.3]
+    stack = Stack(courses_between(levels, [(-each / 2, each / 2) for each in widths], 1.0, [1.0] * 3))
+    above = [joined(stack.courses[place:]) for place in range(3)]
+    least = min(-each.bottom[0] / (each.centre[1] - each.base) for each in above)
+    for share, lifts in ((0.97, False), (1.03, True)):
+        push = np.linspace(0, share * least * GRAVITY, 3000)
+        assert (follow_stack(stack, Accelerogram(push, 1e-3), 1e-3).largest_turns.max() > 1e-4) == lifts
+
+
+def test_a_mirrored_motion_turns_it_the_other_way():
+    motion = sampled(Pulse(8.0, 5.0))
+    stack = Spire(width=3.0, height=15.0).stack()
+    one, other = (follow_stack(stack, motion.scaled(sign), 1e-3, history=True) for sign in (1, -1))
+    # roundings differ and grow from impact to impact: within the pulse they stay far below 1e-6
+    assert one.places[:100] == pytest.approx(other.places[:100] * [-1, 1, -1], abs=1e-6)
+    assert np.abs(one.places[:100, :, 2]).max() > 1e-3
+
+
+def test_a_body_that_slides_is_slowed_by_friction_alone():
+    """Under a steady a > μ g a squat block lags by (a − μ g) t²/2."""
+    block = Block.of_size(2.0, 1.0).stack()
+    slippery = Stack(block.courses, friction=0.2)
+    push = 0.5 * GRAVITY
+    response = follow_stack(slippery, Accelerogram(np.full(1001, push), 1e-3), 1e-3, history=True)
+    lag = -response.places[999, 0, 0]
+    assert lag == pytest.approx((push - 0.2 * GRAVITY) / 2, rel=2e-3)  # of first order in the step of 1e-3 of 1 s
+    assert np.abs(response.places[:1000, 0, 2]).max() < 1e-6
+
+
+def test_the_mass_of_a_spire_is_in_its_courses():
+    spire = Spire(width=3.0, height=15.0, wall_thickness=0.25, crack_height=4.0, crack="known")
+    body = joined(spire.stack(7).courses)
+    linkage = spire.linkage
+    assert body.centre[1] == pytest.approx(linkage.rest[0].imag, rel=1e-12)
+    assert body.inertia / body.mass == pytest.approx(linkage.inertias[0] / linkage.masses[0], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: Spire(3.0, 15.0).stack(41), "courses is 41, but must be"),
+        (lambda: Frame(Block.of_size(0.5, 4.0), 2, 1.0).stack(), "no stack of courses"),
+        (lambda: Block(2.0, 0.2, 0.5, one_sided=True).stack(), "one-sided"),
+    ],
+)
+def test_what_is_no_stack_is_refused_in_one_sentence(make, words):
+    with pytest.raises(StructureError, match=words):
+        make()
+
+
+def test_a_step_that_is_too_long_is_refused_in_one_sentence():
+    with pytest.raises(MotionError, match=r"the time step is 0\.02 s, but must be .* which the smallest course"):
+        follow_stack(Spire(3.0, 15.0).stack(), sampled(Pulse(3.0, 5.0)), 0.02)
