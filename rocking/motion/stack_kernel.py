@@ -189,7 +189,15 @@ def _pull(bodies, acting, kick, limits, state):
         body = int(acting.forces[number, 0])
         across, up = _arm(place[body, 2], acting.forces[number, 1], acting.forces[number, 2])
         share = fall / limits.gravity  # a force is a weight: it grows with g + ü_v
-        _give(velocity, mobility, body, across, up, share * acting.forces[number, 3], share * acting.forces[number, 4])
+        _give(
+            velocity,
+            mobility,
+            body,
+            across,
+            up,
+            share * acting.forces[number, 3],
+            share * acting.forces[number, 4],
+        )
     for number in range(len(acting.ties)):
         tie = acting.ties[number]
         body = int(tie[0])
@@ -281,7 +289,9 @@ def _solve(bodies, joints, velocity, scale, step, work):
     """Find what touches and the impulses of this step, and add them to the velocities; return whether it was found."""
     count = len(velocity)
     for joint in range(count - 1):
-        facing = (LEFT if joints.gap[joint, 0] <= ALERT else 0) | (RIGHT if joints.gap[joint, 1] <= ALERT else 0)
+        facing = (LEFT if joints.gap[joint, 0] <= ALERT else 0) | (
+            RIGHT if joints.gap[joint, 1] <= ALERT else 0
+        )
         joints.touches[joint] &= facing
         if joints.touches[joint] == OPEN:
             joints.slides[joint] = 0
@@ -479,7 +489,9 @@ def _push(bodies, joints, velocity, joint, k, impulse):
     for axis in range(3):
         velocity[joint, axis] += bodies.mobility[joint, axis] * joints.pushes[joint, k, axis] * impulse
         if joint < len(velocity) - 1:
-            velocity[joint + 1, axis] += bodies.mobility[joint + 1, axis] * joints.pushes[joint, k, 3 + axis] * impulse
+            velocity[joint + 1, axis] += (
+                bodies.mobility[joint + 1, axis] * joints.pushes[joint, k, 3 + axis] * impulse
+            )
 
 
 @compiled

@@ -99,7 +99,9 @@ def follow_stack(
         return response
     kept = kept[: (steps - 1) // every + 1, 1:] * np.array([1, 1, -1, 1, 1, -1])
     times = step * (1 + every * np.arange(len(kept)))
-    return StackResponse(**{**vars(response), "times": times, "places": kept[..., :3], "velocities": kept[..., 3:]})
+    return StackResponse(
+        **{**vars(response), "times": times, "places": kept[..., :3], "velocities": kept[..., 3:]}
+    )
 
 
 def _kicks(motion: Accelerogram, vertical: Accelerogram | None, step: float) -> np.ndarray:
@@ -137,7 +139,8 @@ def _bodies(stack: Stack) -> stack_kernel.Bodies:
     left, right = first.bottom
     left, right = 2 * left - right, 2 * right - left
     depth = stack.height
-    ground = np.array([[left, -depth], [right, -depth], [right, 0.0], [left, 0.0]]) + [0.0, first.base]
+    low, high = first.base - depth, first.base
+    ground = np.array([[left, low], [right, low], [right, high], [left, high]])
     centres = np.array([[0.0, first.base - depth / 2], *(each.centre for each in stack.courses)])
     corners = np.array([ground, *(each.corners for each in stack.courses)]) - centres[:, None]
     mobility = [[0.0, 0.0, 0.0]]

@@ -272,8 +272,10 @@ class Spire(Crackable):
         mass, first, second, across = moments
         centre = first / mass
         inertia = (second + across) / mass - centre**2
-        faces = [(-half, half) for half in half_widths]
-        return Course(*faces, low, high - low, float(mass), (0.0, float(low + centre)), float(mass * inertia))
+        bottom, top = ((-half, half) for half in half_widths)
+        return Course(
+            bottom, top, low, high - low, float(mass), (0.0, float(low + centre)), float(mass * inertia)
+        )
 
     def _slice(self, low: float, high: float, inset: float) -> np.ndarray:
         """Volume and integrals of z, z² (from `low`) and x² of the solid whose surface lies `inset` [m] inwards."""
@@ -283,7 +285,9 @@ class Spire(Crackable):
             return np.zeros(4)
         nodes, weights = np.polynomial.legendre.leggauss(3)  # exact for the polynomials of degree 4 here
         z = (end - low) / 2 * (nodes + 1)
-        areas = (end - low) / 2 * weights * _SECTION[self.plan] * (slope * (self.height - low - z) - inset) ** 2
+        areas = (
+            (end - low) / 2 * weights * _SECTION[self.plan] * (slope * (self.height - low - z) - inset) ** 2
+        )
         squares = (slope * (self.height - low - z) - inset) ** 2 * _SECTION_SPREAD[self.plan]
         return np.array([areas.sum(), areas @ z, areas @ z**2, areas @ squares])
 

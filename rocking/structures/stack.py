@@ -138,7 +138,7 @@ class Stack:
 
     @cached_property
     def fallen_turn(self) -> float:
-        """The turn [rad] of a course from which nothing comes back: twice what any course, or all above, bears alone."""
+        """The turn [rad] from which no course comes back: twice what all above any joint bear as one body."""
         return 2 * max(0.3, *(self._slenderness_above(place) for place in range(len(self.courses))))
 
     def _slenderness_above(self, place: int) -> float:

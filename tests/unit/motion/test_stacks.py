@@ -46,7 +46,7 @@ def sampled(pulse: Pulse) -> Accelerogram:
     ids=["block", "wall", "slab", "bearing", "weight only", "façade with floors", "façade with a tie"],
 )
 def test_bodies_turn_as_their_mechanism_where_all_joints_close_at_once(structure):
-    """Its error is of first order: uplift and impact are found within a step, and exp(p t) ≤ 5 from there to the peak."""
+    """Its error is of first order: uplift and impact come within a step, and exp(p t) ≤ 5 from there on."""
     mechanism = structure.mechanism()
     amplitude = 1.8 * mechanism.uplift_multiplier * GRAVITY
     motion = sampled(Pulse(amplitude, 5 * mechanism.positive.frequency_parameter))
@@ -139,7 +139,9 @@ def test_a_body_that_slides_is_slowed_by_friction_alone():
     push = 0.5 * GRAVITY
     response = follow_stack(slippery, Accelerogram(np.full(1001, push), 1e-3), 1e-3, history=True)
     lag = -response.places[999, 0, 0]
-    assert lag == pytest.approx((push - 0.2 * GRAVITY) / 2, rel=2e-3)  # of first order in the step of 1e-3 of 1 s
+    assert lag == pytest.approx(
+        (push - 0.2 * GRAVITY) / 2, rel=2e-3
+    )  # of first order in the step of 1e-3 of 1 s
     assert np.abs(response.places[:1000, 0, 2]).max() < 1e-6
 
 
@@ -165,5 +167,7 @@ def test_what_is_no_stack_is_refused_in_one_sentence(make, words):
 
 
 def test_a_step_that_is_too_long_is_refused_in_one_sentence():
-    with pytest.raises(MotionError, match=r"the time step is 0\.02 s, but must be .* which the smallest course"):
+    with pytest.raises(
+        MotionError, match=r"the time step is 0\.02 s, but must be .* which the smallest course"
+    ):
         follow_stack(Spire(3.0, 15.0).stack(), sampled(Pulse(3.0, 5.0)), 0.02)
