@@ -81,7 +81,7 @@ class Block(Structure):
         """Return it as one body, or as so many drums."""
         free_to_both_sides(self)
         number = 1 if courses is None else counted_courses(courses)
-        levels = np.linspace(0.0, self.height, number + 1)
+        levels = np.linspace(0.0, self.height, number + 1).tolist()
         faces = [(-self.breadth / 2, self.breadth / 2)] * (number + 1)
         return Stack(courses_between(levels, faces, 1.0, [1.0] * number))
 
