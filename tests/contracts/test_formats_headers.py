@@ -25,7 +25,7 @@ SAID: dict[str, list[tuple[Any, ...]]] = {
     "USC Volume 1": [("N45E", 45.0, "", "", "QUAKE", False, None)],
     "RENADIC": [("EW", 90.0, "", "", "", False, None)],
     "BHRC": [("L1", 45.0, "1", "", "", False, None)],
-    "K-NET/KiK-net": [("E-W", 90.0, "MADE01", "BO", "2018/01/24 19:51:00 M6.2", False, None)],
+    "K-NET/KiK-net": [("E-W", 90.0, "MADE01", "BO", "2018-01-24T19:51:00+09:00", False, None)],
     "DYNA (ESM, ITACA, AFAD)": [("HNE", 90.0, "X", "", "MADE", True, 0.1)],
     "DYNA (ESM, ITACA, AFAD): filtered anew": [("HNE", 90.0, "X", "", "MADE", True, 0.025)],
     "JMA CSV": [
@@ -35,7 +35,7 @@ SAID: dict[str, list[tuple[Any, ...]]] = {
     "AFAD/NSMN text": [
         (*each, "0921", "TK", "", False, None) for each in (("N-S", 0.0), ("E-W", 90.0), ("U-D", None))
     ],
-    "RESORCE": [("NS", 0.0, "", "", "2009-04-06 01:32:39", True, 0.1)],
+    "RESORCE": [("NS", 0.0, "", "", "2009-04-06T01:32:39", True, 0.1)],
     "GeoNet V1A/V2A": [("N45E", 45.0, "WTMC", "NZ", "", False, None)],
     "UNAM/CICESE": [("N45E", 45.0, "ACAC", "", "", False, None), ("V", None, "ACAC", "", "", False, None)],
     "CWB": [("U", None, "EAS", "TW", "", False, None), ("N", 0.0, "EAS", "TW", "", False, None)],
@@ -119,7 +119,7 @@ def test_times_of_jma_and_afad_are_utc() -> None:
 def test_the_origin_of_an_earthquake_comes_before_the_time_of_a_record() -> None:
     times = "Rcrd of Tue Aug 28, 2018 19:33:00.0 PDT\nCSMIP Processing   (Origin: 8/29/18, 02:33:28.0 UTC)\nStation No."
     (record,) = read_text(MADE["CSMIP V1/V2"][0]().replace("Station No.", times))
-    assert (record.event_time, record.event) == ("8/29/18, 02:33:28.0 UTC", "Tue Aug 28, 2018 19:33:00.0 PDT")
+    assert (record.event_time, record.event) == ("2018-08-29T02:33:28Z", "2018-08-28T19:33:00-07:00")
 
 
 def test_names_of_columns_are_components_without_their_unit() -> None:

@@ -11,6 +11,7 @@ import numpy as np
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_factor, acceleration_unit, positive
 from rocking.records.accelerogram import LARGEST_PEAK, Accelerogram, Source
+from rocking.records.dates import iso_date
 from rocking.records.instrument import directed
 
 Response = Literal["sensitivity", "full"]
@@ -76,9 +77,11 @@ class Options:
     ) -> Accelerogram:
         """Return an Accelerogram from `values` (n,) of a file; unit and time step [s] as the file declares them.
 
-        fields: of Accelerogram, directed by the component's name; text is cleared of control characters.
+        fields: of Accelerogram, directed by the component's name; text is cleared of control characters,
+        and a date is written in ISO 8601.
         """
         fields = {key: plain(value) if isinstance(value, str) else value for key, value in fields.items()}
+        fields |= {key: iso_date(fields[key]) for key in ("event", "event_time") if key in fields}
         source = Source(unit=self.unit_of(unit))
         step = self.time_step_of(time_step)
         samples = values * acceleration_factor(source.unit)

@@ -9,11 +9,18 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.quantities import positive
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.dates import iso_date
 from rocking.records.formats import header, text
 from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.header import Layout, key, keyed
 from rocking.records.instrument import azimuth, is_vertical
 from rocking.records.plausibility import agree_with_velocity
+
+
+def _in_zone(time: str, zone: str) -> str:
+    """Return a time of a header with the zone that the format gives it, "" where the header gives no time."""
+    return f"{time} {zone}" if time else ""
+
 
 _DYNA = Layout("", keyed(
     samples="NDATA", step="SAMPLING_INTERVAL_S", duration="DURATION_S", component="STREAM", station="STATION_CODE",
@@ -34,7 +41,7 @@ def _read_dyna(content: bytes, options: Options) -> list[Accelerogram]:
     head, rows = header.parted(content, _DYNA_END.match, "of numbers", _DYNA_HEADER)
     is_filtered_anew = head.startswith("AAD_")
     head = re.sub("^AAD_", "", head, flags=re.M)
-    date = header.optional(key("EVENT_DATE_YYYYMMDD"), head)
+    date = iso_date(header.optional(key("EVENT_DATE_YYYYMMDD"), head))
     scales = f"Mw={header.optional(key('MAGNITUDE_W'), head)} ML={header.optional(key('MAGNITUDE_L'), head)}"
     facts: dict[str, Any] = header.typed_magnitude(scales)
     facts["event"] = f"{header.optional(key('EVENT_NAME'), head)} {date}"
@@ -86,7 +93,7 @@ def _read_resorce(content: bytes, options: Options) -> list[Accelerogram]:
 
 
 _CWB = Layout("gal", {"unit": key("AMPLITUDEUNIT", _WORD)} | keyed(
-    duration="RECORDLENGTH(SEC)", rate="SAMPLERATE(HZ)", station="STATIONCODE", event="ORIGIN TIME(GMT+08)",
+    duration="RECORDLENGTH(SEC)", rate="SAMPLERATE(HZ)", station="STATIONCODE",
     event_time="ORIGIN TIME(GMT+08)", latitude="STATIONLATITUDE(N)", longitude="STATIONLONGITUDE(E)",
     channels="DATASEQUENCE",
 ), mandatory=("duration", "rate"), duration_digits=0.0, half_digit=5e-4, code="TW")  # fmt: skip
@@ -102,6 +109,7 @@ def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
     extremes = [re.findall(header.NUMBER, line, re.I) for line in lines]
     facts = header.typed_magnitude(" ".join(scale + value for scale, value in magnitudes))
     facts["peaks"] = [max((abs(float(end)) for end in ends), default=None) for ends in extremes]
+    facts["event"] = facts["event_time"] = _in_zone(_CWB.text("event_time", head), "+08:00")
     return _CWB.channels(head, table[:, 1:], labels, options, step=text.only_even_step(table[:, 0]), **facts)
 
 
@@ -148,7 +156,8 @@ def _unam_channel(head: str, values: np.ndarray, options: Options, notes: tuple[
     facts: dict[str, Any] = {"warnings": notes, "peak_time": None if place is None else (place - 1) * step}
     # Of bearing and sense, "N90E;" or "V;+", one may be blank.
     facts["component"] = next(directions, parts[-1])
-    facts["event_time"] = f"{_UNAM.text('event', head)} {header.optional(key('HORA EPICENTRO (GMT)'), head)}"
+    origin = _in_zone(header.optional(key("HORA EPICENTRO (GMT)"), head), "GMT")
+    facts["event_time"] = f"{_UNAM.text('event', head)} {origin}"
     return _UNAM.channel(head, values, options, step=step, **facts)
 
 
@@ -212,7 +221,7 @@ def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
     direction = _KNET.text("component", head)
     facts: dict[str, Any] = {"processing": (offset,), "borehole": direction in _BOREHOLE}
     facts["component"] = _KIKNET.get(direction, direction)
-    facts["event"] = f"{_KNET.text('event_time', head)} M{_KNET.text('magnitude', head)}"
+    facts["event"] = facts["event_time"] = _in_zone(_KNET.text("event_time", head), "JST")
     return [_KNET.channel(head, values, options, **facts)]
 
 
@@ -256,7 +265,7 @@ def _read_csmnc(content: bytes, options: Options) -> list[Accelerogram]:
 _GEONET = Layout("mm/s2", {
     "samples": r"^Number of points\s+(\S+)", "step": r"(?:intervals of|data at)\s+([\d.]+)\s*s",
     "duration": r"\bDuration\s+([\d.]+)", "component": r"^Component\s+(\S+)", "station": r"^Site\s+(\S+)",
-    "event": r"^(\d{4} \w+ \d+)\s", "event_time": r"^(\d{4} \w+ \d+\s+[\d:]+)", "place": r"^Site\s+\S+\s+(.*)",
+    "event": r"^(\d{4} \w+ \d+)\s", "event_time": r"^(\d{4} \w+ \d+\s+[\d:]+(?: UT)?)", "place": r"^Site\s+\S+\s+(.*)",
     "magnitude": r"^Epicentre\b.*\b(M[A-Za-z]\s+[\d.]+)", "distance": r"^Epicentre\b.*\bDist\s+([\d.]+)\s*km",
     "high_pass": r"transition bands are\s+([\d.]+)", "peak": r"^Acceleration:\s+peak\s+(\S+)\s+mm/s/s",
     "peak_time": r"^Acceleration:\s+peak\s+\S+\s+mm/s/s at\s+([\d.]+)\s*s", "corrected": r"\A(corrected)",

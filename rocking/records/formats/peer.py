@@ -27,6 +27,8 @@ _LAYOUT = Layout("", {
 }, peak_unit="g", half_digit=5e-6)  # fmt: skip
 _FILTER_POINTS = re.compile(r"HP\s*=\s*([0-9.]+)\s*HZ", re.I)
 _POLES = re.compile(r"(-?\d+)\s+POLE\s+@\s*([0-9.]+)", re.I)
+_DATE_AT_END = re.compile(r"\s*\b\d{1,2}/\d{1,2}/\d{2,4}(?:,? +\d{1,2}:?\d\d)?$")
+"""In a title like "DUZCE 11/12/99": the date stands in a fact of its own."""
 _HEADER_LINES = 8
 _LONGEST_COMPONENT = 16
 _MATCHED = "The header says that the record is matched to a spectrum: artificial, not a recorded motion."
@@ -75,7 +77,8 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     if re.search(r"\bmatched\b", head[0], re.I):
         facts["warnings"] += (_MATCHED,)
     if len(parts) >= 3:
-        facts |= {"station": parts[-2], "event": parts[0]}
+        undated = _DATE_AT_END.sub("", parts[0])
+        facts |= {"station": parts[-2], "event": undated or parts[0]}
     facts["high_pass_frequency"] = float(corner) or None if is_number(corner) else None
     return [_LAYOUT.channel(text, values, options, unit=unit, step=number("DT", size["dt"]), **facts)]
 
