@@ -31,6 +31,8 @@ from .records.measures import RecordMeasures as RecordMeasures
 from .records.measures import ResponseSpectrum as ResponseSpectrum
 from .records.measures import record_measures as record_measures
 from .records.measures import response_spectrum as response_spectrum
+from .records.support import Mode as Mode
+from .records.support import Support as Support
 from .reports.panels import plot as plot
 from .sine_pulse import Maximum as Maximum
 from .sine_pulse import Regime as Regime

@@ -1,0 +1,69 @@
+"""Floor spectrum: the elastic spectrum on a support as the Italian code writes it, from the ground's own.
+
+Circolare 21 January 2019 n. 7 C.S.LL.PP., C7.2.3. Symbols as there, each within its own function.
+"""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from rocking.errors import RecordError
+from rocking.quantities import finite, within
+from rocking.records.support import Mode, Support
+
+GroundSpectrum = Callable[[float, float], float]
+"""Elastic spectrum of the ground: acceleration [m/s²] of an undamped period [s] and a damping ratio."""
+
+LOWER_PERIOD, UPPER_PERIOD = 0.8, 1.1
+"""a and b of C7.2.6: shares of the period of a mode between which its floor spectrum is flat."""
+
+
+def damping_factor(damping_ratio: float) -> float:
+    """Return η = √(10/(5 + ξ)), ξ in per cent, and no less than 0.55 (NTC 2018, 3.2.3.2.1).
+
+    >>> damping_factor(0.05)
+    1.0
+    """
+    return max(math.sqrt(10 / (5 + 100 * damping_ratio)), 0.55)
+
+
+def mode_acceleration(mode: Mode, ground: GroundSpectrum) -> float:
+    """Return a_Z,k, m/s², the largest acceleration of the support in one mode (C7.2.7)."""
+    per_cent = 100 * mode.damping_ratio
+    own = ground(mode.period, mode.damping_ratio)
+    return own * abs(mode.participation) * math.sqrt(1 + 0.0004 * per_cent**2)
+
+
+def floor_acceleration(support: Support, ground: GroundSpectrum) -> float:
+    """Return a_Z, m/s², the largest acceleration of the support in all its modes (C7.2.8)."""
+    return math.hypot(*(mode_acceleration(mode, ground) for mode in support.modes))
+
+
+def floor_spectrum(
+    support: Support, periods: np.ndarray, damping_ratio: float, ground: GroundSpectrum
+) -> np.ndarray:
+    """Return S_eZ, m/s², of what stands on the support with `periods`, (n,) s, and `damping_ratio` (C7.2.5, C7.2.6).
+
+    Above the first period of the support it is no less than the ground's. A rigid mode, of period 0, adds nothing to
+    the ground. Raises RecordError for a damping of 0 of support or structure, of which the code's formula has no value.
+    """
+    damping_ratio = within(RecordError, "damping_ratio", damping_ratio, 0.001, 0.999)
+    periods = np.array([finite(RecordError, "period", period, "s") for period in np.atleast_1d(periods)])
+    squares = sum(np.square(_of_mode(mode, periods, damping_ratio, ground)) for mode in support.modes)
+    spectrum = np.sqrt(squares)
+    first = max(mode.period for mode in support.modes)
+    of_ground = np.array([ground(float(period), damping_ratio) for period in periods])
+    return np.where(periods > first, np.maximum(spectrum, of_ground), spectrum)
+
+
+def _of_mode(mode: Mode, periods: np.ndarray, damping_ratio: float, ground: GroundSpectrum) -> np.ndarray:
+    """S_eZ,k (C7.2.6). The damping of the mode is a ratio in p: in per cent p would fall below 1."""
+    if mode.period == 0:
+        return np.zeros(periods.shape)
+    within(RecordError, "damping_ratio of the support", mode.damping_ratio, 0.001, 0.999)
+    a, b = LOWER_PERIOD, UPPER_PERIOD
+    p = 1.1 / math.sqrt(mode.damping_ratio) * damping_factor(damping_ratio)
+    below = np.maximum(1 - periods / (a * mode.period), 0) ** 1.6
+    above = np.maximum(periods / (b * mode.period) - 1, 0) ** 1.2
+    return p * mode_acceleration(mode, ground) / (1 + (p - 1) * (below + above))

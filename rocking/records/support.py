@@ -1,0 +1,282 @@
+"""Support: what carries a structure above the ground, and the motion of a record as it arrives there.
+
+A support is linear. Its modes follow the ground each for itself, and what stands on it feels the sum of their absolute
+accelerations. What it leaves out, a building that yields, torsion, what the structure gives back, says
+docs/pages/supports.md.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rocking.errors import RecordError
+from rocking.quantities import finite
+from rocking.records.accelerogram import SHORTEST_STEP, Accelerogram
+
+INTERPOLATION_ERROR = 1e-4
+"""Largest error of straight lines between the samples of a floor's motion, over its peak. A rotation is up to ten times
+as sensitive as its motion where the case is well conditioned, and then still right to a thousandth."""
+
+RINGING = 1e-3
+"""Share of the peak of a floor's motion below which its ringing after the record is left out: what the peak can just
+overturn it cannot lift, and what still rocks then it changes by no more than a thousandth."""
+
+LONGEST_RINGING = 120.0
+"""s; a support of less damping than this can spend is cut off here, and a warning says at what level."""
+
+MOST_SAMPLES = 5_000_000
+"""Of a floor's motion; the longest record there is, of the stiffest support that is allowed, needs fewer."""
+
+_LARGEST_DAMPING = 0.999
+"""Above it the two exponentials of a mode are no longer told apart; critical damping itself is refused."""
+
+
+@dataclass(frozen=True)
+class Mode:
+    """One mode of what carries the structure, as it is felt where the structure stands.
+
+    period: undamped, s; 0 of one that is rigid. damping_ratio: share of the critical damping. participation: Γψ, the
+    participation factor times the shape of the mode at the height of the support; negative where the mode moves
+    against the ground there. Raises RecordError for what is out of range.
+
+    >>> rocking.Mode(period=0.3, damping_ratio=0.05, participation=1.3).circular_frequency.__round__(2)
+    20.94
+    """
+
+    period: float
+    damping_ratio: float
+    participation: float
+
+    def __post_init__(self) -> None:
+        period = finite(RecordError, "period", self.period, "s")
+        if period < 0:
+            raise RecordError(
+                f"period is {self.period!r} s, but must be above 0, or 0 for a mode that is rigid."
+            )
+        damping = finite(RecordError, "damping_ratio", self.damping_ratio)
+        if not 0 <= damping < _LARGEST_DAMPING:
+            raise RecordError(
+                f"damping_ratio is {self.damping_ratio!r}, but must be a share of the critical one from 0 to below 1."
+            )
+        object.__setattr__(self, "period", period)
+        object.__setattr__(self, "damping_ratio", damping)
+        object.__setattr__(self, "participation", finite(RecordError, "participation", self.participation))
+
+    @property
+    def circular_frequency(self) -> float:
+        """Undamped, rad/s; inf of a rigid mode."""
+        return 2 * math.pi / self.period if self.period else math.inf
+
+    @property
+    def follows_the_ground(self) -> bool:
+        """Whether what stands on it feels the ground's own acceleration of this mode."""
+        return self.period == 0 or self.participation == 0
+
+
+@dataclass(frozen=True)
+class Support:
+    """What carries a structure: the modes of a building, a tower or a façade where the structure stands.
+
+    What is left of the ground's motion, 1 − Σ Γψ, is felt as it is, as if by modes that are rigid. Raises RecordError
+    without a mode.
+
+    >>> (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
+    >>> floor = rocking.Support((rocking.Mode(0.3, 0.05, 1.3),)).motion(record)
+    >>> round(floor.peak_acceleration / record.peak_acceleration, 2)
+    1.23
+    """
+
+    modes: tuple[Mode, ...]
+
+    def __post_init__(self) -> None:
+        modes = tuple(self.modes) if isinstance(self.modes, Sequence) else (self.modes,)
+        if not modes or not all(isinstance(mode, Mode) for mode in modes):
+            raise RecordError(f"modes is {self.modes!r}, but must hold at least one Mode.")
+        object.__setattr__(self, "modes", modes)
+
+    def __str__(self) -> str:
+        return "; ".join(
+            f"T_b = {mode.period:.4g} s, damping {mode.damping_ratio:.4g}, Γψ = {mode.participation:.4g}"
+            for mode in self.modes
+        )
+
+    def motion(self, record: Accelerogram) -> Accelerogram:
+        """Return the absolute acceleration of the support under `record`, with a sentence on it in its history.
+
+        A vertical record passes as it is. Raises RecordError when a period is below two samples of the record.
+        """
+        return self.motions((record,))[0]
+
+    def motions(self, records: Sequence[Accelerogram]) -> tuple[Accelerogram, ...]:
+        """Return the motion of the support under each component of one record, sample by sample alike.
+
+        records: with the same number of samples and the same time step. Vertical ones pass as they are, at the time
+        step of the others, and still after their end. Raises RecordError as `motion`, and for components that do not
+        fit together.
+        """
+        _check_alike(records)
+        modes = [mode for mode in self.modes if not mode.follows_the_ground]
+        for mode in modes:
+            _check_sampled(mode, records[0].time_step)
+        ringing = [
+            [] if each.vertical else [_Ringing.under(mode, each) for mode in modes] for each in records
+        ]
+        grids = [_grid(record, modes) for record, modes in zip(records, ringing, strict=True) if modes]
+        if not grids:
+            return tuple(records)
+        finer = max(times_finer for times_finer, _ in grids)
+        after = max(still_samples for _, still_samples in grids)
+        return tuple(
+            self._floor(record, modes, finer, after) for record, modes in zip(records, ringing, strict=True)
+        )
+
+    def _floor(
+        self, record: Accelerogram, ringing: "Sequence[_Ringing]", finer: int, after: int
+    ) -> Accelerogram:
+        """Return one component on the common samples: `finer` times as many, and `after` of still ground."""
+        motion = _refined(np.append(record.acceleration, np.zeros(after)), finer)
+        if record.vertical:
+            sentence = (
+                f"Taken {finer} times as fine, with {after} samples of still ground, as the horizontal."
+            )
+            return record.processed_by(motion, sentence, time_step=record.time_step / finer)
+        for each in ringing:
+            motion += each.relative(finer, after)
+        sentence = (
+            f"Taken to a support of {self}: {finer} times as fine as the record, and {after * record.time_step:.4g} s "
+            "of still ground after it."
+        )
+        made = record.processed_by(motion, sentence, time_step=record.time_step / finer)
+        left = sum(each.level(after) for each in ringing)
+        if left <= 2 * RINGING * made.peak_acceleration:
+            return made
+        share = left / made.peak_acceleration
+        return made.warned(
+            f"The support still rings at {share:.1%} of its peak where its motion is cut off, "
+            f"{after * record.time_step:.0f} s after the record."
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class _Ringing:
+    """One mode under one record whose acceleration is linear within each sample and still one sample after its end.
+
+    With the pole λ = ω(−ξ + i√(1 − ξ²)) and q' = λq − a, the displacement to the ground is Im q/ω_d. Within a sample,
+    where a' is constant, q'' = λ(λq − a) − a' is exactly q''₀ e^{λs}, and Im q''/ω_d is what the absolute acceleration
+    of the mode has more than the ground's (Nigam & Jennings 1969, in complex form): no error of discretisation is left.
+
+    step: of the record, s. excess: Γψ q''/ω_d at the start of each of the n samples and after
+    them, complex, (n + 1,).
+    """
+
+    mode: Mode
+    step: float
+    pole: complex
+    excess: np.ndarray
+
+    @classmethod
+    def under(cls, mode: Mode, record: Accelerogram) -> "_Ringing":
+        from scipy import signal  # which takes half a second to import
+
+        step = record.time_step
+        pole = mode.circular_frequency * complex(-mode.damping_ratio, math.sqrt(1 - mode.damping_ratio**2))
+        ground = np.append(record.acceleration, 0.0)
+        # From one sample to the next, p = λq − a gains the integral of −a' e^{λs}; it starts at −a₀.
+        slope = np.diff(ground) / step
+        grown = np.expm1(pole * step) / pole
+        start = np.array([-ground[0] * np.exp(pole * step)])
+        rate, _ = signal.lfilter([-grown], [1.0, -np.exp(pole * step)], slope.astype(complex), zi=start)
+        before = np.concatenate(([complex(-ground[0])], rate[:-1]))
+        last = rate[-1]
+        excess = np.append(pole * before - slope, pole * last) * (mode.participation / pole.imag)
+        return cls(mode, step, pole, excess)
+
+    def relative(self, finer: int, after: int) -> np.ndarray:
+        """Return Γψ times the mode's acceleration less the ground's, ((n − 1 + after) finer + 1,), m/s²."""
+        tail = self.excess[-1] * np.exp(self.pole * self.step * np.arange(after))
+        starts = np.concatenate((self.excess[:-1], tail[:-1]))
+        within_sample = np.exp(self.pole * self.step / finer * np.arange(finer))
+        values = within_sample.real[:, None] * starts.imag  # long rows, which numpy adds fastest
+        values += within_sample.imag[:, None] * starts.real
+        return _in_order(values, tail[-1].imag)
+
+    def level(self, after: int) -> float:
+        """Return the most that the mode can reach any more, `after` samples after the record, m/s²."""
+        left = math.exp(self.pole.real * self.step * (after - 1))
+        return float(abs(self.excess[-1])) * left
+
+    def time_to(self, level: float) -> float:
+        """Return the time from the first still sample until it rings below `level` [m/s²], s; inf without damping."""
+        excess = self.level(1) / level
+        if excess <= 1:
+            return 0.0
+        return math.log(excess) / -self.pole.real if self.pole.real else math.inf
+
+    @property
+    def curvature(self) -> float:
+        """The most that the second derivative of the floor's motion can be, m/s⁴."""
+        largest = float(np.abs(self.excess).max())
+        return self.mode.circular_frequency**2 * largest
+
+
+def _check_alike(records: Sequence[Accelerogram]) -> None:
+    size, step = records[0].acceleration.size, records[0].time_step
+    for each in records:
+        if each.acceleration.size != size or abs(each.time_step / step - 1) > 1e-9:
+            raise RecordError(
+                f"the components hold {size} samples at {step:g} s and {each.acceleration.size} at "
+                f"{each.time_step:g} s, but a support needs the same ones; cut or resample one of them."
+            )
+
+
+def _check_sampled(mode: Mode, time_step: float) -> None:
+    if mode.period < 2 * time_step:
+        raise RecordError(
+            f"period of the support is {mode.period:g} s, but must be at least two samples of the record, "
+            f"{2 * time_step:g} s; give a finer record, or the period 0 for a support that is rigid."
+        )
+
+
+def _grid(record: Accelerogram, ringing: Sequence[_Ringing]) -> tuple[int, int]:
+    """Return how many times finer than the record the floor's motion is sampled, and for how many samples after it.
+
+    A line between two samples h apart departs from a motion by at most h²/8 times its largest second derivative. Steps
+    below SHORTEST_STEP, which a support of less than .02 s would ask for, are not made.
+    """
+    step = record.time_step
+    at_samples = record.acceleration + sum(each.excess[:-1].imag for each in ringing)
+    peak = float(np.abs(at_samples).max())
+    if peak == 0:
+        return 1, 1
+    coarse = step**2 / 8 * sum(each.curvature for each in ringing) / (INTERPOLATION_ERROR * peak)
+    finer = max(1, min(math.ceil(math.sqrt(coarse)), int(step / SHORTEST_STEP)))
+    allowed = RINGING * peak / len(ringing)
+    quiet = max(each.time_to(allowed) for each in ringing)
+    after = 1 + math.ceil(min(quiet, LONGEST_RINGING) / step)
+    number = (record.acceleration.size + after) * finer
+    if number > MOST_SAMPLES:
+        raise RecordError(
+            f"the motion of the support takes {number} samples, but may take {MOST_SAMPLES}; cut the record, or give a "
+            "longer period or more damping."
+        )
+    return finer, after
+
+
+def _refined(samples: np.ndarray, finer: int) -> np.ndarray:
+    """Return `samples` (n,) with finer − 1 more on the line between each two, ((n − 1) finer + 1,)."""
+    if finer == 1:
+        return samples
+    shares = np.arange(finer) / finer
+    between = shares[:, None] * np.diff(samples)
+    between += samples[:-1]
+    return _in_order(between, samples[-1])
+
+
+def _in_order(values: np.ndarray, last: float) -> np.ndarray:
+    """Return values (finer, n) by place within a sample and sample as one motion, (n finer + 1,)."""
+    motion = np.empty(values.size + 1)
+    motion[:-1].reshape(values.T.shape)[:] = values.T
+    motion[-1] = last
+    return motion
