@@ -25,7 +25,8 @@ from docs.research.report import Target
 from docs.research.sites import Trial, draw_of, independent, lifting_factor, one_of_each
 from docs.research.stacks import largest_turns
 from rocking import Accelerogram, LoadedWall, Mechanism, RigidBody, Spire, Verdict
-from rocking.assessment.ensemble import GroundMotions, ensemble
+from rocking.assessment.ensemble import ensemble
+from rocking.assessment.ground_motions import GroundMotions
 from rocking.errors import StructureWarning
 from rocking.quantities import GRAVITY
 from rocking.tables import column, read_rows, row, write_rows

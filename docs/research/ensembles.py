@@ -16,7 +16,9 @@ import pandas as pd
 
 from docs.research import scores, sites
 from docs.research.report import Target
-from rocking.assessment.ensemble import CAUSES, Ensemble, GroundMotions, drawn, ensemble, lattice
+from rocking.assessment.causes import CAUSES, lattice
+from rocking.assessment.ensemble import Ensemble, drawn, ensemble
+from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.variations import cracks, ensemble_over_cracks
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict

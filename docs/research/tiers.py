@@ -17,8 +17,10 @@ from docs.research import scores, sites
 from docs.research.report import Target
 from rocking import Accelerogram, Mechanism, Outcome, Verdict, integrate, integrate_batch
 from rocking.assessment import fidelity
-from rocking.assessment.ensemble import GroundMotions, drawn, ensemble, lattice
+from rocking.assessment.causes import lattice
+from rocking.assessment.ensemble import drawn, ensemble
 from rocking.assessment.fidelity import NUDGES, STRUCTURE, Tier, TierFit, cheapest_answer, stays_at_rest
+from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.intensity import peak_velocity
 from rocking.assessment.settings import EnsembleSettings
 from rocking.assessment.verdict import Method

@@ -15,8 +15,8 @@ import numpy as np
 
 from rocking.assessment.case import CaseResult, Failure, Motion, Prediction, RecordResult, StationResult
 from rocking.assessment.component import Component, HorizontalMotion, component_names, component_of
-from rocking.assessment.ensemble import GroundMotions, processed
 from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
+from rocking.assessment.ground_motions import GroundMotions, processed
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.variations import (
     Variation,

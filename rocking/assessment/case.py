@@ -11,8 +11,9 @@ from dataclasses import dataclass, field, fields
 from functools import cached_property
 
 from rocking.assessment.component import Component, component_names
-from rocking.assessment.ensemble import Ensemble, GroundMotions
+from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer, Estimate
+from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.variations import Variation
 from rocking.assessment.verdict import BOTH_COMPONENTS, POLARITIES, Judgement, Method, Verdict
 from rocking.motion.response import UNKNOWN, ModelCheck, Response

@@ -15,7 +15,9 @@ from typing import Literal
 import numpy as np
 from scipy.special import betaincinv, erfcx, ndtr, stdtr, stdtrit
 
-from rocking.assessment.ensemble import GroundMotions, drawn, lattice
+from rocking.assessment.causes import lattice
+from rocking.assessment.ensemble import drawn
+from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.intensity import IntensityMeasure, peak_velocity, per_velocity
 from rocking.assessment.intensity import intensity_measure as measure_named
 from rocking.assessment.settings import EnsembleSettings

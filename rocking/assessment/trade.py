@@ -9,7 +9,8 @@ from typing import TypeVar
 
 import numpy as np
 
-from rocking.assessment.ensemble import GroundMotions, ensemble
+from rocking.assessment.ensemble import ensemble
+from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.rows.of_study import TradeMethod, TradeRow
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.verdict import Agreement, agreement, ratio, rests

@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from rocking.assessment.ensemble import AS_IT_IS, Ensemble, GroundMotions, design, drawn, ensemble
+from rocking.assessment.ensemble import Ensemble, design, drawn, ensemble
+from rocking.assessment.ground_motions import AS_IT_IS, GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict
 from rocking.errors import RockingError

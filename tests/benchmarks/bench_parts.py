@@ -21,7 +21,8 @@ from conftest import assessed, shaken
 from oracle import Oracle
 
 from rocking import Accelerogram, Arch, Block, Pulse, Wall, integrate
-from rocking.assessment.ensemble import GroundMotions, ensemble
+from rocking.assessment.ensemble import ensemble
+from rocking.assessment.ground_motions import GroundMotions
 from rocking.pulses import extract_pulses
 from rocking.records import read
 from rocking.records.synthetic import SyntheticRecord, at2_text

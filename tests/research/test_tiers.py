@@ -8,8 +8,9 @@ import pytest
 from docs.research.sites import structures_tried
 from docs.research.tiers import answer_scores, left_out, tier_cases
 from rocking.assessment import fidelity
-from rocking.assessment.ensemble import GroundMotions, ensemble
+from rocking.assessment.ensemble import ensemble
 from rocking.assessment.fidelity import Tier, read_tiers
+from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.verdict import Method, Verdict
 from rocking.records import Accelerogram
 from rocking.structures import Block

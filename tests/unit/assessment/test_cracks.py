@@ -8,8 +8,9 @@ import pytest
 import rocking
 from rocking.assessment.assess import assess_case
 from rocking.assessment.component import component_of
-from rocking.assessment.ensemble import GroundMotions, ensemble, processed
+from rocking.assessment.ensemble import ensemble
 from rocking.assessment.fragility import fragility
+from rocking.assessment.ground_motions import GroundMotions, processed
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.variations import candidates, cracks, ensemble_over_cracks, processed_variants
 from rocking.assessment.verdict import Verdict

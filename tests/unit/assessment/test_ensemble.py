@@ -10,18 +10,10 @@ import pytest
 
 import rocking
 from rocking.assessment.assess import assess
-from rocking.assessment.ensemble import (
-    CAUSES,
-    SIZES,
-    Ensemble,
-    EnsembleSettings,
-    GroundMotions,
-    drawn,
-    ensemble,
-    lattice,
-    processed,
-)
-from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.causes import CAUSES, lattice
+from rocking.assessment.ensemble import Ensemble, drawn, ensemble
+from rocking.assessment.ground_motions import GroundMotions, processed
+from rocking.assessment.settings import SIZES, AssessmentSettings, EnsembleSettings
 from rocking.assessment.verdict import Verdict, ratio_in_words, verdict
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate

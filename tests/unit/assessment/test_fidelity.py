@@ -9,8 +9,9 @@ from scipy.constants import g
 from rocking.assessment import fidelity
 from rocking.assessment.assess import assess_case
 from rocking.assessment.component import component_of
-from rocking.assessment.ensemble import GroundMotions, ensemble
+from rocking.assessment.ensemble import ensemble
 from rocking.assessment.fidelity import NUDGES, Tier, cheapest_answer, estimated, read_tiers, stays_at_rest
+from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.verdict import Method, Verdict
 from rocking.motion.integration import integrate
