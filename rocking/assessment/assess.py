@@ -9,12 +9,19 @@ from hashlib import sha256
 from math import inf
 from statistics import median
 from time import process_time
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 import numpy as np
 
 from rocking.assessment.case import CaseResult, Failure, Motion, Prediction, RecordResult, StationResult
-from rocking.assessment.component import Component, HorizontalMotion, component_names, component_of
+from rocking.assessment.component import (
+    Component,
+    ComponentPulses,
+    HorizontalMotion,
+    component_names,
+    component_of,
+    horizontal_motions,
+)
 from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
 from rocking.assessment.ground_motions import GroundMotions, processed
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
@@ -40,14 +47,17 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
 
-class CaseStore(Protocol):
-    """A place that keeps results of cases by their fingerprint."""
+T = TypeVar("T")
 
-    def find(self, fingerprint: str) -> CaseResult | None:
-        """Return the result of this fingerprint; None where there is none."""
 
-    def keep(self, result: CaseResult) -> None:
-        """Keep a result."""
+class Store(Protocol):
+    """A place that keeps results by their fingerprint."""
+
+    def find(self, kind: type[T], fingerprint: str) -> T | None:
+        """Return the `kind` that was kept by this fingerprint; None where there is none."""
+
+    def keep(self, fingerprint: str, result: object) -> None:
+        """Keep a result by its fingerprint."""
 
 
 @dataclass(frozen=True)
@@ -55,18 +65,20 @@ class Extent:
     """The settings of a case, and the variations that are computed beside it.
 
     crack_heights: number of heights tried for a hinge or a crack. processing_variants: whether other processings are
-    tried. version: of the computation, which enters fingerprints.
+    tried. motion_measures: whether the velocity pulse of the components and their peaks over all directions are
+    measured, which tables tell. version: of the computation, which enters fingerprints.
     """
 
     settings: AssessmentSettings = field(default_factory=AssessmentSettings)
     crack_heights: int = 0
     processing_variants: bool = False
+    motion_measures: bool = False
     version: str = ""
 
     def fingerprint(self, motion: Motion, structure: Structure, alone: bool) -> str:
         """Return the hash of all that the result of a case depends on."""
         own = {each.name: getattr(self.settings, each.name) for each in fields(AssessmentSettings)}
-        parts = (
+        return _hash(
             motion.fingerprint,
             structure.as_config(),
             own,
@@ -75,7 +87,15 @@ class Extent:
             alone,
             self.version,
         )
-        return sha256(repr(parts).encode()).hexdigest()
+
+    def pulses_fingerprint(self, motions: Sequence[Motion], place: int) -> str:
+        """Return the hash of all that the pulses of the component at `place` depend on."""
+        prints = [each.fingerprint for each in motions]
+        return _hash("pulses", place, prints, self.settings.pulse, self.motion_measures, self.version)
+
+
+def _hash(*parts: object) -> str:
+    return sha256(repr(parts).encode()).hexdigest()
 
 
 class Clock:
@@ -103,15 +123,14 @@ def assess_record(
     structures: Mapping[str, Structure | Mechanism],
     extent: Extent | None = None,
     vertical: Accelerogram | None = None,
-    motions: Sequence[HorizontalMotion] = (),
-    store: CaseStore | None = None,
+    store: Store | None = None,
     clock: Clock | None = None,
 ) -> RecordResult:
     """Return what comes of every structure under a record; one that fails costs no other.
 
     horizontal: its components. An ensemble over the directions of a pair speaks for both components, which then get
-    none of their own. motions: that each component belongs to, where they are needed. store: where results of cases are
-    sought before they are computed, and kept. clock: has measured what came before.
+    none of their own. store: where results are sought before they are computed, and kept. clock: has measured what
+    came before.
     """
     extent = extent or Extent()
     clock = clock or Clock()
@@ -125,9 +144,7 @@ def assess_record(
         except RockingError as error:
             failures.append((BOTH_COMPONENTS, Failure("directions", str(error))))
             pair = None
-    components = _components(
-        horizontal, vertical, motions or [HorizontalMotion()] * len(horizontal), extent, clock
-    )
+    components = _components(horizontal, vertical, extent, store, clock)
     names = component_names(horizontal)
     cases: dict[str, dict[str, CaseResult]] = {name: {} for name in structures}
     for name, component in zip(names, components, strict=True):
@@ -155,16 +172,32 @@ def assess_record(
 def _components(
     horizontal: Sequence[Accelerogram],
     vertical: Accelerogram | None,
-    motions: Sequence[HorizontalMotion],
     extent: Extent,
+    store: Store | None,
     clock: Clock,
 ) -> tuple[Component, ...]:
     """The components with the pulses of each."""
+    beside = [None if vertical is None else aligned(vertical, each) for each in horizontal]
+    fingerprints: list[str] = []
+    if store is not None:
+        motions = [Motion((each,)) for each in horizontal]
+        fingerprints = [extent.pulses_fingerprint(motions, place) for place, _ in enumerate(motions)]
+        kept = [store.find(ComponentPulses, fingerprint) for fingerprint in fingerprints]
+        pulses = [each for each in kept if each is not None]
+        if len(pulses) == len(horizontal):
+            triples = zip(pulses, horizontal, beside, strict=True)
+            return tuple(each.beside(accelerogram, lift) for each, accelerogram, lift in triples)
+    of_pair = [HorizontalMotion()] * len(horizontal)
+    if extent.motion_measures:
+        with clock.stage("velocity pulse"):
+            of_pair = horizontal_motions(horizontal)
     components = []
-    for accelerogram, motion in zip(horizontal, motions, strict=True):
-        beside = None if vertical is None else aligned(vertical, accelerogram)
+    for accelerogram, lift, motion in zip(horizontal, beside, of_pair, strict=True):
         with clock.stage("pulses"):
-            components.append(component_of(accelerogram, extent.settings.pulse, beside, motion))
+            components.append(component_of(accelerogram, extent.settings.pulse, lift, motion))
+    for fingerprint, component in zip(fingerprints, components, strict=False):
+        if store is not None:
+            store.keep(fingerprint, ComponentPulses.of(component))
     return tuple(components)
 
 
@@ -173,7 +206,7 @@ def _component_cases(
     structures: Mapping[str, Structure | Mechanism],
     extent: Extent,
     alone: bool,
-    store: CaseStore | None,
+    store: Store | None,
     clock: Clock,
 ) -> dict[str, CaseResult]:
     """The case of each structure under one component. alone: whether no ensemble over directions speaks for it."""
@@ -185,9 +218,12 @@ def _component_cases(
     }
     results: dict[str, CaseResult] = {}
     for name, fingerprint in fingerprints.items():
-        known = store.find(fingerprint) if store is not None else None
-        if known is not None:
-            results[name] = replace(known, structure=name)
+        kept = store.find(CaseResult, fingerprint) if store is not None else None
+        if kept is not None:
+            prediction = None
+            if component.candidates and kept.answer is not None:
+                prediction = predict(_mechanism(structures[name]), component.candidates, extent.settings)
+            results[name] = replace(kept, structure=name, prediction=prediction)
     missing = {name: structure for name, structure in structures.items() if name not in results}
     computed = {}
     with clock.stage("responses"):
@@ -196,10 +232,10 @@ def _component_cases(
     with clock.stage("variations"):
         computed = _with_variations(computed, missing, component, extent)
     for name, result in computed.items():
-        kept = replace(result, fingerprint=fingerprints.get(name, ""))
-        results[name] = kept
-        if store is not None and kept.fingerprint:
-            store.keep(kept)
+        fingerprint = fingerprints.get(name, "")
+        results[name] = replace(result, fingerprint=fingerprint)
+        if store is not None and fingerprint:
+            store.keep(fingerprint, results[name].kept)
     for method in Method:
         spent = [each.durations[method] for each in results.values() if method in each.durations]
         if spent:  # the first case of a process loads compiled code, so not the sum
@@ -212,7 +248,7 @@ def _direction_cases(
     structures: Mapping[str, Structure | Mechanism],
     cases: Mapping[str, Mapping[str, CaseResult]],
     extent: Extent,
-    store: CaseStore | None,
+    store: Store | None,
     clock: Clock,
 ) -> dict[str, CaseResult]:
     """The ensemble over all directions of a pair, of each structure that any component gave a result for."""
@@ -224,7 +260,7 @@ def _direction_cases(
         known = None
         if store is not None and isinstance(structure, Structure):
             fingerprint = extent.fingerprint(pair, structure, alone=True)
-            known = store.find(fingerprint)
+            known = store.find(CaseResult, fingerprint)
         if known is not None:
             results[name] = replace(known, structure=name)
             continue
@@ -234,7 +270,7 @@ def _direction_cases(
             )
         results[name] = result
         if store is not None and fingerprint:
-            store.keep(result)
+            store.keep(fingerprint, result)
     return results
 
 
@@ -456,17 +492,29 @@ def assess_directions(
         return replace(case, failures=(Failure("directions", str(error)),))
 
 
-def with_history(
-    result: CaseResult, structure: Structure, component: Component, tolerance: float
+def with_histories(result: RecordResult, tolerance: float) -> RecordResult:
+    """Return a record's result whose responses hold their histories, which results that were kept do not."""
+    by_name = dict(zip(result.names, result.components, strict=True))
+    stations = {}
+    for name, station in result.stations.items():
+        cases = {
+            component: _with_history(case, station.body, by_name[component], tolerance)
+            for component, case in station.cases.items()
+        }
+        stations[name] = replace(station, cases=cases)
+    return replace(result, stations=stations)
+
+
+def _with_history(
+    case: CaseResult, body: Structure | Mechanism, component: Component, tolerance: float
 ) -> CaseResult:
-    """Return a case whose response holds its history, which a result that was kept does not."""
-    response = result.response
+    response = case.response
     if response is None or response.times is not None:
-        return result
+        return case
     whole = integrate(
-        structure, component.accelerogram, tolerance=tolerance, vertical=component.vertical, history=True
+        body, component.accelerogram, tolerance=tolerance, vertical=component.vertical, history=True
     )
-    return replace(result, responses={**result.responses, Method.MECHANISM_ON_RECORD: whole})
+    return replace(case, responses={**case.responses, Method.MECHANISM_ON_RECORD: whole})
 
 
 # In one call ----------------------------------------------------------------------------------------------

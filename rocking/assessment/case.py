@@ -7,7 +7,7 @@ terminal and `rocking.assess` ask it, or read the row that it was written into.
 import hashlib
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 
 from rocking.assessment.component import Component, component_names
@@ -118,6 +118,15 @@ class CaseResult:
     failures: tuple[Failure, ...] = ()
     durations: Mapping[Method, float] = field(default_factory=dict)
     fingerprint: str = ""
+
+    @property
+    def kept(self) -> "CaseResult":
+        """What a store keeps of it: without the histories, and without the prediction, which a pulse gives at once."""
+        responses = {method: _without_history(each) for method, each in self.responses.items()}
+        answer = self.answer
+        if answer is not None and answer.response is not None:
+            answer = replace(answer, response=_without_history(answer.response))
+        return replace(self, prediction=None, responses=responses, answer=answer)
 
     @property
     def predicted_rotation_ratio(self) -> float:
@@ -391,6 +400,10 @@ class RecordResult:
         if component == BOTH_COMPONENTS:
             return [each.directions for each in self.stations.values() if each.directions is not None]
         return [each.cases[component] for each in self.stations.values() if component in each.cases]
+
+
+def _without_history(response: Response) -> Response:
+    return replace(response, times=None, rotation=None, angular_velocity=None)
 
 
 def _ensemble_severity(case: CaseResult) -> tuple[float, float]:

@@ -8,6 +8,7 @@ from rocking.assessment.settings import PredictingPulse
 from rocking.errors import PulseError, RecordError
 from rocking.pulses import (
     PULSE_METHODS,
+    Flag,
     PulseAnalysis,
     PulseEvidence,
     VelocityPulse,
@@ -51,6 +52,45 @@ class Component:
     def name(self) -> str:
         """The name of the component."""
         return self.accelerogram.component
+
+
+@dataclass(frozen=True, eq=False)
+class ComponentPulses:
+    """The pulses of one component without its samples, as a store keeps them; no pulse without `ranked`."""
+
+    motion: HorizontalMotion
+    ranked: tuple[PulseEvidence, ...]
+    sequence: tuple[PulseEvidence, ...]
+    flags: tuple[Flag, ...]
+    band: tuple[float, float]
+    candidates: tuple[PulseEvidence, ...]
+    failure: str
+
+    @classmethod
+    def of(cls, component: Component) -> "ComponentPulses":
+        """Return the pulses of a component."""
+        analysis = component.analysis
+        return cls(
+            motion=component.motion,
+            ranked=analysis.ranked if analysis else (),
+            sequence=analysis.sequence if analysis else (),
+            flags=analysis.flags if analysis else (),
+            band=analysis.band if analysis else (0.0, 0.0),
+            candidates=component.candidates,
+            failure=component.failure,
+        )
+
+    def beside(self, accelerogram: Accelerogram, vertical: Accelerogram | None) -> Component:
+        """Return the component again."""
+        analysis = None
+        if self.ranked:
+            pulse = self.ranked[0].pulse.acceleration(accelerogram.times)
+            residual = accelerogram.acceleration - pulse
+            residual.flags.writeable = False
+            analysis = PulseAnalysis(
+                accelerogram, self.ranked, self.sequence, residual, self.flags, self.band
+            )
+        return Component(accelerogram, vertical, self.motion, analysis, self.candidates, self.failure)
 
 
 def component_names(accelerograms: Sequence[Accelerogram]) -> list[str]:

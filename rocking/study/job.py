@@ -11,12 +11,12 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
-from rocking.assessment.assess import CaseStore, Clock, Extent, assess_record
+from rocking.assessment.assess import Clock, Extent, Store, assess_record, with_histories
 from rocking.assessment.case import Failure, RecordResult
 from rocking.assessment.compilation import compile_all
-from rocking.assessment.component import horizontal_motions
 from rocking.assessment.rows.of_record import HistoryRow, RecordRows, history_rows, rows_of_record
 from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.store import RecordStore, computation_version
 from rocking.errors import ConfigurationError, RecordError, RockingError
 from rocking.records import Accelerogram, CatalogueRecord, aligned, load_catalogue, open_station
 from rocking.records.processing import process
@@ -24,7 +24,7 @@ from rocking.records.station import station_of
 from rocking.structures import Structure, load_structures
 from rocking.study.folder import locked
 from rocking.study.plan import JOBS, sha256_of, structures_sha256
-from rocking.study.results import remove_copies, written_part
+from rocking.study.results import cases_of, remove_copies, written_part
 from rocking.study.settings import Settings, read_settings
 from rocking.study.terminal import record_line, tell, tell_error
 from rocking.tables import write_rows, write_whole
@@ -53,7 +53,13 @@ class Study:
     @cached_property
     def extent(self) -> Extent:
         """How far a case is followed."""
-        return Extent(self.assessment, self.settings.candidates, self.settings.processing_variants)
+        return Extent(
+            self.assessment,
+            self.settings.candidates,
+            self.settings.processing_variants,
+            motion_measures=True,
+            version=computation_version(),
+        )
 
     def open(self, record: CatalogueRecord, channels: list[Accelerogram] | None = None) -> Opened:
         """Return the components of `record`, processed as the settings say. channels: of its files, if they were read.
@@ -118,7 +124,11 @@ def run_job(
     """
     with written_part(part) as add:
         for record in records:
-            result = assess_catalogued(record, study)
+            store = RecordStore(cases_of(results, record.id), tell)
+            result = assess_catalogued(record, study, store=store)
+            store.save()
+            if study.settings.reports or study.settings.histories:
+                result = with_histories(result, study.settings.tolerance)
             rows = rows_of(result, record, study)
             folder = results / record.id
             content = None
@@ -152,7 +162,7 @@ def write_report(result: RecordResult, rows: RecordRows, study: Study, folder: P
 
 
 def assess_catalogued(
-    record: CatalogueRecord, study: Study, opened: Opened | None = None, store: CaseStore | None = None
+    record: CatalogueRecord, study: Study, opened: Opened | None = None, store: Store | None = None
 ) -> RecordResult:
     """Read and assess `record`; one that cannot be read has a failure instead. opened: its components, if they were
     read."""
@@ -160,8 +170,6 @@ def assess_catalogued(
     try:
         with clock.stage("read"):
             horizontal, vertical = opened or study.open(record)
-        with clock.stage("velocity pulse"):
-            motions = horizontal_motions(horizontal)
     except RockingError as error:
         unread = Failure("read", str(error))
         return RecordResult(record=record.id, failures=(("", unread),), durations=dict(clock.durations))
@@ -171,7 +179,6 @@ def assess_catalogued(
         study.structures,
         study.extent,
         vertical,
-        motions=motions,
         store=store,
         clock=clock,
     )

@@ -179,13 +179,22 @@ def settings_sha256(settings: Settings, structures: Mapping[str, Structure]) -> 
     return sha256_of(settings.numbers(), structures_sha256(structures), package_sha256(reports=False))
 
 
+_SPOKEN = {f"study/{name}.py" for name in ("cli", "run", "terminal", "workspace")}
+"""What starts a study and talks about it: it changes nothing that a job writes."""
+
+
 def package_sha256(reports: bool = True) -> str:
-    """Return one hash for the source of this package. reports: with that of the reports, which changes no number."""
+    """Return one hash for the source of this package that a job depends on.
+
+    reports: with that of the reports, which changes no number.
+    """
     root = Path(__file__).parents[1]
     digest = hashlib.sha256()
     for path in sorted(root.rglob("*")):
         name = path.relative_to(root).as_posix()
-        if path.suffix in _SOURCE and (reports or not name.startswith("reports/")):
+        if name in _SPOKEN or (name.startswith("reports/") and not reports):
+            continue
+        if path.suffix in _SOURCE:
             digest.update(name.encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()
 

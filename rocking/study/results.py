@@ -32,6 +32,18 @@ def part(results: Path, job: str) -> Path:
     return results / "summary" / "jobs" / job
 
 
+def cases_of(results: Path, record: str) -> Path:
+    """Return the file that keeps the results of the cases of a record, for the next run."""
+    return results / "summary" / "cases" / f"{record}.json"
+
+
+def remove_other_cases(results: Path, records: Collection[str]) -> None:
+    """Remove what is kept of records that the study does not hold any more."""
+    for path in cases_of(results, "").parent.glob("*.json"):
+        if path.stem not in records:
+            path.unlink(missing_ok=True)
+
+
 @contextmanager
 def written_part(folder: Path) -> Iterator[Callable[[RecordRows, Mapping[str, Any] | None], None]]:
     """Yield what adds a record to the files in `folder`, which appear together at the end, or not at all.

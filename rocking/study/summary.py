@@ -23,7 +23,7 @@ from rocking.errors import ConfigurationError, RockingError
 from rocking.records import Accelerogram, CatalogueRecord
 from rocking.structures import Structure
 from rocking.study.job import Study
-from rocking.study.results import page_contents, part, remove_other_parts, table_lines
+from rocking.study.results import page_contents, part, remove_other_cases, remove_other_parts, table_lines
 from rocking.tables import Row, data_package, frame, write_tables, write_whole
 
 _GOVERNING = ("structure", "record", "level", "overturning_share")
@@ -66,6 +66,7 @@ def summarise(study: Study, records: Iterable[CatalogueRecord], jobs: Sequence[s
         page = explore_page(page_contents(parts, hashes), study.structures, study.settings.study or "")
         write_whole(target / "study.html", page)
     remove_other_parts(results, jobs)
+    remove_other_cases(results, hashes)
 
 
 def write_summary(

@@ -1,0 +1,164 @@
+"""The store: what was computed comes back to the last digit, only what changed is computed, damage counts as none."""
+
+import hashlib
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rocking.assessment import assess, store
+from rocking.assessment.assess import Extent, assess_record, with_histories
+from rocking.assessment.case import RecordResult
+from rocking.assessment.rows.of_record import TimingRow, rows_of_record
+from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
+from rocking.assessment.store import RecordStore
+from rocking.pulses import Pulse
+from rocking.records import Accelerogram
+from rocking.structures import Arch, Block, Wall
+from rocking.tables import cell
+
+TIMES = np.arange(0, 6, 0.01)
+PAIR = [
+    Accelerogram(Pulse(amplitude, 7.0, 1.0).acceleration(TIMES), 0.01, name, azimuth=azimuth)
+    for amplitude, name, azimuth in ((3.0, "N", 0.0), (4.0, "E", 90.0))
+]
+STRUCTURES = {
+    "block": Block(2.0, 0.2),
+    "wall": Wall.hinged_at(6.0, 3.0, 0.4),
+    "arch": Arch(5.0, 0.3, np.radians(150)),
+}
+EXTENT = Extent(
+    AssessmentSettings(ensemble=EnsembleSettings(members=16)),
+    crack_heights=5,
+    processing_variants=True,
+    motion_measures=True,
+)
+
+
+def computed(path: Path, records=PAIR, structures=STRUCTURES, extent=EXTENT, tell=print) -> RecordResult:
+    kept = RecordStore(path, tell)
+    result = assess_record("made", records, structures, extent, store=kept)
+    kept.save()
+    return result
+
+
+def cells(result: RecordResult) -> list[list[str]]:
+    """Every cell of every table but the times."""
+    return [
+        [cell(getattr(row, name)) for name in kind.table.column_names]
+        for kind, rows in rows_of_record(result).tables.items()
+        if kind is not TimingRow
+        for row in rows
+    ]
+
+
+@pytest.fixture
+def cases(monkeypatch) -> list[str]:
+    """The structures whose cases are computed, in their order."""
+    names: list[str] = []
+    for function in (assess.assess_case, assess.assess_directions):
+        monkeypatch.setattr(
+            assess,
+            function.__name__,
+            lambda name, *more, function=function: names.append(name) or function(name, *more),
+        )
+    return names
+
+
+@pytest.mark.parametrize("records", [PAIR, PAIR[:1]], ids=["pair", "alone"])
+def test_what_is_kept_comes_back_to_the_last_digit(tmp_path, cases, records):
+    first = computed(tmp_path / "made.json", records)
+    assert cases
+    cases.clear()
+    again = computed(tmp_path / "made.json", records)
+    assert cases == []
+    assert cells(again) == cells(first)
+    whole = with_histories(again, EXTENT.settings.tolerance)
+    for name, response in first.responses.items():
+        assert np.array_equal(whole.responses[name].rotation, response.rotation)
+
+
+def test_only_what_changed_is_computed(tmp_path, cases):
+    first = computed(tmp_path / "made.json")
+    cases.clear()
+    changed = STRUCTURES | {"block": Block(2.0, 0.21)}
+    assert cells(computed(tmp_path / "made.json", structures=changed)) != cells(first)
+    assert cases == ["block", "block", "block"], "under both components, and under all directions"
+    cases.clear()
+    renamed = {f"the {name}": structure for name, structure in changed.items()}
+    computed(tmp_path / "made.json", structures=renamed)
+    assert cases == [], "a name changes no number"
+    for extent in (
+        replace(EXTENT, crack_heights=3),
+        replace(EXTENT, settings=replace(EXTENT.settings, tolerance=1e-7)),
+        replace(EXTENT, version="other"),
+    ):
+        cases.clear()
+        computed(tmp_path / "made.json", structures=renamed, extent=extent)
+        assert len(cases) == 9, "three structures under two components and over all directions"
+    cases.clear()
+    computed(tmp_path / "made.json", [PAIR[0], PAIR[1].scaled(1 + 1e-12)], renamed, extent)
+    assert sorted(set(cases)) == sorted(renamed) and len(cases) == 6, "the first component stays"
+
+
+def test_what_is_not_asked_for_any_more_is_dropped(tmp_path):
+    computed(tmp_path / "made.json")
+    whole = (tmp_path / "made.json").stat().st_size
+    computed(tmp_path / "made.json", structures={"block": STRUCTURES["block"]})
+    assert (tmp_path / "made.json").stat().st_size < 0.7 * whole
+
+
+@pytest.mark.parametrize(
+    ("damage", "reason"),
+    [
+        (lambda content: content[:-10], "not what was written"),
+        (lambda content: content.replace(b"0.", b"1.", 1), "not what was written"),
+        (lambda content: b"0" * 64 + content[64:], "another version"),
+        (lambda content: b"", "another version"),
+        (lambda content: b"\xff\xfe" * 50, "another version"),
+    ],
+    ids=["cut", "edited", "another version", "empty", "no text"],
+)
+def test_a_damaged_file_is_ignored_with_a_line(tmp_path, cases, damage, reason):
+    path = tmp_path / "made.json"
+    first = computed(path)
+    path.write_bytes(damage(path.read_bytes()))
+    cases.clear()
+    lines: list[str] = []
+    assert cells(computed(path, tell=lines.append)) == cells(first)
+    assert len(cases) == 9
+    (line,) = lines
+    assert reason in line and str(path) in line
+    cases.clear()
+    computed(path)
+    assert cases == [], "it was written anew"
+
+
+def test_an_entry_that_is_no_result_is_computed_anew(tmp_path, cases):
+    """Whoever can write a checksum can write numbers, but nothing else than numbers and texts comes of them."""
+    path = tmp_path / "made.json"
+    computed(path)
+    version = store.computation_version()
+    names = list(json.loads(path.read_bytes().partition(b"\n")[2]))
+    for entry in ({"structure": 1}, [], "text", None, {"": {"__class__": "os"}}):
+        content = json.dumps(dict.fromkeys(names, entry)).encode()
+        path.write_bytes(f"{version} {hashlib.sha256(content).hexdigest()}\n".encode() + content)
+        cases.clear()
+        computed(path)
+        assert len(cases) == 9
+
+
+def test_numbers_of_every_kind_come_back():
+    for kind, value in (
+        (float, 0.1 + 0.2),
+        (float, math.inf),
+        (int, 2**60),
+        (str, 'quote " and \\ and Ω'),
+        (tuple[float, ...], (1.0, -0.0)),
+        (float | None, None),
+    ):
+        assert store.decoded(kind, store.encoded(value)) == value
+    assert math.isnan(store.decoded(float, store.encoded(math.nan)))
