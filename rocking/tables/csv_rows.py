@@ -85,7 +85,10 @@ def _read_values(row_class: type[Row], path: Path, names: Collection[str]) -> It
 def readable(path: Path) -> Iterator[Any]:
     """Yield the text of a regular file. Raises RockingError where it cannot be read."""
     try:
-        with regular_file(Path(path)) as content, TextIOWrapper(content, encoding="utf-8", newline="") as stream:
+        with (
+            regular_file(Path(path)) as content,
+            TextIOWrapper(content, encoding="utf-8", newline="") as stream,
+        ):
             yield stream
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         reason = getattr(error, "strerror", None) or str(error)
