@@ -194,7 +194,7 @@ def extremes(times: np.ndarray, values: np.ndarray, begin: float, end: float, bi
     A stretch without a sample takes the value interpolated at its middle.
     """
     edges = np.linspace(begin, end, bins + 1)
-    of_bins = np.interp((edges[:-1] + edges[1:]) / 2, times, values)
+    of_bins: np.ndarray = np.interp((edges[:-1] + edges[1:]) / 2, times, values)
     inside = (times >= begin) & (times <= end)
     place = np.minimum(np.searchsorted(edges, times[inside], side="right") - 1, bins - 1)
     samples = values[inside]

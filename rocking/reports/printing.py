@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -41,6 +42,19 @@ _LARGEST_PLAIN = 1e6
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _CHOSEN = ("scale_factor", "time_step_s", "high_pass_frequency_hz")
 """Fields that somebody chose, which are printed as they were given."""
+
+
+@dataclass(frozen=True)
+class Notice:
+    """A sentence that stands above everything; strong: it warns, and is set so."""
+
+    text: str
+    strong: bool = True
+
+    @property
+    def data(self) -> dict[str, object]:
+        """What a template is given."""
+        return {"strong": self.strong, "text": self.text}
 
 
 def number(value: float | None, digits: int = 3) -> str:

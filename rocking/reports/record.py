@@ -1,7 +1,7 @@
 """The report of one record: what an engineer hands to a client. Page one is looked at, the tables stand at the end."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from importlib.metadata import version
@@ -27,7 +27,17 @@ from rocking.reports import printing
 from rocking.reports import record_figures as figures
 from rocking.reports.document import compile_document
 from rocking.reports.panels import rotation_ratios
-from rocking.reports.printing import Column, columns_of, number, plain, remainder, strong, table_of, words
+from rocking.reports.printing import (
+    Column,
+    Notice,
+    columns_of,
+    number,
+    plain,
+    remainder,
+    strong,
+    table_of,
+    words,
+)
 from rocking.reports.record_figures import History, Trace
 from rocking.reports.style import pictures
 from rocking.structures import Structure
@@ -71,7 +81,7 @@ class RecordReport:
             "key": [_key_numbers(row) for row in self.tables.record],
             "headlines": headlines(self.stations),
             "sentences": _sentences(self),
-            "notices": _notices(self),
+            "notices": [notice.data for notice in _notices(self)],
             "pulse-sentences": [
                 _pulse_sentence(self.tables, motion) for motion in self.motions if motion.pulses
             ],
@@ -204,32 +214,43 @@ def warnings_of(tables: RecordRows) -> list[str]:
     return list(dict.fromkeys([*of_files, *(row.warning for row in tables.comparison if row.warning)]))
 
 
-def _notices(report: RecordReport) -> list[dict[str, object]]:
-    """Return the warnings that stand above everything: scale factor, nothing moves, what failed."""
+def _notices(report: RecordReport) -> list[Notice]:
+    """Return the warnings that stand above everything: nothing moves, scale factor, contacts, what failed."""
     tables = report.tables
-    cases = tables.comparison
-    scaled = "; ".join(
-        f"component {words(row.component)}: ×\u00a0{plain(row.scale_factor)}"
-        for row in tables.record
-        if row.scale_factor != 1
-    )
-    kinds = ("slides", "bounces")
-    failing = [
-        f"{row.structure} ({' and '.join(kind for kind in kinds if getattr(row, kind))})"
-        for row in cases
-        if row.slides or row.bounces
-    ]
-    names = printing.listed(list(dict.fromkeys(failing)))
-    still = "No structure uplifts: the ground acceleration never reaches an uplift acceleration."
-    notices = {
-        still: bool(cases) and all(station.rotation_ratio == 0 for station in report.stations),
-        f"Not the recorded amplitude. The file was multiplied by a declared factor ({scaled}).": scaled,
-        "No structure could be assessed under this record.": not cases,
-        f"The model does not hold, because a contact fails, for {names}.": failing,
-        "No pulse could be sought in this record, so there is no closed-form prediction.": not tables.pulses,
-    }
-    notices |= {f"{row.structure or row.component}: {row.message}": True for row in tables.failures}
-    return [{"strong": text != still, "text": text} for text, holds in notices.items() if holds]
+    notices = []
+    if tables.comparison and all(station.rotation_ratio == 0 for station in report.stations):
+        still = "No structure uplifts: the ground acceleration never reaches an uplift acceleration."
+        notices.append(Notice(still, strong=False))
+    scaled = [row for row in tables.record if row.scale_factor != 1]
+    if scaled:
+        factors = "; ".join(
+            f"component {words(row.component)}: ×\u00a0{plain(row.scale_factor)}" for row in scaled
+        )
+        text = f"Not the recorded amplitude. The file was multiplied by a declared factor ({factors})."
+        notices.append(Notice(text))
+    if not tables.comparison:
+        notices.append(Notice("No structure could be assessed under this record."))
+    failing = list(dict.fromkeys(_contact_failures(tables.comparison)))
+    if failing:
+        names = printing.listed(failing)
+        notices.append(Notice(f"The model does not hold, because a contact fails, for {names}."))
+    if not tables.pulses:
+        text = "No pulse could be sought in this record, so there is no closed-form prediction."
+        notices.append(Notice(text))
+    of_failures = [f"{row.structure or row.component}: {row.message}" for row in tables.failures]
+    return [*notices, *map(Notice, dict.fromkeys(of_failures))]
+
+
+def _contact_failures(rows: Iterable[ComparisonRow]) -> Iterator[str]:
+    """Yield each structure whose contacts fail under a component, with what they do."""
+    for row in rows:
+        kinds = []
+        if row.slides:
+            kinds.append("slides")
+        if row.bounces:
+            kinds.append("bounces")
+        if kinds:
+            yield f"{row.structure} ({' and '.join(kinds)})"
 
 
 def _subtitle(rows: Sequence[RecordRow]) -> str:

@@ -32,6 +32,7 @@ from rocking.reports.document import compile_document
 from rocking.reports.fragility import fragility_table
 from rocking.reports.printing import (
     Column,
+    Notice,
     columns_of,
     number,
     plain,
@@ -91,7 +92,7 @@ def summary_data(
         **printing.settings_texts(settings),
         "subtitle": f"{counted(records['record'].nunique(), 'record')}, "
         f"{counted(len(tables['structures']), 'structure')}, {counted(len(comparison), 'case')}.",
-        "notices": _notices(records, comparison, len(failures)),
+        "notices": [notice.data for notice in _notices(records, comparison, len(failures))],
         "map": severity_map(verdicts, records),
         "methods": method_table(tables),
         "structures": structure_table(verdicts),
@@ -108,20 +109,25 @@ def summary_data(
     }
 
 
-def _notices(records: "DataFrame", comparison: "DataFrame", failures: int) -> list[dict[str, object]]:
+def _notices(records: "DataFrame", comparison: "DataFrame", failures: int) -> list[Notice]:
     """Return the warnings that stand above everything."""
-    warnings = {
-        "No record could be read, so there is no result; the failures below say why.": records.empty,
-        "No structure could be assessed under any record; the failures below say why.": comparison.empty,
-        "No structure uplifts under any record.": (comparison["integrated_rotation_ratio"] == 0).all(),
-    }
-    texts = [text for text, holds in warnings.items() if holds][:1]
+    notices = []
+    if records.empty:
+        text = "No record could be read, so there is no result; the failures below say why."
+        notices.append(Notice(text))
+    elif comparison.empty:
+        text = "No structure could be assessed under any record; the failures below say why."
+        notices.append(Notice(text))
+    elif (comparison["integrated_rotation_ratio"] == 0).all():
+        notices.append(Notice("No structure uplifts under any record."))
     if failures:
-        texts.append(f"{counted(failures, 'failure')}, listed below.")
-    if scaled := sorted(records.loc[records["scale_factor"] != 1, "record"].unique()):
+        notices.append(Notice(f"{counted(failures, 'failure')}, listed below."))
+    scaled = sorted(records.loc[records["scale_factor"] != 1, "record"].unique())
+    if scaled:
         names = printing.listed(scaled, most=20)
-        texts.append(f"Accelerations multiplied by a declared factor, not as recorded: {names}.")
-    return [{"strong": True, "text": text} for text in texts]
+        text = f"Accelerations multiplied by a declared factor, not as recorded: {names}."
+        notices.append(Notice(text))
+    return notices
 
 
 # What becomes of what --------------------------------------------------------------------------------------

@@ -11,7 +11,6 @@ import pytest
 
 from rocking.assessment.assess import Extent, assess_record
 from rocking.assessment.case import StationResult
-from rocking.assessment.component import horizontal_motions
 from rocking.assessment.rows.of_record import (
     ComparisonRow,
     FailureRow,
@@ -79,10 +78,8 @@ def shaken(component: str = "EW", scale_factor: float = 1.0, **identity) -> Acce
 
 def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[str, object]) -> RecordReport:
     """Compute every table of `record`, each component for itself, and return its report."""
-    extent = Extent(ASSESSMENT, crack_heights=7, processing_variants=True)
-    result = assess_record(
-        record, accelerograms, structures, extent, motions=horizontal_motions(accelerograms)
-    )
+    extent = Extent(ASSESSMENT, crack_heights=7, processing_variants=True, motion_measures=True)
+    result = assess_record(record, accelerograms, structures, extent)
     rows = rows_of_record(result, "cd" * 32, "CC0-1.0")
     return RecordReport(result, rows, structures, SETTINGS)
 
