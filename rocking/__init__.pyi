@@ -27,6 +27,7 @@ from .records import Accelerogram as Accelerogram
 from .records import RotD as RotD
 from .records import read as read
 from .records import rotd as rotd
+from .records.design_spectrum import DesignSpectrum as DesignSpectrum
 from .records.measures import RecordMeasures as RecordMeasures
 from .records.measures import ResponseSpectrum as ResponseSpectrum
 from .records.measures import record_measures as record_measures

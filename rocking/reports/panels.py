@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from rocking.pulses import Pulse, PulseAnalysis
     from rocking.records.accelerogram import Accelerogram
     from rocking.structures import Mechanism, Structure
-    from rocking.structures.structure import CapacityCurve
+    from rocking.structures.capacity import CapacityCurve
 
 TIME = "time [s]"
 ACCELERATION = "ground acceleration [m/s²]"

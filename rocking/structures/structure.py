@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.drawn import Drawn
 from rocking.errors import StructureError, StructureWarning
 from rocking.quantities import within
+from rocking.structures.capacity import CapacityCurve as CapacityCurve
+from rocking.structures.capacity import StaticCapacity
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.drawing import Dimension, Mark, Path, plane
 from rocking.structures.fields import Field, Form, Value, constructor
@@ -23,26 +24,6 @@ from rocking.structures.stack import Stack
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-
-@dataclass(frozen=True, eq=False)
-class CapacityCurve(Drawn):
-    """Static load multiplier against displacement, at k rotations from rest to the critical one; `plot` draws it.
-
-    By virtual work a horizontal body force λ g that just holds the structure at φ has λ(φ) = G(φ)/B(φ). It starts at
-    the uplift multiplier and falls to 0 at the critical rotation.
-    rotation: (k,) rad. multiplier: (k,) λ. displacement: (k,) horizontal, of the control point, m. control_point: (2,)
-    where it is at rest, m: of all corners of the drawing the one that moves furthest sideways.
-    effective_displacement: (k,) d* = d_k Σ P δ²/(δ_k Σ P δ), m, with the virtual horizontal displacements δ of the
-    weights P at rest. participating_mass_ratio: (Σ P δ)²/(Σ P · Σ P δ²).
-    """
-
-    rotation: np.ndarray = field(repr=False)
-    multiplier: np.ndarray = field(repr=False)
-    displacement: np.ndarray = field(repr=False)
-    effective_displacement: np.ndarray = field(repr=False)
-    control_point: tuple[float, float]
-    participating_mass_ratio: float
 
 
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
@@ -178,46 +159,40 @@ class Structure(ABC):
 
         return plot(self, axes, rotation=rotation, dimensions=dimensions)
 
+    def static_capacity(self, side: int = 1) -> StaticCapacity:
+        """Return what the positive (1) or negative (−1) side bears, by virtual work; the same object at every call.
+
+        Raises StructureError for a side to which it does not rock.
+        """
+        mechanism = self.mechanism()
+        if side not in (1, -1) or (side == -1 and mechanism.one_sided):
+            raise StructureError(
+                f"side is {side!r}, but must be 1, or -1 where the structure rocks to both sides."
+            )
+        if side not in self._capacities:
+            place = 0 if side > 0 else -1
+            moving = [each for each in self._seen(side < 0) if each[0] != STILL]
+            self._capacities[side] = StaticCapacity.of(
+                mechanism.sides[place], self.linkages[place], moving, side < 0
+            )
+        return self._capacities[side]
+
+    @cached_property
+    def _capacities(self) -> dict[int, StaticCapacity]:
+        return {}
+
     def capacity_curve(self, side: int = 1, count: int = 41) -> CapacityCurve:
         """Return the curve of the positive (1) or negative (−1) side at `count` equal steps of rotation.
 
         Where ties yield or break on the way there is a point more, and just beyond it another.
         Raises StructureError for a side to which it does not rock, or fewer than two points.
         """
-        mechanism = self.mechanism()
-        if side not in (1, -1) or (side == -1 and mechanism.one_sided) or count < 2:
+        if side not in (1, -1) or (side == -1 and self.mechanism().one_sided) or count < 2:
             raise StructureError(
                 f"side is {side!r} and count {count!r}, but side must be 1, or -1 where the structure rocks to both "
                 "sides, and count 2 or more."
             )
-        of = mechanism.sides[0 if side > 0 else -1]
-        steps, bends = np.linspace(0.0, of.critical_rotation, count), np.array(of.bends)
-        rotation = np.unique([*steps, *bends, *bends * (1 + 1e-12)])
-
-        # the control point is the corner that moves furthest sideways
-        linkage = self.linkages[0 if side > 0 else -1]
-        motion, at_rest = linkage.motion(rotation), linkage.motion(0.0)
-        parts = [(part, corners) for part, corners in self._seen(side < 0) if part != STILL]
-        corners = [(part, corner) for part, of_part in parts for corner in of_part]
-        shifts = np.array([linkage.carried(*each, motion).moved.real for each in corners])
-        control = int(np.argmax(shifts[:, rotation.size // 2]))
-        displacement = shifts[control] - shifts[control, 0]  # which is rounding
-        place = plane(corners[control][1], side < 0)
-        speed = float(linkage.carried(*corners[control], at_rest).velocity.real)
-
-        # a mass that something else holds sideways, as that of a load that only rises, has no part
-        across = at_rest.velocities.real
-        masses = np.where(across == 0, 0.0, linkage.masses)
-        first = masses @ across
-        second = masses @ across**2
-        return CapacityCurve(
-            rotation=rotation,
-            multiplier=of.gravity(rotation) / of.ground(rotation),
-            displacement=displacement,
-            effective_displacement=displacement * second / (speed * first),
-            control_point=(float(place[0]), float(place[1])),
-            participating_mass_ratio=float(first**2 / (masses.sum() * second)),
-        )
+        return self.static_capacity(side).curve(count)
 
     def contact_forces(
         self,

@@ -1,0 +1,168 @@
+"""What a mechanism bears at rest, by virtual work: load multiplier and displacement against rotation on one side.
+
+The displacement of the equivalent system of one degree of freedom and its participating mass are those of the virtual
+displacements at rest.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rocking.drawn import Drawn
+from rocking.structures.drawing import plane
+from rocking.structures.linkage import Linkage
+from rocking.structures.mechanism import Side, SideTie
+
+
+@dataclass(frozen=True, eq=False)
+class CapacityCurve(Drawn):
+    """Static load multiplier against displacement, at k rotations from rest to the critical one; `plot` draws it.
+
+    By virtual work a horizontal body force λ g that just holds the structure at φ has λ(φ) = G(φ)/B(φ). It starts at
+    the uplift multiplier and falls to 0 at the critical rotation.
+    rotation: (k,) rad. multiplier: (k,) λ. displacement: (k,) horizontal, of the control point, m. control_point: (2,)
+    where it is at rest, m: of all corners of the drawing the one that moves furthest sideways.
+    effective_displacement: (k,) d* = d_k Σ P δ²/(δ_k Σ P δ), m, with the virtual horizontal displacements δ of the
+    weights P at rest. participating_mass_ratio: (Σ P δ)²/(Σ P · Σ P δ²).
+    """
+
+    rotation: np.ndarray = field(repr=False)
+    multiplier: np.ndarray = field(repr=False)
+    displacement: np.ndarray = field(repr=False)
+    effective_displacement: np.ndarray = field(repr=False)
+    control_point: tuple[float, float]
+    participating_mass_ratio: float
+
+
+@dataclass(frozen=True, eq=False)
+class StaticCapacity:
+    """What one side of a structure bears.
+
+    control_part, control_corner: the point whose displacement counts, a corner of the drawing as this side sees it.
+    place: where it is at rest, m. displacement_factor: d*/d_k. participating_mass_ratio: as of CapacityCurve.
+    """
+
+    side: Side
+    linkage: Linkage
+    control_part: int
+    control_corner: complex
+    place: tuple[float, float]
+    displacement_factor: float
+    participating_mass_ratio: float
+
+    @classmethod
+    def of(
+        cls, side: Side, linkage: Linkage, parts: Sequence[tuple[int, np.ndarray]], mirrored: bool
+    ) -> "StaticCapacity":
+        """Return that of a side whose moving outlines are `parts`; the control point moves furthest half-way out."""
+        half = linkage.motion(side.critical_rotation / 2)
+        corners = [(part, corner) for part, of_part in parts for corner in of_part]
+        shifts = [float(linkage.carried(part, corner, half).moved.real) for part, corner in corners]
+        control_part, control_corner = corners[int(np.argmax(shifts))]
+        place = plane(control_corner, mirrored)
+
+        # a mass that something else holds sideways, as that of a load that only rises, has no part
+        at_rest = linkage.motion(0.0)
+        across = at_rest.velocities.real
+        masses = np.where(across == 0, 0.0, linkage.masses)
+        first = masses @ across
+        second = masses @ across**2
+        speed = float(linkage.carried(control_part, control_corner, at_rest).velocity.real)
+        return cls(
+            side=side,
+            linkage=linkage,
+            control_part=control_part,
+            control_corner=control_corner,
+            place=(float(place[0]), float(place[1])),
+            displacement_factor=float(second / (speed * first)),
+            participating_mass_ratio=float(first**2 / (masses.sum() * second)),
+        )
+
+    def multiplier(self, rotation: ArrayLike) -> np.ndarray:
+        """Return λ(φ) = G(φ)/B(φ) at `rotation` [rad], of any shape."""
+        at = np.asarray(rotation, dtype=float)
+        return self.side.gravity(at) / self.side.ground(at)
+
+    def displacement(self, rotation: ArrayLike) -> np.ndarray:
+        """Return the horizontal displacement of the control point, m."""
+        motion = self.linkage.motion(np.asarray(rotation, dtype=float))
+        moved = self.linkage.carried(self.control_part, self.control_corner, motion).moved.real
+        return moved - self._rounding
+
+    @cached_property
+    def _rounding(self) -> float:
+        """The displacement at rest, which is rounding."""
+        at_rest = self.linkage.motion(0.0)
+        return float(self.linkage.carried(self.control_part, self.control_corner, at_rest).moved.real)
+
+    def rotation_at(self, displacement: float) -> float:
+        """Return the rotation up to φ_cr at which the control point has moved by `displacement` [m]."""
+        from scipy.optimize import brentq  # slow to import, and needed by checks only
+
+        critical = self.side.critical_rotation
+        if displacement >= float(self.displacement(critical)):
+            return critical
+        return float(
+            brentq(
+                lambda phi: float(self.displacement(phi)) - displacement,
+                0.0,
+                critical,
+                xtol=1e-16,
+                rtol=1e-14,
+            )
+        )
+
+    def curve(self, count: int) -> CapacityCurve:
+        """Return it at `count` equal steps of rotation, and where ties yield or break and just beyond."""
+        steps = np.linspace(0.0, self.side.critical_rotation, count)
+        bends = np.array(self.side.bends)
+        rotation = np.unique([*steps, *bends, *bends * (1 + 1e-12)])
+        displacement = self.displacement(rotation)
+        displacement = displacement - displacement[0]  # which is rounding
+        return CapacityCurve(
+            rotation=rotation,
+            multiplier=self.multiplier(rotation),
+            displacement=displacement,
+            effective_displacement=displacement * self.displacement_factor,
+            control_point=self.place,
+            participating_mass_ratio=self.participating_mass_ratio,
+        )
+
+    @property
+    def _breaking(self) -> list[tuple[float, SideTie]]:
+        """The rotation at which each tie breaks, rad, inf of one that does not, and the tie."""
+        end = self.side.end_rotation
+        return [(tie.rotation(tie.tie.rupture_stretch, end), tie) for tie in self.side.ties]
+
+    @cached_property
+    def ruptures(self) -> tuple[float, ...]:
+        """Rotations up to φ_cr at which ties break, in order, rad."""
+        critical = self.side.critical_rotation * (1 + 1e-9)  # where it overturns as a tie breaks, to rounding
+        return tuple(sorted({rotation for rotation, _ in self._breaking if rotation <= critical}))
+
+    @cached_property
+    def collapse_rotation(self) -> float:
+        """φ at which λ vanishes with only such ties as hold on until then, rad; 0 where it stands by the others alone.
+
+        It is φ_cr but where the structure overturns as a tie breaks.
+        """
+        from scipy.optimize import brentq  # as above
+
+        critical = self.side.critical_rotation
+        if not self.ruptures or self.side.untied_gravity is None:
+            return critical
+        lasting = [tie for rotation, tie in self._breaking if rotation > critical * (1 + 1e-9)]
+        untied = self.side.untied_gravity
+
+        def gravity(rotation: float) -> float:
+            at = np.asarray(rotation)
+            return float(untied(at) + sum(tie.moment(at, at) for tie in lasting))
+
+        if gravity(0.0) <= 0:
+            return 0.0
+        if gravity(critical) >= 0:
+            return critical
+        return float(brentq(gravity, 0.0, critical, xtol=1e-16, rtol=1e-14))

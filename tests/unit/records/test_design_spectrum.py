@@ -1,0 +1,136 @@
+"""Design spectra: the branches of NTC 2018, 3.2.3.2 by identities and by hand, points from a file, and refusals."""
+
+import math
+
+import numpy as np
+import pytest
+
+from rocking import DesignSpectrum
+from rocking.errors import ConfigurationError
+from rocking.quantities import GRAVITY
+from rocking.records.design_spectrum import damping_factor
+
+ROUNDING = 1e-12
+
+
+@pytest.mark.parametrize("soil", "ABCDE")
+@pytest.mark.parametrize("ag", [0.5, 2.5, 5.0])
+def test_the_branches_meet_and_have_the_shape_of_the_code(soil, ag):
+    spectrum = DesignSpectrum.ntc(ag, 2.45, 0.32, soil, 1.2)
+    t_b, t_c, t_d = spectrum.corner_periods
+    assert t_b == pytest.approx(t_c / 3, rel=ROUNDING)
+    assert t_d == pytest.approx(4 * ag / GRAVITY + 1.6, rel=ROUNDING)
+    plateau = ag * spectrum.soil_factor * 2.45
+    assert spectrum.acceleration(0.0) == pytest.approx(ag * spectrum.soil_factor, rel=ROUNDING)
+    assert spectrum.acceleration(t_b / 2) == pytest.approx((plateau / 2.45 + plateau) / 2, rel=ROUNDING)
+    for corner in (t_b, t_c, t_d):
+        left, right = spectrum.acceleration(corner * np.array([1 - 1e-9, 1 + 1e-9]))
+        assert left == pytest.approx(right, rel=1e-8)  # the slopes times the distance of 2e-9
+    assert spectrum.acceleration((t_b + t_c) / 2) == pytest.approx(plateau, rel=ROUNDING)
+    assert spectrum.acceleration(t_d) == pytest.approx(plateau * t_c / t_d, rel=ROUNDING)
+    assert spectrum.acceleration(2 * t_d) == pytest.approx(plateau * t_c / t_d / 4, rel=ROUNDING)
+    assert spectrum.displacement(3 * t_d) == pytest.approx(spectrum.displacement(t_d), rel=ROUNDING)
+
+
+def test_displacement_is_acceleration_over_the_square_of_the_frequency():
+    spectrum = DesignSpectrum.ntc(2.0, 2.5, 0.35, "C")
+    periods = np.geomspace(0.01, 6, 50)
+    expected = spectrum.acceleration(periods) * (periods / (2 * np.pi)) ** 2
+    np.testing.assert_allclose(spectrum.displacement(periods), expected, rtol=ROUNDING)
+
+
+def test_soil_factors_by_hand():
+    """a_g = .2 g, F0 = 2.4, T_C* = .3 s: F0 a_g/g = .48."""
+    by_hand = {
+        "A": (1.0, 0.3),
+        "B": (1.2, 1.10 * 0.3**0.8),  # 1.40 − .192 = 1.208, at most 1.20
+        "C": (1.412, 1.05 * 0.3**0.67),
+        "D": (1.68, 1.25 * 0.3**0.5),
+        "E": (1.472, 1.15 * 0.3**0.6),
+    }
+    for soil, (factor, constant) in by_hand.items():
+        spectrum = DesignSpectrum.ntc(0.2 * GRAVITY, 2.4, 0.3, soil)
+        assert spectrum.soil_factor == pytest.approx(factor, rel=ROUNDING)
+        assert spectrum.corner_periods[1] == pytest.approx(constant, rel=ROUNDING)
+
+
+def test_damping_reduces_the_plateau_and_not_the_ground():
+    spectrum = DesignSpectrum.ntc(2.0, 2.5, 0.35)
+    assert damping_factor(0.08) == pytest.approx(math.sqrt(10 / 13), rel=ROUNDING)
+    assert damping_factor(0.4) == 0.55
+    assert spectrum.acceleration(0.3, 0.08) == pytest.approx(math.sqrt(10 / 13) * 5.0, rel=ROUNDING)
+    assert spectrum.acceleration(0.0, 0.08) == pytest.approx(2.0, rel=ROUNDING)
+
+
+def test_another_level_is_that_of_the_same_parameters():
+    spectrum = DesignSpectrum.ntc(1.0, 2.45, 0.32, "D")
+    other = DesignSpectrum.ntc(3.0, 2.45, 0.32, "D")
+    periods = np.linspace(0.01, 4, 30)
+    np.testing.assert_allclose(
+        spectrum.at(3.0).acceleration(periods), other.acceleration(periods), rtol=ROUNDING
+    )
+
+
+def write(folder, text):
+    path = folder / "site.csv"
+    path.write_text(text)
+    return path
+
+
+def test_points_of_a_file_and_the_lines_between_them(tmp_path):
+    spectrum = DesignSpectrum.read(write(tmp_path, "period_s,acceleration_g\n0,0.2\n0.1,0.5\n2,0.1\n"))
+    assert spectrum.level == pytest.approx(0.2 * GRAVITY, rel=ROUNDING)
+    np.testing.assert_allclose(
+        spectrum.acceleration([0.05, 1.05]), [0.35 * GRAVITY, 0.3 * GRAVITY], rtol=ROUNDING
+    )
+    assert spectrum.acceleration(1.05, 0.08) == pytest.approx(
+        0.3 * GRAVITY * math.sqrt(10 / 13), rel=ROUNDING
+    )
+    assert spectrum.acceleration(0.0, 0.08) == spectrum.level
+    doubled = spectrum.at(2 * spectrum.level)
+    assert doubled.acceleration(1.0) == pytest.approx(2 * spectrum.acceleration(1.0), rel=ROUNDING)
+    in_metres = DesignSpectrum.read(write(tmp_path, "period_s,acceleration_m_s2\n0,2\n1,3\n"))
+    assert in_metres.acceleration(0.5) == pytest.approx(2.5, rel=ROUNDING)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("period_s,acceleration_g\n0,0.2\n2,0.1\n1,0.3\n", "period 1 s follows 2 s, but periods must ascend"),
+        ("period_s,acceleration_g\n-1,0.2\n2,0.1\n", "period is -1.0 s, but must be 0 or more"),
+        ("period_s,acceleration_g\n0,0.2\n2,-0.1\n", "but must be greater than 0"),
+        ("period_s,acceleration_g\n0,0.2\n2,\n", "line 3: acceleration_g is '', but must be a number"),
+        ("period_s,acceleration_g\n0,0.2\n", "has 1 periods and 1 accelerations, but must have at least 2"),
+        ("period,sa\n0,0.2\n", "columns are period, sa, but must be period_s and one of"),
+        ("period_s,acceleration_g\n0.2,0.2\n1,0.1\n", "first period is 0.2 s, but must be 0.05 s or less"),
+    ],
+)
+def test_a_file_that_is_no_spectrum_is_refused_in_a_sentence(tmp_path, text, sentence):
+    with pytest.raises(ConfigurationError, match=r"site\.csv") as error:
+        DesignSpectrum.read(write(tmp_path, text))
+    assert sentence in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("values", "sentence"),
+    [
+        ({"soil": "F"}, "soil is 'F', but must be one of A, B, C, D, E."),
+        ({"ag": -1.0}, "ag is -1.0 m/s², but must be greater than 0."),
+        ({"f0": None}, "f0 is None, but must be a number."),
+        ({"tc_star": 0}, "tc_star is 0 s, but must be greater than 0."),
+        ({"topography": 2.0}, "topography is 2.0, but must lie between 1 and 1.4."),
+        ({"damping": 5}, "damping is 5, but must lie between 0 and 0.5."),
+    ],
+)
+def test_parameters_out_of_range_are_refused_in_a_sentence(values, sentence):
+    with pytest.raises(ConfigurationError) as error:
+        DesignSpectrum.ntc(**{"ag": 2.0, "f0": 2.5, "tc_star": 0.3} | values)
+    assert str(error.value) == sentence
+
+
+def test_a_period_beyond_the_points_or_below_zero_is_refused(tmp_path):
+    spectrum = DesignSpectrum.read(write(tmp_path, "period_s,acceleration_g\n0,0.2\n2,0.1\n"))
+    with pytest.raises(ConfigurationError, match=r"2.5 s is asked for, but the spectrum ends at 2 s"):
+        spectrum.displacement(2.5)
+    with pytest.raises(ConfigurationError, match="negative or no number"):
+        spectrum.acceleration([-1.0])
