@@ -48,8 +48,7 @@ for TARGET, (TELLS, CATALOGUES, FILES) in TARGETS_OF_RESEARCH.items():
         benchmark:
             f"{SUMMARY}/benchmarks/{TARGET}.tsv"
         params:
-            mirror=SETTINGS.mirror,
-            structures=SETTINGS.structures,
+            structures_sha256=PLAN.structures_sha256,
             package_sha256=PACKAGE,
         message:
             TELLS

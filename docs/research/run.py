@@ -34,13 +34,15 @@ def motions_of(catalogue, mirror, tell):
 
 if __name__ == "__main__":
     sys.path.append(str(Path(snakemake.scriptdir).parents[1]))  # docs/ lies beside rocking/
+    from rocking.study.settings import read_settings
     from rocking.study.terminal import line_writer
 
+    settings = read_settings(snakemake.config)
     main(
         snakemake.rule,
         snakemake.input.catalogues,
-        snakemake.params.mirror,
-        snakemake.params.structures,
+        settings.mirror,
+        settings.structures,
         Path(snakemake.output[0]).parent,
         line_writer(Path(snakemake.log[0])),
     )

@@ -10,6 +10,7 @@ from pathlib import Path
 from urllib.parse import unquote
 
 import pytest
+import yaml
 
 import rocking
 from rocking.assessment.rows.of_study import SUMMARY_TABLES
@@ -29,13 +30,21 @@ ATTEMPTS = 4
 pytestmark = pytest.mark.slow
 
 
+STRUCTURES = ".. raw:: html .. <script>kilroy_was_here<_script>.yaml"
+TITLE = "</script><script>document.title = 'kilroy_was_here'</script>"
+"""Texts of a study that came from somebody else."""
+
+
 @pytest.fixture(scope="module")
 def study(tmp_path_factory) -> Path:
     """A study of one record and one structure that was run, with its page in report.html."""
     folder = tmp_path_factory.mktemp("html") / "my study"
     assert main(["start", str(folder)]) == 0
     pier = "- {name: pier, type: block, breadth_m: 2.0, height_m: 9.0}\n"
-    (folder / "structures.yaml").write_text(pier, encoding="utf-8")
+    (folder / "structures.yaml").unlink()
+    (folder / STRUCTURES).write_text(pier, encoding="utf-8")
+    settings = {"study": TITLE, "client": TITLE, "structures": STRUCTURES}
+    (folder / "config.yaml").write_text(yaml.safe_dump(settings), encoding="utf-8")
     shutil.copy(ROOT / "records" / "synthetic_strong_pulse.AT2", folder / "records")
     assert main(["catalogue", str(folder / "records")]) == 0
     run = [sys.executable, "-m", "rocking.study.cli", "run", str(folder), "--"]  # where libraries may warn
@@ -105,6 +114,14 @@ def test_a_table_in_the_page_is_the_file(page, browser, study):
     content = base64.b64decode(unquote(link.partition("base64,")[2]))
     assert content == (study / "results" / "summary" / "comparison.csv").read_bytes()
     assert [row["structure"] for row in csv.DictReader(content.decode().splitlines())] == ["pier"]
+
+
+def test_no_text_of_a_study_is_markup_or_a_script_of_a_page(study):
+    """Neither its title nor the name of its structure list; the page to explore stands within the page as base64."""
+    page = (study / "report.html").read_text(encoding="utf-8")
+    assert "kilroy_was_here" not in page and ".. raw" not in page
+    explore = (study / "results" / "summary" / "study.html").read_text(encoding="utf-8")
+    assert "kilroy_was_here" in explore and TITLE not in explore, "the title is shown, as text"
 
 
 def test_the_browser_had_nothing_to_complain_about(page, browser):

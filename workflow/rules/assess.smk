@@ -24,8 +24,8 @@ for JOB, RECORDS in PLAN.jobs.items():
             f"{SUMMARY}/benchmarks/assess_{JOB}.tsv"
         params:
             **PLAN.params(JOB),
-            reports=SETTINGS.reports and SETTINGS.about,
-            files=[path for path, sha256 in PLAN.files(RECORDS).items() if sha256],
+            reports_sha256=SETTINGS.reports and sha256_of(SETTINGS.about),
+            files=[os.fsencode(path).hex() for path, sha256 in PLAN.files(RECORDS).items() if sha256],
             summary=ALONE and OF_SUMMARY,
         message:
             f"Assess {len(RECORDS)} records (job {JOB})"

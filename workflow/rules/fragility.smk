@@ -16,7 +16,7 @@ rule fragility:
         f"{SUMMARY}/benchmarks/fragility.tsv"
     params:
         **PLAN.params(),
-        fragility=SETTINGS.mapping()["fragility"],
+        fragility_sha256=sha256_of(SETTINGS.fragility),
     message:
         "Scale the records until the structures overturn"
     script:

@@ -14,7 +14,6 @@ rule paper:
     benchmark:
         f"{SUMMARY}/benchmarks/paper.tsv"
     params:
-        mirror=SETTINGS.mirror,
         package_sha256=PACKAGE,
     message:
         "Redraw the figures of the paper"

@@ -1,5 +1,6 @@
 """What is studied: settings, records and structures, checked before the first job starts."""
 
+import os
 from pathlib import Path  # for the rules
 
 from rocking.study import close_doors
@@ -8,7 +9,7 @@ close_doors()  # before the imports that open them
 
 from rocking.assessment.rows.of_record import RECORD_TABLES
 from rocking.assessment.rows.of_study import SUMMARY_TABLES
-from rocking.study.plan import check_config_file, config_file, make_plan
+from rocking.study.plan import check_config_file, config_file, make_plan, sha256_of
 from rocking.study.results import PAGE, part
 from rocking.study.run import begin
 from rocking.study.terminal import check_any_read
@@ -25,6 +26,8 @@ if not workflow.overwrite_configfiles:
     update_config(CONFIG, config)  # what --config says
     config.update(CONFIG)
 PLAN = make_plan(config)
+# The page that snakemake --report makes shows captions and params as they stand: no text of a study may be in them, only its
+# hashes.
 SETTINGS = PLAN.settings
 PACKAGE = PLAN.package_sha256
 RESULTS = SETTINGS.results

@@ -17,7 +17,7 @@ SUMMARIES += [
 SUMMARIES += [f"{SUMMARY}/provenance.json", f"{SUMMARY}/datapackage.json", f"{RESULTS}/datapackage.json"]
 OF_SUMMARY = {
     "jobs": list(PLAN.jobs),
-    "settings": SETTINGS.mapping(),
+    "all_settings_sha256": sha256_of(SETTINGS),
     # Where the target fragility is run by hand, its curves come into the report with the next run.
     "fragility_sha256": "" if SETTINGS.fragility.in_every_run else PLAN.hashes.of(Path(FRAGILITY)),
 }
