@@ -21,6 +21,7 @@ from rocking.structures.fields import Field, Form, Value, constructor
 from rocking.structures.linkage import STILL, Linkage, Motion, Restitution, momentum_balance
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.stack import Stack
+from rocking.structures.standing import Standing
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -42,7 +43,8 @@ class Structure(ABC):
     its class method, "" for the class itself. crack_name: what its candidates move ("hinge", "crack"); "" without.
     crack_margin: factor on the motion under which it must stand whatever cracks: of a member that tapers more than 1,
     because the courses beneath throw its tip off (docs/pages/validation.md).
-    usual_restitution: where none is given.
+    usual_restitution: where none is given. standing: of a structure of a list that names a support; None: it meets each
+    motion as it is given.
     """
 
     type_name: ClassVar[str] = ""
@@ -51,6 +53,7 @@ class Structure(ABC):
     crack_margin: ClassVar[float] = 1.0
     usual_restitution: ClassVar[float | str] = "momentum"
     one_sided = False
+    standing: ClassVar[Standing | None] = None
 
     restitution_range: Annotated[
         float | None,
@@ -100,7 +103,7 @@ class Structure(ABC):
     def __getstate__(self) -> dict[str, Any]:
         """The fields and what was typed: the rest is computed again after a copy or in another process."""
         state = {each.name: getattr(self, each.name) for each in fields(self)}  # type: ignore[arg-type]
-        return state | {name: self.__dict__[name] for name in ("_typed",) if name in self.__dict__}
+        return state | {name: self.__dict__[name] for name in ("_typed", "standing") if name in self.__dict__}
 
     @property
     def symmetric(self) -> bool:
@@ -326,6 +329,12 @@ class Structure(ABC):
     def typed(self, values: dict[str, object], texts: dict[str, str]) -> None:
         """Remember the `values` of a file by key, and their `texts` as they were typed; for the loader only."""
         object.__setattr__(self, "_typed", {key: (values[key], texts[key]) for key in values})
+
+    def standing_on(self, standing: Standing) -> Self:
+        """Return this structure where it stands; what it has computed is shared. For the loader only."""
+        there = object.__new__(type(self))
+        there.__dict__.update(self.__dict__, standing=standing)
+        return there
 
     @cached_property
     def _mechanism(self) -> Mechanism:

@@ -16,6 +16,7 @@ import yaml
 
 from rocking.errors import ConfigurationError, StructureError, StructureWarning
 from rocking.structures.fields import Form, article
+from rocking.structures.standing import GROUND, TYPE_NAME, NamedSupport, support_from_config, support_schema
 from rocking.structures.structure import Structure, typed_text
 from rocking.tables.yaml_file import read_yaml
 
@@ -56,7 +57,9 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
             f"type is {kind!r}, but must be one of {', '.join(TYPES)}{_nearest(kind, TYPES)}."
         )
     values = {
-        key: value for key, value in mapping.items() if key not in ("type", "name") and value is not None
+        key: value
+        for key, value in mapping.items()
+        if key not in ("type", "name", "stands_on") and value is not None
     }
     form = _form(kind, values)
     arguments: dict[str, Any] = {
@@ -101,6 +104,11 @@ _NAME = {
     "minLength": 1,
     "description": "Name of the structure in every table; each its own",
 }
+_STANDS_ON = {
+    "type": "string",
+    "minLength": 1,
+    "description": "Name of the support of this list that carries the structure; left out: the ground",
+}
 
 
 def structures_schema() -> dict[str, object]:
@@ -110,6 +118,7 @@ def structures_schema() -> dict[str, object]:
         for kind, each in TYPES.items()
         for number, form in enumerate(each.forms(), start=1)
     }
+    definitions[TYPE_NAME] = support_schema(_NAME)
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "Structures to assess",
@@ -138,7 +147,7 @@ def _definition(kind: str, form: Form) -> dict[str, object]:
         "type": "object",
         "additionalProperties": False,
         "required": ["name", "type", *form.required],
-        "properties": {"name": _NAME, "type": {"const": kind}, **properties},
+        "properties": {"name": _NAME, "type": {"const": kind}, **properties, "stands_on": _STANDS_ON},
         "examples": [
             {"name": f"my {kind}", "type": kind, **{each.key: each.value.example for each in form.fields}}
         ],
@@ -148,18 +157,22 @@ def _definition(kind: str, form: Form) -> dict[str, object]:
 def load_structures(path: str | Path) -> dict[str, Structure]:
     """Return the structures listed in a YAML file, by name, in its order.
 
-    The file is a list of mappings, each with a `name` of its own. Raises ConfigurationError with every defect at once,
-    one a line; warns with a StructureWarning of a size beyond its plausible range.
+    The file is a list of mappings, each with a `name` of its own; those of type support carry others, which name them
+    by `stands_on`. A structure on a support is returned once on the ground and once for each period of the support, by
+    the names of its `standing`. Raises ConfigurationError with every defect at once, one a line; warns with a
+    StructureWarning of a size beyond its plausible range.
     """
-    structures: dict[str, Structure] = {}
-    names: list[object] = []
-    defects = []
     entries, node = read_yaml(Path(path), ConfigurationError, "structure list")
     if not isinstance(entries, list) or not entries:
         raise ConfigurationError(
             f"{path}: the file holds {type(entries).__name__}, but must hold a list of structures."
         )
-    for number, (entry, texts) in enumerate(zip(entries, map(_texts, node.value), strict=True), start=1):
+    defects: list[str] = []
+    supports: dict[str, NamedSupport | None] = {}
+    structures: dict[str, Structure] = {}
+    names: list[object] = []
+    numbered = list(enumerate(zip(entries, map(_texts, node.value), strict=True), start=1))
+    for number, (entry, texts) in sorted(numbered, key=lambda each: not _is_support(each[1][0])):
         name = entry.get("name") if isinstance(entry, Mapping) else None
         where = f"{path}: structure {number}" + (f" ({name})" if name else "")
         if not isinstance(name, str) or not name.strip():
@@ -168,14 +181,56 @@ def load_structures(path: str | Path) -> dict[str, Structure]:
             defects.append(f"{where}: the name is already taken by another structure; give each its own.")
         names.append(name)
         try:
-            structure = structures[str(name)] = structure_from_config(entry, texts)  # type: ignore[arg-type]
+            if _is_support(entry):
+                supports[str(name)] = None
+                supports[str(name)] = support_from_config(entry)
+            else:
+                structures |= _where_it_stands(str(name), entry, texts, supports, where)
         except (ConfigurationError, StructureError) as error:
             defects.append(f"{where}: {error}")
-            continue
-        for remark in structure.remarks:
-            warnings.warn(f"{where}: {remark}", StructureWarning, stacklevel=2)
+    carrying = {str(entry.get("stands_on")) for entry in entries if isinstance(entry, Mapping)}
+    for idle in supports.keys() - carrying:
+        defects.append(f"{path}: support {idle} carries nothing; name it by stands_on, or remove it.")
+    if not structures and not defects:
+        defects.append(f"{path}: the file lists supports only; add a structure.")
     if defects:
         raise ConfigurationError("\n".join(defects))
+    return structures
+
+
+def _is_support(entry: object) -> bool:
+    return isinstance(entry, Mapping) and entry.get("type") == TYPE_NAME
+
+
+def _where_it_stands(
+    name: str,
+    entry: Any,
+    texts: Mapping[str, str],
+    supports: Mapping[str, NamedSupport | None],
+    where: str,
+) -> dict[str, Structure]:
+    """The structure of an entry by its name; on a support once for each way in which it stands there.
+
+    supports: None for one that has a defect of its own. Warns of each size beyond its plausible range.
+    """
+    place = entry.get("stands_on") if isinstance(entry, Mapping) else None
+    own = {key: value for key, value in entry.items() if key != "stands_on"} if place is not None else entry
+    structure = structure_from_config(own, texts)
+    remarks = list(structure.remarks)
+    structures = {name: structure}
+    if place is not None and place != GROUND:
+        if place not in supports:
+            listed = ", ".join([GROUND, *supports])
+            raise ConfigurationError(
+                f"stands_on is {place!r}, but no support of the list has this name{_nearest(place, supports)}; "
+                f"use one of {listed}, or add the support."
+            )
+        support = supports[str(place)]
+        standings = support.standings(name) if support else ()
+        structures = {each.name: structure.standing_on(each) for each in standings}
+        remarks += [standings[-1].warning] if standings and standings[-1].warning else []
+    for remark in remarks:
+        warnings.warn(f"{where}: {remark}", StructureWarning, stacklevel=3)
     return structures
 
 

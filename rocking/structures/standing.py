@@ -1,0 +1,274 @@
+"""Standing: on what a structure of a list stands, and the supports that the list names.
+
+The period of a support is ignorance, not chance: a range of periods makes the structure several, one for each period,
+and none of them is mixed with another.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import Any
+
+import numpy as np
+
+from rocking.errors import ConfigurationError, RecordError
+from rocking.quantities import finite
+from rocking.records.support import Mode, Support
+
+TYPE_NAME = "support"
+"""The `type` of an entry of a structure list that is a support."""
+GROUND = "ground"
+"""What a structure stands on unless the list says otherwise."""
+PERIODS = 9
+"""Periods into which a range is divided, at equal steps of the logarithm."""
+ELASTIC_DAMPING, YIELDING_DAMPING = 0.05, 0.10
+"""Damping ratio where none is given: of a building that stays elastic, and the lower end, which is the safe one, of the
+10 to 20 % of a masonry building at the ultimate limit state (Circolare 7/2019, C7.2.3)."""
+YIELDING_STRETCH = (1.5, 2.0)
+"""By how much the first period of a masonry building is longer at the ultimate limit state (the same place)."""
+HEAVY = 0.01
+"""Mass ratio above which what the structure gives back to its support changes rotations by more than a per cent."""
+
+_MODE_KEYS = {"period_s", "damping_ratio", "participation"}
+_STOREY_KEYS = {"storeys", "height_m", "building_height_m"}
+_KEYS = {"name", "type", "modes", "yielding_masonry", "mass_ratio", *_MODE_KEYS, *_STOREY_KEYS}
+
+
+@dataclass(frozen=True)
+class Standing:
+    """On what one structure stands, for one period of its support.
+
+    structure: its name in the list, which those of the other periods share. place: name of the support, or GROUND.
+    support: None on the ground. mass_ratio: of the structure to the support, None where it is not given.
+    """
+
+    structure: str
+    place: str = GROUND
+    support: Support | None = None
+    mass_ratio: float | None = None
+
+    @property
+    def period(self) -> float:
+        """First period of the support, s; 0 on the ground."""
+        return self.support.modes[0].period if self.support else 0.0
+
+    @property
+    def name(self) -> str:
+        """By which tables and reports call the structure with this period."""
+        return f"{self.structure}, {self.words}"
+
+    @property
+    def words(self) -> str:
+        """ "on the ground", "T_b 0.25 s"."""
+        return f"T_b {self.period:.3g} s" if self.support else "on the ground"
+
+    @property
+    def warning(self) -> str:
+        """That the structure is too heavy for its support to be followed alone; "" where it is not."""
+        if self.support is None or self.mass_ratio is None or self.mass_ratio <= HEAVY:
+            return ""
+        return (
+            f"{self.structure} has {self.mass_ratio:.2g} of the mass of {self.place}: beyond {HEAVY:g} what it gives "
+            "back changes rotations by more than a per cent, at 0.1 by 11 % in the median, and is left out here."
+        )
+
+
+@dataclass(frozen=True)
+class NamedSupport:
+    """A support of a structure list: its name, what it may be, one for each period, and the mass ratio, if given."""
+
+    name: str
+    supports: tuple[Support, ...]
+    mass_ratio: float | None = None
+
+    def standings(self, structure: str) -> tuple[Standing, ...]:
+        """Return the ways in which a structure may stand on it: on the ground first, then by period."""
+        above = (Standing(structure, self.name, each, self.mass_ratio) for each in self.supports)
+        return (Standing(structure, self.name), *above)
+
+
+def support_from_config(mapping: Mapping[str, Any]) -> NamedSupport:
+    """Return the support that an entry of a structure list describes. Raises ConfigurationError for what it cannot be.
+
+    It has one mode, by period_s, damping_ratio and participation (Γψ where the structure stands), or several in
+    `modes`. A period is a number or a range [low, high], s. In place of the participation, storeys, height_m and
+    building_height_m give the code's own, 3n/(2n + 1) · z/H (C7.2.10). yielding_masonry: the period is that of the
+    elastic building, and 1.5 to 2 times as long when it yields.
+
+    >>> roof = {"name": "roof", "period_s": 0.3, "storeys": 3, "height_m": 9.0, "building_height_m": 9.0}
+    >>> round(support_from_config(roof).supports[0].modes[0].participation, 3)
+    1.286
+    """
+    for key in mapping:
+        if key not in _KEYS:
+            near = get_close_matches(str(key), sorted(_KEYS), n=1, cutoff=0.5)
+            hint = f"did you mean {near[0]}?" if near else f"use {', '.join(sorted(_KEYS - {'type'}))}."
+            raise ConfigurationError(f"{key} is not a key of a support; {hint}")
+    yields = mapping.get("yielding_masonry") or False
+    if not isinstance(yields, bool):
+        raise ConfigurationError(f"yielding_masonry is {yields!r}, but must be true or false.")
+    modes = _modes(mapping)
+    ranges = [_period_range(mode, yields) for mode in modes]
+    count = PERIODS if any(low < high for low, high in ranges) else 1
+    periods = [np.geomspace(low, high, count) if low < high else np.full(count, low) for low, high in ranges]
+    damping = YIELDING_DAMPING if yields else ELASTIC_DAMPING
+    try:
+        supports = tuple(
+            Support(
+                tuple(
+                    Mode(float(of_mode[place]), mode.get("damping_ratio", damping), mode["participation"])
+                    for of_mode, mode in zip(periods, modes, strict=True)
+                )
+            )
+            for place in range(count)
+        )
+    except RecordError as error:
+        raise ConfigurationError(str(error)) from None
+    return NamedSupport(str(mapping["name"]), supports, _mass_ratio(mapping))
+
+
+def _mass_ratio(mapping: Mapping[str, Any]) -> float | None:
+    given = mapping.get("mass_ratio")
+    if given is None:
+        return None
+    ratio = finite(ConfigurationError, "mass_ratio", given)
+    if ratio < 0:
+        raise ConfigurationError(f"mass_ratio is {given!r}, but must be 0 or more.")
+    return ratio
+
+
+def _modes(mapping: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """The modes with period_s and participation each, as the entry gives them or the code does."""
+    listed = mapping.get("modes")
+    if listed is None:
+        mode = {key: mapping[key] for key in _MODE_KEYS if mapping.get(key) is not None}
+        return [_complete(mode, _by_storeys(mapping))]
+    beside = sorted((_MODE_KEYS | _STOREY_KEYS) & set(mapping))
+    if beside:
+        raise ConfigurationError(f"a support is given {', '.join(beside)} beside modes; give one of the two.")
+    if not isinstance(listed, list) or not listed:
+        raise ConfigurationError(f"modes is {listed!r}, but must be a list of at least one mode.")
+    for mode in listed:
+        if not isinstance(mode, Mapping) or not set(mode) <= _MODE_KEYS:
+            allowed = ", ".join(sorted(_MODE_KEYS))
+            raise ConfigurationError(f"a mode is {mode!r}, but must be a mapping of {allowed}.")
+    return [_complete(dict(mode), None) for mode in listed]
+
+
+def _complete(mode: dict[str, Any], participation: float | None) -> dict[str, Any]:
+    if "period_s" not in mode:
+        raise ConfigurationError("a support needs period_s, a number of seconds or a range; give it.")
+    if participation is not None and "participation" in mode:
+        raise ConfigurationError(
+            "a support is given participation beside storeys and heights, which give it; give one of the two."
+        )
+    if participation is None and "participation" not in mode:
+        raise ConfigurationError(
+            "a support needs participation, Γψ of the mode where the structure stands; give it, or for one mode "
+            "storeys, height_m and building_height_m."
+        )
+    return {"participation": participation, **mode}
+
+
+def _by_storeys(mapping: Mapping[str, Any]) -> float | None:
+    """Γψ of the first mode of a building by C7.2.10; None where the entry does not ask for it."""
+    given = _STOREY_KEYS & {key for key, value in mapping.items() if value is not None}
+    if not given:
+        return None
+    if missing := sorted(_STOREY_KEYS - given):
+        raise ConfigurationError(
+            f"a support with {', '.join(sorted(given))} needs {' and '.join(missing)}; give it."
+        )
+    storeys = finite(ConfigurationError, "storeys", mapping["storeys"])
+    if storeys < 1 or storeys != int(storeys):
+        raise ConfigurationError(f"storeys is {mapping['storeys']!r}, but must be a whole number from 1 on.")
+    top = finite(ConfigurationError, "building_height_m", mapping["building_height_m"], "m")
+    height = finite(ConfigurationError, "height_m", mapping["height_m"], "m")
+    if top <= 0:
+        raise ConfigurationError(f"building_height_m is {top:g} m, but must be greater than 0.")
+    if not 0 <= height <= top:
+        raise ConfigurationError(
+            f"height_m is {height:g} m, but must lie between 0 and building_height_m, {top:g} m."
+        )
+    return 3 * storeys / (2 * storeys + 1) * height / top
+
+
+def _period_range(mode: Mapping[str, Any], yields: bool) -> tuple[float, float]:
+    given = mode["period_s"]
+    both = given if isinstance(given, list) else [given, given]
+    if len(both) != 2:
+        raise ConfigurationError(f"period_s is {given!r}, but must be a number or a range of two.")
+    low, high = (finite(ConfigurationError, "period_s", each, "s") for each in both)
+    if not 0 < low <= high or (isinstance(given, list) and low == high) or math.isinf(high):
+        raise ConfigurationError(
+            f"period_s is {given!r} s, but must be above 0, and the first of a range below the second."
+        )
+    return (YIELDING_STRETCH[0] * low, YIELDING_STRETCH[1] * high) if yields else (low, high)
+
+
+def support_schema(name: Mapping[str, object]) -> dict[str, object]:
+    """Return the JSON schema of an entry. name: that of its name."""
+    number = {"type": "number", "exclusiveMinimum": 0}
+    period = {
+        "oneOf": [number, {"type": "array", "items": number, "minItems": 2, "maxItems": 2}],
+        "description": f"Period of the support, s, or a range of it, of which {PERIODS} are followed",
+    }
+    damping = {
+        "type": "number",
+        "minimum": 0,
+        "exclusiveMaximum": 1,
+        "description": f"Share of the critical damping; {ELASTIC_DAMPING:g} where none is given, "
+        f"{YIELDING_DAMPING:g} with yielding_masonry",
+    }
+    participation = {"type": "number", "description": "Γψ of the mode where the structures stand"}
+    of_mode = {"period_s": period, "damping_ratio": damping, "participation": participation}
+    properties = {
+        "name": {**name, "description": "Name of the support, which stands_on of structures says"},
+        "type": {"const": TYPE_NAME},
+        **of_mode,
+        "storeys": {
+            "type": "integer",
+            "minimum": 1,
+            "description": "Storeys n of the building; Γ = 3n/(2n+1)",
+        },
+        "height_m": {"type": "number", "minimum": 0, "description": "Height z of the support, m; ψ = z/H"},
+        "building_height_m": {**number, "description": "Height H of the building, m"},
+        "yielding_masonry": {
+            "type": "boolean",
+            "description": "Whether the building yields: its period is then 1.5 to 2 times as long",
+        },
+        "mass_ratio": {
+            "type": "number",
+            "minimum": 0,
+            "description": f"Mass of a structure over that of the mode; a warning is given above {HEAVY:g}",
+        },
+        "modes": {
+            "type": "array",
+            "minItems": 1,
+            "items": {
+                "type": "object",
+                "additionalProperties": False,
+                "required": ["period_s", "participation"],
+                "properties": dict(of_mode),
+            },
+            "description": "Several modes, as of a tower, in place of one",
+        },
+    }
+    return {
+        "description": "Support: a floor, a roof, a façade or a tower on which structures stand",
+        "type": "object",
+        "additionalProperties": False,
+        "required": ["name", "type"],
+        "properties": properties,
+        "examples": [
+            {
+                "name": "my roof",
+                "type": TYPE_NAME,
+                "period_s": [0.15, 0.6],
+                "storeys": 3,
+                "height_m": 9.0,
+                "building_height_m": 9.0,
+            }
+        ],
+    }

@@ -1,0 +1,132 @@
+"""Supports of a structure list: what they may be, what carries nothing, and what stands on them."""
+
+import copy
+import pickle
+import warnings
+
+import pytest
+
+from rocking.errors import ConfigurationError, StructureWarning
+from rocking.structures import load_structures
+from rocking.structures.standing import PERIODS, support_from_config
+
+BLOCK = "type: block, breadth_m: 0.4, height_m: 1.6"
+
+
+def listed(tmp_path, *lines):
+    path = tmp_path / "structures.yaml"
+    path.write_text("\n".join(f"- {{{line}}}" for line in lines) + "\n", encoding="utf-8")
+    return load_structures(path)
+
+
+def test_a_range_of_periods_is_one_structure_for_each(tmp_path):
+    structures = listed(
+        tmp_path,
+        f"name: parapet, {BLOCK}, stands_on: roof",
+        f"name: pier, {BLOCK}",
+        f"name: wall, {BLOCK}, stands_on: ground",
+        f"name: statue, {BLOCK}, stands_on: roof",
+        "name: roof, type: support, period_s: [0.15, 0.6], damping_ratio: 0.1, participation: 1.3",
+    )
+    assert len(structures) == 2 * (PERIODS + 1) + 2
+    parapets = [
+        each.standing for each in structures.values() if each.standing and each.standing.structure == "parapet"
+    ]
+    periods = [each.period for each in parapets]
+    assert periods[0] == 0
+    assert (periods[1], periods[-1]) == pytest.approx((0.15, 0.6))
+    assert [b / a for a, b in zip(periods[1:-1], periods[2:], strict=True)] == pytest.approx([4 ** (1 / 8)] * 8)
+    assert all(each.support.modes[0].participation == 1.3 for each in parapets[1:])
+    assert list(structures)[:2] == ["parapet, on the ground", "parapet, T_b 0.15 s"]
+    assert structures["pier"].standing is structures["wall"].standing is None
+
+
+def test_it_stands_there_after_a_copy_too(tmp_path):
+    *_, parapet = listed(
+        tmp_path,
+        f"name: parapet, {BLOCK}, stands_on: roof",
+        "name: roof, type: support, period_s: 0.3, participation: 1.3",
+    ).values()
+    for again in (copy.copy(parapet), pickle.loads(pickle.dumps(parapet))):
+        assert again == parapet
+        assert again.standing == parapet.standing
+
+
+def test_the_codes_participation_and_damping():
+    floor = {"name": "floor", "period_s": 0.3, "storeys": 3, "height_m": 6.0, "building_height_m": 9.0}
+    (mode,) = support_from_config(floor).supports[0].modes
+    # Γ = 3n/(2n + 1) = 9/7, ψ = 2/3
+    assert mode.participation == pytest.approx(9 / 7 * 2 / 3)
+    assert mode.damping_ratio == 0.05
+    yielding = support_from_config(floor | {"yielding_masonry": True}).supports
+    assert [yielding[0].modes[0].period, yielding[-1].modes[0].period] == pytest.approx([0.45, 0.6])
+    assert {each.modes[0].damping_ratio for each in yielding} == {0.10}
+
+
+def test_several_modes_move_together():
+    modes = [{"period_s": [0.5, 2.0], "participation": 1.5}, {"period_s": 0.2, "participation": -0.5}]
+    tower = support_from_config({"name": "tower", "modes": modes}).supports
+    assert len(tower) == PERIODS
+    assert tower[4].modes[0].period == pytest.approx(1.0)
+    assert {each.modes[1].period for each in tower} == {0.2}
+
+
+ROOF = {"name": "roof", "period_s": 0.3, "participation": 1.3}
+STOREYS = {"name": "roof", "period_s": 0.3, "storeys": 3, "height_m": 6.0, "building_height_m": 9.0}
+
+
+@pytest.mark.parametrize(
+    ("entry", "sentence"),
+    [
+        ({"name": "roof", "period_s": 0.3}, "a support needs participation, Γψ of the mode"),
+        ({"name": "roof", "participation": 1.0}, "a support needs period_s, a number of seconds or a range"),
+        (ROOF | {"period_s": [0.6, 0.3]}, "period_s is [0.6, 0.3] s, but must be above 0"),
+        (ROOF | {"period_s": 0}, "period_s is 0 s, but must be above 0"),
+        (ROOF | {"period_s": [0.1, 0.2, 0.3]}, "period_s is [0.1, 0.2, 0.3], but must be a number or a range"),
+        (ROOF | {"damping_ratio": 1.0}, "damping_ratio is 1.0, but must be a share of the critical one"),
+        (ROOF | {"damping_ratio": -0.1}, "damping_ratio is -0.1, but must be a share of the critical one"),
+        (ROOF | {"mass_ratio": -1}, "mass_ratio is -1, but must be 0 or more"),
+        (ROOF | {"perod_s": 1}, "perod_s is not a key of a support; did you mean period_s?"),
+        (ROOF | {"modes": []}, "a support is given participation, period_s beside modes"),
+        ({"name": "roof", "modes": []}, "modes is [], but must be a list of at least one mode"),
+        (STOREYS | {"height_m": 9.5}, "height_m is 9.5 m, but must lie between 0 and building_height_m, 9 m"),
+        (STOREYS | {"storeys": 2.5}, "storeys is 2.5, but must be a whole number from 1 on"),
+        (STOREYS | {"participation": 1.0}, "a support is given participation beside storeys"),
+        (ROOF | {"storeys": 3}, "a support with storeys needs building_height_m and height_m"),
+        (ROOF | {"yielding_masonry": "yes"}, "yielding_masonry is 'yes', but must be true or false"),
+    ],
+)
+def test_supports_that_cannot_be(entry, sentence):
+    with pytest.raises(ConfigurationError) as raised:
+        support_from_config(entry)
+    assert str(raised.value).startswith(sentence)
+    assert str(raised.value).endswith((".", "?"))
+
+
+@pytest.mark.parametrize(
+    ("lines", "sentence"),
+    [
+        ([f"name: a, {BLOCK}, stands_on: rof", "name: roof, type: support, period_s: 0.3, participation: 1.3"],
+         "stands_on is 'rof', but no support of the list has this name (did you mean roof?)"),
+        ([f"name: a, {BLOCK}", "name: roof, type: support, period_s: 0.3, participation: 1.3"],
+         "support roof carries nothing; name it by stands_on, or remove it."),
+        (["name: roof, type: support, period_s: 0.3, participation: 1.3"], "support roof carries nothing"),
+        ([f"name: a, {BLOCK}, stands_on: a", f"name: b, {BLOCK}"], "stands_on is 'a', but no support"),
+        ([f"name: a, {BLOCK}, stands_on: roof", "name: roof, type: support, period_s: 0.3"],
+         "structure 2 (roof): a support needs participation"),
+    ],
+)  # fmt: skip
+def test_lists_that_cannot_be(tmp_path, lines, sentence):
+    with pytest.raises(ConfigurationError) as raised:
+        listed(tmp_path, *lines)
+    assert sentence in str(raised.value)
+    assert len(str(raised.value).splitlines()) == (2 if "'rof'" in sentence else 1)
+
+
+def test_a_heavy_structure_is_warned_of(tmp_path):
+    roof = "name: roof, type: support, period_s: 0.3, participation: 1.3, mass_ratio: {}"
+    with pytest.warns(StructureWarning, match=r"a has 0\.05 of the mass of roof"):
+        listed(tmp_path, f"name: a, {BLOCK}, stands_on: roof", roof.format(0.05))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        listed(tmp_path, f"name: a, {BLOCK}, stands_on: roof", roof.format(0.01))
