@@ -40,6 +40,7 @@ from rocking.motion.response import UNKNOWN, Response, check_model
 from rocking.pulses import PulseEvidence, predicting_pulse
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram, aligned
+from rocking.records.support import Support
 from rocking.sine_pulse import predict_maximum, printed_maximum
 from rocking.structures import Mechanism, Structure
 
@@ -129,30 +130,119 @@ def assess_record(
     """Return what comes of every structure under a record; one that fails costs no other.
 
     horizontal: its components. An ensemble over the directions of a pair speaks for both components, which then get
-    none of their own. store: where results are sought before they are computed, and kept. clock: has measured what
-    came before.
+    none of their own. A structure on a support of its list meets the motion there. store: where results are sought
+    before they are computed, and kept. clock: has measured what came before.
     """
     extent = extent or Extent()
     clock = clock or Clock()
+    supports = dict.fromkeys(_support(structure) for structure in structures.values())
+    grounds = _components(horizontal, vertical, extent, store, clock)
+    stations: dict[str, StationResult] = {}
     failures: list[tuple[str, Failure]] = []
+    floors: dict[Support, tuple[Component, ...]] = {}
+    for support in {None: None} | supports:
+        carried = {name: each for name, each in structures.items() if _support(each) == support}
+        components = grounds
+        if support is not None:
+            try:
+                components = floors[support] = _on_support(support, grounds, extent, store, clock)
+            except RockingError as error:
+                stations |= _not_carried(carried, component_names(horizontal), str(error))
+                continue
+        found, failed = _assess_carried(carried, components, vertical, support, extent, store, clock)
+        stations |= found
+        failures += failed
+    return RecordResult(
+        record=record,
+        components=grounds,
+        stations={name: stations[name] for name in structures if name in stations},
+        failures=tuple(failures),
+        durations=dict(clock.durations),
+        floors=floors,
+    )
+
+
+def _support(structure: Structure | Mechanism) -> Support | None:
+    """What carries a structure; None where it meets each motion as it is."""
+    standing = structure.standing if isinstance(structure, Structure) else None
+    return standing.support if standing else None
+
+
+def _not_carried(
+    structures: Mapping[str, Structure | Mechanism], components: Sequence[str], message: str
+) -> dict[str, StationResult]:
+    """The results of structures to whose support the record cannot be taken: why."""
+    failure = Failure("responses", message)
+    return {
+        name: StationResult(
+            name,
+            structure,
+            {each: CaseResult(structure=name, component=each, failures=(failure,)) for each in components},
+        )
+        for name, structure in structures.items()
+    }
+
+
+def _on_support(
+    support: Support, grounds: Sequence[Component], extent: Extent, store: Store | None, clock: Clock
+) -> tuple[Component, ...]:
+    """The components as they arrive on a support, with the pulses of the motion there.
+
+    The pulses are sought at the record's own samples, which no pulse needs finer.
+    """
+    pairs = [(each.accelerogram, each.vertical) for each in grounds]
+    with clock.stage("supports"):
+        motions = [
+            Motion((horizontal,), vertical, support).ground_motions(processing=False)
+            for horizontal, vertical in pairs
+        ]
+    fine = [next(iter(each.horizontal.values())) for each in motions]
+    coarse = [
+        replace(
+            floor,
+            acceleration=floor.acceleration[:: round(ground.time_step / floor.time_step)],
+            time_step=ground.time_step,
+        )
+        for floor, (ground, _) in zip(fine, pairs, strict=True)
+    ]
+    sought = _components(coarse, None, replace(extent, motion_measures=False), store, clock)
+    return tuple(
+        replace(each, accelerogram=floor, vertical=motion.vertical, support=support, ground=ground)
+        for each, floor, motion, ground in zip(sought, fine, motions, grounds, strict=True)
+    )
+
+
+def _assess_carried(
+    structures: Mapping[str, Structure | Mechanism],
+    components: Sequence[Component],
+    vertical: Accelerogram | None,
+    support: Support | None,
+    extent: Extent,
+    store: Store | None,
+    clock: Clock,
+) -> tuple[dict[str, StationResult], list[tuple[str, Failure]]]:
+    """What comes of the structures that one support, or the ground, carries, and what concerns none of them alone.
+
+    components: as they arrive there. vertical: of the record.
+    """
+    failures: list[tuple[str, Failure]] = []
+    grounds = [(each.ground or each).accelerogram for each in components]
     pair = None
-    if len(horizontal) == 2 and extent.settings.ensemble.members:
-        pair = Motion(tuple(horizontal), vertical)
+    if len(grounds) == 2 and extent.settings.ensemble.members and (structures or support is None):
+        pair = Motion(tuple(grounds), vertical, support)
         try:
             with clock.stage("directions"):
                 _ground_motions(pair, extent.settings.ensemble.processing)
         except RockingError as error:
             failures.append((BOTH_COMPONENTS, Failure("directions", str(error))))
             pair = None
-    components = _components(horizontal, vertical, extent, store, clock)
-    names = component_names(horizontal)
+    names = component_names(grounds)
     cases: dict[str, dict[str, CaseResult]] = {name: {} for name in structures}
     for name, component in zip(names, components, strict=True):
         if component.failure:
             failures.append((name, Failure("pulses", component.failure)))
-        for structure, result in _component_cases(
-            component, structures, extent, pair is None, store, clock
-        ).items():
+        of_component = _component_cases(component, structures, extent, pair is None, store, clock)
+        for structure, result in of_component.items():
             cases[structure][name] = replace(result, component=name)
     directions = {} if pair is None else _direction_cases(pair, structures, cases, extent, store, clock)
     stations = {
@@ -160,13 +250,7 @@ def assess_record(
         for name, structure in structures.items()
         if cases[name]
     }
-    return RecordResult(
-        record=record,
-        components=components,
-        stations=stations,
-        failures=tuple(failures),
-        durations=dict(clock.durations),
-    )
+    return stations, failures
 
 
 def _components(
@@ -210,7 +294,7 @@ def _component_cases(
     clock: Clock,
 ) -> dict[str, CaseResult]:
     """The case of each structure under one component. alone: whether no ensemble over directions speaks for it."""
-    motion = Motion((component.accelerogram,), component.vertical)
+    motion = _motion_of(component)
     fingerprints = {
         name: extent.fingerprint(motion, structure, alone)
         for name, structure in structures.items()
@@ -336,7 +420,9 @@ def _case(
     members = settings.ensemble.members if alone else 0
     auto = settings.fidelity == "auto"
     if auto:
-        answer = _cheapest(structure, mechanism, record, settings, vertical, ensemble_follows=members > 0)
+        # What a peak velocity tells was learnt on the ground, not on supports that ring.
+        risk = settings.fidelity_risk if component.support is None else 0.0
+        answer = _cheapest(structure, mechanism, record, settings, risk, vertical, members > 0)
         if answer.response is not None:
             responses[Method.MECHANISM_ON_RECORD] = answer.response
     else:
@@ -355,9 +441,9 @@ def _case(
         durations=durations,
     )
     if members and answer.method is Method.MECHANISM_ON_RECORD:
-        motions = Motion((record,), vertical).ground_motions(settings.ensemble.processing)
+        motions = _motion_of(component).ground_motions(settings.ensemble.processing)
         return replace(case, ensemble=ensemble_over_cracks(structure, motions, settings, verdict_only=auto))
-    if alone and vertical is None:
+    if alone and vertical is None and component.support is None:
         return replace(case, overturning_estimate=estimated(Tier.PEAK_VELOCITY, mechanism, record))
     return case
 
@@ -393,6 +479,12 @@ def _compared_methods(
     return prediction, responses, durations
 
 
+def _motion_of(component: Component) -> Motion:
+    """The motion of one component, as the ground had it and what carries the structure."""
+    ground = component.ground or component
+    return Motion((ground.accelerogram,), ground.vertical, component.support)
+
+
 def _mechanism(structure: Structure | Mechanism) -> Mechanism:
     return structure if isinstance(structure, Mechanism) else structure.mechanism()
 
@@ -402,17 +494,17 @@ def _cheapest(
     mechanism: Mechanism,
     record: Accelerogram,
     settings: AssessmentSettings,
+    risk: float,
     vertical: Accelerogram | None,
     ensemble_follows: bool,
 ) -> Answer:
-    """Return what settles the verdict with the least work.
+    """Return what settles the verdict with the least work, at a `risk` of the opposite outcome.
 
     Where other cracks may form, nothing cheaper than the mechanism settles it unless all of them rest, or stand by
     their peak velocities.
     """
     mechanisms = [each for _, each in cracks(structure)]
     of_statics = mechanism if len(mechanisms) == 1 else mechanisms[0]
-    risk = settings.fidelity_risk
     if len(mechanisms) > 1 and isinstance(structure, Structure):
         motion = record.scaled(structure.crack_margin)
         estimates = (estimated(Tier.PEAK_VELOCITY, each, motion) for each in mechanisms)
@@ -459,8 +551,8 @@ def _with_variations(
         except RockingError as error:
             failed[name].append(Failure("variations", str(error)))
     if extent.processing_variants and own:
-        motions = processed(component.accelerogram)
-        of_each = processed_variants(own, motions, extent.settings, as_recorded, component.vertical)
+        motions, vertical = _processings(component)
+        of_each = processed_variants(own, motions, extent.settings, as_recorded, vertical)
         for name, several in of_each.items():
             varied[name] += several
     return {
@@ -471,6 +563,16 @@ def _with_variations(
         )
         for name, result in results.items()
     }
+
+
+def _processings(component: Component) -> tuple[Mapping[str, Accelerogram], Accelerogram | None]:
+    """The component after each variant of the processing, which comes before any support, and the vertical one."""
+    if component.support is None or component.ground is None:
+        return processed(component.accelerogram), component.vertical
+    ground = component.ground
+    variants = {("", name): each for name, each in processed(ground.accelerogram).items()}
+    floors = GroundMotions(variants, ground.vertical).on(component.support)
+    return {name: each for (_, name), each in floors.horizontal.items()}, floors.vertical
 
 
 @lru_cache(maxsize=2)
@@ -494,11 +596,11 @@ def assess_directions(
 
 def with_histories(result: RecordResult, tolerance: float) -> RecordResult:
     """Return a record's result whose responses hold their histories, which results that were kept do not."""
-    by_name = dict(zip(result.names, result.components, strict=True))
     stations = {}
     for name, station in result.stations.items():
+        components = result.components_under(name)
         cases = {
-            component: _with_history(case, station.body, by_name[component], tolerance)
+            component: _with_history(case, station.body, components[component], tolerance)
             for component, case in station.cases.items()
         }
         stations[name] = replace(station, cases=cases)

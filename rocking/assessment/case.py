@@ -19,6 +19,7 @@ from rocking.assessment.verdict import BOTH_COMPONENTS, POLARITIES, Judgement, M
 from rocking.motion.response import UNKNOWN, ModelCheck, Response
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
+from rocking.records.support import Support
 from rocking.sine_pulse import Maximum
 from rocking.structures import EquivalentBlock, Mechanism, Outcome, Structure
 
@@ -28,14 +29,15 @@ DECISIVE = ("responses", "directions")
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """The ground motion that a structure meets: one horizontal component or a pair, and the vertical one.
+    """The motion that a structure meets: one horizontal component of the ground or a pair, the vertical one, a support.
 
     components: one or two, with the same samples where they are two. vertical: sample by sample as the components; None
-    where none acts.
+    where none acts. support: takes them to where the structure stands; None on the ground.
     """
 
     components: tuple[Accelerogram, ...]
     vertical: Accelerogram | None = None
+    support: Support | None = None
 
     @property
     def name(self) -> str:
@@ -50,11 +52,13 @@ class Motion:
         digest = hashlib.sha256()
         for each in (*self.components, self.vertical):
             digest.update(_content(each).encode())
+        digest.update(repr(self.support).encode())
         return digest.hexdigest()
 
     def ground_motions(self, processing: bool) -> GroundMotions:
         """Return the motions that this one stands for. Raises RecordError for components that are no pair."""
-        return GroundMotions.of(*self.components, vertical=self.vertical, processing=processing)
+        ground = GroundMotions.of(*self.components, vertical=self.vertical, processing=processing)
+        return ground.on(self.support)
 
 
 def _content(accelerogram: Accelerogram | None) -> str:
@@ -361,7 +365,8 @@ class RecordResult:
     """What came of all structures under one record.
 
     components: those that could be opened, as they acted. stations: by the name of the structure. failures: of what
-    concerns no single structure, by component ("" for all). durations: CPU time of each stage, s.
+    concerns no single structure, by component ("" for all). durations: CPU time of each stage, s. floors: the
+    components as they arrive on each support that carries a structure.
     """
 
     record: str
@@ -369,6 +374,15 @@ class RecordResult:
     stations: Mapping[str, StationResult] = field(default_factory=dict)
     failures: tuple[tuple[str, Failure], ...] = ()
     durations: Mapping[str, float] = field(default_factory=dict)
+    floors: Mapping[Support, tuple[Component, ...]] = field(default_factory=dict)
+
+    def components_under(self, structure: str) -> dict[str, Component]:
+        """Return the components as the structure of this name meets them, by the names of the components."""
+        body = self.stations[structure].body
+        standing = body.standing if isinstance(body, Structure) else None
+        support = standing.support if standing else None
+        components = self.components if support is None else self.floors.get(support, self.components)
+        return dict(zip(self.names, components, strict=True))
 
     @cached_property
     def worst_first(self) -> list[StationResult]:

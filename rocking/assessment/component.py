@@ -17,6 +17,7 @@ from rocking.pulses import (
 )
 from rocking.records import Accelerogram, RotD, rotd
 from rocking.records.rotation import azimuth_of_axis
+from rocking.records.support import Support
 
 
 @dataclass(frozen=True)
@@ -39,6 +40,7 @@ class Component:
     vertical: the component that acts with it, with the same samples; None where none does. motion: of the pair that it
     belongs to, or of itself alone. analysis: None where no pulse could be sought. candidates: the pulses that the
     chosen method offers for prediction, none where it fails. failure: why, in a sentence; "" where nothing failed.
+    support: on which this is the motion. ground: the same component of the ground. Both None on the ground itself.
     """
 
     accelerogram: Accelerogram
@@ -47,6 +49,8 @@ class Component:
     analysis: PulseAnalysis | None
     candidates: tuple[PulseEvidence, ...]
     failure: str = ""
+    support: Support | None = None
+    ground: "Component | None" = None
 
     @property
     def name(self) -> str:

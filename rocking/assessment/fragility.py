@@ -319,7 +319,8 @@ def fragility(
     levels: ascending, in the unit of the measure; by default 40 that lie where the probability of overturning moves.
     stations: what counts as one independent record, by default event and station. method: scaling takes every record to
     every level; cloud leaves it as recorded, and the levels are then those of the records. ensemble: ranges of the
-    uncertain inputs; each case then has MEMBERS members. What cannot be followed counts as overturning. Raises
+    uncertain inputs; each case then has MEMBERS members. The intensity is that of the ground, also of a structure that
+    stands on a support of its list and meets the motion there. What cannot be followed counts as overturning. Raises
     ConfigurationError for fewer than two stations, levels out of order, or a measure that a record lacks.
 
     >>> pulses = [rocking.Pulse(1.0, frequency, 0.5) for frequency in (4.0, 6.0, 9.0)]
@@ -337,7 +338,8 @@ def fragility(
     names = _checked_stations(records, stations)
     (_, mechanism), *others = cracks(structure if isinstance(structure, Structure) else reduced)
     intensities = np.array([measure.of(record, mechanism) for record in records])
-    follow = partial(_rotation_ratios, records, ensemble, tolerance)
+    carried = _carried(records, structure)
+    follow = partial(_rotation_ratios, carried, ensemble, tolerance)
     if method == "cloud":
         order = np.argsort(intensities, kind="stable")
         places = np.arange(order.size)
@@ -347,13 +349,21 @@ def fragility(
         factors[order, places] = 1.0
         ratios = follow(mechanism, factors)
     else:
-        chosen, ratios = _at_levels(partial(follow, mechanism), mechanism, records, intensities, levels)
+        chosen, ratios = _at_levels(partial(follow, mechanism), mechanism, carried, intensities, levels)
         factors = chosen / intensities[:, None]
     worst = ratios if over_cracks and others else None
     for _, other in others if over_cracks else ():
         worst = follow(other, factors, worst)
     analysis = IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, names, worst)
     return analysis.fragility(threshold, governing=True)
+
+
+def _carried(records: Sequence[Accelerogram], structure: Rocking) -> Sequence[Accelerogram]:
+    """The motions where the structure stands: on a support of its list, or the records themselves."""
+    standing = structure.standing if isinstance(structure, Structure) else None
+    if standing is None or standing.support is None:
+        return records
+    return [standing.support.motion(record) for record in records]
 
 
 def _checked_stations(records: Sequence[Accelerogram], stations: Sequence[str] | None) -> tuple[str, ...]:
@@ -417,6 +427,7 @@ def _at_levels(
 ) -> tuple[np.ndarray, np.ndarray]:
     """The levels and (r, k, m) of what `follow` gives at the factors (r, k) that take every record to each of them.
 
+    records: as they arrive where the structure stands. intensities: of the ground.
     By default LEVELS: spread from the first uplift to where nearly all overturn, and the rest where the share moves.
     """
 

@@ -12,6 +12,7 @@ from rocking.errors import RecordError
 from rocking.records import Accelerogram
 from rocking.records.processing import process, variants
 from rocking.records.rotation import aligned, rotate
+from rocking.records.support import Support
 
 AS_IT_IS = "unchanged"
 """Name of the processing that leaves a record as it is."""
@@ -78,6 +79,18 @@ class GroundMotions:
     def processings(self) -> tuple[str, ...]:
         """The processings of the horizontal motion, by name; "" for the one that the record has."""
         return tuple(dict.fromkeys(processing for _, processing in self.horizontal))
+
+    def on(self, support: Support | None) -> "GroundMotions":
+        """Return the motions as they arrive on a support; None: on the ground, as they are."""
+        if support is None:
+            return self
+        horizontal = list(self.horizontal.values())
+        if self.vertical is None:
+            floors = support.motions(horizontal)
+            return replace(self, horizontal=dict(zip(self.horizontal, floors, strict=True)))
+        *floors_below, vertical = support.motions([*horizontal, replace(self.vertical, vertical=True)])
+        of_each = dict(zip(self.horizontal, floors_below, strict=True))
+        return replace(self, horizontal=of_each, vertical=vertical)
 
     def scaled(self, factor: float) -> "GroundMotions":
         """Return the motions with the horizontal ones multiplied by `factor`."""

@@ -171,7 +171,7 @@ def sha256_of(*contents: object) -> str:
 
 def structures_sha256(structures: Mapping[str, Structure]) -> str:
     """Return one hash for what a structure list says, whatever its comments and its layout."""
-    return sha256_of(*((name, each.as_config()) for name, each in structures.items()))
+    return sha256_of(*((name, each.as_config(), each.standing) for name, each in structures.items()))
 
 
 def settings_sha256(settings: Settings, structures: Mapping[str, Structure]) -> str:

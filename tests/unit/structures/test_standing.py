@@ -3,6 +3,7 @@
 import copy
 import pickle
 import warnings
+from itertools import pairwise
 
 import pytest
 
@@ -30,12 +31,14 @@ def test_a_range_of_periods_is_one_structure_for_each(tmp_path):
     )
     assert len(structures) == 2 * (PERIODS + 1) + 2
     parapets = [
-        each.standing for each in structures.values() if each.standing and each.standing.structure == "parapet"
+        each.standing
+        for each in structures.values()
+        if each.standing and each.standing.structure == "parapet"
     ]
     periods = [each.period for each in parapets]
     assert periods[0] == 0
     assert (periods[1], periods[-1]) == pytest.approx((0.15, 0.6))
-    assert [b / a for a, b in zip(periods[1:-1], periods[2:], strict=True)] == pytest.approx([4 ** (1 / 8)] * 8)
+    assert [b / a for a, b in pairwise(periods[1:])] == pytest.approx([4 ** (1 / 8)] * 8)
     assert all(each.support.modes[0].participation == 1.3 for each in parapets[1:])
     assert list(structures)[:2] == ["parapet, on the ground", "parapet, T_b 0.15 s"]
     assert structures["pier"].standing is structures["wall"].standing is None
@@ -82,7 +85,10 @@ STOREYS = {"name": "roof", "period_s": 0.3, "storeys": 3, "height_m": 6.0, "buil
         ({"name": "roof", "participation": 1.0}, "a support needs period_s, a number of seconds or a range"),
         (ROOF | {"period_s": [0.6, 0.3]}, "period_s is [0.6, 0.3] s, but must be above 0"),
         (ROOF | {"period_s": 0}, "period_s is 0 s, but must be above 0"),
-        (ROOF | {"period_s": [0.1, 0.2, 0.3]}, "period_s is [0.1, 0.2, 0.3], but must be a number or a range"),
+        (
+            ROOF | {"period_s": [0.1, 0.2, 0.3]},
+            "period_s is [0.1, 0.2, 0.3], but must be a number or a range",
+        ),
         (ROOF | {"damping_ratio": 1.0}, "damping_ratio is 1.0, but must be a share of the critical one"),
         (ROOF | {"damping_ratio": -0.1}, "damping_ratio is -0.1, but must be a share of the critical one"),
         (ROOF | {"mass_ratio": -1}, "mass_ratio is -1, but must be 0 or more"),

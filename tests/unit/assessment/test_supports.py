@@ -1,0 +1,109 @@
+"""Structures on supports: the same motion as a record gives the same rows, and one row for each period."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rocking.assessment.assess import Extent, assess_record
+from rocking.assessment.rows.of_record import rows_of_record
+from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
+from rocking.records import Accelerogram
+from rocking.structures import Block
+from rocking.structures.standing import support_from_config
+
+STEP = 0.01
+BODY = Block(semi_diagonal=0.5, slenderness=0.25)
+FULL = Extent(AssessmentSettings(fidelity="full", ensemble=EnsembleSettings(members=16)))
+ROOF = {"name": "roof", "damping_ratio": 0.05, "participation": 1.3}
+
+
+def motion(component="HNE", seed=8, vertical=False):
+    rng = np.random.default_rng(seed)
+    times = np.arange(400) * STEP
+    waves = sum(np.sin(2 * np.pi * rng.uniform(0.5, 4.0) * times + rng.uniform(0, 6.3)) for _ in range(9))
+    return Accelerogram(
+        0.6 * waves * np.sin(np.pi * times / 4) ** 2, STEP, component=component, vertical=vertical
+    )
+
+
+def on_roof(period, body=BODY):
+    standings = support_from_config(ROOF | {"period_s": period}).standings("parapet")
+    return {each.name: body.standing_on(each) for each in standings}
+
+
+def test_the_floors_motion_as_a_record_gives_the_same_rows():
+    record = motion()
+    carried = on_roof(0.3)
+    (support,) = (each.standing.support for each in carried.values() if each.standing.support)
+    there = assess_record("r", [record], carried, FULL)
+    given = assess_record("r", [support.motion(record)], {"parapet, T_b 0.3 s": BODY}, FULL)
+    for table in ("comparison", "ensemble", "verdicts"):
+        ours, theirs = (getattr(rows_of_record(each), table)[-1] for each in (there, given))
+        for name in ours.values() if isinstance(ours, dict) else type(ours).__dataclass_fields__:
+            first, second = getattr(ours, name), getattr(theirs, name)
+            if isinstance(first, float):
+                # only the pulse is sought at the record's own samples there, and at the floor's finer ones here
+                of_pulse = name.startswith(
+                    ("predicted", "printed", "prediction", "mechanism_on_pulse", "amplitude", "frequency")
+                )
+                assert first == pytest.approx(second, rel=1e-2 if of_pulse else 1e-12, nan_ok=True), name
+            else:
+                assert first == second, name
+
+
+def test_on_the_ground_it_is_what_it_is_without_a_support():
+    record = motion()
+    rows = rows_of_record(assess_record("r", [record], on_roof(0.3), FULL)).verdicts
+    alone = rows_of_record(assess_record("r", [record], {"parapet, on the ground": BODY}, FULL)).verdicts
+    assert rows[0] == alone[0]
+    assert (
+        rows[1].overturning_share != rows[0].overturning_share
+        or rows[1].rotation_ratio_median != rows[0].rotation_ratio_median
+    )
+
+
+def test_a_pair_and_its_vertical_component_go_through_the_support():
+    first, second, up = motion(), motion("HNN", 9), motion("HNZ", 10, vertical=True)
+    result = assess_record("r", [first, second], on_roof([0.2, 0.6]), FULL, up)
+    assert len(result.stations) == 10
+    for station in result.stations.values():
+        assert station.directions is not None
+        assert station.directions.ensemble is not None
+        assert not station.directions.failures
+        assert len(station.cases) == 2
+        if support := station.body.standing.support:
+            floor = result.components_under(station.structure)["HNE"]
+            assert floor.support == support
+            assert floor.vertical is not None
+            assert floor.vertical.peak_acceleration == pytest.approx(up.peak_acceleration)
+            exact = support.motion(first).peak_acceleration
+            assert floor.accelerogram.peak_acceleration == pytest.approx(exact, rel=1e-3)
+
+
+def test_a_support_that_the_record_is_too_coarse_for_costs_no_other():
+    coarse = replace(motion(), time_step=0.1)
+    result = assess_record("r", [coarse], on_roof(0.15) | {"pier": BODY}, FULL)
+    verdicts = {name: str(each.verdict) for name, each in result.stations.items()}
+    assert verdicts["parapet, T_b 0.15 s"] == "unknown"
+    assert "at least two samples of the record, 0.2 s" in result.stations["parapet, T_b 0.15 s"].why
+    assert "unknown" not in (verdicts["pier"], verdicts["parapet, on the ground"])
+
+
+def test_a_stored_case_of_one_support_is_not_taken_for_another():
+    class Kept(dict):
+        def find(self, kind, fingerprint):
+            found = self.get(fingerprint)
+            return found if isinstance(found, kind) else None
+
+        def keep(self, fingerprint, result):
+            self[fingerprint] = result
+
+    record, store = motion(), Kept()
+    first = assess_record("r", [record], on_roof([0.2, 0.6]), FULL, store=store)
+    again = assess_record("r", [record], on_roof([0.2, 0.6]), FULL, store=store)
+    alone = assess_record("r", [record], on_roof([0.2, 0.6]), FULL)
+    for name, station in first.stations.items():
+        for other in (again, alone):
+            assert other.stations[name].overturning_share == station.overturning_share
+            assert other.stations[name].rotation_ratio == station.rotation_ratio
