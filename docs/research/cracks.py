@@ -18,17 +18,18 @@ import pandas as pd
 
 from docs.research import scores
 from docs.research.comparison.bodies import BASE_DEPTH, RigidBodies, rectangle
-from docs.research.comparison.codes import ask, still_from
-from docs.research.comparison.lmgc90 import FALLEN, base_speed, follow
+from docs.research.comparison.codes import ask
+from docs.research.comparison.lmgc90 import FALLEN, follow
 from docs.research.ensembles import verdict_of_all
 from docs.research.report import Target
 from docs.research.sites import Trial, draw_of, independent, lifting_factor, one_of_each
-from docs.research.stacks import largest_turns
-from rocking import Accelerogram, LoadedWall, Mechanism, RigidBody, Spire, Verdict
+from rocking import Accelerogram, LoadedWall, Mechanism, RigidBody, Verdict
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.errors import StructureWarning
+from rocking.motion.stacks import follow_stack
 from rocking.quantities import GRAVITY
+from rocking.structures.stack import Course, Stack
 from rocking.tables import column, read_rows, row, write_rows
 
 COURSES = (6, 12, 20)
@@ -60,8 +61,8 @@ class Member:
     """A stack of courses. sections: (n + 1, 2) left and right face at each joint, from the base up, m. height: m.
 
     depths: (n,) of the courses, m; None: 1 m each. slab: weight of a floor on top over that of the member, which then
-    stands between supports; None: its top is free. margin: factor on the motion under which it must stand whatever
-    cracks.
+    stands between supports; None: its top is free. tapers: whether its courses grow smaller upwards, so that it never
+    stands by its mechanisms alone once it has lifted.
     """
 
     kind: str
@@ -69,7 +70,7 @@ class Member:
     height: float
     depths: np.ndarray | None = None
     slab: float | None = None
-    margin: float = 1.0
+    tapers: bool = False
 
     @property
     def courses(self) -> int:
@@ -93,6 +94,22 @@ class Member:
         wide, top = right - left, self.height * (1 + self.slab / 3)
         polygons.append(rectangle(left - wide, right + wide, self.height, top))
         return RigidBodies(polygons, (0,), guided=(self.courses + 1,), depths=[*depths, 1.0])
+
+    @cached_property
+    def stack(self) -> Stack:
+        """The courses and the slab as the package follows them."""
+        masses, centres, gyrations = self.bodies.properties
+        courses = []
+        for place, polygon in enumerate(self.bodies.polygons[1:], start=1):
+            left, right, right_above, left_above = polygon[:, 0].tolist()
+            low, high = polygon[[0, 3], 1].tolist()
+            mass = float(masses[place])
+            centre = (float(centres[place].real), float(centres[place].imag))
+            guided = place in self.bodies.guided
+            inertia = mass * float(gyrations[place])
+            bottom, top = (left, right), (left_above, right_above)
+            courses.append(Course(bottom, top, low, high - low, mass, centre, inertia, guided=guided))
+        return Stack(tuple(courses))
 
     @cached_property
     def mechanisms(self) -> dict[int, Mechanism]:
@@ -143,8 +160,8 @@ def members(courses: int) -> dict[str, Member]:
         Member("column", straight(0.6, 0.6, courses), 4.8),
         Member("façade with a ledge", ledge, 6.0),
         Member("gable", gable, 3.0, 6.0 * (1 - middles)),
-        Member("pinnacle", pinnacle, 2.5, half[:-1] + half[1:], margin=Spire.crack_margin),
-        Member("spire", straight(3.0, 0.01, courses), 15.0, 3.0 * (1 - middles), margin=Spire.crack_margin),
+        Member("pinnacle", pinnacle, 2.5, half[:-1] + half[1:], tapers=True),
+        Member("spire", straight(3.0, 0.01, courses), 15.0, 3.0 * (1 - middles), tapers=True),
     )
     return {each.kind: each for each in made}
 
@@ -201,7 +218,7 @@ def crack_row(name: str, site: str, record: Accelerogram, place: int, checked: b
     beside = round(MARGIN / motion.time_step)
     span = slice(max(strong[0] - beside, 0), strong[-1] + beside + 1)
     motion = replace(motion, acceleration=motion.acceleration[span])
-    verdict, shares = ruled(mechanisms, static, motion, member.margin)
+    verdict, shares = ruled(mechanisms, static, motion, member.tapers)
     turns = stack(member, motion)
     return CrackRow(
         courses=member.courses,
@@ -210,7 +227,7 @@ def crack_row(name: str, site: str, record: Accelerogram, place: int, checked: b
         structure=member.kind,
         scale_factor=factor,
         falls=bool(np.abs(turns).max() > TURN),
-        opened=int(np.abs(np.diff(turns)).argmax()),
+        opened=int(np.abs(np.diff(turns, prepend=0.0)).argmax()),
         falls_in_lmgc90=falls_in_lmgc90(member, motion) if checked else None,
         static_joint=static,
         static_share=shares[static],
@@ -220,29 +237,24 @@ def crack_row(name: str, site: str, record: Accelerogram, place: int, checked: b
 
 
 def ruled(
-    mechanisms: Mapping[int, Mechanism], static: int, motion: Accelerogram, margin: float = 1.0
+    mechanisms: Mapping[int, Mechanism], static: int, motion: Accelerogram, tapers: bool = False
 ) -> tuple[Verdict, Mapping[int, float]]:
     """Return what the rule says, and the share of the ensemble that overturns at each joint.
 
-    margin: factor on the motion under which a member must stand whatever cracks.
+    tapers: whether a member that lifts at all stays undecided where every joint stands.
     """
     motions = GroundMotions.of(motion)
     of_each = {joint: ensemble(mechanism, motions) for joint, mechanism in mechanisms.items()}
     verdict = verdict_of_all(of_each[static], of_each.values())
-    if verdict is Verdict.STANDS and margin > 1:
-        higher = motions.scaled(margin)
-        if any(ensemble(each, higher).verdict is not Verdict.STANDS for each in mechanisms.values()):
-            verdict = Verdict.UNDECIDED
+    lifts = any(np.any(each.rotation_ratios > 0) for each in of_each.values())
+    if verdict is Verdict.STANDS and tapers and lifts:
+        verdict = Verdict.UNDECIDED
     return verdict, {joint: each.overturning_share for joint, each in of_each.items()}
 
 
 def stack(member: Member, motion: Accelerogram, step: float = STEP) -> np.ndarray:
-    """Return the turns (courses + 1,) of the ground and the courses where they were largest, rad."""
-    case = _case(member, motion)
-    _, speed = base_speed(case, step)
-    still = int(still_from(case) / step)
-    turns = largest_turns(member.bodies, speed[1:], step, TURN, still, case["settled"])
-    return turns[: member.courses + 1]
+    """Return the turns (courses,) where they were largest, clockwise positive, rad."""
+    return follow_stack(member.stack, motion, step).turns[: member.courses]
 
 
 def falls_in_lmgc90(member: Member, motion: Accelerogram) -> bool | None:

@@ -9,7 +9,7 @@ from hashlib import sha256
 from math import inf
 from statistics import median
 from time import process_time
-from typing import TYPE_CHECKING, Protocol, TypeVar
+from typing import TYPE_CHECKING, Literal, Protocol, TypeVar
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from rocking.assessment.component import (
     component_of,
     horizontal_motions,
 )
+from rocking.assessment.contacts import contact_share, doubt
 from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
 from rocking.assessment.ground_motions import GroundMotions, processed
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
@@ -32,7 +33,7 @@ from rocking.assessment.variations import (
     ensemble_over_cracks,
     processed_variants,
 )
-from rocking.assessment.verdict import BOTH_COMPONENTS, Method, ratio_in_words
+from rocking.assessment.verdict import BOTH_COMPONENTS, Method, Verdict, ratio_in_words
 from rocking.drawn import Drawn
 from rocking.errors import ConfigurationError, RecordError, RockingError
 from rocking.motion.integration import integrate
@@ -440,11 +441,30 @@ def _case(
         answer=answer,
         durations=durations,
     )
+    if not alone:
+        return case
+    motions = _motion_of(component).ground_motions(settings.ensemble.processing)
     if members and answer.method is Method.MECHANISM_ON_RECORD:
-        motions = _motion_of(component).ground_motions(settings.ensemble.processing)
-        return replace(case, ensemble=ensemble_over_cracks(structure, motions, settings, verdict_only=auto))
-    if alone and vertical is None and component.support is None:
-        return replace(case, overturning_estimate=estimated(Tier.PEAK_VELOCITY, mechanism, record))
+        over_cracks = ensemble_over_cracks(structure, motions, settings, verdict_only=auto)
+        return with_contacts(replace(case, ensemble=over_cracks), structure, motions, settings)
+    if vertical is None and component.support is None:
+        case = replace(case, overturning_estimate=estimated(Tier.PEAK_VELOCITY, mechanism, record))
+    return with_contacts(case, structure, motions, settings)
+
+
+def with_contacts(
+    case: CaseResult,
+    structure: Structure | Mechanism,
+    motions: GroundMotions,
+    settings: AssessmentSettings,
+) -> CaseResult:
+    """Return the case with what its contacts say: a doubt where it stands, and contact dynamics where that is asked."""
+    if case.verdict is Verdict.STANDS:
+        reason = doubt(structure, motions, case.largest_rotation_ratio, settings, case.check.bounces)
+        case = replace(case, doubt=reason)
+    undecided = case.doubt is not None or case.verdict is Verdict.UNDECIDED
+    if settings.fidelity == "contact" and undecided and isinstance(structure, Structure):
+        return replace(case, contact=contact_share(structure, motions, settings))
     return case
 
 
@@ -506,8 +526,7 @@ def _cheapest(
     mechanisms = [each for _, each in cracks(structure)]
     of_statics = mechanism if len(mechanisms) == 1 else mechanisms[0]
     if len(mechanisms) > 1 and isinstance(structure, Structure):
-        motion = record.scaled(structure.crack_margin)
-        estimates = (estimated(Tier.PEAK_VELOCITY, each, motion) for each in mechanisms)
+        estimates = (estimated(Tier.PEAK_VELOCITY, each, record) for each in mechanisms)
         if not all(each is not None and each.high <= risk for each in estimates):
             risk = 0.0
     answer = cheapest_answer(
@@ -589,7 +608,8 @@ def assess_directions(
     motions = _ground_motions(pair, settings.ensemble.processing)
     try:
         quick = settings.fidelity == "auto"
-        return replace(case, ensemble=ensemble_over_cracks(structure, motions, settings, verdict_only=quick))
+        over_cracks = ensemble_over_cracks(structure, motions, settings, verdict_only=quick)
+        return with_contacts(replace(case, ensemble=over_cracks), structure, motions, settings)
     except RockingError as error:
         return replace(case, failures=(Failure("directions", str(error)),))
 
@@ -728,7 +748,8 @@ def assess(
             raise ConfigurationError(f"{name} is a {type(value).__name__}, but must be {words}.")
     number = settings.ensemble.members if members is None else members
     varied = replace(settings.ensemble, members=number or EnsembleSettings().members)
-    settings = replace(settings, fidelity="full", ensemble=varied)
+    fidelity: Literal["full", "contact"] = "contact" if settings.fidelity == "contact" else "full"
+    settings = replace(settings, fidelity=fidelity, ensemble=varied)
     result = assess_record("", records, {"structure": structure}, Extent(settings), vertical)
     station = result.stations["structure"]
     over_all = [*station.cases.values(), *([station.directions] if station.directions else [])]

@@ -11,11 +11,12 @@ from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 
 from rocking.assessment.component import Component, component_names
+from rocking.assessment.contacts import ContactShare
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer, Estimate
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.variations import Variation
-from rocking.assessment.verdict import BOTH_COMPONENTS, POLARITIES, Judgement, Method, Verdict
+from rocking.assessment.verdict import BOTH_COMPONENTS, POLARITIES, Doubt, Judgement, Method, Verdict
 from rocking.motion.response import UNKNOWN, ModelCheck, Response
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
@@ -118,6 +119,8 @@ class CaseResult:
     answer: Answer | None = None
     ensemble: Ensemble | None = None
     overturning_estimate: Estimate | None = None
+    doubt: Doubt | None = None
+    contact: ContactShare | None = None
     variations: tuple[Variation, ...] = ()
     failures: tuple[Failure, ...] = ()
     durations: Mapping[Method, float] = field(default_factory=dict)
@@ -146,6 +149,26 @@ class CaseResult:
     def integrated_rotation_ratio(self) -> float:
         """Rotation ratio of the mechanism on the record; nan where a cheaper method settled the case."""
         return self.response.rotation_ratio if self.response else math.nan
+
+    @property
+    def largest_rotation_ratio(self) -> float:
+        """The largest of all its runs, with any crack that was followed; inf where one overturns."""
+        if self.ensemble is not None:
+            both = [self.ensemble, *([self.ensemble.elsewhere] if self.ensemble.elsewhere else [])]
+            ratios = [ratio for each in both for ratio in each.rotation_ratios.tolist()]
+            return max((ratio for ratio in ratios if not math.isnan(ratio)), default=math.nan)
+        if self.answer is None or self.answer.outcome is Outcome.NO_UPLIFT:
+            return 0.0
+        return self.response.rotation_ratio if self.response else math.inf
+
+    @property
+    def verdict(self) -> Verdict:
+        """What its mechanisms say, whatever its contacts do."""
+        if self.ensemble is not None:
+            return self.ensemble.verdict
+        if self.answer is None:
+            return Verdict.UNKNOWN
+        return Verdict.OVERTURNS if self.overturns else Verdict.STANDS
 
     @property
     def overturns(self) -> bool:
@@ -237,7 +260,7 @@ class StationResult(Judgement):
         if self.worst is None:
             first = self._failed[0].failure if self._failed else None
             return Verdict.UNKNOWN, first.message if first else "no component gave a result"
-        decided, why = self._of_members_or_run()
+        decided, why = self._with_contacts(*self._of_members_or_run())
         over_all = self.decisive is not None and self.decisive is self.directions
         if self._failed and decided is not Verdict.OVERTURNS and not over_all:
             missing = ", ".join(each.component or "not named" for each in self._failed)
@@ -256,6 +279,47 @@ class StationResult(Judgement):
             crack = self._fallen_crack
             return Verdict.UNDECIDED, f"one run as recorded stands, and with the {crack} it overturns"
         return Verdict.STANDS, why
+
+    def _with_contacts(self, decided: Verdict, why: str) -> tuple[Verdict, str]:
+        """What becomes of a verdict where contacts open or courses are thrown, and where contact dynamics was asked."""
+        over_all = self.decisive is not None and self.decisive is self.directions
+        concerned = [self.directions] if over_all and self.directions else list(self.cases.values())
+        doubts = [each.doubt for each in concerned if each.doubt is not None]
+        if decided is Verdict.STANDS and doubts:
+            decided, why = Verdict.UNDECIDED, str(doubts[0])
+        if decided is not Verdict.UNDECIDED:
+            return decided, why
+        asked = [each for each in concerned if each.doubt or each.verdict is Verdict.UNDECIDED]
+        shares = [each.contact for each in asked if each.contact is not None]
+        if not shares:
+            return decided, why
+        words = f"{why}; {self.stacks.words}" if self.stacks else why
+        if any(share.verdict is Verdict.OVERTURNS for share in shares):
+            return Verdict.OVERTURNS, words
+        if len(shares) == len(asked) and all(share.verdict is Verdict.STANDS for share in shares):
+            return Verdict.STANDS, words
+        return Verdict.UNDECIDED, words
+
+    @property
+    def stacks(self) -> ContactShare | None:
+        """What contact dynamics says of all components together; None where it was not asked."""
+        both = [*self.cases.values(), *([self.directions] if self.directions else [])]
+        shares = [each.contact for each in both if each.contact is not None]
+        if not shares:
+            return None
+        falls = sum(each.falls for each in shares)
+        runs = sum(each.runs for each in shares)
+        return ContactShare(falls, runs, shares[0].reason)
+
+    @property
+    def stack_falls(self) -> int | None:
+        """Stacks of courses that fall; None where contact dynamics was not asked."""
+        return self.stacks.falls if self.stacks else None
+
+    @property
+    def stack_runs(self) -> int | None:
+        """Stacks of courses that were followed; None where contact dynamics was not asked."""
+        return self.stacks.runs if self.stacks else None
 
     @property
     def verdict(self) -> Verdict:

@@ -53,7 +53,8 @@ class PredictingPulse(PulseSettings):
 class AssessmentSettings:
     """The settings of every method. Raises ConfigurationError when a value is outside what is allowed.
 
-    fidelity: auto stops at the first method that settles whether a structure overturns to fidelity_risk.
+    fidelity: auto stops at the first method that settles whether a structure overturns to fidelity_risk. contact
+    follows as stacks of rigid courses what is undecided, has contacts that open, or tapers in courses.
     """
 
     acceleration_scale: Scale = described(
@@ -67,9 +68,10 @@ class AssessmentSettings:
     pulse: PredictingPulse = PredictingPulse()
     ensemble: EnsembleSettings = EnsembleSettings()
     friction_coefficient: float = described(0.6, "friction coefficient beyond which a contact slides", gt=0)
-    fidelity: Literal["full", "auto"] = described(
+    fidelity: Literal["full", "auto", "contact"] = described(
         "full",
-        "full runs every method, to compare them; auto runs what settles the verdict of a case, where no PDFs are made",
+        "full runs every method, to compare them; auto runs what settles the verdict of a case, where no PDFs are "
+        "made; contact is full, with contact dynamics of what stays undecided",
     )
     fidelity_risk: float = described(
         0.01, "largest probability of a wrong verdict with which fidelity: auto stops; 0: none", ge=0, le=0.2

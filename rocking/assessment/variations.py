@@ -13,7 +13,7 @@ import numpy as np
 from rocking.assessment.ensemble import Ensemble, design, drawn, ensemble
 from rocking.assessment.ground_motions import AS_IT_IS, GroundMotions
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.verdict import NEGLIGIBLE, Verdict
+from rocking.assessment.verdict import Verdict
 from rocking.errors import RockingError
 from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import integrate
@@ -53,10 +53,9 @@ def ensemble_over_cracks(
     """Return the ensemble of the mechanism that statics chooses, of least λ, with what other cracks may change.
 
     Where it stands, the members of the worst mechanism that `screened` leaves in doubt are followed, and where that one
-    does not stand, it is `elsewhere`. A structure with a crack_margin must stand under so many times the motion, with
-    the crack of statics too. exhaustive: every mechanism is followed, one after the other, until one does not stand.
-    docs/pages/validation.md counts what the screen misses. verdict_only: as `ensemble` takes it. Raises MotionError as
-    `integrate` does.
+    does not stand, it is `elsewhere`. exhaustive: every mechanism is followed, one after the other, until one does not
+    stand. docs/pages/validation.md counts what the screen misses. verdict_only: as `ensemble` takes it. Raises
+    MotionError as `integrate` does.
     """
     how: Any = {"settings": settings.ensemble, "tolerance": settings.tolerance}
     (description, mechanism), *others = cracks(structure)
@@ -66,16 +65,11 @@ def ensemble_over_cracks(
     headline = replace(headline, crack=description)
     if headline.verdict is not Verdict.STANDS:
         return headline
-    under = ""
-    if (margin := structure.crack_margin) > 1:
-        others.append((description, mechanism))
-        motions = motions.scaled(margin)
-        under = f" under {margin:g} times the motion"
     worst = others if exhaustive else screened(others, headline, motions, settings)[:1]
     for crack, other in worst:
         there = ensemble(other, motions, whether_it_stands=True, **how)
         if there.verdict is not Verdict.STANDS:
-            return replace(headline, elsewhere=replace(there, crack=crack + under))
+            return replace(headline, elsewhere=replace(there, crack=crack))
     return headline
 
 
@@ -90,8 +84,8 @@ def screened(
     Each meets three members of the `headline`, the ensemble of statics: the two that rotate most, and the middle one.
     One that turns beyond IN_DOUBT of its critical rotation there, or cannot be followed, is left in doubt.
     """
-    if np.all(headline.rotation_ratios <= NEGLIGIBLE):
-        return []  # the others lift no earlier; of the cases above, none below 8 NEGLIGIBLE had one that falls
+    if np.all(headline.rotation_ratios == 0):
+        return []  # no other mechanism lifts earlier than that of least λ
     order = np.argsort(-headline.rotation_ratios, kind="stable")
     few = design(settings.ensemble)[order[[0, 1, order.size // 2]]]
     severity = {}

@@ -40,6 +40,13 @@ POLARITIES = {"1.0": "as recorded", "-1.0": "reversed"}
 """The sign of a motion in words."""
 
 
+class Doubt(StrEnum):
+    """Why a structure that stands as a mechanism is undecided: what one degree of freedom does not follow."""
+
+    CONTACTS_OPEN = "contacts open"
+    COURSES_THROWN = "courses above a rocking body may be thrown"
+
+
 class Judgement:
     """A verdict with its counts, as a result decides it or as a row of verdicts holds it; and the words for both."""
 
@@ -103,6 +110,16 @@ class Judgement:
         raise NotImplementedError
 
     @property
+    def stack_falls(self) -> int | None:
+        """Stacks of courses that fall in contact dynamics; None where none was followed."""
+        raise NotImplementedError
+
+    @property
+    def stack_runs(self) -> int | None:
+        """Stacks of courses that contact dynamics followed; None where none was."""
+        raise NotImplementedError
+
+    @property
     def severity(self) -> tuple[float, ...]:
         """Key by which the worst of several comes last: verdict, then share of members, then rotation."""
         share = -1.0 if math.isnan(self.overturning_share) else self.overturning_share
@@ -122,6 +139,8 @@ class Judgement:
         """
         if self.verdict is not Verdict.UNDECIDED:
             return ""
+        if self.why.startswith(tuple(Doubt)):
+            return self.why
         leans_to = Verdict.OVERTURNS if self.overturning_share >= 0.5 else Verdict.STANDS
         words = [f"leans to {leans_to}"]
         if self.members:
@@ -131,6 +150,8 @@ class Judgement:
             words.append(f"with the {self.elsewhere_crack} in {there}")
         elif self.elsewhere_crack:
             words.append(f"overturns with the {self.elsewhere_crack}")
+        if self.stack_runs:
+            words.append(f"{self.stack_falls} of {self.stack_runs} stacks of courses fall")
         return ", ".join(words)
 
 

@@ -373,9 +373,7 @@ def _tables(report: RecordReport) -> dict[str, object]:
         "friction": plain(report.settings.get("friction_coefficient")),
         "vertical": _unique(row.vertical_component for row in record),
         "arch": any("arch" in row.type for row in structures),
-        "tapering": any(
-            each.crack_margin > 1 and len(each.candidates()) > 1 for each in report.structures.values()
-        ),
+        "tapering": any(each.tapers for each in report.structures.values()),
         # the time of the run is left out
         "times": _unique(row.start_time for row in record),
         "files": _unique(f"{words(row.file)}, SHA-256 {row.record_sha256}" for row in record),

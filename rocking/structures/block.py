@@ -197,7 +197,7 @@ class Spire(Crackable):
 
     type_name: ClassVar[str] = "spire"
     crack_name: ClassVar[str] = "crack"
-    crack_margin: ClassVar[float] = 1.5
+    tapers: ClassVar[bool] = True
     described_as: ClassVar[dict[str, str]] = {
         "": "Cone or square pyramid, solid or hollow, that rocks above a horizontal crack"
     }

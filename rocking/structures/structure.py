@@ -41,16 +41,15 @@ class Structure(ABC):
 
     type_name: the `type` in a file. described_as: what each constructor that a file may use describes, by the name of
     its class method, "" for the class itself. crack_name: what its candidates move ("hinge", "crack"); "" without.
-    crack_margin: factor on the motion under which it must stand whatever cracks: of a member that tapers more than 1,
-    because the courses beneath throw its tip off (docs/pages/validation.md).
-    usual_restitution: where none is given. standing: of a structure of a list that names a support; None: it meets each
-    motion as it is given.
+    tapers: whether its courses grow smaller upwards, so that each rocks by itself and throws what stands on it
+    (docs/pages/validation.md). usual_restitution: where none is given. standing: of a structure of a list that names a
+    support; None: it meets each motion as it is given.
     """
 
     type_name: ClassVar[str] = ""
     described_as: ClassVar[dict[str, str]] = {}
     crack_name: ClassVar[str] = ""
-    crack_margin: ClassVar[float] = 1.0
+    tapers: ClassVar[bool] = False
     usual_restitution: ClassVar[float | str] = "momentum"
     one_sided = False
     standing: ClassVar[Standing | None] = None

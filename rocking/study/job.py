@@ -48,7 +48,9 @@ class Study:
     def assessment(self) -> AssessmentSettings:
         """What a record is compared with: in full where a report or histories are made, which show every case."""
         whole = self.settings.reports or self.settings.histories
-        return replace(self.settings, fidelity="full") if whole else self.settings
+        if whole and self.settings.fidelity == "auto":
+            return replace(self.settings, fidelity="full")
+        return self.settings
 
     @cached_property
     def extent(self) -> Extent:

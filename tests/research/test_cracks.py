@@ -62,7 +62,7 @@ def test_the_scores_count_what_they_name():
 
 
 def test_a_study_goes_on_where_it_was_stopped(tmp_path, monkeypatch):
-    monkeypatch.setattr(cracks, "stack", lambda member, motion: np.zeros(member.courses + 1))
+    monkeypatch.setattr(cracks, "stack", lambda member, motion: np.zeros(member.courses))
     monkeypatch.setattr(cracks, "TIMEOUT", 0.0)
     target = Target(tmp_path, print, [[("r", pulse(3.0))]])
     cracks.govern(target)

@@ -11,8 +11,9 @@ from scipy.integrate import cumulative_trapezoid
 
 from docs.research.comparison.bodies import RigidBodies, rigid_bodies
 from docs.research.comparison.codes import STILL, Answer, landings, run_of, serve, still_from, structures
-from docs.research.stacks import ALERT, FRICTION
+from rocking.motion.stack_kernel import ALERT
 from rocking.quantities import GRAVITY
+from rocking.structures.stack import FRICTION
 
 STEPS = (2e-3, 1e-3, 5e-4)
 """Time steps, s."""

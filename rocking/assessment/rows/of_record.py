@@ -234,6 +234,8 @@ class VerdictRow(MembersRow, Judgement):
     polarity: str = column("Sign of the motion of the largest rotation: as recorded, reversed; or empty")
     peak_side: int | None = column(PEAK_SIDE)
     why: str = column("Reason for the verdict")
+    stack_falls: int | None = column("Stacks of courses that fall in contact dynamics; empty: not asked")
+    stack_runs: int | None = column("Stacks that were followed, over amplitudes, time steps and directions")
 
 
 @row("variations")
@@ -478,6 +480,8 @@ def verdict_row(identity: ComponentRow, station: "StationResult") -> VerdictRow:
         polarity=station.polarity,
         peak_side=station.peak_side,
         why=station.why,
+        stack_falls=station.stack_falls,
+        stack_runs=station.stack_runs,
         scale_factor=identity.scale_factor,
         record_sha256=identity.record_sha256,
         settings_sha256=identity.settings_sha256,

@@ -1,0 +1,157 @@
+"""Contacts: where one degree of freedom does not tell whether a structure stands, and what contact dynamics then says.
+
+A mechanism keeps its contacts closed and lets all of them land at once. Where a contact would have to pull, bodies
+bounce; and courses that stand on a rocking body are thrown by its impacts, which no multiple of the ground's motion
+bounds (theory: section 11). "Stands" is then not said. Falls are, because what falls as a mechanism falls.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.verdict import NEGLIGIBLE, Doubt, Verdict
+from rocking.errors import RockingError
+from rocking.motion.integration import integrate
+from rocking.motion.response import check_model
+from rocking.motion.stacks import STEP, follow_stack
+from rocking.records import Accelerogram
+from rocking.structures import Mechanism, Structure
+from rocking.structures.linkage import Turning
+from rocking.structures.stack import Stack
+
+AMPLITUDES = (0.9, 1.0, 1.1)
+"""Factors on the motion at which contact dynamics follows a case: its steps are of first order, so that near a limit
+its outcome is a draw, which several amplitudes show."""
+STEPS = (STEP, STEP / 2)
+"""Time steps of contact dynamics, s, at each of which every case is followed."""
+
+
+def doubt(
+    structure: Structure | Mechanism,
+    motions: GroundMotions,
+    rotation_ratio: float,
+    settings: AssessmentSettings | None = None,
+    bounces: bool | None = None,
+) -> Doubt | None:
+    """Return why a structure that stands as a mechanism may not stand; None where nothing speaks against it.
+
+    rotation_ratio: the largest of its runs. bounces: whether a contact opens in the run as recorded, where it is known
+    already. Members differ from the run as recorded in direction, sign, amplitude and
+    restitution: whether a contact opens is asked of every direction and sign at the recorded and at the largest
+    amplitude, with the structure's own restitution, which lets it land fastest. What rests has none to open; a single
+    body on the ground has none either below a fall of more than a radian.
+    """
+    settings = settings or AssessmentSettings()
+    if isinstance(structure, Mechanism) or not rotation_ratio > 0:
+        return None
+    if structure.tapers:
+        return Doubt.COURSES_THROWN
+    if bounces:
+        return Doubt.CONTACTS_OPEN
+    if rotation_ratio <= NEGLIGIBLE or isinstance(structure.linkage, Turning):
+        return None
+    for factor, motion in _members(structure, motions, settings):
+        if _opens(structure, motion.scaled(factor), motions.vertical, settings.tolerance):
+            return Doubt.CONTACTS_OPEN
+    return None
+
+
+def _members(
+    structure: Structure, motions: GroundMotions, settings: AssessmentSettings
+) -> Iterator[tuple[float, Accelerogram]]:
+    """Factor and motion of each direction, and of both signs where the sides differ."""
+    amplitudes = (1.0, 1 + settings.ensemble.amplitude_range)
+    for motion, sign, amplitude in product(_directions(motions), _signs(structure, settings), amplitudes):
+        yield sign * amplitude, motion
+
+
+def _directions(motions: GroundMotions) -> list[Accelerogram]:
+    """The motion of each direction, in the first of its processings."""
+    first: dict[str, Accelerogram] = {}
+    for (direction, _), motion in motions.horizontal.items():
+        first.setdefault(direction, motion)
+    return list(first.values())
+
+
+def _signs(structure: Structure, settings: AssessmentSettings) -> tuple[float, ...]:
+    """Both signs of the motion where the sides differ and the sign varies."""
+    return (1.0,) if structure.symmetric or not settings.ensemble.polarity else (1.0, -1.0)
+
+
+def _opens(
+    structure: Structure, motion: Accelerogram, vertical: Accelerogram | None, tolerance: float
+) -> bool:
+    """Whether a contact would have to pull; a motion that cannot be followed tells nothing."""
+    try:
+        response = integrate(structure, motion, tolerance, history=True, vertical=vertical)
+    except RockingError:
+        return False
+    return check_model(structure, response, motion, vertical).bounces is True
+
+
+@dataclass(frozen=True)
+class ContactShare:
+    """How many stacks of rigid courses fall, of those that contact dynamics followed.
+
+    falls, runs: over amplitudes, time steps, directions and signs. reason: why none was followed; "" where they were.
+    """
+
+    falls: int = 0
+    runs: int = 0
+    reason: str = ""
+
+    @property
+    def verdict(self) -> Verdict:
+        """What all of them say; undecided where they disagree, and unknown where none was followed."""
+        if not self.runs:
+            return Verdict.UNKNOWN
+        if self.falls == 0:
+            return Verdict.STANDS
+        return Verdict.OVERTURNS if self.falls == self.runs else Verdict.UNDECIDED
+
+    @property
+    def words(self) -> str:
+        """Their count in words."""
+        return (
+            f"{self.falls} of {self.runs} stacks of courses fall in contact dynamics"
+            if self.runs
+            else self.reason
+        )
+
+
+def contact_share(
+    structure: Structure, motions: GroundMotions, settings: AssessmentSettings | None = None
+) -> ContactShare:
+    """Return how many stacks of the structure fall, at AMPLITUDES and STEPS.
+
+    Over several directions the steps take turns, so that each direction is followed at every amplitude. The bodies are
+    those of the mechanism where the crack is known, else the courses that `Structure.stack` gives.
+    """
+    settings = settings or AssessmentSettings()
+    directions = _directions(motions)
+    several = len(directions) > 1
+    cases = [
+        (motion, sign * amplitude, step)
+        for place, motion in enumerate(directions)
+        for sign in _signs(structure, settings)
+        for turn, (amplitude, step) in enumerate(product(AMPLITUDES, STEPS))
+        if not several or (turn + turn // len(STEPS) + place) % len(STEPS) == 0
+    ]
+    try:
+        stack = structure.stack()
+        longest = stack.longest_step
+        falls = [
+            _falls(stack, motion.scaled(factor), min(step, longest * step / STEP), motions.vertical)
+            for motion, factor, step in cases
+        ]
+    except RockingError as error:
+        return ContactShare(reason=str(error))
+    return ContactShare(int(np.sum(falls)), len(falls))
+
+
+def _falls(stack: Stack, motion: Accelerogram, step: float, vertical: Accelerogram | None) -> bool:
+    return follow_stack(stack, motion, step, vertical=vertical).falls

@@ -1,0 +1,116 @@
+"""Where one degree of freedom does not tell whether a structure stands, and what contact dynamics then says."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rocking
+from rocking import Accelerogram, Block, Frame, LoadedWall, Spire, Verdict, Wall
+from rocking.assessment.assess import assess_case
+from rocking.assessment.component import component_of
+from rocking.assessment.contacts import contact_share, doubt
+from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
+from rocking.assessment.verdict import Doubt
+from rocking.quantities import GRAVITY
+
+CONTACT = AssessmentSettings(fidelity="contact")
+SPIRE = Spire(width=3.0, height=15.0, wall_thickness=0.25)
+# Three walls that stand as mechanisms, and whose two blocks fall under their slab in LMGC90 too: size, hinge, thickness
+# [m], load [N/m], record, samples that are kept, factor.
+FALLING_WALLS = {
+    "Erzincan": (
+        (2.5494, 2.0906, 0.2169, 8051.0),
+        "erzincan1992/RSN821_ERZINCAN_ERZ-EW.AT2",
+        slice(0, 2400),
+        5.036,
+    ),
+    "Newhall": (
+        (3.4297, 1.9630, 0.42959, 21609.0),
+        "northridge1994_newhall/RSN1044_NORTHR_NWH360.AT2",
+        slice(0, None),
+        3.445,
+    ),
+    "Bolu": (
+        (2.9505, 1.2954, 0.3592, 16966.0),
+        "suites/fema_p695_far_field/06.AT2",
+        slice(380, None),
+        3.792,
+    ),
+}
+
+
+def sine(amplitude: float, period: float = 0.6) -> Accelerogram:
+    """Three cycles."""
+    times = np.arange(0, 3 * period, 0.005)
+    return Accelerogram(np.append(amplitude * np.sin(2 * np.pi * times / period), np.zeros(10)), 0.005)
+
+
+@pytest.mark.parametrize("name", FALLING_WALLS)
+def test_walls_whose_contacts_open_and_whose_blocks_fall_do_not_stand(name, real_records):
+    (height, hinge, thickness, load), path, kept, factor = FALLING_WALLS[name]
+    wall = LoadedWall.hinged_at(height, hinge, thickness, 18e3, top_load=load, top_slab="flat", crack="known")
+    whole = rocking.read(real_records / path)[0]
+    motion = replace(whole, acceleration=whole.acceleration[kept]).scaled(factor)
+    alone = rocking.assess(motion, wall)
+    assert alone.overturning_members == 0
+    assert alone.verdict is Verdict.UNDECIDED
+    assert alone.why == alone.leaning == "contacts open"
+    followed = rocking.assess(motion, wall, settings=CONTACT)
+    assert followed.verdict in (Verdict.UNDECIDED, Verdict.OVERTURNS)
+    assert followed.stack_falls >= 4
+    assert followed.stack_runs == 6
+    assert f"{followed.stack_falls} of 6 stacks of courses fall" in followed.why
+
+
+def test_a_spire_that_lifts_never_stands_by_its_mechanisms_alone():
+    least = SPIRE.static_multiplier * GRAVITY
+    for crack in ("unknown", "known"):
+        spire = replace(SPIRE, crack=crack)
+        rests = rocking.assess(sine(0.9 * least), spire)
+        lifts = rocking.assess(sine(1.3 * least, 0.1), spire)
+        assert rests.verdict is Verdict.STANDS
+        assert lifts.overturning_members == 0
+        assert lifts.verdict is Verdict.UNDECIDED
+        assert lifts.why == "courses above a rocking body may be thrown"
+
+
+def test_contact_dynamics_lets_a_spire_stand_where_no_course_falls():
+    motion = sine(1.3 * SPIRE.static_multiplier * GRAVITY, 0.1)
+    stands = rocking.assess(motion, SPIRE, settings=CONTACT)
+    assert stands.verdict is Verdict.STANDS
+    assert (stands.stack_falls, stands.stack_runs) == (0, 6)
+    falls = rocking.assess(sine(2 * SPIRE.static_multiplier * GRAVITY, 0.9), SPIRE, settings=CONTACT)
+    assert falls.stack_falls != 0
+    assert falls.verdict is not Verdict.STANDS
+
+
+def test_without_an_ensemble_the_single_run_is_doubted_too():
+    settings = AssessmentSettings(ensemble=EnsembleSettings(members=0))
+    motion = sine(1.3 * SPIRE.static_multiplier * GRAVITY, 0.1)
+    case = assess_case("spire", SPIRE, component_of(motion, settings.pulse), settings)
+    assert case.doubt is Doubt.COURSES_THROWN
+
+
+def test_what_keeps_its_contacts_or_rests_is_not_doubted():
+    motions = GroundMotions.of(sine(1.5, 0.3))
+    assert doubt(Block.of_size(0.8, 4.0), motions, 0.1) is None
+    assert doubt(Wall(1.6, 1.6, 0.25), motions, 0.0) is None
+    assert doubt(Block.of_size(0.8, 4.0).mechanism(), motions, 0.1) is None
+
+
+def test_directions_share_the_steps_and_unlike_sides_meet_both_signs():
+    both = GroundMotions.of(replace(sine(1.0), component="EW"), replace(sine(0.5), component="NS"))
+    assert contact_share(Block.of_size(0.8, 4.0), both).runs == 8 * 3
+    one = GroundMotions.of(sine(1.0))
+    assert contact_share(Block.of_size(0.8, 4.0), one).runs == 6
+    facade = rocking.Facade((3.5, 3.0), (0.6, 0.5), 20e3)
+    assert contact_share(facade, one).runs == 12
+
+
+def test_what_is_no_stack_says_so():
+    frame = Frame(Block.of_size(0.5, 4.0), 2, 1.0)
+    share = contact_share(frame, GroundMotions.of(sine(2.0)))
+    assert share.verdict is Verdict.UNKNOWN
+    assert "no stack of courses" in share.words
