@@ -31,7 +31,11 @@ class UnknownFormatError(RecordError):
 
 
 class UndeclaredError(RecordError):
-    """A unit or a time step that neither the file nor the caller declares."""
+    """A unit or a time step that neither the file nor the caller declares; `field` is which of the two."""
+
+    def __init__(self, message: str, field: str = "unit") -> None:
+        super().__init__(message)
+        self.field = field
 
 
 class PulseError(RockingError):

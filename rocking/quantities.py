@@ -18,6 +18,8 @@ ACCELERATION_UNITS = {
     "m/s2": 1.0,
     "cm/s2": 0.01,
     "mm/s2": 0.001,
+    "um/s2": 1e-6,
+    "nm/s2": 1e-9,
     "gal": 0.01,
     "g": GRAVITY,
     "mg": GRAVITY / 1000,

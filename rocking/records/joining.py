@@ -4,6 +4,7 @@ import re
 from collections import Counter
 from collections.abc import Collection, Sequence
 from datetime import datetime
+from typing import Protocol
 
 import numpy as np
 
@@ -22,7 +23,24 @@ stations. What differs by more is another record, or lacks its beginning.
 _OFF_GRID = 0.1  # share of a time step by which the samples of two files may lie between one another
 
 
-def why_apart(channels: Sequence[Accelerogram], samples: Collection[int]) -> str:
+class Component(Protocol):
+    """What joining asks of a channel, with its samples or without."""
+
+    @property
+    def component(self) -> str: ...
+    @property
+    def time_step(self) -> float: ...
+    @property
+    def start_time(self) -> str: ...
+    @property
+    def azimuth(self) -> float | None: ...
+    @property
+    def vertical(self) -> bool: ...
+    @property
+    def borehole(self) -> bool: ...
+
+
+def why_apart(channels: Sequence[Component], samples: Collection[int]) -> str:
     """Return why channels of several files, of so many samples, cannot be one station's, or ""."""
     names = Counter(channel.component for channel in channels if not channel.borehole)
     if twice := next((name for name, n in names.items() if n > 1), ""):
@@ -96,7 +114,7 @@ SQUARE = 5.0
 """Degrees by which two components may be off a right angle without a word."""
 
 
-def angle_between(first: Accelerogram, second: Accelerogram) -> float | None:
+def angle_between(first: Component, second: Component) -> float | None:
     """Return the angle between two horizontal components, degrees in [0, 180), None where it is unknown."""
     if first.azimuth is None or second.azimuth is None:
         return None
@@ -112,7 +130,7 @@ _ACROSS = ({"L", "T"}, {"R", "T"}, {"FN", "FP"}, {"SN", "SP"}, {"X", "Y"}, {"H1"
 _CODE = re.compile(r"([A-Z][HNGL])([RT12XY])")
 
 
-def direction_doubt(horizontal: Sequence[Accelerogram]) -> str:
+def direction_doubt(horizontal: Sequence[Component]) -> str:
     """Return a sentence where the angle of two horizontal components is neither known nor said by their names."""
     if len(horizontal) != 2 or any(each.vertical for each in horizontal):
         return ""

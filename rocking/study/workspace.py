@@ -12,7 +12,8 @@ from rocking.errors import ConfigurationError, RecordError
 from rocking.quantities import counted
 from rocking.records import Accelerogram
 from rocking.records.catalogue import COLUMNS, CatalogueRecord, catalogue_text, read_rows
-from rocking.records.folder import list_folder, listing_text
+from rocking.records.folder import catalogue_of_folder
+from rocking.records.listing import listing_text
 from rocking.records.read import read
 from rocking.structures import load_structures
 from rocking.study.job import Study, assess_catalogued, rows_of, write_report
@@ -42,24 +43,30 @@ def start(folder: Path) -> list[Path]:
 def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: float | None) -> str:
     """Write a catalogue of the accelerograms in `folder` to `target`, or add to the one that stands there; say what.
 
-    Its rows stay as they are, to the letter; files that none of them names get rows below them. unit and time_step [s]
-    are for the files that do not declare them. Raises RecordError, and writes nothing, when no file could be read, and
+    Its rows stay as they are, to the letter, but for the new name of a file that was renamed and for the request to
+    fill in a cell that was filled; files that none of them names get rows below them. unit and time_step [s] are for
+    the files that do not declare them. Raises RecordError, and writes nothing, when no file could be read, and
     CatalogueError when `target` is no catalogue.
     """
     standing = [row for _, row in read_rows(target)] if target.exists() else []
-    files, rows = list_folder(folder, unit=unit, time_step=time_step, catalogue=standing)
+    found = catalogue_of_folder(
+        folder, unit=unit, time_step=time_step, standing=standing, keeps_readings=True
+    )
+    files, rows = found.files, found.new
     if not rows and not standing:
         reasons = "; ".join(f"{file.file}: {file.refusal}" for file in files) or "it holds no file"
         raise RecordError(f"{folder}: no accelerogram was read ({reasons}).")
-    if rows:
+    if rows or found.standing != standing:
         columns = dict.fromkeys(chain(standing[0] if standing else COLUMNS, *rows))
-        write_whole(target, catalogue_text([*standing, *rows], list(columns)).encode())
+        write_whole(target, catalogue_text([*found.standing, *rows], list(columns)).encode())
     records = {file.record for file in files}
-    of_folder = (each for each in standing if not (each.get("source_repository") or "obspy:" in each["file"]))
-    note = "{}: its row stays in the catalogue, but its file is not there; remove the row or add the file.\n"
-    lines = "".join(note.format(each["id"]) for each in of_folder if each["id"] not in records)
-    count = counted(len(standing) + len(rows), "record")
-    return f"{listing_text(files)}{lines}{target}: {count}, {len(rows)} of them new"
+    of_folder = (
+        each for each in found.standing if not (each.get("source_repository") or "obspy:" in each["file"])
+    )
+    note = "{}: its row stays in the catalogue, but its file is not there; remove the row or add the file."
+    lost = [note.format(each["id"]) for each in of_folder if each["id"] not in records]
+    count = f"{target}: {counted(len(standing) + len(rows), 'record')}, {len(rows)} of them new"
+    return listing_text(files) + "\n".join(["", *found.remarks, *lost, count])
 
 
 def read_own(

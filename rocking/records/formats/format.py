@@ -54,7 +54,7 @@ class Options:
         """
         unit = in_file or self.unit
         if unit is None:
-            raise UndeclaredError(_UNDECLARED.format("unit", "unit", "unit"))
+            raise UndeclaredError(_UNDECLARED.format("unit", "unit", "unit"), "unit")
         factor = acceleration_factor(unit)
         if self.unit is not None and acceleration_factor(self.unit) != factor:
             raise RecordError(f"unit is {unit!r} in the file, but {self.unit!r} was declared; omit it.")
@@ -64,7 +64,7 @@ class Options:
         """Return the time step [s] the file declares, else the caller's; the two may differ by 0.1 %."""
         step = in_file if in_file is not None else self.time_step
         if step is None:
-            raise UndeclaredError(_UNDECLARED.format("time_step", "time_step_s", "time-step"))
+            raise UndeclaredError(_UNDECLARED.format("time_step", "time_step_s", "time-step"), "time_step")
         step = positive(RecordError, "time_step", float(step), "s")
         if not _STEPS[0] <= step <= _STEPS[1]:
             raise RecordError(f"time_step is {step!r} s, but must be from {_STEPS[0]:g} to {_STEPS[1]:g} s.")

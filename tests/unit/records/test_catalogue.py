@@ -20,7 +20,8 @@ from rocking.quantities import GRAVITY
 from rocking.records import CatalogueRecord, files, load_catalogue, open_record
 from rocking.records.catalogue import catalogue_text, repeated
 from rocking.records.files import download, fill_hashes, path_of
-from rocking.records.folder import list_folder, listing_text
+from rocking.records.folder import list_folder
+from rocking.records.listing import listing_text
 
 ROWS = (f"{i / 100},{i % 5},{i % 7},{i % 3}\n" for i in range(50))
 TABLE = "time,NS (gal),EW (gal),UD (gal)\n" + "".join(ROWS)
@@ -300,10 +301,10 @@ def test_every_file_is_listed_with_what_it_is(folder: Path) -> None:
     listed = {found.file: found for found in list_folder(folder)[0]}
     table = listed["table.csv"]
     assert [channel.component for channel in table.channels] == ["NS", "EW", "UD"]
-    assert table.sizes == [50, 50, 50]
+    assert [channel.samples for channel in table.channels] == [50, 50, 50]
     # 0, 1, 2, 3, 4 gal again and again have a mean of 2: by the trapezoidal rule 2 cm/s² for 0.49 s
-    assert table.channels[0].time_step == 0.01 and table.peaks[0][0] == "0.00408"
-    assert float(table.peaks[0][1]) == pytest.approx(0.0098, rel=0.03)
+    assert table.channels[0].time_step == 0.01 and table.channels[0].peak_acceleration == "0.00408"
+    assert float(table.channels[0].peak_velocity) == pytest.approx(0.0098, rel=0.03)
     assert listed["bare.txt"].record == "bare" and listed["bare.txt"].blanks == ("unit", "time_step_s")
     notes = {row["id"]: row["note"] for row in list_folder(folder)[1]}
     assert notes["bare"] == "columns of numbers. Fill in unit and time_step_s."
@@ -312,8 +313,21 @@ def test_every_file_is_listed_with_what_it_is(folder: Path) -> None:
     assert listed["mixed.csv"].status.startswith("EW: The peak acceleration is 4 g, above 3 g")
     assert "says UP, but a is taken as horizontal" in listed["quake-UP.csv"].status
     assert listed["tale.txt"].status.startswith("not read: tale.txt: no reader recognises")
-    text = listing_text(list_folder(folder)[0])
-    assert len(text.splitlines()) == 1 + 3 + 1 + 1 + 2 + 1 + 1 and "0.00408" in text
+
+
+def test_the_table_of_a_folder_never_wraps_and_refusals_stand_below_it(folder: Path) -> None:
+    long = "a_name_of_a_station_that_is_much_too_long_for_any_line_of_any_terminal"
+    named(folder, f"{long}.csv")
+    named(folder, "bare.txt", "\n".join(f"{0.3 * np.sin(i):.5f}" for i in range(300)))
+    named(folder, "tale.txt", "once upon a time\n")
+    for width in (72, 80, 120):
+        text = listing_text(list_folder(folder)[0], width)
+        table, fill, doubts, refused = text.split("\n\n")
+        lines = table.splitlines()
+        assert len(lines) == 1 + 3 + 1 + 3 and max(map(len, lines)) <= width and "0.00408" in table
+        assert "tale.txt" not in table and refused.startswith("Not read:\n  tale.txt: no reader recognises")
+        assert fill == "Fill in, in the catalogue:\n  bare.txt: unit and time_step_s"
+        assert doubts.startswith("To know:\n  table.csv: Its content is that of a_name")
 
 
 def test_a_file_under_two_names_is_told_where_it_comes_again(folder: Path) -> None:

@@ -166,7 +166,7 @@ def test_a_catalogue_keeps_what_was_typed_in_and_adds_what_is_new(study, capsys)
     assert main(["catalogue", str(study / "records")]) == 0
     printed = capsys.readouterr().out
     assert "1 of them new" in printed and "its file is not there" in printed
-    assert "not read: letter.txt: " in printed
+    assert "Not read:\n  letter.txt: " in printed
     after = rows(catalogue)
     assert [row["file"] for row in after] == [name, "more.csv"]
     assert after[0] == dict.fromkeys(after[0], "") | first

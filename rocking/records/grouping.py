@@ -1,0 +1,217 @@
+"""Grouping: which files of a folder are the components of one station in one earthquake."""
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from datetime import datetime
+from itertools import combinations
+
+import numpy as np
+
+from rocking.records.dates import day_of
+from rocking.records.instrument import azimuth, directed, is_vertical
+from rocking.records.joining import SQUARE, angle_between, names_no_direction, why_apart
+from rocking.records.listing import ListedChannel, ListedFile
+
+_RSN = re.compile(r"(RSN\d+)_")
+"""Number of a record in the databases of PEER, with which the names of its files begin."""
+_ENDING = re.compile(r"\.(at2|txt|csv|asc|dat|acc|prn|out|th|tcl|gz|time_\w+|g3)$", re.I)
+_WORDS = (
+    r"NS|EW|SN|WE|N-S|E-W|S-N|W-E|N|E|S|W|NORTH|EAST|SOUTH|WEST|UD|UP|DN|DWN|DOWN|V|Z|VER|VERT|VERTICAL|"
+    r"[A-Z][HNGL][NEZ]"
+)
+_IN_NAME = (
+    re.compile(rf"^(.*?)[-_. ]({_WORDS})$", re.I),
+    re.compile(r"^(.*?)[-_. ]?([NS]\d{1,2}[EW])$", re.I),
+    re.compile(r"^(.*\D)(\d{3})$"),
+    re.compile(r"^(.+)[-_. ](\d{1,3})(?:deg)?$", re.I),
+    re.compile(r"^(.*[a-z\d])(NS|EW|UD|UP)$"),
+)
+"""A direction at the end of a file's name: a word, a bearing or three digits, or one to three after a sign."""
+_BAND = re.compile(r"([A-Z][HNGL])[A-Z\d]")
+
+
+def rsn_of(name: str) -> str:
+    """Return the RSN that the name of a file begins with, "" where it begins with none."""
+    number = _RSN.match(name.rpartition("/")[2])
+    return number[1] if number else ""
+
+
+def without_ending(name: str) -> str:
+    """Return the name of a file without the endings that say what kind of file it is."""
+    while (shorter := _ENDING.sub("", name)) not in (name, ""):
+        name = shorter
+    return name
+
+
+def direction_in_name(name: str) -> tuple[str, str]:
+    """Return the name of a file before the direction at its end, and that direction; ("", "") where it ends in none.
+
+    >>> direction_in_name("RSN779_LOMAP_LGP090.time_g.csv")
+    ('RSN779_LOMAP_LGP', '090')
+    """
+    stem = without_ending(name)
+    for pattern in _IN_NAME:
+        match = pattern.match(stem)
+        if match and (azimuth(match[2]) is not None or is_vertical(match[2])):
+            return match[1], match[2]
+    return "", ""
+
+
+def stations(files: Sequence[ListedFile]) -> list[list[ListedFile]]:
+    """Return the files that share a row, in the order of their first; those of a station that do not fit say why."""
+    groups: dict[object, list[ListedFile]] = {}
+    for file in files:
+        groups.setdefault(_station_key(file) or file.file, []).append(file)
+    found = []
+    for group in (part for of_one in groups.values() for part in _simultaneous(of_one)):
+        joined = list(filter(None, map(_together, _alike(group))))
+        taken = {file.file for together in joined for file in together}
+        found += joined
+        for together in joined:
+            for file in together:
+                file.direction = _direction(file)
+        for file in group:
+            if file.file not in taken:
+                why = _why_apart(group)
+                file.separation = f"Not joined with the other files of its station: {why}." if why else ""
+                found.append([file])
+    places = {file.file: place for place, file in enumerate(files)}
+    return sorted(found, key=lambda group: places[group[0].file])
+
+
+def _station_key(file: ListedFile) -> object:
+    """Return what the files of one station and event have in common; None where neither header nor name says it."""
+    first = file.channels[0]
+    if len(file.channels) > 1 or first.borehole or file.is_repeat:
+        return None
+    folder, _, name = file.file.rpartition("/")
+    header = [first.network, first.station, first.location, first.event]
+    known = first.station and (first.event or first.start_time)
+    base = "" if known else without_direction(file)
+    if not (known or base):
+        return None
+    band = _BAND.fullmatch(first.component)
+    return (
+        folder,
+        first.format,
+        rsn_of(name),
+        *("".join(filter(str.isalnum, text)).casefold() for text in header),
+        day_of(first.event_time),
+        base,
+        band[1] if band else "",
+        file.blanks,
+    )
+
+
+def without_direction(file: ListedFile) -> str:
+    """Return the file's name before the direction that stands at its end, "" where none stands there."""
+    name = file.file.rpartition("/")[2]
+    component = file.channels[0].component
+    if names_no_direction(component):
+        return direction_in_name(name)[0]
+    stem = without_ending(name)
+    ends_in_component = stem.lower().endswith(component.lower())
+    return stem[: -len(component)].rstrip("-_. ") if ends_in_component else ""
+
+
+def _direction(file: ListedFile) -> str:
+    """Return the direction that only the file's name says, "" where its header does."""
+    if names_no_direction(file.channels[0].component):
+        return direction_in_name(file.file.rpartition("/")[2])[1]
+    return ""
+
+
+def _simultaneous(files: list[ListedFile]) -> list[list[ListedFile]]:
+    """Return `files` of one station parted where one begins after the end of the first, as far as starts are known."""
+    if not all(file.channels[0].start_time for file in files):
+        return [files]
+    starts = [datetime.fromisoformat(file.channels[0].start_time).timestamp() for file in files]
+    parts: list[list[int]] = []
+    end = 0.0
+    for place in np.argsort(starts, kind="stable").tolist():
+        if not parts or starts[place] >= end:
+            parts.append([])
+            first = files[place].channels[0]
+            end = starts[place] + first.samples * first.time_step
+        parts[-1].append(place)
+    return [[files[place] for place in sorted(part)] for part in parts]
+
+
+def _alike(group: Sequence[ListedFile]) -> list[list[ListedFile]]:
+    """Return `group` parted by time step and by what is declared of it: one odd file parts no others."""
+    parts: dict[object, list[ListedFile]] = {}
+    for file in group:
+        step = f"{file.channels[0].time_step:.6g}"
+        parts.setdefault((step, *file.declarations.items()), []).append(file)
+    return list(parts.values())
+
+
+def named_channel(file: ListedFile) -> ListedChannel:
+    """Return the one channel of a file, called as the file's name says where its header does not."""
+    (channel,) = file.channels
+    if direction := _direction(file):
+        named = directed({"component": direction})
+        return replace(channel, component=direction, azimuth=named["azimuth"], vertical=named["vertical"])
+    return channel
+
+
+def _together(group: list[ListedFile]) -> list[ListedFile]:
+    """Return the files of a group that are one station's components: all, else a pair that no other rivals, else none.
+
+    A vertical component that does not fit is left out, and so is a file that makes no pair. Where two pairs could be
+    meant, none is taken.
+    """
+    if len(group) == 1:
+        return []
+    if not _why_apart(group):
+        return group
+    level = [file for file in group if named_channel(file).is_horizontal]
+    pairs = [list(pair) for pair in combinations(level, 2) if not _why_apart(pair)]
+    if len(pairs) > 1:
+        pairs = [pair for pair in pairs if _is_square(pair)]
+    if len(pairs) != 1:
+        return []
+    (pair,) = pairs
+    with_vertical = [[*pair, file] for file in group if file not in level and not _why_apart([*pair, file])]
+    chosen = with_vertical[0] if len(with_vertical) == 1 else pair
+    return [file for file in group if file in chosen]
+
+
+def _is_square(pair: Iterable[ListedFile]) -> bool:
+    """Whether two components are known to be at right angles."""
+    angle = angle_between(*map(named_channel, pair))
+    return angle is not None and abs(angle - 90) <= SQUARE
+
+
+def _why_apart(group: Sequence[ListedFile]) -> str:
+    """Return why the files of one station cannot share a row, or ""."""
+    if len(group) == 1:
+        return ""
+    channels = [named_channel(file) for file in group]
+    by_name = [file for file in group if names_no_direction(file.channels[0].component)]
+    unnamed = [file for file in by_name if not _direction(file)]
+    if unnamed or len(by_name) not in (0, len(group)):
+        return f"{(unnamed or by_name)[0].file} does not name its component"
+    if why := why_apart(channels, [channel.samples for channel in channels]):
+        return why
+    level = [channel for channel in channels if not channel.vertical]
+    if len(level) > 2 or len(channels) - len(level) > 1:
+        return f"it has {len(level)} horizontal and {len(channels) - len(level)} vertical components"
+    if any(each.declarations != group[0].declarations for each in group):
+        return "not all of them declare unit and time step"
+    return _why_no_pair(group, level)
+
+
+def _why_no_pair(group: Sequence[ListedFile], level: Sequence[ListedChannel]) -> str:
+    """Return why two horizontal components are no pair, or ""."""
+    if len(level) != 2:
+        return ""
+    names = f"components {level[0].component} and {level[1].component}"
+    angle = angle_between(*level)
+    if angle is not None and min(angle, 180 - angle) < SQUARE:
+        return f"{names} point the same way"
+    by_name = any(_direction(file) for file in group)
+    if by_name and (angle is None or abs(angle - 90) > SQUARE):
+        return f"{names}, as the files' names end, are not at right angles"
+    return ""

@@ -1,0 +1,272 @@
+"""Listing: what the files of a folder hold, without their samples, so that many fit into memory."""
+
+import re
+import shutil
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from rocking.errors import RecordError, UndeclaredError
+from rocking.quantities import GRAVITY
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.catalogue import stays_inside
+from rocking.records.formats import Options
+from rocking.records.processing import process, velocity
+from rocking.records.read import printable, read_raw
+
+CELLS = {"unit": "unit", "time_step": "time_step_s"}
+"""The column of a catalogue that declares what a file leaves out."""
+_STAND_INS: dict[str, Any] = {"unit": "nm/s2", "time_step": 0.01}
+"""With which a file that declares none is looked at; in so small a unit no counts are beyond what ground does."""
+_BAD_NAME = "its name holds a character that a catalogue does not allow, or a blank at its end; rename it."
+_LEADS_OUT = "it is a link that leads out of the folder; copy the file instead."
+_SIDEWAYS = "The file's name says {}, but {} is taken as horizontal."
+_UPWARDS = re.compile(r"(?:^|[-_. ])(UP|UD|DN|DWN|DOWN|VER|VERT|VERTICAL)(?=[-_. ]|$)", re.I)
+
+
+@dataclass(frozen=True)
+class ListedChannel:
+    """One channel of a listed file, as the fields of an Accelerogram say it, without its samples.
+
+    samples: their number. peak_acceleration, peak_velocity: as they are listed, in g and m/s; "" where the unit or the
+    time step is not known, or the record is too short to be processed.
+    """
+
+    component: str
+    format: str
+    time_step: float
+    samples: int
+    peak_acceleration: str
+    peak_velocity: str
+    network: str
+    station: str
+    location: str
+    event: str
+    event_time: str
+    start_time: str
+    azimuth: float | None
+    vertical: bool
+    borehole: bool
+
+    @property
+    def is_horizontal(self) -> bool:
+        """Whether it is a horizontal component at the surface."""
+        return not self.vertical and not self.borehole
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What reading the content of a file gives, whatever else lies in its folder.
+
+    doubts: what is plausibly wrong, one sentence each. refusal: why it cannot be read, or "". missing: what it does not
+    declare, of the keys of CELLS.
+    """
+
+    sha256: str
+    channels: tuple[ListedChannel, ...] = ()
+    doubts: tuple[str, ...] = ()
+    refusal: str = ""
+    missing: tuple[str, ...] = ()
+
+
+@dataclass
+class ListedFile:
+    """One file of a folder as it was read, and the id of the catalogue row it stands in, "" if it cannot be used.
+
+    doubts: what is plausibly wrong, one sentence each. refusal: why it gets no row; separation: why it does not share
+    the row of other files of its station, or "". blanks: the cells that its row leaves blank and that must be filled;
+    declarations: those that hold what its header does not say. direction: of its component, where only the file's name
+    says it. companions: number of other files in its row. is_repeat: whether it has the content of an earlier file.
+    """
+
+    file: str
+    sha256: str = ""
+    channels: tuple[ListedChannel, ...] = ()
+    refusal: str = ""
+    doubts: tuple[str, ...] = ()
+    declarations: dict[str, str] = field(default_factory=dict)
+    blanks: tuple[str, ...] = ()
+    direction: str = ""
+    separation: str = ""
+    record: str = ""
+    companions: int = 0
+    is_repeat: bool = False
+
+    @property
+    def status(self) -> str:
+        """What there is to say of the file, in one line."""
+        if self.refusal:
+            return f"not read: {self.refusal}"
+        parts = [f"to fill: {', '.join(self.blanks)}"] if self.blanks else list(self.doubts)
+        if self.companions:
+            parts.append(f"Joined with {self.companions} more as {self.record}.")
+        return " ".join(filter(None, [*parts, self.separation])) or "read"
+
+
+def read_for_listing(raw: bytes, sha256: str, path: Path, declared: Mapping[str, Any]) -> Reading:
+    """Return what the content `raw` of the file at `path` gives.
+
+    declared: unit and time_step [s], None where the caller knows none; each is used only where the file is silent.
+    """
+    missing: tuple[str, ...] = ()
+    while True:
+        values = {name: declared[name] or _STAND_INS[name] for name in missing}
+        try:
+            channels = read_raw(raw, path, Options(folder=path.parent, **values))
+            break
+        except UndeclaredError as error:
+            if error.field in missing:
+                return Reading(sha256, refusal=printable(str(error)))
+            missing = (*missing, error.field)
+        except RecordError as error:
+            return Reading(sha256, refusal=printable(str(error)))
+    is_known = all(declared[name] for name in missing)
+    doubts: dict[str, list[str]] = {}
+    for channel in channels:
+        for sentence in channel.warnings:
+            doubts.setdefault(sentence, []).append(channel.component)
+    remarks = [s if len(of) == len(channels) else f"{', '.join(of)}: {s}" for s, of in doubts.items()]
+    listed = tuple(_without_samples(channel, is_known) for channel in channels)
+    return Reading(sha256, listed, tuple(remarks), missing=missing)
+
+
+def _without_samples(record: Accelerogram, is_known: bool) -> ListedChannel:
+    """Return what is listed of a channel, with its peaks where unit and time step are known."""
+    return ListedChannel(
+        component=record.component,
+        format=record.source.format,
+        time_step=record.time_step,
+        samples=record.acceleration.size,
+        peak_acceleration=f"{record.peak_acceleration / GRAVITY:.3g}" if is_known else "",
+        peak_velocity=_peak_velocity(record) if is_known else "",
+        network=record.network,
+        station=record.station,
+        location=record.location,
+        event=record.event,
+        event_time=record.event_time,
+        start_time=record.start_time,
+        azimuth=record.azimuth,
+        vertical=record.vertical,
+        borehole=record.borehole,
+    )
+
+
+def _peak_velocity(record: Accelerogram) -> str:
+    """Return PGV, m/s, as a study clears the record by default, "" where it is too short to be processed."""
+    with suppress(RecordError):
+        return f"{abs(velocity(process(record))).max():.3g}"
+    return ""
+
+
+def listed_file(reading: Reading, path: Path, folder: Path, declared: Mapping[str, Any]) -> ListedFile:
+    """Return the file at `path` as it is listed, with what its name adds to its `reading`."""
+    file = printable(path.relative_to(folder).as_posix())
+    upwards = _UPWARDS.search(path.stem)
+    sideways = [
+        _SIDEWAYS.format(upwards[1], channel.component)
+        for channel in reading.channels
+        if upwards and not channel.vertical
+    ]
+    return ListedFile(
+        file=file,
+        sha256=reading.sha256,
+        channels=reading.channels,
+        refusal=reading.refusal or _why_not_listed(path, folder),
+        doubts=(*reading.doubts, *sideways),
+        declarations={CELLS[name]: f"{declared[name]}" for name in reading.missing if declared[name]},
+        blanks=tuple(CELLS[name] for name in CELLS if name in reading.missing and not declared[name]),
+    )
+
+
+def _why_not_listed(path: Path, folder: Path) -> str:
+    """Return why a catalogue in `folder` cannot name the file at `path`, or ""."""
+    name = path.relative_to(folder).as_posix()
+    if not stays_inside(name) or name != name.strip() or name != printable(name):
+        return _BAD_NAME
+    if not path.resolve().is_relative_to(folder.resolve()):
+        return _LEADS_OUT
+    return ""
+
+
+def doubts_of(file: ListedFile) -> Iterator[str]:
+    """Yield the doubts about a file that hold whatever its unit turns out to be and what its row calls it."""
+    for sentence in file.doubts:
+        is_of_unit = file.blanks and ("m/s" in sentence or " g," in sentence)
+        is_of_direction = file.direction and "is taken as horizontal" in sentence
+        if not (is_of_unit or is_of_direction):
+            yield sentence
+
+
+_HEAD = ("file", "component", "format", "step s", "samples", "PGA g", "PGV m/s")
+_ALIGNED = "<<<>>>>"
+_NARROWEST = {0: 16, 2: 8, 1: 6}
+"""Columns that are narrowed where the table is wider than the terminal, in that order, and how far, in characters."""
+_GAP = "  "
+_FALLBACK = 100
+"""Characters of a line where there is no terminal."""
+
+
+def listing_text(listed: Sequence[ListedFile], width: int | None = None) -> str:
+    """Return a table with a line for each channel that was read, no wider than `width`, and below it what to know.
+
+    width: characters, None: of the terminal. Below stand the cells to fill in, what was joined, doubts and refusals.
+    """
+    width = width or shutil.get_terminal_size((_FALLBACK, 24)).columns
+    return "".join(f"{line}\n" for line in (*_table(listed, width), *_sentences(listed)))
+
+
+def _table(listed: Sequence[ListedFile], width: int) -> Iterator[str]:
+    """Yield the lines of the table."""
+    rows = [_HEAD]
+    for file in listed:
+        for place, channel in enumerate(file.channels):
+            step = "" if "time_step_s" in file.blanks else f"{channel.time_step:g}"
+            peaks = channel.peak_acceleration, channel.peak_velocity
+            name = "" if place else file.file
+            rows.append((name, channel.component, channel.format, step, str(channel.samples), *peaks))
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for column, narrowest in _NARROWEST.items():
+        surplus = sum(widths) + len(_GAP) * (len(widths) - 1) - width
+        if surplus > 0:
+            widths[column] = max(min(narrowest, widths[column]), widths[column] - surplus)
+    for row in rows:
+        cells = zip(row, _ALIGNED, widths, strict=True)
+        yield _GAP.join(f"{_shortened(cell, size):{side}{size}}" for cell, side, size in cells).rstrip()
+
+
+def _shortened(text: str, size: int) -> str:
+    """Return `text` with at most `size` characters: its beginning and its end, which tell names apart."""
+    if len(text) <= size:
+        return text
+    end = size // 2
+    return f"{text[: size - end - 1]}…{text[-end:]}"
+
+
+def _sentences(listed: Sequence[ListedFile]) -> Iterator[str]:
+    """Yield what there is to say of the files below the table, by kind."""
+    joined: dict[str, list[str]] = {}
+    for file in listed:
+        if file.companions:
+            joined.setdefault(file.record, []).append(file.file)
+    read = [file for file in listed if not file.refusal]
+    sections = {
+        "Fill in, in the catalogue:": [
+            (file.file, " and ".join(file.blanks)) for file in read if file.blanks
+        ],
+        "Joined:": [(record, ", ".join(files)) for record, files in joined.items()],
+        "To know:": [(file.file, text) for file in read if (text := _doubts(file))],
+        "Not read:": [
+            (file.file, file.refusal.removeprefix(f"{Path(file.file).name}: "))
+            for file in listed
+            if file.refusal
+        ],
+    }
+    for heading, lines in sections.items():
+        if lines:
+            yield from ("", heading, *(f"  {name}: {text}" for name, text in lines))
+
+
+def _doubts(file: ListedFile) -> str:
+    return " ".join(filter(None, (*doubts_of(file), file.separation)))

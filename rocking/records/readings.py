@@ -1,0 +1,147 @@
+"""Readings: what the files of a folder gave when they were read, kept by their content from one time to the next."""
+
+import hashlib
+import json
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import asdict
+from functools import cache
+from pathlib import Path
+from typing import Any, get_args, get_type_hints
+
+from rocking.errors import RecordError, RockingError
+from rocking.records.listing import CELLS, ListedChannel, Reading, read_for_listing
+from rocking.records.read import bytes_of, printable
+from rocking.tables import read_whole, write_whole
+
+STORE = ".rocking_readings.json"
+"""In the folder of the records; it may be removed at any time."""
+_LARGEST = 2**27  # bytes: a hundred thousand readings
+
+
+class Readings:
+    """The readings of the files under `folder`, each made once for its content, its name and what is declared.
+
+    is_kept: whether they are looked for, and kept, in a store in that folder. remark: a sentence where a store lies
+    there that cannot be used, else "".
+    """
+
+    def __init__(self, folder: Path, is_kept: bool = True) -> None:
+        self._store = folder / STORE
+        self._is_kept = is_kept
+        self._before: dict[str, Reading] = {}
+        self._now: dict[str, Reading] = {}
+        self._beside: dict[Path, str] = {}
+        self.remark = ""
+        if is_kept and self._store.exists():
+            try:
+                self._before = _stored(self._store)
+            except _UnusableStoreError as error:
+                self.remark = f"{self._store}: {str(error).rstrip('.')}; every file is read anew."
+
+    def of(self, path: Path, declared: Mapping[str, Any]) -> Reading:
+        """Return the reading of the file at `path`; declared: as read_for_listing takes it."""
+        try:
+            raw = bytes_of(path)
+        except RecordError as error:
+            return Reading("", refusal=printable(str(error)))
+        sha256 = hashlib.sha256(raw).hexdigest()
+        unit, time_step = declared["unit"], declared["time_step"]
+        key = json.dumps([sha256, printable(path.name), unit, time_step, self._metadata_beside(path.parent)])
+        reading = self._before.get(key)
+        if reading is None or reading.sha256 != sha256:
+            reading = read_for_listing(raw, sha256, path, declared)
+        self._now[key] = reading
+        return reading
+
+    def _metadata_beside(self, folder: Path) -> str:
+        """Return a hash of the StationXML files of a folder, by which counts of the other files are read."""
+        if folder not in self._beside:
+            digest = hashlib.sha256()
+            for path in sorted(folder.glob("*.xml")):
+                digest.update(_hash_of(path).encode())
+            self._beside[folder] = digest.hexdigest()
+        return self._beside[folder]
+
+    def save(self) -> None:
+        """Keep the readings that were asked for, where the folder can be written in."""
+        if not self._is_kept or self._now == self._before:
+            return
+        readings = {key: asdict(reading) for key, reading in self._now.items()}
+        content = json.dumps(readings, ensure_ascii=False, sort_keys=True)
+        store = {"version": _version(), "sha256": _sum(content), "readings": content}
+        with suppress(RockingError):
+            write_whole(self._store, json.dumps(store).encode())
+
+
+def _hash_of(path: Path) -> str:
+    """Return the hash of a file, "" of one that cannot be read."""
+    try:
+        return hashlib.sha256(bytes_of(path, _LARGEST)).hexdigest()
+    except RecordError:
+        return ""
+
+
+class _UnusableStoreError(RecordError):
+    """A store of readings that was not written by this version of the package, or is damaged."""
+
+
+def _stored(path: Path) -> dict[str, Reading]:
+    """Return the readings in a store. Raises _UnusableStoreError unless every value of it is what it must be."""
+    content = read_whole(path, _LARGEST, _UnusableStoreError, "the store of readings")
+    try:
+        store = json.loads(content)
+        version, checksum, readings = store["version"], store["sha256"], store["readings"]
+    except (ValueError, KeyError, TypeError, RecursionError):
+        raise _UnusableStoreError("this is no store of readings, or it is cut") from None
+    if version != _version():
+        raise _UnusableStoreError("another version of the package made these readings")
+    if not isinstance(readings, str) or checksum != _sum(readings):
+        raise _UnusableStoreError("the readings are damaged")
+    try:
+        return {key: _reading(each) for key, each in json.loads(readings).items()}
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        raise _UnusableStoreError("the readings are not what this package writes") from None
+
+
+def _reading(values: dict[str, Any]) -> Reading:
+    """Return a reading from its JSON. Raises TypeError where a value is not of its type."""
+    sha256, refusal = values["sha256"], values["refusal"]
+    doubts, missing = tuple(values["doubts"]), tuple(values["missing"])
+    if (
+        not all(isinstance(text, str) for text in (sha256, refusal, *doubts))
+        or not set(missing) <= CELLS.keys()
+    ):
+        raise TypeError("a text is none, or no cell of a catalogue")
+    channels = tuple(_channel(channel) for channel in values["channels"])
+    return Reading(sha256, channels, doubts, refusal, missing)
+
+
+_TYPES = {name: get_args(hint) or (hint,) for name, hint in get_type_hints(ListedChannel).items()}
+"""The types that each field of a listed channel may have."""
+
+
+def _channel(values: dict[str, Any]) -> ListedChannel:
+    """Return a listed channel from its JSON. Raises TypeError where a value is not of its type."""
+    if values.keys() != _TYPES.keys():
+        raise TypeError(f"the fields are {', '.join(values)}")
+    for name, value in values.items():
+        if type(value) not in _TYPES[name]:
+            raise TypeError(f"{name} is {value!r}")
+    return ListedChannel(**values)
+
+
+def _sum(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+@cache
+def _version() -> str:
+    """Return a hash of the sources by which files are read: another reader may read them otherwise."""
+    package = Path(__file__).parents[1]
+    sources = [package / "quantities.py", package / "tables" / "files.py"]
+    sources += sorted((package / "records").rglob("*.py"))
+    digest = hashlib.sha256()
+    for path in sources:
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
