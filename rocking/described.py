@@ -4,6 +4,7 @@ pydantic decides what a type and its bounds allow, and strictly: neither a text 
 the JSON schema, from which the sentences of an error are made. It is imported only where a value is not its default.
 """
 
+import re
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, fields, is_dataclass, replace
@@ -13,6 +14,7 @@ from types import NoneType
 from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 
 from rocking.errors import RockingError
+from rocking.quantities import shown
 
 T = TypeVar("T")
 
@@ -100,7 +102,7 @@ class Described:
     def refusal(self, value: object) -> str:
         """Return the end of the sentence on a `value` that is not allowed."""
         unit = f" {self.unit}" if self.unit and type(value) in (int, float) else ""
-        return f"{value!r}{unit}, but must be {self.must}."
+        return f"{shown(value)}{unit}, but must be {self.must}{comma_hint(value)}."
 
 
 def described(
@@ -129,6 +131,12 @@ def described_values(kind: Any) -> Mapping[str, Described]:
 
 
 @cache
+def _keys(kind: Any) -> frozenset[str]:
+    """The keys of a dataclass of described values."""
+    return frozenset(each.key for each in described_values(kind).values())
+
+
+@cache
 def parts_of(kind: Any) -> tuple[str, ...]:
     """Return the names of the fields of a dataclass whose default is a dataclass of described values."""
     return tuple(each.name for each in fields(kind) if is_dataclass(each.default))
@@ -147,7 +155,7 @@ def check_described(error: type[RockingError], made: Any) -> None:
             raise error(f"{name} is {wrong}") from None
     for name in parts_of(kind):
         if not isinstance(getattr(made, name), part := type(getattr(kind, name))):
-            raise error(f"{name} is {getattr(made, name)!r}, but must be a {part.__name__}.")
+            raise error(f"{name} is {shown(getattr(made, name))}, but must be a {part.__name__}.")
 
 
 def read_described(
@@ -168,7 +176,9 @@ def read_described(
     parts = {name: getattr(default, name) for name in parts_of(kind)}
     names = [*allowed, *parts]
     if not isinstance(mapping, Mapping):
-        defects.append(f"{above.rstrip('.')} is {mapping!r}, but must be a mapping of {', '.join(names)}.")
+        defects.append(
+            f"{above.rstrip('.')} is {shown(mapping)}, but must be a mapping of {', '.join(names)}."
+        )
         return default
     values = {}
     before = len(defects)
@@ -176,9 +186,13 @@ def read_described(
         if key in parts:
             values[key] = read_described(parts[key], value, defects, f"{above}{key}.", interpret)
         elif key not in allowed:
-            near = get_close_matches(str(key), names, n=1, cutoff=0.6)
+            within = [f"{part}.{key}" for part in parts if key in _keys(parts[part].__class__)]
+            near = within or get_close_matches(str(key)[:_LONGEST_NAME], names, n=1, cutoff=0.6)
             hint = f"did you mean {near[0]}?" if near else f"the names are {', '.join(names)}."
-            defects.append(f"{above}{key} is {value!r}, but nothing has this name; {hint}")
+            if value is None and str(key).isdigit():
+                hint = "a comma parts the entries within braces; write a number with a point, as in 6.4."
+            name = str(key) if len(str(key)) <= _LONGEST_NAME else shown(key)
+            defects.append(f"{above}{name} is {shown(value)}, but nothing has this name; {hint}")
         else:
             for meant in [value, interpret(value)] if isinstance(value, str) else [value]:
                 with suppress(ValueError):
@@ -192,6 +206,18 @@ def read_described(
         except RockingError as wrong:
             defects.append(f"{above}{wrong}")
     return default
+
+
+def comma_hint(value: object) -> str:
+    """Return the end of a sentence on a text that is a number with a decimal comma, "" for another value."""
+    if isinstance(value, str) and _WITH_COMMA.fullmatch(value.strip()):
+        return f"; a number is written with a point, {value.strip().replace(',', '.')}"
+    return ""
+
+
+_WITH_COMMA = re.compile(r"[-+]?\d{1,12},\d{1,12}([eE][-+]?\d{1,3})?")
+_LONGEST_NAME = 80
+"""Characters of a name that is compared with those that exist, and repeated as it is."""
 
 
 def _words(schema: Mapping[str, Any]) -> str:

@@ -14,6 +14,26 @@ GRAVITY = 9.80665
 UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
 """Control characters, marks that turn the direction of writing, halves of characters."""
 
+_LONGEST_VALUE = 100
+"""Characters of a value that a sentence repeats."""
+
+
+def shown(value: object) -> str:
+    """Return `value` as a sentence repeats it: of a long one only the begin, and how long it is."""
+    try:
+        text = repr(value)
+    except ValueError:
+        return "a number of thousands of digits"  # which Python does not write
+    if len(text) <= _LONGEST_VALUE:
+        return text
+    return f"{text[:_LONGEST_VALUE]}… ({len(text)} characters)"
+
+
+def escaped(text: str) -> str:
+    """Return `text` for a terminal: what is not printable as its escape sequence; ends of lines and tabs stay."""
+    return UNPRINTABLE.sub(lambda mark: mark[0] if mark[0] in "\n\t" else ascii(mark[0])[1:-1], text)
+
+
 ACCELERATION_UNITS = {
     "m/s2": 1.0,
     "cm/s2": 0.01,
@@ -40,20 +60,20 @@ def acceleration_factor(unit: str) -> float:
     """Return the factor from `unit` to m/s². Raises RecordError when the unit is not known."""
     name = acceleration_unit(unit)
     if name is None:
-        raise RecordError(f"unit is {unit!r}, but must be one of {', '.join(ACCELERATION_UNITS)}.")
+        raise RecordError(f"unit is {shown(unit)}, but must be one of {', '.join(ACCELERATION_UNITS)}.")
     return ACCELERATION_UNITS[name]
 
 
 def finite(error: type[RockingError], field: str, value: float, unit: str = "") -> float:
     """Return `value` as a finite float, or raise `error` naming `field`."""
     if isinstance(value, bool | str | bytes):
-        raise error(f"{field} is {value!r}, but must be a number.")
+        raise error(f"{field} is {shown(value)}, but must be a number.")
     try:
         number = float(value)
     except (TypeError, ValueError, OverflowError):
-        raise error(f"{field} is {value!r}, but must be a number.") from None
+        raise error(f"{field} is {shown(value)}, but must be a number.") from None
     if not math.isfinite(number):
-        raise error(f"{field} is {value!r}, but must be a finite number{_in(unit)}.")
+        raise error(f"{field} is {shown(value)}, but must be a finite number{_in(unit)}.")
     return number
 
 
@@ -61,7 +81,7 @@ def positive(error: type[RockingError], field: str, value: float, unit: str = ""
     """Return `value` as a finite float above zero, or raise `error` naming `field`."""
     number = finite(error, field, value, unit)
     if number <= 0:
-        raise error(f"{field} is {value!r}{_in(unit)}, but must be greater than 0.")
+        raise error(f"{field} is {shown(value)}{_in(unit)}, but must be greater than 0.")
     return number
 
 
@@ -71,7 +91,7 @@ def within(
     """Return `value` as a float in [low, high], or raise `error` naming `field`."""
     number = finite(error, field, value, unit)
     if not low <= number <= high:
-        raise error(f"{field} is {value!r}{_in(unit)}, but must lie between {low:g} and {high:g}.")
+        raise error(f"{field} is {shown(value)}{_in(unit)}, but must lie between {low:g} and {high:g}.")
     return number
 
 

@@ -17,6 +17,9 @@ from rocking.records.accelerogram import Accelerogram
 if TYPE_CHECKING:
     from pandas import DataFrame
 
+MOST = 200
+"""Pulses that are sought at most: each takes about 1 ms, and a record has no more cycles that count."""
+
 
 @dataclass(frozen=True)
 class PulseSettings:
@@ -32,10 +35,10 @@ class PulseSettings:
     lowest_frequency: float = described(0.15, "lowest frequency of the search for pulses", "Hz", gt=0)
     highest_frequency: float = described(5.0, "highest frequency of the search for pulses", "Hz", gt=0)
     frequencies_per_octave: int = described(24, "number of frequencies per octave", ge=4, le=200)
-    candidates: int = described(10, "number of maxima that the search refines", ge=1)
-    alternatives: int = described(5, "number of ranked pulses in the report", ge=1)
-    pursuit: int = described(3, "number of pulses of the pursuit sequence", ge=1)
-    overlap: float = described(0.5, "ratio of common to joint time from which two pulses are one", gt=0)
+    candidates: int = described(10, "number of maxima that the search refines", ge=1, le=MOST)
+    alternatives: int = described(5, "number of ranked pulses in the report", ge=1, le=MOST)
+    pursuit: int = described(3, "number of pulses of the pursuit sequence", ge=1, le=MOST)
+    overlap: float = described(0.5, "ratio of common to joint time from which two pulses are one", gt=0, le=1)
     samples_per_cycle: float = described(8.0, "smallest number of samples in one cycle", gt=0)
 
     def __post_init__(self) -> None:

@@ -9,9 +9,9 @@ from io import StringIO
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from rocking.described import described, described_values
+from rocking.described import comma_hint, described, described_values
 from rocking.errors import CatalogueError, RockingError
-from rocking.quantities import acceleration_factor
+from rocking.quantities import acceleration_factor, shown
 from rocking.records.formats.format import plain
 from rocking.records.formats.text import is_number
 from rocking.tables import read_whole
@@ -132,21 +132,21 @@ def _defects(record: CatalogueRecord) -> Iterator[str]:
     is_fetched = any(source)
     checks = [
         (is_safe_id(record.id),
-         f"id is {record.id!r}, but must be a safe file name: letters, digits, . _ -, at most 80, not reserved."),
+         f"id is {shown(record.id)}, but must be a safe file name: letters, digits, . _ -, at most 80, not reserved."),
         (names, "file is missing; give a path beside the catalogue or obspy:NAME."),
-        *((False, f"{name} is {value!r}, but must be a relative path without '..'.") for name, value in outside),
+        *((False, f"{name} is {shown(value)}, but must be a relative path without '..'.") for name, value in outside),
         *((_HASH.fullmatch(value),
-           f"sha256 is {value!r}, but must be 64 hexadecimal digits in lower case, or blank to be filled in.")
+           f"sha256 is {shown(value)}, but must be 64 hexadecimal digits in lower case, or blank to be filled in.")
           for value in hashes if value),
         (len(hashes) in (0, len(names)),
          f"sha256 holds {len(hashes)} hashes for {len(names)} files; give one for each, separated by ';'."),
         (not record.is_remote or (hashes and all(hashes)), "sha256 is missing; a file that is fetched needs it."),
         (not is_fetched or _REPOSITORY.fullmatch(source[0]),
-         f"source_repository is {source[0]!r}, but must be owner/name."),
+         f"source_repository is {shown(source[0])}, but must be owner/name."),
         (not is_fetched or (len(paths) == len(names) and all(map(stays_inside, paths))),
-         f"source_path is {source[1]!r}, but must be a relative path without '..' for each file."),
+         f"source_path is {shown(source[1])}, but must be a relative path without '..' for each file."),
         (not is_fetched or _COMMIT.fullmatch(source[2]),
-         f"source_commit is {source[2]!r}, but must be 40 hexadecimal digits."),
+         f"source_commit is {shown(source[2])}, but must be 40 hexadecimal digits."),
         (record.scale_factor != 0, "scale_factor is 0, but must not be; leave the row out instead."),
     ]  # fmt: skip
     yield from (sentence for is_right, sentence in checks if not is_right)
@@ -182,7 +182,7 @@ def load_catalogue(path: str | Path) -> tuple[CatalogueRecord, ...]:
             defects.append(f"line {line} ({row.get('id') or 'no id'}): {error}")
     counts = Counter(row["id"].strip().lower() for _, row in rows if row["id"].strip())
     twice = [(name, n) for name, n in counts.items() if n > 1]
-    defects += [f"id {name!r} stands {n} times (upper and lower case count as one)" for name, n in twice]
+    defects += [f"id {shown(name)} stands {n} times (upper and lower case count as one)" for name, n in twice]
     if defects:
         raise CatalogueError(f"{path.name} has {len(defects)} defects: " + " | ".join(defects))
     return tuple(records)
@@ -198,9 +198,9 @@ def read_rows(path: Path) -> list[tuple[int, dict[str, str]]]:
         names = list(reader.fieldnames or ())
     except (ValueError, csv.Error) as error:
         raise CatalogueError(f"{path}: the catalogue cannot be read as UTF-8 CSV, {error}.") from None
-    defects = [f"column {name!r} is not known" for name in names if name not in COLUMNS]
-    defects += [f"column {name!r} stands {n} times" for name, n in Counter(names).items() if n > 1]
-    defects += [f"column {name!r} is missing" for name in ("id", "file") if name not in names]
+    defects = [f"column {shown(name)} is not known" for name in names if name not in COLUMNS]
+    defects += [f"column {shown(name)} stands {n} times" for name, n in Counter(names).items() if n > 1]
+    defects += [f"column {shown(name)} is missing" for name in ("id", "file") if name not in names]
     defects += [f"line {line} has more cells than there are columns" for line, row in rows if row.get("")]
     if defects:
         raise CatalogueError(f"{path.name}: {'; '.join(defects)}; the columns are {', '.join(COLUMNS)}.")
@@ -214,7 +214,7 @@ def _record(row: Mapping[str, str], folder: Path) -> CatalogueRecord:
     for name, each in described_values(CatalogueRecord).items():
         if cell := (row.get(each.key) or "").strip():
             if each.kind is not str and not is_number(cell):
-                raise CatalogueError(f"{each.key} is {cell!r}, but must be a number.")
+                raise CatalogueError(f"{each.key} is {shown(cell)}, but must be a number{comma_hint(cell)}.")
             values[name] = float(cell) if each.kind is not str else plain(cell) if name in _PROSE else cell
     return CatalogueRecord(**values)
 

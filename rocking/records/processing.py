@@ -34,7 +34,9 @@ class Processing:
     order: int = described(4, "order of the filters", ge=1, le=10)
     padding: bool = described(True, "whether zeros are added before and after while filtering")
     keep_padding: bool = described(False, "whether these zeros are kept")
-    time_step: float | None = described(None, "time step to which the record is resampled", "s", gt=0)
+    time_step: float | None = described(
+        None, "time step to which the record is resampled", "s", ge=1e-4, le=1
+    )
 
     def __post_init__(self) -> None:
         check_described(RecordError, self)

@@ -4,17 +4,42 @@ Each verb imports what it calls, so that help and refusals come at once.
 """
 
 import argparse
+import contextlib
+import io
 import sys
 import warnings
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
 from shlex import quote
-from typing import Any
+from typing import Any, TextIO
 
 from rocking.errors import CatalogueError, ConfigurationError, RockingError, UnknownFormatError
-from rocking.quantities import GRAVITY
+from rocking.quantities import GRAVITY, escaped
 from rocking.study import close_doors
+
+
+class _Escaped(io.TextIOBase):
+    """A stream to a terminal, on which the name of a file or a folder can say nothing to the terminal itself."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+
+    def write(self, text: str) -> int:
+        return self._stream.write(escaped(text))
+
+    def flush(self) -> None:
+        self._stream.flush()
+
+    def isatty(self) -> bool:
+        return self._stream.isatty()
+
+    def fileno(self) -> int:
+        return self._stream.fileno()
+
+
+_MOST_LINES = 40
+"""Lines of an error, of which each tells one defect; more would push the first ones off the screen."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -22,14 +47,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     0: all went well. 1: a record or a run failed. 2: what was asked for is wrong, such as a setting; it says why.
     """
-    options = _parser().parse_args(arguments)
+    plain = _Escaped(sys.stdout), _Escaped(sys.stderr)
+    with contextlib.redirect_stdout(plain[0]), contextlib.redirect_stderr(plain[1]):
+        return _run_verb(_parser().parse_args(arguments))
+
+
+def _run_verb(options: argparse.Namespace) -> int:
     try:
         with warnings.catch_warnings():
             warnings.showwarning = _show
             close_doors()
             return options.run(options) or 0
     except RockingError as error:
-        print(f"rocking: {error}", file=sys.stderr)
+        lines = f"rocking: {error}".splitlines()
+        print(*lines[:_MOST_LINES], sep="\n", file=sys.stderr)
+        if len(lines) > _MOST_LINES:
+            print(f"and {len(lines) - _MOST_LINES} lines more", file=sys.stderr)
         return 2 if isinstance(error, ConfigurationError | CatalogueError) else 1
     except KeyboardInterrupt:
         print("rocking: stopped.", file=sys.stderr)

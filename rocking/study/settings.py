@@ -78,6 +78,7 @@ class Settings(AssessmentSettings):
         None,
         "number of records per job; null: 12, or 24 without reports; of many an eighth, at most 200",
         ge=1,
+        le=100_000,
     )
 
     def mapping(self) -> dict[str, Any]:

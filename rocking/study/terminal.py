@@ -16,7 +16,7 @@ from typing import BinaryIO, TextIO
 from rocking.assessment.rows.of_record import FailureRow, VerdictRow
 from rocking.assessment.verdict import ORDER, Judgement, Verdict, rocks, worst_first
 from rocking.errors import RecordError, RockingError
-from rocking.quantities import counted
+from rocking.quantities import counted, escaped
 from rocking.study.folder import new_log
 from rocking.tables import read_table
 
@@ -157,7 +157,8 @@ class Progress:
 
     def _show(self, *lines: str) -> None:
         for line in lines:
-            print(self._back + fitting(line, self._stream), file=self._stream, flush=True)
+            text = fitting(escaped(line), self._stream)
+            print(self._back + text, file=self._stream, flush=True)
         if self._back and self._done < self._total:
             text = f"{self._done} of {counted(self._total, 'record')}"
             if self._done:

@@ -7,7 +7,8 @@ from dataclasses import MISSING, dataclass, replace
 from enum import Enum, StrEnum
 from typing import Any, ClassVar, TypeVar, dataclass_transform
 
-from rocking.described import Described, described, described_values
+from rocking.described import Described, comma_hint, described, described_values
+from rocking.quantities import shown
 
 _UNITS = {
     "rad_s": "rad/s", "m_s2": "m/s²", "m2_s3": "m²/s³", "m_s": "m/s", "rad": "rad", "hz": "Hz", "deg": "°", "s": "s",
@@ -127,4 +128,4 @@ def value_of(each: Described, text: str) -> Any:
         allowed = {bool: "true or false", int: "a whole number"}.get(holds, "a number")
         if issubclass(holds, StrEnum):
             allowed = ", ".join(holds)
-        raise ValueError(f"column {each.name}: {text!r} must be {allowed}") from None
+        raise ValueError(f"column {each.name}: {shown(text)} must be {allowed}{comma_hint(text)}") from None

@@ -8,7 +8,7 @@ from typing import Any
 import yaml
 
 from rocking.errors import RockingError
-from rocking.quantities import UNPRINTABLE
+from rocking.quantities import UNPRINTABLE, shown
 from rocking.tables.files import read_whole
 
 LARGEST_YAML = 1_000_000
@@ -61,7 +61,9 @@ class _StrictLoader(yaml.SafeLoader):
         if isinstance(node, yaml.ScalarNode) and UNPRINTABLE.search(
             node.value.translate({9: None, 10: None})
         ):
-            raise _refused(f"the text {node.value!r} must hold printable characters only", node.start_mark)
+            raise _refused(
+                f"the text {shown(node.value)} must hold printable characters only", node.start_mark
+            )
         return node
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[object, object]:
@@ -70,7 +72,7 @@ class _StrictLoader(yaml.SafeLoader):
             if not isinstance(key, yaml.ScalarNode):
                 raise _refused("a key must be a text", key.start_mark)
             if key.value in keys:
-                raise _refused(f"key {key.value!r} is given twice", node.start_mark)
+                raise _refused(f"key {shown(key.value)} is given twice", node.start_mark)
             keys.add(key.value)
         return super().construct_mapping(node, deep)
 

@@ -82,6 +82,27 @@ def test_a_factor_that_takes_the_peak_above_three_g_is_told(record, capsys, scal
     assert (f"Multiplied by {float(scale):g} the peak acceleration is" in text) == warned
 
 
+def test_a_name_says_nothing_to_the_terminal_itself(tmp_path, capsys):
+    """Nor does a message; and a folder of bytes that are no text is named, too."""
+    folder = tmp_path / "my\x1b]0;title\x07 study"
+    assert main(["start", str(folder)]) == 0
+    assert main(["run", str(folder)]) == 2
+    told = capsys.readouterr()
+    for text in (told.out, told.err):
+        assert "my\\x1b]0;title\\x07 study" in text and "\x1b" not in text
+    assert main(["run", os.fsdecode(bytes(tmp_path) + b"/\xff\x9b2J")]) == 2
+    assert "\\udcff" in capsys.readouterr().err
+
+
+def test_of_many_defects_the_first_forty_are_told(study, capsys):
+    """They would push one another off the screen."""
+    wrong = "".join(f"wrong_{number}: 1\n" for number in range(100))
+    (study / "config.yaml").write_text(wrong, encoding="utf-8")
+    assert main(["run", str(study)]) == 2
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 41 and "wrong_0" in lines[0] and lines[-1] == "and 60 lines more"
+
+
 def test_read_and_pulse_say_what_is_in_a_file(record, capsys):
     assert main(["read", str(record), "--unit", "g"]) == 0
     assert main(["pulse", str(record), "--unit", "g"]) == 0

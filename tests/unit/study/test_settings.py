@@ -93,7 +93,7 @@ def test_all_defects_stand_in_one_message_each_with_its_value_and_what_is_allowe
         "setting pulse.frequencies_per_octave is 24.0, but must be a whole number from 4 to 200.",
         "setting pulse.choice is 'best', but must be energy or demand or velocity.",
         "setting trade is 3, but must be a mapping of in_summary.",
-        "setting records_per_job is 0, but must be a whole number of at least 1 or null.",
+        "setting records_per_job is 0, but must be a whole number from 1 to 100000 or null.",
     }
 
 
@@ -107,6 +107,35 @@ def test_all_defects_stand_in_one_message_each_with_its_value_and_what_is_allowe
 )
 def test_settings_that_do_not_go_together_are_refused(config: object, words: str) -> None:
     assert words in _refusal(config)
+
+
+@pytest.mark.parametrize(
+    ("config", "told"),
+    [
+        (
+            {"ensemble": {"members": "6,4"}},
+            "must be a whole number from 0 to 4096; a number is written with",
+        ),
+        (
+            {"ensemble": {"members": 6, "4": None}},
+            "ensemble.4 is None, but nothing has this name; a comma parts",
+        ),
+        ({"members": 64}, "did you mean ensemble.members?"),
+        ({"pulse": {"pursuit": 4_000_000_000}}, "is 4000000000, but must be a whole number from 1 to 200"),
+        ({"pulse": {"candidates": 201}}, "from 1 to 200"),
+        ({"pulse": {"alternatives": 201}}, "from 1 to 200"),
+        ({"records_per_job": 4_000_000_000}, "from 1 to 100000"),
+        ({"processing": {"time_step_s": 1e-9}}, "from 0.0001 to 1"),
+        ({"tolerance": "x" * 3_000_000}, "xxx… (3000002 characters), but must be a number"),
+        ({"tolerance": 10**5000}, "a number of thousands of digits, but must be"),
+        ({"y" * 3_000_000: 1}, "yyy… (3000002 characters) is 1, but nothing has this name"),
+        ({"trade": ["z"] * 1_000_000}, "… (5000000 characters), but must be a mapping"),
+    ],
+    ids=lambda value: value[:30] if isinstance(value, str) else "",
+)
+def test_a_refusal_says_what_to_write_and_repeats_no_long_value(config: object, told: str) -> None:
+    refusal = _refusal(config)
+    assert told in refusal and len(refusal) < 1000
 
 
 @pytest.mark.parametrize(
