@@ -17,10 +17,10 @@ import pandas as pd
 from docs.research import scores, sites
 from docs.research.report import Target
 from rocking.assessment.causes import CAUSES, lattice
+from rocking.assessment.cracks import cracks, ensemble_over_cracks
 from rocking.assessment.ensemble import Ensemble, drawn, ensemble
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.assessment.variations import cracks, ensemble_over_cracks
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict
 from rocking.records import Accelerogram
 from rocking.records.rotation import rotate
@@ -169,7 +169,7 @@ def screening_trials(
     """Yield SCALES trials of each structure that may crack elsewhere."""
     draw = sites.draw_of(name)
     for structure_name, structure in SCALES * list(structures.items()):
-        mechanisms = [mechanism for _, mechanism in cracks(structure)]
+        mechanisms = [each.mechanism for each in cracks(structure)]
         if len(mechanisms) == 1:
             continue
         factor = sites.lifting_factor(record, mechanisms[0].uplift_multiplier, sites.UPLIFTS, draw)

@@ -23,16 +23,11 @@ from rocking.assessment.component import (
     horizontal_motions,
 )
 from rocking.assessment.contacts import contact_share, doubt
+from rocking.assessment.cracks import cracks, ensemble_over_cracks
 from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
 from rocking.assessment.ground_motions import GroundMotions, processed
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.assessment.variations import (
-    Variation,
-    candidates,
-    cracks,
-    ensemble_over_cracks,
-    processed_variants,
-)
+from rocking.assessment.variations import Variation, candidates, processed_variants
 from rocking.assessment.verdict import BOTH_COMPONENTS, Method, Verdict, ratio_in_words
 from rocking.drawn import Drawn
 from rocking.errors import ConfigurationError, RecordError, RockingError
@@ -446,7 +441,7 @@ def _case(
     motions = _motion_of(component).ground_motions(settings.ensemble.processing)
     if members and answer.method is Method.MECHANISM_ON_RECORD:
         over_cracks = ensemble_over_cracks(structure, motions, settings, verdict_only=auto)
-        return with_contacts(replace(case, ensemble=over_cracks), structure, motions, settings)
+        return with_contacts(replace(case, ensembles=over_cracks), structure, motions, settings)
     if vertical is None and component.support is None:
         case = replace(case, overturning_estimate=estimated(Tier.PEAK_VELOCITY, mechanism, record))
     return with_contacts(case, structure, motions, settings)
@@ -523,7 +518,7 @@ def _cheapest(
     Where other cracks may form, nothing cheaper than the mechanism settles it unless all of them rest, or stand by
     their peak velocities.
     """
-    mechanisms = [each for _, each in cracks(structure)]
+    mechanisms = [each.mechanism for each in cracks(structure)]
     of_statics = mechanism if len(mechanisms) == 1 else mechanisms[0]
     if len(mechanisms) > 1 and isinstance(structure, Structure):
         estimates = (estimated(Tier.PEAK_VELOCITY, each, record) for each in mechanisms)
@@ -609,7 +604,7 @@ def assess_directions(
     try:
         quick = settings.fidelity == "auto"
         over_cracks = ensemble_over_cracks(structure, motions, settings, verdict_only=quick)
-        return with_contacts(replace(case, ensemble=over_cracks), structure, motions, settings)
+        return with_contacts(replace(case, ensembles=over_cracks), structure, motions, settings)
     except RockingError as error:
         return replace(case, failures=(Failure("directions", str(error)),))
 
@@ -663,7 +658,7 @@ class StructureAssessment(StationResult, Drawn):
     @property
     def static_multiplier(self) -> float:
         """Least λ of the cracks that may form, the acceleration in g at which statics lets it rock."""
-        return cracks(self.body)[0][1].uplift_multiplier
+        return cracks(self.body)[0].mechanism.uplift_multiplier
 
     @property
     def rotation_ratios(self) -> np.ndarray:
@@ -689,13 +684,8 @@ class StructureAssessment(StationResult, Drawn):
     def __repr__(self) -> str:
         ratios = (self.rotation_ratio, self.rotation_ratio_low, self.rotation_ratio_high)
         given, low, high = ("overturns" if ratio == inf else f"{ratio:.2g}" for ratio in ratios)
-        there = ""
-        if self.elsewhere_members:
-            count = f"{self.elsewhere_overturning_members} of {self.elsewhere_members}"
-            there = f"; with the {self.elsewhere_crack} in {count}"
         return (
-            f"<{self.verdict}: overturns in {self.overturning_members} of {self.members} members; as given {given}, "
-            f"5–95 % {low} to {high} of the critical rotation{there}>"
+            f"<{self.verdict}: {self.why}; as given {given}, 5–95 % {low} to {high} of the critical rotation>"
         )
 
     def frame(self) -> "DataFrame":

@@ -12,6 +12,7 @@ from functools import cached_property
 
 from rocking.assessment.component import Component, component_names
 from rocking.assessment.contacts import ContactShare
+from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer, Estimate
 from rocking.assessment.ground_motions import GroundMotions
@@ -105,10 +106,10 @@ class CaseResult:
 
     component: name of the motion. prediction: None without a pulse. responses: by method. check: whether the model held
     along the response of the mechanism to the record. answer: of the mechanism on the record, or of the cheapest method
-    that settles the case; None of a pair, and where the case failed. ensemble: None where none ran.
-    overturning_estimate: from the peak velocity, where no ensemble ran; None of a structure unlike those behind the
-    estimate. variations: other cracks, then other processings. durations: CPU time of each method that was compared, s.
-    fingerprint: of motion, structure, settings and version of the computation.
+    that settles the case; None of a pair, and where the case failed. ensembles: of the cracks that were followed; None
+    where none ran. overturning_estimate: from the peak velocity, where no ensemble ran; None of a structure unlike
+    those behind the estimate. variations: other cracks, then other processings. durations: CPU time of each method that
+    was compared, s. fingerprint: of motion, structure, settings and version of the computation.
     """
 
     structure: str
@@ -117,7 +118,7 @@ class CaseResult:
     responses: Mapping[Method, Response] = field(default_factory=dict)
     check: ModelCheck = UNKNOWN
     answer: Answer | None = None
-    ensemble: Ensemble | None = None
+    ensembles: CrackEnsembles | None = None
     overturning_estimate: Estimate | None = None
     doubt: Doubt | None = None
     contact: ContactShare | None = None
@@ -134,6 +135,11 @@ class CaseResult:
         if answer is not None and answer.response is not None:
             answer = replace(answer, response=_without_history(answer.response))
         return replace(self, prediction=None, responses=responses, answer=answer)
+
+    @property
+    def ensemble(self) -> Ensemble | None:
+        """The ensemble of the crack that governs; None where none ran."""
+        return self.ensembles.governing.ensemble if self.ensembles else None
 
     @property
     def predicted_rotation_ratio(self) -> float:
@@ -153,9 +159,9 @@ class CaseResult:
     @property
     def largest_rotation_ratio(self) -> float:
         """The largest of all its runs, with any crack that was followed; inf where one overturns."""
-        if self.ensemble is not None:
-            both = [self.ensemble, *([self.ensemble.elsewhere] if self.ensemble.elsewhere else [])]
-            ratios = [ratio for each in both for ratio in each.rotation_ratios.tolist()]
+        if self.ensembles is not None:
+            of_each = [each.ensemble.rotation_ratios for each in self.ensembles.followed]
+            ratios = [ratio for each in of_each for ratio in each.tolist()]
             return max((ratio for ratio in ratios if not math.isnan(ratio)), default=math.nan)
         if self.answer is None or self.answer.outcome is Outcome.NO_UPLIFT:
             return 0.0
@@ -164,8 +170,8 @@ class CaseResult:
     @property
     def verdict(self) -> Verdict:
         """What its mechanisms say, whatever its contacts do."""
-        if self.ensemble is not None:
-            return self.ensemble.verdict
+        if self.ensembles is not None:
+            return self.ensembles.verdict
         if self.answer is None:
             return Verdict.UNKNOWN
         return Verdict.OVERTURNS if self.overturns else Verdict.STANDS
@@ -202,7 +208,8 @@ class StationResult(Judgement):
     The ensemble over all directions decides, or where there is none that of the component that overturns, then rotates,
     most; without any ensemble the single run of the worst component. A component that gave no result makes the verdict
     unknown, unless another component overturns or an ensemble over all directions decides. Without an ensemble, another
-    crack that overturns leaves undecided what stands as given.
+    crack that overturns leaves undecided what stands as given. Every count, share and quantile is that of the crack
+    that governs.
 
     structure: its name. body: the structure itself. cases: by component, those that failed too. directions: the case of
     the pair; None of one component, or without ensembles.
@@ -229,8 +236,20 @@ class StationResult(Judgement):
 
     @property
     def ensemble(self) -> Ensemble | None:
-        """The ensemble that decides; None without one."""
+        """The ensemble of the crack that governs; None without one."""
         return self.decisive.ensemble if self.decisive else None
+
+    @property
+    def ensembles(self) -> CrackEnsembles | None:
+        """The ensembles of every crack that was followed; None without any."""
+        return self.decisive.ensembles if self.decisive else None
+
+    @property
+    def statics(self) -> FollowedCrack | None:
+        """The crack that statics chooses where another one governs; None where it governs itself."""
+        if self.ensembles is None or self.ensembles.statics is self.ensembles.governing:
+            return None
+        return self.ensembles.statics
 
     @property
     def component(self) -> str:
@@ -270,8 +289,8 @@ class StationResult(Judgement):
     def _of_members_or_run(self) -> tuple[Verdict, str]:
         assert self.worst is not None
         assert self.worst.answer is not None
-        if self.ensemble is not None:
-            return self.ensemble.verdict, f"{self.count} members overturn"
+        if self.ensembles is not None:
+            return self.ensembles.verdict, self.ensembles.why
         why = self.worst.answer.reason or "one run as recorded, without an ensemble"
         if self.worst.overturns:
             return Verdict.OVERTURNS, why
@@ -348,40 +367,33 @@ class StationResult(Judgement):
             return self.ensemble.overturning_share
         if self.worst is None or self.verdict is Verdict.UNKNOWN:
             return math.nan
-        return float(self.verdict is Verdict.OVERTURNS)
+        return float(self.verdict is Verdict.OVERTURNS or bool(self._fallen_crack))
 
     @property
     def crack(self) -> str:
-        """The crack of least λ, which statics chooses; "" where only one may form."""
-        return self.ensemble.crack if self.ensemble else ""
+        """The crack that governs, to which all numbers belong; "" where only one may form."""
+        return self.ensembles.governing.description if self.ensembles else self._fallen_crack
 
     @property
-    def elsewhere(self) -> Ensemble | None:
-        """The ensemble of another crack with which it does not stand; None without one."""
-        return self.ensemble.elsewhere if self.ensemble else None
+    def statics_crack(self) -> str:
+        """The crack that statics chooses where another one governs; "" elsewhere."""
+        return self.statics.description if self.statics else ""
 
     @property
-    def elsewhere_crack(self) -> str:
-        """Another crack, with which the structure does not stand; "" without one."""
-        return self.elsewhere.crack if self.elsewhere else self._fallen_crack
+    def statics_members(self) -> int | None:
+        """Members with that crack; None where there is none."""
+        return self.statics.ensemble.members if self.statics else None
 
     @property
-    def elsewhere_members(self) -> int | None:
-        """Members with that crack; None where there are none."""
-        return self.elsewhere.members if self.elsewhere else None
-
-    @property
-    def elsewhere_overturning_members(self) -> int | None:
-        """Members that overturn with that crack; None where there are none."""
-        return self.elsewhere.overturning_members if self.elsewhere else None
+    def statics_overturning_members(self) -> int | None:
+        """Members that overturn with that crack; None where there is none."""
+        return self.statics.ensemble.overturning_members if self.statics else None
 
     @property
     def governing(self) -> Governing:
-        """The mechanism of statics, or the one that does not stand though that does; "" where there is one only."""
-        worst = self.elsewhere or self.ensemble
-        if worst is None:
-            return Governing(self._fallen_crack, self.overturning_share, self.rotation_ratio)
-        return Governing(worst.crack, worst.overturning_share, worst.rotation_ratio_median)
+        """The mechanism that governs: the worst of those that were followed; "" where there is one only."""
+        median = self.ensemble.rotation_ratio_median if self.ensemble else self.rotation_ratio
+        return Governing(self.crack, self.overturning_share, median)
 
     @property
     def rotation_ratio(self) -> float:

@@ -39,18 +39,13 @@ class Ensemble:
 
     rotation_ratios: largest rotation over critical rotation of every member, (m,); inf overturns, 0 does not lift, nan
     failed. causes: value of each cause that varied, by member, (m,). settings: the ranges, with the structure's own
-    range of the restitution. rotation_ratio: of the run as recorded, nan without one. reasons: why members failed, by
-    their place. crack: what opens, as statics chooses it, where the structure does not say where it is cracked.
-    elsewhere: the ensemble of another crack that may form and does not stand, where this one stands.
+    range of the restitution. reasons: why members failed, by their place.
     """
 
     rotation_ratios: np.ndarray
     causes: Mapping[str, np.ndarray]
     settings: EnsembleSettings
-    rotation_ratio: float = float("nan")
     reasons: Mapping[int, str] = field(default_factory=dict)
-    crack: str = ""
-    elsewhere: "Ensemble | None" = None
 
     def __repr__(self) -> str:
         return (
@@ -106,9 +101,8 @@ class Ensemble:
 
     @property
     def verdict(self) -> Verdict:
-        """The verdict on the structure: undecided, too, where it stands only with the crack that statics chooses."""
-        alone = verdict(self.overturning_share, self.probability_error, self.settings.risk)
-        return Verdict.UNDECIDED if alone is Verdict.STANDS and self.elsewhere is not None else alone
+        """The verdict on this mechanism."""
+        return verdict(self.overturning_share, self.probability_error, self.settings.risk)
 
     @property
     def probability_error(self) -> float:
@@ -124,11 +118,6 @@ class Ensemble:
     def far(self) -> bool:
         """Whether all members stay far from overturning."""
         return bool(self.members and self._followed.max() <= FAR)
-
-    @property
-    def surely_falls(self) -> bool:
-        """Whether so many members overturn that no number of them could make it stand."""
-        return self.overturning_share - self.probability_error > self.settings.risk
 
     @property
     def near_a_limit(self) -> bool:
@@ -167,15 +156,14 @@ def ensemble(
     *,
     tolerance: float = 1e-6,
     verdict_only: bool = False,
-    whether_it_stands: bool = False,
+    grows: bool = True,
 ) -> Ensemble:
     """Follow `structure` through the members of its ensemble, the same ones at every call.
 
     It ends after FIRST members where they all rest. It grows from the number in the settings to MOST_NEAR_A_LIMIT
-    members where that may settle an undecided verdict. verdict_only: it also ends after FIRST members where they all
-    stay far from overturning, which settles the verdict but says less of the quantiles. whether_it_stands: it also
-    ends where so many of FIRST overturn that the structure does not stand, and never grows. Raises MotionError as
-    `integrate` does.
+    members where that may settle an undecided verdict, unless `grows` is False. verdict_only: it also ends after FIRST
+    members where they all stay far from overturning, which settles the verdict but says less of the quantiles. Raises
+    MotionError as `integrate` does.
     """
     settings = settings or EnsembleSettings()
     points = design(settings)
@@ -183,15 +171,13 @@ def ensemble(
 
     members = follow(points[:FIRST])
     rest = bool(np.all(members.rotation_ratios <= NEGLIGIBLE))
-    settled = members.far and (verdict_only or whether_it_stands)
-    if rest or settled or (whether_it_stands and members.surely_falls):
+    if rest or (verdict_only and members.far):
         return members
 
     usual = max(settings.size, FIRST)
     if usual > FIRST:
         members = members.followed_by(follow(points[FIRST:usual]))
-    grows = usual < MOST_NEAR_A_LIMIT and not whether_it_stands
-    if grows and members.near_a_limit:
+    if grows and usual < MOST_NEAR_A_LIMIT and members.near_a_limit:
         members = members.followed_by(follow(points[usual:MOST_NEAR_A_LIMIT]))
     return members
 

@@ -16,12 +16,12 @@ import numpy as np
 from scipy.special import betaincinv, erfcx, ndtr, stdtr, stdtrit
 
 from rocking.assessment.causes import lattice
+from rocking.assessment.cracks import cracks
 from rocking.assessment.ensemble import drawn
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.intensity import IntensityMeasure, peak_velocity, per_velocity
 from rocking.assessment.intensity import intensity_measure as measure_named
 from rocking.assessment.settings import EnsembleSettings
-from rocking.assessment.variations import cracks
 from rocking.drawn import Drawn
 from rocking.errors import ConfigurationError
 from rocking.motion.batch import integrate_batch
@@ -336,7 +336,8 @@ def fragility(
     if isinstance(reduced, EquivalentBlock):
         raise ConfigurationError("structure is an equivalent block, but must be a structure or a mechanism.")
     names = _checked_stations(records, stations)
-    (_, mechanism), *others = cracks(structure if isinstance(structure, Structure) else reduced)
+    first, *others = cracks(structure if isinstance(structure, Structure) else reduced)
+    mechanism = first.mechanism
     intensities = np.array([measure.of(record, mechanism) for record in records])
     carried = _carried(records, structure)
     follow = partial(_rotation_ratios, carried, ensemble, tolerance)
@@ -352,8 +353,8 @@ def fragility(
         chosen, ratios = _at_levels(partial(follow, mechanism), mechanism, carried, intensities, levels)
         factors = chosen / intensities[:, None]
     worst = ratios if over_cracks and others else None
-    for _, other in others if over_cracks else ():
-        worst = follow(other, factors, worst)
+    for other in others if over_cracks else ():
+        worst = follow(other.mechanism, factors, worst)
     analysis = IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, names, worst)
     return analysis.fragility(threshold, governing=True)
 

@@ -1,19 +1,13 @@
-"""What changes the answer for a structure: where it cracks, and how the record was processed."""
+"""Variations of a case: one run with another crack, or with another processing of the record."""
 
 import math
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
-from functools import lru_cache
+from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any
 
-import numpy as np
-
-from rocking.assessment.ensemble import Ensemble, design, drawn, ensemble
-from rocking.assessment.ground_motions import AS_IT_IS, GroundMotions
+from rocking.assessment.ground_motions import AS_IT_IS
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.verdict import Verdict
 from rocking.errors import RockingError
 from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import integrate
@@ -21,11 +15,6 @@ from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum
 from rocking.structures import Mechanism, Structure
-
-CRACKS = 11
-"""Number of mechanisms that are followed where more than one may form."""
-IN_DOUBT = 0.3
-"""Rotation ratio of a member beyond which it is in doubt that a mechanism other than that of statics stands."""
 
 
 @dataclass(frozen=True)
@@ -40,69 +29,6 @@ class Variation:
     crack: str = ""
     position: float = math.nan
     processing: str = ""
-
-
-def ensemble_over_cracks(
-    structure: Structure | Mechanism,
-    motions: GroundMotions,
-    settings: AssessmentSettings,
-    *,
-    verdict_only: bool = False,
-    exhaustive: bool = False,
-) -> Ensemble:
-    """Return the ensemble of the mechanism that statics chooses, of least λ, with what other cracks may change.
-
-    Where it stands, the members of the worst mechanism that `screened` leaves in doubt are followed, and where that one
-    does not stand, it is `elsewhere`. exhaustive: every mechanism is followed, one after the other, until one does not
-    stand. docs/pages/validation.md counts what the screen misses. verdict_only: as `ensemble` takes it. Raises
-    MotionError as `integrate` does.
-    """
-    how: Any = {"settings": settings.ensemble, "tolerance": settings.tolerance}
-    (description, mechanism), *others = cracks(structure)
-    headline = ensemble(mechanism, motions, verdict_only=verdict_only, **how)
-    if not others or isinstance(structure, Mechanism):
-        return headline
-    headline = replace(headline, crack=description)
-    if headline.verdict is not Verdict.STANDS:
-        return headline
-    worst = others if exhaustive else screened(others, headline, motions, settings)[:1]
-    for crack, other in worst:
-        there = ensemble(other, motions, whether_it_stands=True, **how)
-        if there.verdict is not Verdict.STANDS:
-            return replace(headline, elsewhere=replace(there, crack=crack))
-    return headline
-
-
-def screened(
-    mechanisms: Sequence[tuple[str, Mechanism]],
-    headline: Ensemble,
-    motions: GroundMotions,
-    settings: AssessmentSettings,
-) -> list[tuple[str, Mechanism]]:
-    """Return those of other `mechanisms` that may not stand, the worst first.
-
-    Each meets three members of the `headline`, the ensemble of statics: the two that rotate most, and the middle one.
-    One that turns beyond IN_DOUBT of its critical rotation there, or cannot be followed, is left in doubt.
-    """
-    if np.all(headline.rotation_ratios == 0):
-        return []  # no other mechanism lifts earlier than that of least λ
-    order = np.argsort(-headline.rotation_ratios, kind="stable")
-    few = design(settings.ensemble)[order[[0, 1, order.size // 2]]]
-    severity = {}
-    for each in mechanisms:
-        members = drawn(each[1], motions, few, settings.ensemble, tolerance=settings.tolerance)
-        ratios = np.nan_to_num(members.rotation_ratios, nan=np.inf, posinf=np.inf)
-        if ratios.max() > IN_DOUBT:
-            severity[each] = int(np.isinf(ratios).sum()), float(ratios.min())
-    return sorted(severity, key=severity.__getitem__, reverse=True)
-
-
-@lru_cache(maxsize=256)
-def cracks(structure: Structure | Mechanism) -> tuple[tuple[str, Mechanism], ...]:
-    """Return the mechanisms that may form, each with what opens in words; the one that statics chooses first."""
-    if isinstance(structure, Mechanism):
-        return (("", structure),)
-    return tuple((each.description, each.structure.mechanism()) for each in structure.candidates(CRACKS))
 
 
 def candidates(

@@ -95,18 +95,23 @@ class Judgement:
         raise NotImplementedError
 
     @property
-    def elsewhere_crack(self) -> str:
-        """Another crack, with which the structure does not stand; "" without one."""
+    def crack(self) -> str:
+        """The crack that governs; "" where only one may form."""
         raise NotImplementedError
 
     @property
-    def elsewhere_members(self) -> int | None:
-        """Members with that crack; None where there are none."""
+    def statics_crack(self) -> str:
+        """The crack that statics chooses, where another one governs; "" elsewhere."""
         raise NotImplementedError
 
     @property
-    def elsewhere_overturning_members(self) -> int | None:
-        """Members that overturn with that crack; None where there are none."""
+    def statics_members(self) -> int | None:
+        """Members with that crack; None where there is none."""
+        raise NotImplementedError
+
+    @property
+    def statics_overturning_members(self) -> int | None:
+        """Members that overturn with that crack; None where there is none."""
         raise NotImplementedError
 
     @property
@@ -130,29 +135,6 @@ class Judgement:
     def count(self) -> str:
         """Members that overturn, of how many: "12 of 64"; "" without an ensemble."""
         return f"{self.overturning_members} of {self.members}" if self.members else ""
-
-    @property
-    def leaning(self) -> str:
-        """The verdict to which an undecided case leans, with the counts; "" of another.
-
-        "leans to stands, overturns in 0 of 64, with the crack at 3 m in 12 of 64".
-        """
-        if self.verdict is not Verdict.UNDECIDED:
-            return ""
-        if self.why.startswith(tuple(Doubt)):
-            return self.why
-        leans_to = Verdict.OVERTURNS if self.overturning_share >= 0.5 else Verdict.STANDS
-        words = [f"leans to {leans_to}"]
-        if self.members:
-            words.append(f"overturns in {self.count}")
-        if self.elsewhere_members:
-            there = f"{self.elsewhere_overturning_members} of {self.elsewhere_members}"
-            words.append(f"with the {self.elsewhere_crack} in {there}")
-        elif self.elsewhere_crack:
-            words.append(f"overturns with the {self.elsewhere_crack}")
-        if self.stack_runs:
-            words.append(f"{self.stack_falls} of {self.stack_runs} stacks of courses fall")
-        return ", ".join(words)
 
 
 def worst_first(judgements: Iterable[tuple[str, Judgement]]) -> list[str]:

@@ -107,11 +107,11 @@ def _case(
     predicted = row.predicted_rotation_ratio if row else math.nan
     closed = ratio(predicted, 2)
     band = f" (5 to 95 % of the members: {band_text(station, ' to ')})" if station.members else ""
-    crack = f" Crack that statics chooses: {station.crack}." if station.crack else ""
+    crack = f" Crack that governs: {station.crack}." if station.crack else ""
     case: Content = {
         "verdict": str(station.verdict),
         "cell": cell_text(station),
-        "text": f"{station.verdict}: {station.leaning or station.why}. Largest rotation over critical rotation: "
+        "text": f"{station.verdict}: {station.why}. Largest rotation over critical rotation: "
         f"{ratio(station.rotation_ratio, 2)} as given{band}, {closed} by the closed form.{crack}",
         "share": _number(station.overturning_share),
         "severity": [_number(min(each, 1e9)) for each in station.severity],

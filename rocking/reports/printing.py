@@ -110,8 +110,13 @@ def to_spread(value: float, judgement: "Judgement") -> str:
 def cell_text(judgement: "Judgement | None") -> str:
     """Return a case in a map: sign and share of members that overturn, in %, or the rotation ratio of a single run."""
     sign = LOOKS[judgement.verdict if judgement else Verdict.UNKNOWN][0]
+    if judgement is not None and judgement.members and judgement.verdict is Verdict.UNDECIDED:
+        # What contacts leave undecided though no member overturns has no share to print.
+        return (
+            f"{sign} {percent(judgement.overturning_share)}\u00a0%" if judgement.overturning_members else sign
+        )
     if judgement is not None and judgement.members:
-        return f"{sign} {percent(judgement.overturning_share)}"
+        return f"{sign} {percent(judgement.overturning_share)}\u00a0%"
     if judgement is not None and judgement.rotation_ratio < math.inf:
         return f"{sign} {number(judgement.rotation_ratio, 2)}"
     return sign

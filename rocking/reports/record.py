@@ -182,8 +182,9 @@ def headlines(stations: Sequence[StationResult]) -> list[dict[str, str]]:
     """Return the first lines of a report: each verdict with the structures that it is of, the worst first."""
     groups: dict[str, list[str]] = {}
     for station in stations:
-        remark = station.leaning or (station.count if station.verdict is Verdict.OVERTURNS else "")
-        remark = station.why if station.verdict is Verdict.UNKNOWN else remark
+        remark = station.count if station.verdict is Verdict.OVERTURNS else ""
+        if station.verdict in (Verdict.UNDECIDED, Verdict.UNKNOWN):
+            remark = station.why
         groups.setdefault(station.verdict, []).append(station.structure + (f" ({remark})" if remark else ""))
     lines = []
     for verdict, names in groups.items():

@@ -227,11 +227,16 @@ def _lines(structure: Structure, station: StationResult, peak_acceleration: floa
         )
         lines.append(f"5–95 %: {low} to {'falling' if high == 'overturns' else high}")
     lines.append(f"static {number(static, 2)} g, PGA {number(peak_acceleration / static, 2)} ×")
-    for crack in (station.crack, station.elsewhere_crack):
-        lines.append(crack.replace("hinges at", "hinges").replace("°,", ","))
-    if station.elsewhere_crack and station.elsewhere_members:
-        lines.append(f"there {station.elsewhere_overturning_members} of {station.elsewhere_members} overturn")
+    lines.append(_short(station.crack))
+    if station.statics_members:
+        count = f"{station.statics_overturning_members} of {station.statics_members}"
+        lines.append(f"by statics {_short(station.statics_crack)}: {count}")
     return [part for line in lines for part in wrap(line, _LETTERS)]
+
+
+def _short(crack: str) -> str:
+    """The description of a crack in the fewest words."""
+    return crack.replace("hinges at", "hinges").replace("°,", ",")
 
 
 # Their motion ----------------------------------------------------------------------------------------------

@@ -45,7 +45,7 @@ def record_line(judgements: Iterable[Judgement], failures: Iterable[FailureRow])
     for each in sorted(judgements, key=lambda each: each.severity, reverse=True):
         number = f" {each.rotation_ratio:.2g}" if rocks(each.rotation_ratio) else ""
         if each.verdict is Verdict.UNDECIDED:
-            number = " (with another crack)" if each.elsewhere_crack else f" ({each.count})"
+            number = f" ({each.count or each.crack})"
         parts[each.verdict].append(each.structure + number)
     if len(undecided := parts[Verdict.UNDECIDED]) > _FEW:
         parts[Verdict.UNDECIDED] = [str(len(undecided)), f"in {VerdictRow.table.file_name}"]

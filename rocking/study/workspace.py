@@ -121,7 +121,7 @@ def assess_file(
 
 def _told(station: StationResult, scale_factor: float) -> Iterator[str]:
     """Yield the verdict on a structure with its count and reason, then what each component does by itself."""
-    yield f"{station.structure}: {station.verdict}; {station.leaning or station.why}"
+    yield f"{station.structure}: {station.verdict}; {station.why}"
     for component, case in station.cases.items():
         if case.answer is None:
             continue

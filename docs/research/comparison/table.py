@@ -126,7 +126,7 @@ def _row(
     envelope = math.nan
     missed_impacts = None
     if another_model:
-        mechanisms = [mechanism for _, mechanism in cracks(codes.structures()[case.structure])]
+        mechanisms = [each.mechanism for each in cracks(codes.structures()[case.structure])]
         envelope = max(integrate(each, case.motion).rotation_ratio for each in mechanisms)
         error = math.nan
     elif answer.landings is not None:

@@ -28,7 +28,7 @@ from rocking.tables import Row, column, row, write_tables, written_together
 if TYPE_CHECKING:  # else who reads a table would load numba
     from rocking.assessment.case import CaseResult, Failure, RecordResult, StationResult
     from rocking.assessment.component import Component
-    from rocking.assessment.ensemble import Ensemble
+    from rocking.assessment.cracks import CrackEnsembles
     from rocking.assessment.variations import Variation
     from rocking.motion.response import Response
 
@@ -82,10 +82,10 @@ class MembersRow(CaseRow):
     overturning_members: int = column("Number of members that overturn")
     members: int = column("Number of members; 0 without an ensemble")
     overturning_share: float = column("Share of the members that overturn; of a single run 0 or 1")
-    crack: str = column("Crack of least λ, which statics chooses; empty where only one may form")
-    elsewhere_crack: str = column("Another crack, with which the structure does not stand")
-    elsewhere_overturning_members: int | None = column("Members that overturn with that crack")
-    elsewhere_members: int | None = column("Members with that crack; 0 for a single run")
+    crack: str = column("Crack that governs, to which the numbers belong; empty where only one may form")
+    statics_crack: str = column("Crack of least λ, which statics chooses, where another one governs")
+    statics_overturning_members: int | None = column("Members that overturn with the crack of statics")
+    statics_members: int | None = column("Number of members with the crack of statics")
     rotation_ratio_low: float = column("5 % quantile of largest rotation over critical rotation")
     rotation_ratio_median: float = column("Median of largest rotation over critical rotation")
     rotation_ratio_high: float = column("95 % quantile of the same ratio; INF if it overturns")
@@ -427,21 +427,23 @@ def comparison_row(identity: ComponentRow, case: "CaseResult", friction_coeffici
     )
 
 
-def ensemble_row(identity: ComponentRow, structure: str, ensemble: "Ensemble") -> EnsembleRow:
-    """Return the row of one ensemble."""
-    elsewhere = ensemble.elsewhere
+def ensemble_row(identity: ComponentRow, structure: str, ensembles: "CrackEnsembles") -> EnsembleRow:
+    """Return the row of the ensemble of the crack that governs."""
+    governing = ensembles.governing
+    ensemble = governing.ensemble
+    statics = None if governing is ensembles.statics else ensembles.statics
     return EnsembleRow(
         record=identity.record,
         component=identity.component,
         structure=structure,
-        verdict=ensemble.verdict,
+        verdict=ensembles.verdict,
         overturning_members=ensemble.overturning_members,
         members=ensemble.members,
         overturning_share=ensemble.overturning_share,
-        crack=ensemble.crack,
-        elsewhere_crack=elsewhere.crack if elsewhere else "",
-        elsewhere_overturning_members=elsewhere.overturning_members if elsewhere else None,
-        elsewhere_members=elsewhere.members if elsewhere else None,
+        crack=governing.description,
+        statics_crack=statics.description if statics else "",
+        statics_overturning_members=statics.ensemble.overturning_members if statics else None,
+        statics_members=statics.ensemble.members if statics else None,
         rotation_ratio_low=ensemble.rotation_ratio_low,
         rotation_ratio_median=ensemble.rotation_ratio_median,
         rotation_ratio_high=ensemble.rotation_ratio_high,
@@ -469,9 +471,9 @@ def verdict_row(identity: ComponentRow, station: "StationResult") -> VerdictRow:
         members=station.members,
         overturning_share=station.overturning_share,
         crack=station.crack,
-        elsewhere_crack=station.elsewhere_crack,
-        elsewhere_overturning_members=station.elsewhere_overturning_members,
-        elsewhere_members=station.elsewhere_members,
+        statics_crack=station.statics_crack,
+        statics_overturning_members=station.statics_overturning_members,
+        statics_members=station.statics_members,
         rotation_ratio_low=station.rotation_ratio_low,
         rotation_ratio_median=station.rotation_ratio_median,
         rotation_ratio_high=station.rotation_ratio_high,
@@ -595,8 +597,8 @@ def rows_of_record(
         for case in result.cases(component):
             if case.answer is not None:
                 comparison.append(comparison_row(identity, case, friction_coefficient))
-            if case.ensemble is not None:
-                ensemble.append(ensemble_row(identity, case.structure, case.ensemble))
+            if case.ensembles is not None:
+                ensemble.append(ensemble_row(identity, case.structure, case.ensembles))
             variations += [variation_row(identity, case.structure, each) for each in case.variations]
             failures += [
                 failure_row(record, identity.component, case.structure, each) for each in case.failures

@@ -3,6 +3,7 @@
 And a structure that cannot be described.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
@@ -10,6 +11,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from rocking.assessment.case import CaseResult, Failure, StationResult
+from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer
 from rocking.assessment.rows.of_record import ComparisonRow, FailureRow, VerdictRow, identity_of, verdict_row
@@ -47,7 +49,7 @@ def case(component: str, ratio: float, structure: str = "pier", side: int = 0, f
         component=component,
         responses={Method.MECHANISM_ON_RECORD: response},
         answer=Answer(Method.MECHANISM_ON_RECORD, outcome, "", response),
-        ensemble=None if falls is None else members(falls),
+        ensembles=None if falls is None else of_one_crack(members(falls)),
     )
 
 
@@ -62,6 +64,11 @@ def members(falls: int, high: float = 0.5) -> Ensemble:
     return Ensemble(np.where(np.arange(64) < falls, np.inf, high), {}, EnsembleSettings())
 
 
+def of_one_crack(ensemble: Ensemble, description: str = "") -> CrackEnsembles:
+    """The ensembles of a structure of which one mechanism was followed."""
+    return CrackEnsembles((FollowedCrack(description, math.nan, ensemble),))
+
+
 def broken(component: str, structure: str = "pier", message: str = "No.") -> CaseResult:
     """A case that gave no result."""
     return CaseResult(structure=structure, component=component, failures=(Failure("responses", message),))
@@ -73,7 +80,7 @@ def station(*cases: CaseResult, falls_in_directions: int | None = None) -> Stati
     if falls_in_directions is not None:
         directions = replace(
             CaseResult(structure=cases[0].structure, component=BOTH_COMPONENTS),
-            ensemble=members(falls_in_directions),
+            ensembles=of_one_crack(members(falls_in_directions)),
         )
     by_component = {each.component: each for each in cases}
     return StationResult(cases[0].structure, Block(2.0, 0.2), by_component, directions)

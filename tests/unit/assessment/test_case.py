@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 from rocking.assessment.case import Motion
+from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.variations import Variation
 from rocking.assessment.verdict import Verdict
 from rocking.records import Accelerogram
-from tests.unit.assessment.made_rows import broken, case, station, verdicts
+from tests.unit.assessment.made_rows import broken, case, members, station, verdicts
 
 
 @pytest.mark.parametrize(
@@ -30,7 +31,7 @@ def test_the_ensemble_over_all_directions_decides_before_those_of_the_components
     assert (result.verdict, result.component) == (Verdict.OVERTURNS, "NS")
     result = station(*alone, falls_in_directions=32)
     assert (result.verdict, result.component, result.count) == (Verdict.UNDECIDED, "both", "32 of 64")
-    assert result.leaning == "leans to overturns, overturns in 32 of 64", "of two alike the worse"
+    assert result.why == "32 of 64 members overturn"
     assert math.isinf(result.rotation_ratio), "of the worst component as recorded"
 
 
@@ -48,7 +49,45 @@ def test_a_crack_that_overturns_leaves_undecided_what_stands_as_given():
     fallen = replace(case("EW", 0.3), variations=(Variation(math.inf, crack="crack at 3 m"),))
     result = station(fallen)
     assert result.verdict is Verdict.UNDECIDED
-    assert result.leaning == "leans to stands, overturns with the crack at 3 m"
+    assert result.why == "one run as recorded stands, and with the crack at 3 m it overturns"
+    assert (result.crack, result.overturning_share) == ("crack at 3 m", 1.0), (
+        "the worse of the two is what counts"
+    )
+
+
+def test_the_worst_crack_gives_every_number_and_statics_stands_beside_it():
+    static, worse, other = (
+        FollowedCrack(f"crack at {height} m", height, members(falls))
+        for height, falls in ((3.0, 0), (8.5, 40), (6.0, 2))
+    )
+    result = station(
+        replace(case("EW", 0.3), ensembles=CrackEnsembles((static, worse, other))),
+    )
+    assert (result.verdict, result.crack, result.count) == (Verdict.UNDECIDED, "crack at 8.5 m", "40 of 64")
+    assert result.overturning_share == 40 / 64 == result.governing.overturning_share
+    assert math.isinf(result.rotation_ratio_high) and result.severity[1] == 40 / 64
+    assert (result.statics_crack, result.statics_overturning_members) == ("crack at 3.0 m", 0)
+    why = "the cracks disagree: 40 of 64 members overturn with the crack at 8.5 m, 0 of 64 with the crack at 3.0 m"
+    assert result.why == f"{why} of statics"
+    (row,) = verdicts([result])
+    assert (row.crack, row.overturning_members, row.statics_members) == ("crack at 8.5 m", 40, 64)
+
+
+@pytest.mark.parametrize(
+    ("of_statics", "of_other", "verdict", "share"),
+    [
+        (0, 0, Verdict.STANDS, 0.0),
+        (64, 0, Verdict.OVERTURNS, 1.0),
+        (10, 40, Verdict.UNDECIDED, 40 / 64),
+        (40, 10, Verdict.UNDECIDED, 40 / 64),
+        (0, 64, Verdict.UNDECIDED, 1.0),
+    ],
+)
+def test_a_crack_that_contradicts_statics_leaves_it_undecided(of_statics, of_other, verdict, share):
+    both = (FollowedCrack("a", 1.0, members(of_statics)), FollowedCrack("b", 2.0, members(of_other)))
+    ensembles = CrackEnsembles(both)
+    assert (ensembles.verdict, ensembles.governing.ensemble.overturning_share) == (verdict, share)
+    assert ensembles.disagree == (of_statics == 0 and of_other > 0)
 
 
 def test_a_structure_that_failed_under_every_component_is_unknown_and_says_why():
@@ -66,7 +105,7 @@ def test_the_worst_of_several_comes_last_by_severity_in_memory_and_read_back():
     ]
     assert sorted(several[3:] + several[:3], key=lambda each: each.severity) == several
     for result, row in zip(several, verdicts(several), strict=True):
-        assert (row.severity, row.count, row.leaning) == (result.severity, result.count, result.leaning)
+        assert (row.severity, row.count, row.why) == (result.severity, result.count, result.why)
 
 
 def test_a_motion_is_recognised_by_its_samples_and_all_that_is_said_of_them():

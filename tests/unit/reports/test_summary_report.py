@@ -109,8 +109,8 @@ def test_the_map_holds_sign_and_share_with_the_worst_record_and_structure_first(
     assert [row["record"] for row in content["rows"]] == ["one", "two", "three"]
     assert [[cell["text"] for cell in row["cells"]] for row in content["rows"]] == [
         ["▲", "–", "–"],
-        ["–", "? 94", "● 0.80"],
-        ["–", "● 0", "–"],
+        ["–", "? 94\u00a0%", "● 0.80"],
+        ["–", "● 0\u00a0%", "–"],
     ]
 
 

@@ -138,7 +138,7 @@ def test_terminal_tables_and_python_say_the_same_of_every_shipped_structure(tmp_
             verdict,
             row["overturning_members"],
         )
-        assert assessment.leaning == "" or f"{name}: {verdict}; {assessment.leaning}" in lines
+        assert f"{name}: {verdict}; {assessment.why}" in lines
 
 
 def test_assess_opens_a_file_once_and_writes_report_and_tables_like_a_study(
