@@ -78,7 +78,7 @@ def test_page_one_begins_with_the_verdicts_by_name_and_holds_no_table(example, d
     for row in example.tables.verdicts:
         assert row.structure in lines[row.verdict]
         if row.verdict is Verdict.UNDECIDED:
-            assert f"overturns in {row.overturning_members} of {row.members}" in lines[row.verdict]
+            assert f"{row.overturning_members} of {row.members} members overturn" in lines[row.verdict]
     assert "PGA 0." in data["key"][0] and " g, PGV " in data["key"][0] and "D5–95" in data["key"][0]
 
 
