@@ -17,6 +17,11 @@ TARGETS_OF_RESEARCH = {
     ),
     "cover": ("Hold a fragility's median against truths that are known", REAL_RECORDS, []),
     "govern": ("Try the governing crack on stacks of courses", REAL_RECORDS, ["cracks.csv"]),
+    "stand": (
+        "Hold verdicts with and without contact dynamics against stacks",
+        REAL_RECORDS,
+        ["stacks.csv"],
+    ),
     "screen": (
         "Hold the verdict over all cracks against the ensemble of each",
         REAL_RECORDS,

@@ -22,7 +22,7 @@ MOST_GUESSES = 60
 """Guesses of what touches before the impulses are found one after the other."""
 ALL_AT_ONCE = 12
 """Guesses in which all that was wrong is changed; from then on one contact at a time, which ends without friction."""
-SWEEPS = 5000
+SWEEPS = 1000
 """Most sweeps over the contacts where they are found one after the other."""
 ROUNDING = 1e-9
 """Impulse over that of the weight in a step, and velocity over g times the step, that count as none."""
@@ -30,6 +30,8 @@ EDGE = 1e-6
 """How far a corner may lie beyond the face that bears it, over the length of the face."""
 REST = 1.0
 """How long the courses must have been nearly upright on still ground to stay up, s."""
+PRECISION = 1e4
+"""Change of an impulse in the last sweep that counts as none, in ROUNDING: a hundred-thousandth of the weight."""
 OPEN, LEFT, RIGHT, CLOSED = 0, 1, 2, 3
 """What touches at a joint: the ends in a set of bits."""
 FALLS, STAYS, MOVES = 1, 0, 2
@@ -517,7 +519,7 @@ def _sweep(bodies, joints, velocity, scale, step):
                 elif k < 2:
                     continue
                 change = max(change, _correct(bodies, joints, velocity, joint, k, step) / scale[joint])
-        if change <= 1e3:  # a millionth of the weight's impulse
+        if change <= PRECISION:
             break
     for joint in range(count - 1):
         touches = 0

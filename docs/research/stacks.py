@@ -1,0 +1,301 @@
+"""Who stands where contacts open and courses are thrown: verdicts with and without contact dynamics beside stacks.
+
+Drawn members meet real motions. The truth of a trial is a stack of as many courses as were drawn, six to thirteen,
+followed with a finer step than `fidelity: contact` takes, which has six. Sites are parted into halves by their names:
+the rule was looked at on one half, and only the other half is judged here.
+"""
+
+import zlib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from time import process_time
+
+import numpy as np
+import pandas as pd
+
+from docs.research import scores
+from docs.research.cracks import MARGIN, STRONG, Member, members, ruled
+from docs.research.report import Target
+from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting_factor
+from rocking import Accelerogram, Facade, LoadedWall, Mechanism, Spire, Verdict, assess
+from rocking.assessment.contacts import ContactShare, contact_share
+from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.intensity import peak_velocity
+from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.verdict import Doubt
+from rocking.motion.stacks import follow_stack
+from rocking.quantities import GRAVITY
+from rocking.structures import Structure
+from rocking.structures.stack import Stack
+from rocking.tables import column, read_rows, row, write_rows
+
+COURSES = (6, 8, 10, 13)
+"""Numbers of courses of which the true stack has one."""
+TRUE_STEP = 2e-4
+"""Its time step, s: a rotation is then within 1.5 % of its limit."""
+UPLIFTS = (1.05, 5.0)
+"""Range of peak acceleration over the least uplift acceleration to which records are scaled, log-uniform."""
+TRIALS = 4
+"""Of each kind of member under each component."""
+UNIT_WEIGHT = 18e3
+"""Of the masonry, N/m³."""
+SETTINGS = AssessmentSettings(fidelity="contact")
+
+
+@dataclass(frozen=True, eq=False)
+class Judged:
+    """What the package says of a member under a motion.
+
+    mechanism: its verdict by mechanisms alone, whatever its contacts do. doubt: why that is not enough. contact: what
+    contact dynamics says; None where it was not asked.
+    """
+
+    mechanism: Verdict
+    doubt: Doubt | None
+    contact: ContactShare | None
+
+    @property
+    def without(self) -> Verdict:
+        """The verdict without contact dynamics."""
+        stands = self.mechanism is Verdict.STANDS and self.doubt is not None
+        return Verdict.UNDECIDED if stands else self.mechanism
+
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict with contact dynamics of what is undecided without."""
+        return self.contact.verdict if self.contact is not None else self.without
+
+
+class Case:
+    """A member under motions: the uplift multiplier of statics, what the package says, and the true stack."""
+
+    multiplier: float
+
+    def judged(self, motion: Accelerogram) -> Judged:
+        """Return what the package says."""
+        raise NotImplementedError
+
+    def stack(self, courses: int | None = None) -> Stack:
+        """Return the member as courses."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, eq=False)
+class Shipped(Case):
+    """A structure that the package has."""
+
+    structure: Structure
+
+    @property
+    def multiplier(self) -> float:  # type: ignore[override]
+        """The least over its cracks."""
+        return self.structure.static_multiplier
+
+    def judged(self, motion: Accelerogram) -> Judged:
+        station = assess(motion, self.structure, settings=SETTINGS)
+        (case,) = station.cases.values()
+        return Judged(case.verdict, case.doubt, case.contact)
+
+    def stack(self, courses: int | None = None) -> Stack:
+        known = getattr(self.structure, "crack", "") == "known"
+        return self.structure.stack(None if known else courses)
+
+
+@dataclass(frozen=True, eq=False)
+class Made(Case):
+    """A member in courses that the package has no structure for: one mechanism for each joint.
+
+    size: factor on all of its lengths.
+    """
+
+    kind: str
+    size: float
+    symmetric = True
+
+    def _member(self, courses: int) -> Member:
+        plain = members(courses)[self.kind]
+        depths = None if plain.depths is None else self.size * plain.depths
+        return replace(
+            plain, sections=self.size * plain.sections, height=self.size * plain.height, depths=depths
+        )
+
+    @cached_property
+    def mechanisms(self) -> dict[int, Mechanism]:
+        """By the number of courses beneath the joint."""
+        return self._member(COURSES[0]).mechanisms
+
+    @cached_property
+    def static(self) -> int:
+        """The joint of least λ."""
+        return min(self.mechanisms, key=lambda joint: self.mechanisms[joint].uplift_multiplier)
+
+    @property
+    def multiplier(self) -> float:  # type: ignore[override]
+        """The least over its joints."""
+        return self.mechanisms[self.static].uplift_multiplier
+
+    def judged(self, motion: Accelerogram) -> Judged:
+        tapers = self._member(COURSES[0]).tapers
+        alone, _ = ruled(self.mechanisms, self.static, motion)
+        with_rule, _ = ruled(self.mechanisms, self.static, motion, tapers)
+        doubt = Doubt.COURSES_THROWN if with_rule is not alone else None
+        judged = Judged(alone, doubt, None)
+        if judged.without is not Verdict.UNDECIDED:
+            return judged
+        share = contact_share(self, GroundMotions.of(motion), SETTINGS)  # type: ignore[arg-type]
+        return replace(judged, contact=share)
+
+    def stack(self, courses: int | None = None) -> Stack:
+        return self._member(courses or COURSES[0]).stack
+
+
+def spire(draw: np.random.Generator) -> Case:
+    """Solid or hollow, round or square, of a slope of 1 in 6 to 1 in 12."""
+    width = float(draw.uniform(1.0, 4.0))
+    wall = None if draw.random() < 0.3 else float(draw.uniform(0.1, 0.25) * width / 2)
+    plan = "circular" if draw.random() < 0.5 else "square"
+    return Shipped(Spire(width, float(width * draw.uniform(3.0, 6.0)), wall, plan))  # type: ignore[arg-type]
+
+
+def loaded_wall(draw: np.random.Generator) -> Case:
+    """With a hinge that exists, below a slab of 5 to 150 % of its weight."""
+    height, thickness = float(draw.uniform(2.4, 4.0)), float(draw.uniform(0.2, 0.5))
+    hinge = height * float(draw.uniform(0.3, 0.85))
+    load = UNIT_WEIGHT * height * thickness * float(np.exp(draw.uniform(*np.log([0.05, 1.5]))))
+    wall = LoadedWall.hinged_at(
+        height, hinge, thickness, UNIT_WEIGHT, top_load=load, top_slab="flat", crack="known"
+    )
+    return Shipped(wall)
+
+
+def tied_facade(draw: np.random.Generator) -> Case:
+    """Of two or three storeys, with floors that bear on its middle and a tie at the top that yields and breaks."""
+    storeys = int(draw.integers(2, 4))
+    heights = tuple(draw.uniform(2.8, 4.0, storeys).tolist())
+    thicknesses = tuple(np.linspace(draw.uniform(0.5, 0.8), draw.uniform(0.35, 0.5), storeys).tolist())
+    facade = Facade(
+        heights,
+        thicknesses,
+        UNIT_WEIGHT,
+        floor_loads=tuple(draw.uniform(0.0, 12e3, storeys).tolist()),
+        tie_heights=(sum(heights),),
+        tie_stiffness=float(np.exp(draw.uniform(*np.log([50e3, 1e6])))),
+        tie_strength=float(draw.uniform(2e3, 10e3)),
+        tie_plastic_elongation=float(draw.uniform(0.0, 0.03)),
+    )
+    return Shipped(facade)
+
+
+def made(kind: str, draw: np.random.Generator) -> Case:
+    """Return a member of the research of 0.6 to 1.7 times its size."""
+    return Made(kind, float(np.exp(draw.uniform(-0.5, 0.5))))
+
+
+KINDS = ("spire", "pinnacle", "loaded wall", "gable", "façade with ties", "column")
+
+
+def case_of(kind: str, draw: np.random.Generator) -> Case:
+    """Return a member of that kind."""
+    shipped = {"spire": spire, "loaded wall": loaded_wall, "façade with ties": tied_facade}
+    return shipped[kind](draw) if kind in shipped else made(kind, draw)
+
+
+@row(
+    "stacks",
+    "One row per member, component and scale: verdicts with and without contact dynamics, and the stack",
+)
+class StackRow(Trial):
+    """One trial."""
+
+    courses: int = column("Number of courses of the true stack")
+    velocity_ratio: float = column("PGV/PGA of the motion", "s")
+    mechanism: Verdict = column("Verdict by mechanisms alone")
+    doubt: str = column("Why that is not enough; empty where it is")
+    without: Verdict = column("Verdict without contact dynamics")
+    verdict: Verdict = column("Verdict with contact dynamics of what is undecided without")
+    stack_falls: int | None = column("Stacks that fall in contact dynamics; empty: not asked")
+    stack_runs: int | None = column("Stacks that contact dynamics followed")
+    falls: bool = column("Whether the true stack falls")
+    contact_s: float = column("CPU time of the verdict with contact dynamics", "s")
+
+
+def judged_half(sites: Iterator[SiteRecord]) -> list[SiteRecord]:
+    """Return the components of the sites on which the rule is judged."""
+    return [each for each in sites if zlib.crc32(each[1].encode()) % 2]
+
+
+def stand(target: Target) -> None:
+    """Hold the verdicts against stacks; rows of each record are written as they come, and a long run goes on."""
+    rows: list[StackRow] = []
+    for name, site, record in judged_half(independent(target.records)):
+        path = target.folder / "trials" / f"{name}.csv"
+        if not path.is_file():
+            trials = (stack_row(name, site, record, kind, k) for kind in KINDS for k in range(TRIALS))
+            write_rows(StackRow, trials, path)
+        rows += read_rows(StackRow, path)
+        target.tell(f"{name}: {len(rows)} trials")
+    subtitle = "Members in courses and walls whose contacts open, on sites that took no part in the rule."
+    target.publish("Who stands", subtitle, {StackRow: rows, scores.Score: list(stack_scores(rows))})
+
+
+def stack_row(name: str, site: str, record: Accelerogram, kind: str, place: int) -> StackRow:
+    """Return one trial: member, scale and courses drawn."""
+    draw = draw_of(name, KINDS.index(kind), place)
+    case = case_of(kind, draw)
+    factor = lifting_factor(record, case.multiplier, UPLIFTS, draw)
+    motion = strong_part(record.scaled(factor), case.multiplier)
+    courses = int(draw.choice(COURSES))
+    started = process_time()
+    judged = case.judged(motion)
+    spent = process_time() - started
+    contact = judged.contact
+    return StackRow(
+        record=name,
+        site=site,
+        structure=kind,
+        scale_factor=factor,
+        courses=courses,
+        velocity_ratio=peak_velocity(motion) / motion.peak_acceleration,
+        mechanism=judged.mechanism,
+        doubt=str(judged.doubt or ""),
+        without=judged.without,
+        verdict=judged.verdict,
+        stack_falls=contact.falls if contact else None,
+        stack_runs=contact.runs if contact else None,
+        falls=follow_stack(case.stack(courses), motion, TRUE_STEP).falls,
+        contact_s=spent,
+    )
+
+
+def strong_part(motion: Accelerogram, multiplier: float) -> Accelerogram:
+    """Return the motion where it exceeds STRONG of what lifts, with MARGIN before and after."""
+    strong = np.flatnonzero(np.abs(motion.acceleration) >= STRONG * multiplier * GRAVITY)
+    beside = round(MARGIN / motion.time_step)
+    span = slice(max(strong[0] - beside, 0), strong[-1] + beside + 1)
+    return replace(motion, acceleration=motion.acceleration[span])
+
+
+def stack_scores(rows: Sequence[StackRow]) -> Iterator[scores.Score]:
+    """Yield errors and undecided cases by kind of member and of all, with intervals by site."""
+    every = pd.DataFrame(rows)
+    for kind, own in [("all", every), *every.groupby("structure", sort=False)]:
+        settled = (own.without == Verdict.UNDECIDED) & (own.verdict != Verdict.UNDECIDED)
+        right = (own.verdict == Verdict.OVERTURNS) == own.falls
+        for measure, part, values in (
+            ('falls among "stands" by mechanisms', own.mechanism == Verdict.STANDS, own.falls),
+            ('falls among "stands" without contact dynamics', own.without == Verdict.STANDS, own.falls),
+            ('falls among "stands" with it', own.verdict == Verdict.STANDS, own.falls),
+            ('survivals among "overturns" with it', own.verdict == Verdict.OVERTURNS, ~own.falls),
+            ("undecided without contact dynamics", own.falls.notna(), own.without == Verdict.UNDECIDED),
+            ("undecided with it", own.falls.notna(), own.verdict == Verdict.UNDECIDED),
+            ("undecided that contact dynamics settles", own.without == Verdict.UNDECIDED, settled),
+            ("right among those that it settles", settled, right),
+        ):
+            if part.any():
+                yield from scores.scored(
+                    "contact dynamics",
+                    str(kind),
+                    {measure: values[part].astype(float).tolist()},
+                    own.site[part].tolist(),
+                )
