@@ -209,7 +209,7 @@ class StackRow(Trial):
     """One trial."""
 
     courses: int = column("Number of courses of the true stack")
-    velocity_ratio: float = column("PGV/PGA of the motion", "s")
+    velocity_ratio_s: float = column("PGV/PGA of the motion, s")
     mechanism: Verdict = column("Verdict by mechanisms alone")
     doubt: str = column("Why that is not enough; empty where it is")
     without: Verdict = column("Verdict without contact dynamics")
@@ -217,7 +217,7 @@ class StackRow(Trial):
     stack_falls: int | None = column("Stacks that fall in contact dynamics; empty: not asked")
     stack_runs: int | None = column("Stacks that contact dynamics followed")
     falls: bool = column("Whether the true stack falls")
-    contact_s: float = column("CPU time of the verdict with contact dynamics", "s")
+    contact_s: float = column("CPU time of the verdict with contact dynamics, s")
 
 
 def judged_half(sites: Iterator[SiteRecord]) -> list[SiteRecord]:
@@ -256,7 +256,7 @@ def stack_row(name: str, site: str, record: Accelerogram, kind: str, place: int)
         structure=kind,
         scale_factor=factor,
         courses=courses,
-        velocity_ratio=peak_velocity(motion) / motion.peak_acceleration,
+        velocity_ratio_s=peak_velocity(motion) / motion.peak_acceleration,
         mechanism=judged.mechanism,
         doubt=str(judged.doubt or ""),
         without=judged.without,
