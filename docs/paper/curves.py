@@ -14,8 +14,11 @@ from docs.paper.equivalence import (
     uplift_ratio,
 )
 from rocking.quantities import GRAVITY
+from rocking.sine_pulse import overturning_amplitudes
 from rocking.structures.arch import Arch
+from rocking.structures.block import Spire
 from rocking.structures.mechanism import Scale, Side
+from rocking.structures.structure import Candidate
 from rocking.structures.wall import Wall
 from rocking.tables import Row, column, row
 
@@ -28,6 +31,13 @@ ACCELERATIONS = np.geomspace(1.1, 10, 17)
 HEIGHT_RATIOS = np.geomspace(0.2, 5, 241)
 """h₂/h₁ of the curves of Eq. 14."""
 
+PERIODS = np.linspace(0.4, 4.4, 81)
+"""Of the sines of the envelope, s."""
+ENVELOPE_CRACKS = 41
+"""Heights at which the spire of the envelope may crack."""
+
+PULSE_PERIOD = "period of the sine [s]"
+OVERTURNS_AT = "least amplitude that overturns [g]"
 AMPLITUDE = "amplitude / critical rotation [-]"
 PERIOD = "period, block / structure [-]"
 UPLIFT = "uplift, linearised / true [-]"
@@ -160,6 +170,36 @@ def _wall(slenderness: float) -> Wall:
 
 def _hinged(height_ratio: float, thickness_ratio: float) -> Wall:
     return Wall.hinged_at(1.0, 1 / (1 + height_ratio), thickness_ratio, restitution=0.9)
+
+
+@cache
+def envelope_cracks() -> tuple[Candidate, ...]:
+    """Return the cracks that may form in the spire of the envelope, from its base up."""
+    spire = Spire(width=3.0, height=15.0, wall_thickness=0.25)
+    return tuple(sorted(spire.candidates(ENVELOPE_CRACKS), key=lambda each: each.position))
+
+
+def overturning_spectra() -> np.ndarray:
+    """Return the least amplitude [m/s²] of one sine of each of PERIODS that overturns each crack, (cracks, periods)."""
+    blocks = [each.structure.mechanism().equivalent_block("rest") for each in envelope_cracks()]
+    return overturning_amplitudes(blocks, 2 * np.pi / PERIODS)
+
+
+def envelope_curves() -> list[Curve]:
+    """Return the overturning spectra of single cracks and their envelope (a), and the crack that governs (b)."""
+    cracks, spectra = envelope_cracks(), overturning_spectra() / GRAVITY
+    heights = np.array([each.position for each in cracks])
+    lines = []
+    for name, place in (("tip", -1), ("lower quarter", int(np.abs(heights - 3.75).argmin())), ("base", 0)):
+        label = f"crack at {heights[place]:.3g} m ({name})"
+        lines.append(Curve("a", label, PULSE_PERIOD, OVERTURNS_AT, PERIODS, spectra[place]))
+    least = spectra.min(axis=0)
+    lines.append(Curve("a", "envelope of all cracks", PULSE_PERIOD, OVERTURNS_AT, PERIODS, least, "-"))
+    governing = heights[spectra.argmin(axis=0)]
+    lines.append(
+        Curve("b", "crack that governs", PULSE_PERIOD, "height of the crack [m]", PERIODS, governing, "-")
+    )
+    return lines
 
 
 def rows_of(curves: Sequence[Curve]) -> list[CurveRow]:

@@ -12,8 +12,10 @@ from docs.paper.report import equation_rows, equivalence_figures, paper_figures,
 from docs.paper.response import RADII, example_arch, predicted_levels
 from docs.paper.write import SHIPPED, write_paper
 from rocking.motion import integrate
-from rocking.pulses import extract_pulses
+from rocking.pulses import Pulse, extract_pulses
+from rocking.quantities import GRAVITY
 from rocking.records import read
+from rocking.structures import Outcome
 from rocking.tables import csv_lines
 
 
@@ -58,6 +60,23 @@ def test_the_printed_equation_14_peaks_where_the_paper_says():
         math.sqrt(3) - 1, rel=0.014
     )  # one step of the grid
     assert np.all(np.diff(corrected.y) > 0)
+
+
+def test_the_governing_crack_goes_down_the_spire_as_the_sine_grows_longer():
+    """The envelope is held against integrations of each block just below and just above it."""
+    *_, envelope, governing = paper_curves.envelope_curves()
+    heights = dict(zip(np.round(governing.x, 3).tolist(), governing.y.tolist(), strict=True))
+    cracks = paper_curves.envelope_cracks()
+    assert all(heights[period] == cracks[-1].position for period in (0.4, 1.0, 1.5))
+    assert heights[2.4] == pytest.approx(3.8, abs=0.36)  # the cracks are 0.356 m apart
+    assert heights[4.0] == 0
+    blocks = [each.structure.mechanism().equivalent_block("rest") for each in cracks]
+    for place in (20, 40, 72):
+        period, least = envelope.x[place], envelope.y[place] * GRAVITY
+        pulses = [Pulse(factor * least, 2 * np.pi / period) for factor in (0.999, 1.001)]
+        below, above = ([integrate(block, pulse).outcome for block in blocks] for pulse in pulses)
+        assert Outcome.OVERTURNS not in below
+        assert Outcome.OVERTURNS in above
 
 
 def errors(name: str, panel: str) -> dict[str, np.ndarray]:
