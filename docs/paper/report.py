@@ -15,7 +15,7 @@ from docs.paper.response import example_arch, response_curves
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
 from rocking.reports.document import compile_document
-from rocking.reports.style import svg
+from rocking.reports.style import plain_logarithmic, svg
 from rocking.sine_pulse import pulse_spectrum
 from rocking.structures.mechanism import Scale, Side
 from rocking.tables import Row, column, row
@@ -147,7 +147,10 @@ def _envelope() -> PaperFigure:
         "least amplitude that overturns what stands on one crack, and over all cracks; (b) the crack that governs. "
         "Short sines throw off the tip, long ones turn over the whole spire at its base, where statics cracks it."
     )
-    return _made("envelope", caption, curves.envelope_curves())
+    lines = curves.envelope_curves()
+    figure = panels(lines)
+    plain_logarithmic(figure.axes[0], "y")
+    return _made("envelope", caption, lines, figure)
 
 
 def _pulse_spectrum() -> PaperFigure:
