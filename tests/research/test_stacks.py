@@ -1,0 +1,89 @@
+"""Verdicts with and without contact dynamics beside stacks: what a trial holds, and what its scores count."""
+
+import numpy as np
+import pytest
+
+from docs.research import stacks
+from docs.research.report import Target
+from docs.research.stacks import KINDS, Judged, StackRow, case_of, judged_half, stack_row, stack_scores
+from rocking.assessment.contacts import ContactShare
+from rocking.assessment.verdict import Doubt, Verdict
+from rocking.quantities import GRAVITY
+from rocking.records import Accelerogram
+
+TIMES = np.arange(0, 3, 0.01)
+SINE = Accelerogram(3.0 * np.sin(2 * np.pi * TIMES / 0.8) * (TIMES < 1.6), 0.01)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_member_stays_whole_below_uplift_and_falls_far_above_it(kind):
+    case = case_of(kind, np.random.default_rng(1))
+    least = case.multiplier * GRAVITY / SINE.peak_acceleration
+    below, above = SINE.scaled(0.9 * least), SINE.scaled(15 * least)
+    assert case.judged(below).verdict is Verdict.STANDS
+    assert case.judged(above).verdict is Verdict.OVERTURNS
+    for courses in (6, 10):
+        assert not stacks.follow_stack(case.stack(courses), below, 5e-4).falls
+        assert stacks.follow_stack(case.stack(courses), above, 5e-4).falls
+
+
+def test_contact_dynamics_decides_what_a_doubt_leaves_open():
+    doubted = Judged(Verdict.STANDS, Doubt.CONTACTS_OPEN, ContactShare(0, 6))
+    assert (doubted.without, doubted.verdict) == (Verdict.UNDECIDED, Verdict.STANDS)
+    falling = Judged(Verdict.STANDS, Doubt.COURSES_THROWN, ContactShare(2, 6))
+    assert falling.verdict is Verdict.UNDECIDED
+    assert Judged(Verdict.STANDS, None, None).verdict is Verdict.STANDS
+
+
+def test_a_trial_is_the_same_at_every_call():
+    one, again = (stack_row("made", "a site", SINE, "loaded wall", 3) for _ in range(2))
+    assert one.scale_factor == again.scale_factor
+    assert (one.mechanism, one.verdict, one.falls) == (again.mechanism, again.verdict, again.falls)
+
+
+def test_the_scores_count_what_they_name():
+    base = {"record": "r", "structure": "spire", "courses": 6, "scale_factor": 1.0, "velocity_ratio_s": 0.1}
+    base |= {"contact_s": 0.1, "stack_falls": None, "stack_runs": None}
+    stands, falls, open_ = Verdict.STANDS, Verdict.OVERTURNS, Verdict.UNDECIDED
+    cases = [
+        (stands, "thrown", open_, stands, False),
+        (stands, "thrown", open_, falls, True),
+        (stands, "thrown", open_, open_, True),
+        (falls, "", falls, falls, True),
+        (stands, "", stands, stands, False),
+    ]
+    rows = [
+        StackRow(
+            mechanism=mechanism,
+            doubt=doubt,
+            without=without,
+            verdict=verdict,
+            falls=fell,
+            site=str(place),
+            **base,
+        )
+        for place, (mechanism, doubt, without, verdict, fell) in enumerate(cases)
+    ]
+    found = {row.measure: (row.value, row.cases) for row in stack_scores(rows) if row.part == "spire"}
+    assert found['falls among "stands" by mechanisms'] == (0.5, 4)
+    assert found['falls among "stands" without contact dynamics'] == (0.0, 1)
+    assert found['falls among "stands" with it'] == (0.0, 2)
+    assert found["undecided without contact dynamics"] == (pytest.approx(0.6), 5)
+    assert found["undecided with it"] == (pytest.approx(0.2), 5)
+    assert found["undecided that contact dynamics settles"] == (pytest.approx(2 / 3), 3)
+    assert found["right among those that it settles"] == (1.0, 2)
+
+
+def test_the_target_goes_on_where_it_was_stopped(tmp_path, monkeypatch):
+    monkeypatch.setattr(stacks, "TRIALS", 1)
+    monkeypatch.setattr(stacks, "KINDS", ("loaded wall", "gable"))
+    sites = [("r", "one", SINE), ("s", "two", SINE), ("t", "three", SINE), ("u", "four", SINE)]
+    assert 0 < len(judged_half(iter(sites))) < 4
+    monkeypatch.setattr(stacks, "judged_half", lambda _: sites[:1])
+    target = Target(tmp_path, print, [[("r", SINE)]])
+    stacks.stand(target)
+    written = (tmp_path / "stacks.csv").read_text()
+    monkeypatch.setattr(stacks, "stack_row", None)
+    stacks.stand(target)
+    assert (tmp_path / "stacks.csv").read_text() == written
+    assert written.count("\n") == 3
