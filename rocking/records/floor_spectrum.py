@@ -10,6 +10,9 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.quantities import finite, within
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.design_spectrum import damping_factor
+from rocking.records.measures import response_spectrum
 from rocking.records.support import Mode, Support
 
 GroundSpectrum = Callable[[float, float], float]
@@ -19,13 +22,19 @@ LOWER_PERIOD, UPPER_PERIOD = 0.8, 1.1
 """a and b of C7.2.6: shares of the period of a mode between which its floor spectrum is flat."""
 
 
-def damping_factor(damping_ratio: float) -> float:
-    """Return η = √(10/(5 + ξ)), ξ in per cent, and no less than 0.55 (NTC 2018, 3.2.3.2.1).
+FLOOR_DAMPING = 0.05
+"""Damping ratio of the floor spectra of tables and reports."""
 
-    >>> damping_factor(0.05)
-    1.0
-    """
-    return max(math.sqrt(10 / (5 + 100 * damping_ratio)), 0.55)
+
+def spectrum_of(record: Accelerogram) -> GroundSpectrum:
+    """Return the spectrum of a record itself; at the period 0 its peak acceleration."""
+
+    def acceleration(period: float, damping_ratio: float) -> float:
+        if period == 0:
+            return record.peak_acceleration
+        return float(response_spectrum(record, np.array([period]), damping_ratio).pseudo_acceleration[0])
+
+    return acceleration
 
 
 def mode_acceleration(mode: Mode, ground: GroundSpectrum) -> float:

@@ -6,6 +6,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from rocking.assessment.verdict import (
     BOTH_COMPONENTS,
     POLARITIES,
@@ -20,9 +22,10 @@ from rocking.assessment.verdict import (
 )
 from rocking.pulses import Pulse, PulseEvidence
 from rocking.records import Accelerogram
+from rocking.records.floor_spectrum import FLOOR_DAMPING, floor_spectrum, spectrum_of
 from rocking.records.measures import record_measures
 from rocking.sine_pulse import Regime
-from rocking.structures import Outcome
+from rocking.structures import Outcome, Structure
 from rocking.tables import Row, column, row, write_tables, written_together
 
 if TYPE_CHECKING:  # else who reads a table would load numba
@@ -236,6 +239,28 @@ class VerdictRow(MembersRow, Judgement):
     why: str = column("Reason for the verdict")
     stack_falls: int | None = column("Stacks of courses that fall in contact dynamics; empty: not asked")
     stack_runs: int | None = column("Stacks that were followed, over amplitudes, time steps and directions")
+
+
+@row("supports")
+class SupportRow(CaseRow):
+    """One row per component and structure on a support: the motion there, and the verdict over all components."""
+
+    listed_structure: str = column("Name of the structure in the list, without its period")
+    support: str = column("Name of the support in the list")
+    support_period_s: float = column("First period T_b of the support; 0 on the ground")
+    support_damping_ratio: float = column("Damping ratio of the first mode of the support")
+    support_participation: float = column("Participation Γψ of the first mode where the structure stands")
+    support_modes: int = column("Number of modes of the support; 0 on the ground")
+    floor_peak_acceleration_m_s2: float = column("Largest magnitude of the acceleration on the support")
+    amplification: float = column("Peak acceleration on the support over that of the ground")
+    floor_spectral_acceleration_m_s2: float = column("5 % floor spectrum at the period of the support")
+    code_spectral_acceleration_m_s2: float = column(
+        "The same by the code's formula from the ground's spectrum", equation="C7.2.5"
+    )
+    floor_pulse_amplitude_m_s2: float = column("Signed amplitude of the dominant sine on the support")
+    floor_pulse_period_s: float = column("Period of the dominant sine on the support")
+    verdict: Verdict = column("stands, overturns, undecided, or unknown: a component failed")
+    overturning_share: float = column("Share of the members that overturn; of a single run 0 or 1")
 
 
 @row("variations")
@@ -490,6 +515,47 @@ def verdict_row(identity: ComponentRow, station: "StationResult") -> VerdictRow:
     )
 
 
+def support_rows(result: "RecordResult", identities: Mapping[str, ComponentRow]) -> Iterator[SupportRow]:
+    """Yield the rows of every structure on a support. identities: what rows about a component hold, by its name."""
+    for name, station in result.stations.items():
+        standing = station.body.standing if isinstance(station.body, Structure) else None
+        if standing is None:
+            continue
+        for component, floor in result.components_under(name).items():
+            ground = (floor.ground or floor).accelerogram
+            identity = identities[component]
+            mode = standing.support.modes[0] if standing.support else None
+            pulse = floor.analysis.evidence.pulse if floor.analysis else None
+            peak = floor.accelerogram.peak_acceleration
+            own, by_code = math.nan, math.nan
+            if standing.support is not None:
+                own = spectrum_of(floor.accelerogram)(standing.period, FLOOR_DAMPING)
+                places = np.array([standing.period])
+                by_code = floor_spectrum(standing.support, places, FLOOR_DAMPING, spectrum_of(ground))[0]
+            yield SupportRow(
+                record=identity.record,
+                component=identity.component,
+                structure=name,
+                listed_structure=standing.structure,
+                support=standing.place,
+                support_period_s=standing.period,
+                support_damping_ratio=mode.damping_ratio if mode else math.nan,
+                support_participation=mode.participation if mode else math.nan,
+                support_modes=len(standing.support.modes) if standing.support else 0,
+                floor_peak_acceleration_m_s2=peak,
+                amplification=peak / ground.peak_acceleration if ground.peak_acceleration else math.nan,
+                floor_spectral_acceleration_m_s2=own,
+                code_spectral_acceleration_m_s2=by_code,
+                floor_pulse_amplitude_m_s2=pulse.amplitude if pulse else math.nan,
+                floor_pulse_period_s=pulse.period if pulse else math.nan,
+                verdict=station.verdict,
+                overturning_share=station.overturning_share,
+                scale_factor=identity.scale_factor,
+                record_sha256=identity.record_sha256,
+                settings_sha256=identity.settings_sha256,
+            )
+
+
 def variation_row(identity: ComponentRow, structure: str, variation: "Variation") -> VariationRow:
     """Return the row of one case with another crack or another processing."""
     return VariationRow(
@@ -552,6 +618,7 @@ class RecordRows:
     failures: Sequence[FailureRow] = ()
     timings: Sequence[TimingRow] = ()
     verdicts: Sequence[VerdictRow] = ()
+    supports: Sequence[SupportRow] = ()
 
     @property
     def tables(self) -> dict[type[Row], Sequence[Row]]:
@@ -562,6 +629,7 @@ class RecordRows:
             ComparisonRow: self.comparison,
             EnsembleRow: self.ensemble,
             VariationRow: self.variations,
+            SupportRow: self.supports,
             FailureRow: self.failures,
             TimingRow: self.timings,
             VerdictRow: self.verdicts,
@@ -627,4 +695,5 @@ def rows_of_record(
         failures=failures,
         timings=timings,
         verdicts=verdicts,
+        supports=list(support_rows(result, by_component)),
     )

@@ -193,6 +193,7 @@ SUMMARY_TABLES: tuple[type[Row], ...] = (
     rows.ComparisonRow,
     rows.EnsembleRow,
     rows.VerdictRow,
+    rows.SupportRow,
     AgreementRow,
     StructureRow,
     CapacityRow,

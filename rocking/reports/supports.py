@@ -1,0 +1,125 @@
+"""What stands on a support in a report: share against the period of the support, and the spectra of its motion."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from rocking.assessment.case import RecordResult
+from rocking.assessment.component import Component
+from rocking.assessment.over_periods import OverPeriods
+from rocking.quantities import GRAVITY
+from rocking.records.floor_spectrum import FLOOR_DAMPING, floor_spectrum, spectrum_of
+from rocking.records.measures import response_spectrum
+from rocking.reports.printing import LOOKS
+from rocking.reports.style import PREDICTED, TEXT_WIDTH, elided, new_figure, panel_at, plain_logarithmic, styled
+
+MOST_SUPPORTS = 4
+"""Supports that are drawn; the table supports.csv holds all."""
+_LINES = ("-", "--", ":", "-.")
+_PERIODS = np.geomspace(0.05, 3.0, 60)
+"""Periods of the spectra, s."""
+
+
+@dataclass(frozen=True, eq=False)
+class SupportPanel:
+    """A support with the structures on it, and the component of the ground with the largest peak.
+
+    floors: that component on the support, by its first period, ascending.
+    """
+
+    structures: Sequence[OverPeriods]
+    ground: Component
+    floors: Sequence[Component]
+
+
+def support_panels(result: RecordResult, swept: Sequence[OverPeriods]) -> list[SupportPanel]:
+    """Return a panel for each support of a record that carries something, in the order of the structures."""
+    by_place: dict[str, list[OverPeriods]] = {}
+    for each in swept:
+        by_place.setdefault(each.place, []).append(each)
+    if not result.components:
+        return []
+    worst = max(range(len(result.components)), key=lambda n: result.components[n].accelerogram.peak_acceleration)
+    panels = []
+    for several in by_place.values():
+        supports = [each.support for each in several[0].standings if each.support in result.floors]
+        floors = [result.floors[support][worst] for support in supports if support is not None]
+        if floors:
+            panels.append(SupportPanel(several, result.components[worst], floors))
+    return panels[:MOST_SUPPORTS]
+
+
+@styled
+def supports_figure(panels: Sequence[SupportPanel]) -> Figure:
+    """Draw of each support the share that overturns against its period, and the spectra of ground and floor."""
+    height = 46.0
+    figure = new_figure(height * len(panels) + 2)
+    for place, panel in enumerate(panels):
+        share, spectra = (
+            panel_at(figure, left, 6 + place * height, (TEXT_WIDTH - 34) / 2, height - 18) for left in (14, 100)
+        )
+        _draw_shares(share, panel.structures)
+        _draw_spectra(spectra, panel)
+    return figure
+
+
+def _draw_shares(axes: Axes, structures: Sequence[OverPeriods]) -> None:
+    """Draw share against period, one line for each structure; a marker has the colour of its verdict."""
+    for line, each in zip(_LINES * len(structures), structures, strict=False):
+        shares = [judgement.overturning_share for judgement in each.judgements]
+        axes.plot(each.periods, shares, line, color="0.35", linewidth=0.9, label=elided(each.structure, 24), zorder=1)
+        for period, share, judgement in zip(each.periods, shares, each.judgements, strict=True):
+            colour = LOOKS[judgement.verdict][1]
+            axes.plot([period], [share], "o", markerfacecolor=colour, markeredgecolor="0.2", markersize=4.5)
+    axes.set(ylim=(-0.05, 1.05), xlabel="period T_b of the support [s], 0: the ground")
+    axes.set_ylabel("share that overturns [-]")
+    axes.set_title(elided(f"on {structures[0].place}", 40), loc="left")
+    axes.legend(loc="best", fontsize=6.5)
+
+
+def _draw_spectra(axes: Axes, panel: SupportPanel) -> None:
+    """Draw the 5 % spectra of ground and floor, and the code's floor spectrum from that of the ground."""
+    record = panel.ground.accelerogram
+    of_ground = response_spectrum(record, _PERIODS, FLOOR_DAMPING).pseudo_acceleration
+    axes.plot(_PERIODS, of_ground / GRAVITY, color="0.6", linewidth=1.6, label="ground")
+    chosen = {0: panel.floors[0], len(panel.floors) // 2: panel.floors[len(panel.floors) // 2]}
+    chosen[len(panel.floors) - 1] = panel.floors[-1]
+    for line, floor in zip(_LINES, chosen.values(), strict=False):
+        support = floor.support
+        assert support is not None
+        own = response_spectrum(floor.accelerogram, _PERIODS, FLOOR_DAMPING).pseudo_acceleration
+        code = floor_spectrum(support, _PERIODS, FLOOR_DAMPING, spectrum_of(record))
+        label = f"T_b {support.modes[0].period:.3g} s"
+        axes.plot(_PERIODS, own / GRAVITY, line, color="black", linewidth=0.9, label=label)
+        axes.plot(_PERIODS, code / GRAVITY, line, color=PREDICTED, linewidth=0.9)
+    axes.plot([], [], color=PREDICTED, linewidth=0.9, label="the code's, C7.2.5")
+    plain_logarithmic(axes, "x")
+    axes.set(xlim=(_PERIODS[0], _PERIODS[-1]), ylim=(0, None), xlabel="period of what stands there [s]")
+    axes.set_ylabel("5 % spectrum [g]")
+    axes.set_title(elided(f"component {record.component or 'not named'}", 30), loc="left")
+    axes.legend(loc="upper right", fontsize=6.5)
+
+
+def floor_sentences(panels: Sequence[SupportPanel]) -> list[str]:
+    """Say by how much each support amplifies the peak, and what its dominant pulse is, at its first and last period."""
+    sentences = []
+    for panel in panels:
+        peak = panel.ground.accelerogram.peak_acceleration
+        if not peak:
+            continue
+        parts = []
+        for floor in dict.fromkeys((panel.floors[0], panel.floors[-1])):
+            support = floor.support
+            assert support is not None
+            factor = floor.accelerogram.peak_acceleration / peak
+            text = f"at T_b {support.modes[0].period:.3g} s the peak is {factor:.2g} times that of the ground"
+            if floor.analysis is not None:
+                pulse = floor.analysis.evidence.pulse
+                text += f" and the dominant pulse has {abs(pulse.amplitude):.3g} m/s² and {pulse.period:.2g} s"
+            parts.append(text)
+        sentences.append(f"On {panel.structures[0].place}, {'; '.join(parts)}.")
+    return sentences
+
