@@ -6,7 +6,7 @@ terminal and `rocking.assess` ask it, or read the row that it was written into.
 
 import hashlib
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 
@@ -16,6 +16,7 @@ from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer, Estimate
 from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.over_periods import OverPeriods, over_periods
 from rocking.assessment.variations import Variation
 from rocking.assessment.verdict import BOTH_COMPONENTS, POLARITIES, Doubt, Judgement, Method, Verdict
 from rocking.motion.response import UNKNOWN, ModelCheck, Response
@@ -461,6 +462,11 @@ class RecordResult:
         return dict(zip(self.names, components, strict=True))
 
     @cached_property
+    def swept(self) -> list[OverPeriods]:
+        """What became of each structure on a support over the periods of that support."""
+        return swept_over(self.stations.values())
+
+    @cached_property
     def worst_first(self) -> list[StationResult]:
         """What became of each structure, the worst first."""
         return sorted(self.stations.values(), key=lambda station: station.severity, reverse=True)
@@ -503,3 +509,10 @@ def _ensemble_severity(case: CaseResult) -> tuple[float, float]:
 
 def _or_least(value: float) -> float:
     return -1.0 if math.isnan(value) else value
+
+
+def swept_over(stations: Iterable[StationResult]) -> list[OverPeriods]:
+    """Return what becomes of each structure on a support over the periods of that support."""
+    return over_periods(
+        (station.body, station) for station in stations if isinstance(station.body, Structure)
+    )

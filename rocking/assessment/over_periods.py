@@ -45,10 +45,16 @@ class OverPeriods:
         return [each.period for each in self.standings]
 
     @property
+    def severity(self) -> tuple[float, ...]:
+        """Key by which the worst of several comes last: that of the period that is worst."""
+        return max(each.severity for each in self.judgements)
+
+    @property
     def sentence(self) -> str:
         """What becomes of it over the periods, in intervals: a verdict need not change once only.
 
-        "parapet on roof stands on a building of T_b ≤ 0.25 s, is undecided at 0.3 s, overturns from 0.36 s on".
+        "parapet on roof stands on a building of T_b ≤ 0.25 s, is undecided at T_b 0.3 s, overturns from 0.36 s on
+        (tried to 0.6 s)".
         """
         verdicts = [each.verdict for each in self.judgements]
         pairs = zip(self.periods, verdicts, strict=True)
@@ -74,7 +80,7 @@ def _interval(periods: Sequence[float], is_last: bool) -> str:
         return f"{whatever}on a building of T_b ≤ {end:.3g} s"
     if first == end:
         return f"at T_b {first:.3g} s"
-    return f"from {first:.3g} s on, to {end:.3g} s" if is_last else f"from {first:.3g} to {end:.3g} s"
+    return f"from {first:.3g} s on (tried to {end:.3g} s)" if is_last else f"from {first:.3g} to {end:.3g} s"
 
 
 def over_periods(stations: Iterable[tuple[Structure, Judgement]]) -> list[OverPeriods]:

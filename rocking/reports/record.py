@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.assessment.case import RecordResult, StationResult
+from rocking.assessment.case import RecordResult, StationResult, swept_over
 from rocking.assessment.rows.of_record import (
     RATIO_COLUMNS,
     ComparisonRow,
@@ -40,7 +40,9 @@ from rocking.reports.printing import (
 )
 from rocking.reports.record_figures import History, Trace
 from rocking.reports.style import pictures
+from rocking.reports.supports import SupportPanel, floor_sentences, support_panels, supports_figure
 from rocking.structures import Structure
+from rocking.structures.standing import Standing
 
 MOST_DRAWN = 10
 """Structures of page one and of the histories, the worst first; the tables hold all."""
@@ -85,6 +87,7 @@ class RecordReport:
             "pulse-sentences": [
                 _pulse_sentence(self.tables, motion) for motion in self.motions if motion.pulses
             ],
+            "support-sentences": floor_sentences(self.support_panels),
             "doubts": _doubts(self.tables.comparison, several=len(self.motions) > 1),
             **_pictures(self),
             **_tables(self),
@@ -122,13 +125,18 @@ class RecordReport:
         """The rotation of each structure that rocks and whose history was kept, the worst first."""
         cases = worst_cases(self.tables.comparison)
         histories = []
-        for station in self.stations:
+        for station in one_period_each(self.stations):
             case = cases.get(station.structure)
             response = self.result.responses.get(case.case) if case else None
             if case and response and case.integrated_rotation_ratio > NEGLIGIBLE:
                 history = rotation_ratios(response, self.structures[station.structure].mechanism())
                 histories += [History(station, case, *history)] if history else []
         return histories
+
+    @cached_property
+    def support_panels(self) -> list[SupportPanel]:
+        """The supports that carry a structure."""
+        return support_panels(self.result, self.result.swept)
 
     @cached_property
     def scale_note(self) -> str:
@@ -179,9 +187,14 @@ def failure_report(record: str, message: str) -> bytes:
 
 
 def headlines(stations: Sequence[StationResult]) -> list[dict[str, str]]:
-    """Return the first lines of a report: each verdict with the structures that it is of, the worst first."""
+    """Return the first lines of a report: each verdict with the structures that it is of, the worst first.
+
+    A structure on a support has a line of its own, which says what becomes of it over the periods of the support.
+    """
     groups: dict[str, list[str]] = {}
     for station in stations:
+        if standing_of(station) is not None:
+            continue
         remark = station.count if station.verdict is Verdict.OVERTURNS else ""
         if station.verdict in (Verdict.UNDECIDED, Verdict.UNKNOWN):
             remark = station.why
@@ -191,7 +204,27 @@ def headlines(stations: Sequence[StationResult]) -> list[dict[str, str]]:
         room = sum(end <= MOST_LETTERS for end in accumulate(map(len, names)))
         listed = printing.listed(names, max(1, min(MOST_NAMED, room)))
         lines.append({"verdict": printing.sentence(verdict), "names": listed})
+    swept = sorted(swept_over(stations), key=lambda each: each.severity, reverse=True)
+    lines += [{"verdict": "On a support", "names": each.sentence} for each in swept[:MOST_NAMED]]
+    if len(swept) > MOST_NAMED:
+        more = f"{counted(len(swept) - MOST_NAMED, 'more structure')}, in supports.csv"
+        lines.append({"verdict": "On a support", "names": more})
     return lines
+
+
+def standing_of(station: StationResult) -> Standing | None:
+    """Return on what a structure of the list stands that names a support; None of another."""
+    return station.body.standing if isinstance(station.body, Structure) else None
+
+
+def one_period_each(stations: Iterable[StationResult]) -> list[StationResult]:
+    """Return the stations, of each structure on a support the first one only: pictures would repeat themselves."""
+    chosen: dict[object, StationResult] = {}
+    for station in stations:
+        standing = standing_of(station)
+        key = (standing.structure, standing.place) if standing else station.structure
+        chosen.setdefault(key, station)
+    return list(chosen.values())
 
 
 def _sentences(report: RecordReport) -> list[str]:
@@ -331,7 +364,8 @@ _BLAME: dict[tuple[bool, ...], str] = {
 def _pictures(report: RecordReport) -> dict[str, object]:
     """Return the pictures of the worst cases, and the sentences that say where the others stand."""
     motions, labels = report.motions, report.labels
-    stations = [station for station in report.stations if station.structure in report.structures][:MOST_DRAWN]
+    drawable = [station for station in report.stations if station.structure in report.structures]
+    stations = one_period_each(drawable)[:MOST_DRAWN]
     names = printing.listed([station.structure for station in stations])
     strip = (f"Drawings of the structures in their state: {names}.", report.structures, labels)
     histories = report.histories[:MOST_DRAWN]
@@ -353,6 +387,11 @@ def _pictures(report: RecordReport) -> dict[str, object]:
         "histories": pictures(figures.histories_figure, histories, rotations, labels, motions),
         "histories-note": remainder(
             len(report.stations) - len(histories), "structure", f"{verdicts}, at rest or less demanding"
+        ),
+        "supports": pictures(
+            supports_figure,
+            report.support_panels,
+            "Share that overturns against the period of the support, and spectra of ground and support.",
         ),
         "pulse-figures": pictures(figures.pulses_figure, pulses, "The dominant pulse and its evidence."),
         "comparison": pictures(figures.comparison_figure, cases, comparison, labels, len(motions) > 1),

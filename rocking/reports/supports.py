@@ -14,7 +14,14 @@ from rocking.quantities import GRAVITY
 from rocking.records.floor_spectrum import FLOOR_DAMPING, floor_spectrum, spectrum_of
 from rocking.records.measures import response_spectrum
 from rocking.reports.printing import LOOKS
-from rocking.reports.style import PREDICTED, TEXT_WIDTH, elided, new_figure, panel_at, plain_logarithmic, styled
+from rocking.reports.style import (
+    PREDICTED,
+    elided,
+    new_figure,
+    panel_at,
+    plain_logarithmic,
+    styled,
+)
 
 MOST_SUPPORTS = 4
 """Supports that are drawn; the table supports.csv holds all."""
@@ -42,7 +49,9 @@ def support_panels(result: RecordResult, swept: Sequence[OverPeriods]) -> list[S
         by_place.setdefault(each.place, []).append(each)
     if not result.components:
         return []
-    worst = max(range(len(result.components)), key=lambda n: result.components[n].accelerogram.peak_acceleration)
+    worst = max(
+        range(len(result.components)), key=lambda n: result.components[n].accelerogram.peak_acceleration
+    )
     panels = []
     for several in by_place.values():
         supports = [each.support for each in several[0].standings if each.support in result.floors]
@@ -58,9 +67,9 @@ def supports_figure(panels: Sequence[SupportPanel]) -> Figure:
     height = 46.0
     figure = new_figure(height * len(panels) + 2)
     for place, panel in enumerate(panels):
-        share, spectra = (
-            panel_at(figure, left, 6 + place * height, (TEXT_WIDTH - 34) / 2, height - 18) for left in (14, 100)
-        )
+        top = 6 + place * height
+        share = panel_at(figure, 14, top, 62, height - 18)
+        spectra = panel_at(figure, 92, top, 48, height - 18)
         _draw_shares(share, panel.structures)
         _draw_spectra(spectra, panel)
     return figure
@@ -70,10 +79,26 @@ def _draw_shares(axes: Axes, structures: Sequence[OverPeriods]) -> None:
     """Draw share against period, one line for each structure; a marker has the colour of its verdict."""
     for line, each in zip(_LINES * len(structures), structures, strict=False):
         shares = [judgement.overturning_share for judgement in each.judgements]
-        axes.plot(each.periods, shares, line, color="0.35", linewidth=0.9, label=elided(each.structure, 24), zorder=1)
+        axes.plot(
+            each.periods,
+            shares,
+            line,
+            color="0.35",
+            linewidth=0.9,
+            label=elided(each.structure, 24),
+            zorder=1,
+        )
         for period, share, judgement in zip(each.periods, shares, each.judgements, strict=True):
             colour = LOOKS[judgement.verdict][1]
-            axes.plot([period], [share], "o", markerfacecolor=colour, markeredgecolor="0.2", markersize=4.5)
+            axes.plot(
+                [period],
+                [share],
+                "o",
+                markerfacecolor=colour,
+                markeredgecolor="0.2",
+                markersize=4.5,
+                clip_on=False,
+            )
     axes.set(ylim=(-0.05, 1.05), xlabel="period T_b of the support [s], 0: the ground")
     axes.set_ylabel("share that overturns [-]")
     axes.set_title(elided(f"on {structures[0].place}", 40), loc="left")
@@ -100,7 +125,7 @@ def _draw_spectra(axes: Axes, panel: SupportPanel) -> None:
     axes.set(xlim=(_PERIODS[0], _PERIODS[-1]), ylim=(0, None), xlabel="period of what stands there [s]")
     axes.set_ylabel("5 % spectrum [g]")
     axes.set_title(elided(f"component {record.component or 'not named'}", 30), loc="left")
-    axes.legend(loc="upper right", fontsize=6.5)
+    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.05), fontsize=6.5)
 
 
 def floor_sentences(panels: Sequence[SupportPanel]) -> list[str]:
@@ -118,8 +143,9 @@ def floor_sentences(panels: Sequence[SupportPanel]) -> list[str]:
             text = f"at T_b {support.modes[0].period:.3g} s the peak is {factor:.2g} times that of the ground"
             if floor.analysis is not None:
                 pulse = floor.analysis.evidence.pulse
-                text += f" and the dominant pulse has {abs(pulse.amplitude):.3g} m/s² and {pulse.period:.2g} s"
+                text += (
+                    f" and the dominant pulse has {abs(pulse.amplitude):.3g} m/s² and {pulse.period:.2g} s"
+                )
             parts.append(text)
         sentences.append(f"On {panel.structures[0].place}, {'; '.join(parts)}.")
     return sentences
-

@@ -117,7 +117,11 @@ def support_from_config(mapping: Mapping[str, Any]) -> NamedSupport:
         supports = tuple(
             Support(
                 tuple(
-                    Mode(float(of_mode[place]), mode.get("damping_ratio", damping), mode["participation"])
+                    Mode(
+                        float(f"{of_mode[place]:.6g}"),
+                        mode.get("damping_ratio", damping),
+                        mode["participation"],
+                    )
                     for of_mode, mode in zip(periods, modes, strict=True)
                 )
             )

@@ -145,7 +145,7 @@ def run_job(
                 histories = history_rows(record.id, result.responses)
                 write_rows(HistoryRow, histories, folder / HistoryRow.table.file_name)
             add(rows, content)
-            tell(f"{record.id}: {record_line(result.worst_first, rows.failures)}")
+            tell(f"{record.id}: {record_line(result.worst_first, rows.failures, result.swept)}")
         for path in files:
             if not os.path.isfile(path):
                 raise RecordError(f"{path}: the file went away while the study ran; bring it back.")

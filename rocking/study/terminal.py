@@ -13,6 +13,7 @@ from threading import Thread
 from types import TracebackType
 from typing import BinaryIO, TextIO
 
+from rocking.assessment.over_periods import OverPeriods
 from rocking.assessment.rows.of_record import FailureRow, VerdictRow
 from rocking.assessment.verdict import ORDER, Judgement, Verdict, rocks, worst_first
 from rocking.errors import RecordError, RockingError
@@ -31,25 +32,32 @@ _LONGEST = 1000
 """Characters of a line: what the system writes to a pipe at once, by whatever process, is at least 4096 bytes."""
 
 
-def record_line(judgements: Iterable[Judgement], failures: Iterable[FailureRow]) -> str:
+def record_line(
+    judgements: Iterable[Judgement], failures: Iterable[FailureRow], swept: Iterable[OverPeriods] = ()
+) -> str:
     """Say in one line what came of a record: "overturns: pier; undecided: wall (12 of 64); stands: arch 0.31".
 
     The numbers are members of the ensemble that overturn, or the largest rotation over the critical one of the worst
-    component. What could not be assessed comes first.
+    component. What could not be assessed comes first. swept: of the judgements, those on structures on supports, which
+    stand at the end in a sentence each.
     """
+    swept = list(swept)
+    in_sentences = {judgement.structure for each in swept for judgement in each.judgements}
     reasons = (
         (f"{each.structure}: " if each.structure else "") + each.message.removeprefix(f"{each.record}: ")
         for each in failures
     )
     parts: dict[str, list[str]] = {"failed": [" ".join(reasons)], **{word: [] for word in ORDER}}
-    for each in sorted(judgements, key=lambda each: each.severity, reverse=True):
+    alone = (each for each in judgements if each.structure not in in_sentences)
+    for each in sorted(alone, key=lambda each: each.severity, reverse=True):
         number = f" {each.rotation_ratio:.2g}" if rocks(each.rotation_ratio) else ""
         if each.verdict is Verdict.UNDECIDED:
             number = f" ({each.count or each.crack})"
         parts[each.verdict].append(each.structure + number)
     if len(undecided := parts[Verdict.UNDECIDED]) > _FEW:
         parts[Verdict.UNDECIDED] = [str(len(undecided)), f"in {VerdictRow.table.file_name}"]
-    return "; ".join(f"{word}: {text}" for word, names in parts.items() if (text := ", ".join(names)))
+    lines = [f"{word}: {text}" for word, names in parts.items() if (text := ", ".join(names))]
+    return "; ".join([*lines, *(each.sentence for each in swept)])
 
 
 def closing_lines(verdicts: Sequence[VerdictRow], failures: Iterable[FailureRow]) -> Iterator[str]:

@@ -1,0 +1,73 @@
+"""What a report says of structures on supports: the first lines, the share by period, the spectra."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+from rocking.assessment.assess import Extent, assess_record
+from rocking.assessment.rows.of_record import rows_of_record
+from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
+from rocking.records import Accelerogram
+from rocking.reports.record import RecordReport
+from rocking.reports.supports import support_panels, supports_figure
+from rocking.structures import Block
+from rocking.structures.standing import support_from_config
+
+STEP = 0.01
+
+
+@pytest.fixture(scope="module")
+def report():
+    rng = np.random.default_rng(8)
+    times = np.arange(400) * STEP
+    waves = sum(np.sin(2 * np.pi * rng.uniform(0.5, 4.0) * times + rng.uniform(0, 6.3)) for _ in range(9))
+    record = Accelerogram(0.6 * waves * np.sin(np.pi * times / 4) ** 2, STEP, component="HNE")
+    roof = {"name": "roof", "period_s": [0.15, 0.6], "participation": 1.3}
+    body = Block(semi_diagonal=0.5, slenderness=0.25)
+    structures = {
+        each.name: body.standing_on(each) for each in support_from_config(roof).standings("parapet")
+    }
+    structures["pier"] = Block(semi_diagonal=4.0, slenderness=0.25)
+    extent = Extent(AssessmentSettings(fidelity="full", ensemble=EnsembleSettings(members=16)))
+    result = assess_record("made", [record], structures, extent)
+    settings = {"tolerance": 1e-6, "acceleration_scale": "linearised", "friction_coefficient": 0.6}
+    return RecordReport(result, rows_of_record(result), structures, settings)
+
+
+def test_the_first_lines_say_it_once_for_all_periods(report):
+    lines = report.data()["headlines"]
+    on_supports = [line["names"] for line in lines if line["verdict"] == "On a support"]
+    (sentence,) = on_supports
+    assert sentence == report.result.swept[0].sentence
+    assert sentence.startswith("parapet on roof ")
+    assert all("parapet" not in line["names"] for line in lines if line["verdict"] != "On a support")
+
+
+def test_the_figure_draws_the_cells_of_the_table(report):
+    panels = support_panels(report.result, report.result.swept)
+    figure = supports_figure(panels)
+    shares, spectra = figure.axes
+    (line,) = [each for each in shares.get_lines() if len(each.get_xdata()) > 1]
+    rows = report.tables.supports
+    assert list(line.get_xdata()) == [row.support_period_s for row in rows]
+    assert list(line.get_ydata()) == [row.overturning_share for row in rows]
+    assert len(rows) == 10
+    ground, first, *_ = spectra.get_lines()
+    # at long periods a floor moves as the ground does
+    assert first.get_ydata()[-1] == pytest.approx(ground.get_ydata()[-1], rel=0.1)
+    plt.close(figure)
+
+
+def test_amplification_is_that_of_the_peaks(report):
+    ground = report.result.components[0].accelerogram.peak_acceleration
+    for row in report.tables.supports:
+        assert row.amplification == pytest.approx(row.floor_peak_acceleration_m_s2 / ground)
+        assert (row.support_period_s == 0) == (row.amplification == 1)
+        if row.support_period_s:
+            # resonance: what stands there with the support's own period feels more than its peak
+            assert row.floor_spectral_acceleration_m_s2 > row.floor_peak_acceleration_m_s2
+            assert row.code_spectral_acceleration_m_s2 > row.floor_peak_acceleration_m_s2
+
+
+def test_the_document_has_the_page(report):
+    assert report.pdf().startswith(b"%PDF")
