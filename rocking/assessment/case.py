@@ -247,10 +247,8 @@ class StationResult(Judgement):
 
     @property
     def statics(self) -> FollowedCrack | None:
-        """The crack that statics chooses where another one governs; None where it governs itself."""
-        if self.ensembles is None or self.ensembles.statics is self.ensembles.governing:
-            return None
-        return self.ensembles.statics
+        """The crack of statics where another one governs, or the worst beside one that is given; None without one."""
+        return self.ensembles.beside if self.ensembles else None
 
     @property
     def component(self) -> str:

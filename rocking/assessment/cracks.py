@@ -54,13 +54,15 @@ class FollowedCrack:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CrackEnsembles:
-    """The ensemble of every crack that was followed, that of statics first.
+    """The ensemble of every crack that was followed, the one that is given or that statics chooses first.
 
-    The crack that governs is the worst: of the largest share of members that overturn, then of the largest rotation.
-    Its ensemble gives every number of the case. Statics decides only where no other crack contradicts it.
+    The crack that governs gives every number of the case. It is the worst: of the largest share of members that
+    overturn, then of the largest rotation. Statics decides only where no other crack contradicts it. A crack that is
+    `given` by whoever described the structure is meant: it governs, and what else may form is told beside it.
     """
 
     followed: tuple[FollowedCrack, ...]
+    given: bool = False
 
     def __repr__(self) -> str:
         return f"<CrackEnsembles: {self.verdict}, {len(self.followed)} followed, {self.governing.ensemble!r}>"
@@ -72,14 +74,25 @@ class CrackEnsembles:
 
     @cached_property
     def governing(self) -> FollowedCrack:
-        """The worst crack; that of statics among equals."""
+        """The crack that is given, else the worst; that of statics among equals."""
+        return self.followed[0] if self.given else self.worst
+
+    @cached_property
+    def worst(self) -> FollowedCrack:
+        """The worst crack of all that were followed; the first among equals."""
         return max(self.followed, key=lambda each: each.severity)
 
     @property
+    def beside(self) -> FollowedCrack | None:
+        """The crack told beside the one that governs: that of statics, or the worst beside a given one; None: neither."""
+        other = self.worst if self.given else self.statics
+        return None if other is self.governing else other
+
+    @property
     def verdict(self) -> Verdict:
-        """That of statics, but undecided where statics stands and another crack does not."""
+        """That of the crack given or of statics, but undecided where statics stands and another crack does not."""
         of_statics = self.statics.ensemble.verdict
-        if of_statics is not Verdict.STANDS:
+        if of_statics is not Verdict.STANDS or self.given:
             return of_statics
         others_stand = all(each.ensemble.verdict is Verdict.STANDS for each in self.followed)
         return Verdict.STANDS if others_stand else Verdict.UNDECIDED
@@ -96,6 +109,8 @@ class CrackEnsembles:
         governing = self.governing
         crack = f" with the {governing.description}" if governing.description else ""
         words = f"{governing.count} members overturn{crack}"
+        if self.given and self.beside is not None:
+            return f"{words} as given; should the {self.beside.description} form instead, {self.beside.count} do"
         if governing is not self.statics:
             words += f", {self.statics.count} with the {self.statics.description} of statics"
         return f"the cracks disagree: {words}" if self.disagree else words
@@ -103,7 +118,7 @@ class CrackEnsembles:
 
 @lru_cache(maxsize=256)
 def cracks(structure: Structure | Mechanism) -> tuple[Crack, ...]:
-    """Return the mechanisms that may form; the one that statics chooses first."""
+    """Return the mechanisms that may form; first the one that is given, or that statics chooses."""
     if isinstance(structure, Mechanism):
         return (Crack("", math.nan, structure),)
     return tuple(
@@ -127,29 +142,37 @@ def ensemble_over_cracks(
     what it misses. verdict_only: as `ensemble` takes it. Raises MotionError as `integrate` does.
     """
     first, *others = cracks(structure)
+    given = isinstance(structure, Structure) and structure.crack_is_given
     of_statics = ensemble(
         first.mechanism, motions, settings.ensemble, tolerance=settings.tolerance, verdict_only=verdict_only
     )
     statics = FollowedCrack(first.description if others else "", first.position, of_statics)
     if not others or isinstance(structure, Mechanism) or of_statics.verdict is Verdict.OVERTURNS:
-        return CrackEnsembles((statics,))
-    doubtful = others if exhaustive else screened(others, of_statics, motions, settings)
+        return CrackEnsembles((statics,), given)
+    doubtful = others if exhaustive else screened(
+            others, of_statics, motions, settings, first.mechanism.uplift_multiplier
+        )
     in_full = [
         FollowedCrack(each.description, each.position, _alone(each, motions, settings)) for each in doubtful
     ]
-    return CrackEnsembles((statics, *in_full))
+    return CrackEnsembles((statics, *in_full), given)
 
 
 def screened(
-    others: Sequence[Crack], of_statics: Ensemble, motions: GroundMotions, settings: AssessmentSettings
+    others: Sequence[Crack],
+    of_statics: Ensemble,
+    motions: GroundMotions,
+    settings: AssessmentSettings,
+    lifted_at: float = 0.0,
 ) -> list[Crack]:
     """Return those of the `others` that may not stand, the worst first.
 
-    Each meets three members of the ensemble of statics: the two that rotate most, and the middle one. One that turns
-    beyond IN_DOUBT of its critical rotation there, or cannot be followed, is left in doubt.
+    Each meets three members of the ensemble of statics, or of the crack given: the two that rotate most, and the middle
+    one. One that turns beyond IN_DOUBT of its critical rotation there, or cannot be followed, is left in doubt. Where
+    all members rest, only what lifts below `lifted_at`, the λ of the first crack, may rock.
     """
     if np.all(of_statics.rotation_ratios == 0):
-        return []  # no other mechanism lifts earlier than that of least λ
+        others = [each for each in others if each.mechanism.uplift_multiplier < lifted_at]
     order = np.argsort(-of_statics.rotation_ratios, kind="stable")
     few = design(settings.ensemble)[order[[0, 1, order.size // 2]]]
     severity = {}

@@ -337,6 +337,8 @@ def fragility(
         raise ConfigurationError("structure is an equivalent block, but must be a structure or a mechanism.")
     names = _checked_stations(records, stations)
     first, *others = cracks(structure if isinstance(structure, Structure) else reduced)
+    if isinstance(structure, Structure) and structure.crack_is_given:
+        others = []  # what is given decides
     mechanism = first.mechanism
     intensities = np.array([measure.of(record, mechanism) for record in records])
     carried = _carried(records, structure)

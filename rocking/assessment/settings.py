@@ -7,7 +7,7 @@ from rocking.assessment.intensity import INTENSITY_MEASURES, MEASURES_IN_WORDS
 from rocking.described import check_described, described
 from rocking.errors import ConfigurationError
 from rocking.pulses import PULSE_METHODS, PulseSettings
-from rocking.structures.mechanism import Scale
+from rocking.structures.equivalent_block import Scale
 
 SIZES = (16, 64, 256, 1024, 4096)
 """Numbers of points that a design may have; each is contained in the next."""

@@ -67,7 +67,7 @@ class Members:
             ("restitution", "lie between 0 and 1", lambda values: (values >= 0) & (values <= 1)),
         ):
             values = arrays.get(name, np.ones(1))
-            wrong = values[~(holds(values) & np.isfinite(values))]
+            wrong = values[~(holds(values) & np.isfinite(values))]  # type: ignore[no-untyped-call]
             if wrong.size:
                 raise MotionError(f"{name} holds {wrong[0]!s}, but every value must {allowed}.")
 
@@ -100,7 +100,8 @@ class MemberResponses(NamedTuple):
     @property
     def lifted(self) -> np.ndarray:
         """Whether the structure rocks at all."""
-        return self.rotation_ratio != 0
+        result: np.ndarray = self.rotation_ratio != 0
+        return result
 
     @property
     def overturns(self) -> np.ndarray:

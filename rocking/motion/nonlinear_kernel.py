@@ -110,7 +110,7 @@ class Motion(NamedTuple):
 class Step(NamedTuple):
     """A step: its series, length, arc and speed at its end, when it turns and lands (−1: not), how it `_leaves`."""
 
-    series: tuple
+    series: tuple[float, ...]
     length: float
     arc: float
     speed: float

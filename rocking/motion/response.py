@@ -156,4 +156,5 @@ def _lifted(rotation: np.ndarray, least: float) -> np.ndarray:
 
 def _at(accelerogram: Accelerogram, times: np.ndarray) -> np.ndarray:
     """The ground acceleration is linear between samples and zero after the last."""
-    return np.interp(times, accelerogram.times, accelerogram.acceleration, right=0.0)
+    result: np.ndarray = np.interp(times, accelerogram.times, accelerogram.acceleration, right=0.0)
+    return result

@@ -236,7 +236,10 @@ def _wavelet(scale: float) -> np.ndarray:
     """db4 stretched to `scale` samples per unit and of unit energy, centred on the middle sample (odd count)."""
     half = math.floor(SUPPORT / 2 * scale)
     places, wavelet = _table()
-    return np.interp(np.arange(-half, half + 1) / scale + SUPPORT / 2, places, wavelet) / math.sqrt(scale)
+    result: np.ndarray = np.interp(
+        np.arange(-half, half + 1) / scale + SUPPORT / 2, places, wavelet
+    ) / math.sqrt(scale)
+    return result
 
 
 def coefficients(velocities: np.ndarray, scale: int, low: int, high: int) -> np.ndarray:
@@ -264,7 +267,8 @@ def _spectrum(scale: float, size: int) -> np.ndarray:
     """Fourier transform of the wavelet read backwards: the conjugate of its own, as it is real."""
     from scipy import fft
 
-    return np.conj(fft.fft(_wavelet(scale), size))
+    result: np.ndarray = np.conj(fft.fft(_wavelet(scale), size))
+    return result
 
 
 _kept_spectrum = lru_cache(maxsize=128)(_spectrum)

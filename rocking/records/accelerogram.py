@@ -172,7 +172,11 @@ class Accelerogram(Drawn):
 
     @classmethod
     def from_obspy(
-        cls, trace_or_stream, inventory=None, unit: str | None = None, response: str = "sensitivity"
+        cls,
+        trace_or_stream: Any,
+        inventory: Any = None,
+        unit: str | None = None,
+        response: str = "sensitivity",
     ) -> "list[Accelerogram]":
         """Return an accelerogram for each channel of an obspy Trace or Stream, in the order of its channels.
 
@@ -209,7 +213,7 @@ class Accelerogram(Drawn):
                 records.append(cls(samples, float(trace.stats.delta), source=source, **directed(fields)))
         return records
 
-    def to_obspy(self):
+    def to_obspy(self) -> Any:
         """Return an obspy Trace of the acceleration, m/s², from which from_obspy makes this accelerogram again.
 
         What obspy has no place for stands in `stats.rocking`.

@@ -204,7 +204,7 @@ class NtcSpectrum(DesignSpectrum):
     @property
     def _constant_until(self) -> float:
         *_, factor, exponent = SOILS[self.soil]
-        return factor * self.tc_star**exponent * self.tc_star
+        return float(factor * self.tc_star**exponent * self.tc_star)
 
     @staticmethod
     def _long_from(ag: ArrayLike) -> np.ndarray:
@@ -228,7 +228,7 @@ class NtcSpectrum(DesignSpectrum):
         with np.errstate(divide="ignore"):
             velocity = np.minimum(constant / periods, 1.0)
             displacement = np.minimum(long / periods, 1.0)
-        return plateau * first * velocity * displacement
+        return np.asarray(plateau * first * velocity * displacement)
 
 
 @dataclass(frozen=True, eq=False)
@@ -277,7 +277,8 @@ class PointSpectrum(DesignSpectrum):
         reduction = damping_factor(damping) / damping_factor(self.damping)
         peak_period = self.periods[int(np.argmax(self.accelerations))]
         share = np.minimum(periods / peak_period, 1.0) if peak_period else np.ones_like(periods)
-        return np.asarray(level, dtype=float) * shape * (1 + share * (reduction - 1))
+        scaled = np.asarray(level, dtype=float) * shape
+        return np.asarray(scaled * (1 + share * (reduction - 1)))
 
 
 def _check_points(periods: Sequence[float], accelerations: Sequence[float]) -> None:

@@ -63,7 +63,7 @@ def floor_spectrum(
     spectrum = np.sqrt(squares)
     first = max(mode.period for mode in support.modes)
     of_ground = np.array([ground(float(period), damping_ratio) for period in periods])
-    return np.where(periods > first, np.maximum(spectrum, of_ground), spectrum)
+    return np.asarray(np.where(periods > first, np.maximum(spectrum, of_ground), spectrum))
 
 
 def _of_mode(mode: Mode, periods: np.ndarray, damping_ratio: float, ground: GroundSpectrum) -> np.ndarray:

@@ -6,6 +6,7 @@ no unit, and claiming every file of bare numbers would take other programs' file
 
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.read import LARGEST_FILE, bare_text, read_content, unpack
@@ -17,7 +18,7 @@ PLUGINS = {form.plugin: form.name for form in FORMATS if form.plugin}
 _HEAD = 2**16
 
 
-def is_format(form: Format, source) -> bool:
+def is_format(form: Format, source: Any) -> bool:
     """Whether `source`, a path or an open binary file, is of this format; False for whatever cannot be read."""
     try:
         return form.recognise(bare_text(unpack(_bytes(source, _HEAD), "file")))
@@ -25,7 +26,7 @@ def is_format(form: Format, source) -> bool:
         return False
 
 
-def read_format(form: Format, source, **options):
+def read_format(form: Format, source: Any, **options: Any) -> Any:
     """Return obspy's Stream, in m/s², of `source`, a path or an open binary file.
 
     options: unit and time_step where the file is silent; what obspy adds is ignored. Raises RecordError.
@@ -38,9 +39,9 @@ def read_format(form: Format, source, **options):
     return Stream([record.to_obspy() for record in read_content(content, name, declared, reader=form)])
 
 
-def _bytes(source, limit: int) -> bytes:
+def _bytes(source: Any, limit: int) -> bytes:
     if hasattr(source, "read"):
-        return source.read(limit)
+        return bytes(source.read(limit))
     return read_start(Path(source), limit)
 
 

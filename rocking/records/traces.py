@@ -2,6 +2,7 @@
 
 import warnings
 from contextlib import suppress
+from typing import Any
 
 import numpy as np
 
@@ -11,7 +12,7 @@ _CORNERS = (0.02, 0.05, 0.8, 0.95)
 """Band in which a full response is removed: Hz, Hz, and shares of the Nyquist frequency."""
 
 
-def joined(result):
+def joined(result: Any) -> Any:
     """Return the stream with the pieces of each channel joined. Raises RecordError at a gap, naming where it is."""
     try:
         result = result.merge(method=0)
@@ -25,7 +26,7 @@ def joined(result):
     return result
 
 
-def calibrated(trace, inventory, response: str) -> tuple[np.ndarray, str]:
+def calibrated(trace: Any, inventory: Any, response: str) -> tuple[np.ndarray, str]:
     """Return (acceleration (n,) m/s², the sentence that says how) of a trace of counts.
 
     inventory: obspy's; None where the trace holds its response itself. Raises RecordError where none can be removed.
@@ -56,7 +57,7 @@ def calibrated(trace, inventory, response: str) -> tuple[np.ndarray, str]:
     return clean.data, f"Mean removed, 5 % cosine taper, {removed}."
 
 
-def site(trace, inventory) -> dict[str, float]:
+def site(trace: Any, inventory: Any) -> dict[str, float]:
     """Return azimuth, latitude, longitude [degrees] and elevation [m] of a trace, as far as the inventory has them."""
     facts = {}
     with suppress(Exception):  # obspy raises what it likes for what is not there
@@ -67,12 +68,12 @@ def site(trace, inventory) -> dict[str, float]:
     return facts
 
 
-def first_line(error) -> str:
+def first_line(error: object) -> str:
     """Return the first line of what an error says, without the point at its end."""
     return (str(error).strip().splitlines() or [type(error).__name__])[0].rstrip(".")[:200]
 
 
-def names(trace) -> dict[str, str]:
+def names(trace: Any) -> dict[str, str]:
     """Return component, station, network, location and start of a trace, as fields of an Accelerogram."""
     stats = trace.stats
     start = {"start_time": str(stats.starttime)} if stats.starttime.timestamp else {}

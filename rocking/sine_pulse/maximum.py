@@ -287,7 +287,8 @@ def pulse_spectrum(
     omegas, strengths = (each.ravel() for each in np.meshgrid(frequencies, amplitudes, indexing="ij"))
     peaks, margins = np.empty((1, omegas.size, 2)), np.empty((1, omegas.size))
     sine_pulse.kernel.courses(rows, np.ones(omegas.size, dtype=int), omegas, strengths, peaks, margins)
-    return peaks[0].max(axis=1).reshape(frequencies.size, amplitudes.size)
+    result: np.ndarray = peaks[0].max(axis=1).reshape(frequencies.size, amplitudes.size)
+    return result
 
 
 def _axis(field: str, values: np.ndarray, lowest: float) -> np.ndarray:

@@ -134,13 +134,30 @@ class Arch(Crackable):
             hinges.append(np.array(self.hinge_angles))
         others = []
         for angles in hinges:
-            description = "hinges at " + ", ".join(map(self._hinge_text, angles))
+            description = self._in_words(angles)
             restitution = self.mechanism().restitution
             with suppress(StructureError):
                 other = replace(self, hinge_angles=tuple(angles), crack="known", restitution=restitution)
                 other.mechanism()
                 others.append(Candidate(description, np.nan, other))
         return tuple(sorted(others, key=lambda each: each.multiplier))
+
+    @property
+    def crack_position(self) -> float:
+        """nan: a height does not tell where the hinges of an arch are."""
+        return np.nan
+
+    @property
+    def crack_in_words(self) -> str:
+        """The hinges as given, in words."""
+        return self._in_words(self.onset.hinges)
+
+    @property
+    def _place_is_given(self) -> bool:
+        return self.hinge_angles is not None
+
+    def _in_words(self, angles: np.ndarray) -> str:
+        return "hinges at " + ", ".join(map(self._hinge_text, angles))
 
     def _hinge_text(self, angle: float) -> str:
         foot = self.ring.feet(angle - self.embrace_angle / 2)

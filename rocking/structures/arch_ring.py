@@ -112,7 +112,8 @@ class Ring:
     @property
     def ends(self) -> np.ndarray:
         """The springings, (2,) angles from the vertical; on piers their feet."""
-        return np.array([-0.5, 0.5]) * self.embrace_angle + np.array([-FOOT, FOOT]) * (self.piers is not None)
+        springings: np.ndarray = np.array([-0.5, 0.5]) * self.embrace_angle
+        return springings if self.piers is None else springings + np.array([-FOOT, FOOT])
 
     @property
     def centroid_radius(self) -> float:
@@ -148,7 +149,7 @@ class Ring:
         contact = np.asarray(contact)
         points = (1 - contact * self.thickness / 2) * 1j * np.exp(-1j * section)
         if self.piers is None:
-            return points  # type: ignore[no-any-return]
+            return points
         foot, (inner, outer) = self.feet(section), self.piers.corners[:2]
         corner = np.where(contact > 0, inner.real, outer.real)
         return np.where(foot == 0, points, foot * corner + 1j * inner.imag)
@@ -211,7 +212,8 @@ class Ring:
         may not be negative.
         """
         point = self.contact_points(section, contact)
-        return -contact[..., None] * _moment(1.0, point, self.loads(section)[0])
+        result: np.ndarray = -contact[..., None] * _moment(1.0, point, self.loads(section)[0])
+        return result
 
     def gap_slopes(self, section: np.ndarray, contact: np.ndarray) -> np.ndarray:
         """Derivatives of `gaps` with the section, (k, 5); 0 for a foot, which does not move."""

@@ -11,7 +11,7 @@ from rocking.structures.drawing import Path, rectangle, span, swept
 from rocking.structures.fields import OneSided, Value, length, restitution_value
 from rocking.structures.linkage import STILL, Restitution, Turning
 from rocking.structures.stack import Course, Stack, counted_courses, courses_between
-from rocking.structures.structure import Crackable, Structure, free_to_both_sides
+from rocking.structures.structure import CrackedAtHeight, Structure, free_to_both_sides
 
 Balanced = Annotated[Restitution, restitution_value("momentum", "housner")]
 
@@ -66,12 +66,14 @@ class Block(Structure):
     @property
     def breadth(self) -> float:
         """2R sin α, m."""
-        return 2 * self.semi_diagonal * np.sin(self.slenderness)
+        result: float = 2 * self.semi_diagonal * np.sin(self.slenderness)
+        return result
 
     @property
     def height(self) -> float:
         """2R cos α, m."""
-        return 2 * self.semi_diagonal * np.cos(self.slenderness)
+        result: float = 2 * self.semi_diagonal * np.cos(self.slenderness)
+        return result
 
     def _linkage(self, mirrored: bool) -> Turning:
         inertia = (self.breadth**2 + self.height**2) / 12
@@ -183,11 +185,12 @@ _SPREAD = {"circular": 3 / 20, "square": 1 / 5}
 
 
 @dataclass(frozen=True)
-class Spire(Crackable):
+class Spire(CrackedAtHeight):
     """A cone (plan "circular") or a square pyramid ("square") that rocks about the edge of a horizontal crack.
 
     width: at the base, diameter or side, m. height: of the whole spire, m. wall_thickness: horizontal thickness of a
-    hollow one, m, the inner surface parallel to the outer; None when it is solid. crack_height: above the base, m.
+    hollow one, m, the inner surface parallel to the outer; None when it is solid. crack_height: above the base, m; the
+    default of 0 says nothing of where it cracks, unless crack is "given" or "known".
     restitution, one_sided: as for a RigidBody.
     Raises StructureError when it cannot stand, or the crack lies outside it.
 
@@ -227,6 +230,20 @@ class Spire(Crackable):
                 f"crack_height is {self.crack_height!r} m, but must lie on the spire, "
                 f"from 0 to below its height of {self.height!r} m."
             )
+
+    @property
+    def crack_position(self) -> float:
+        """Height of the crack, m."""
+        return self.crack_height
+
+    @property
+    def total_height(self) -> float:
+        """Height of the whole spire, m."""
+        return self.height
+
+    @property
+    def _place_is_given(self) -> bool:
+        return self.crack_height > 0
 
     @property
     def half_width(self) -> float:

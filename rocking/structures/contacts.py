@@ -31,7 +31,8 @@ class MotionState(NamedTuple):
     @property
     def pull(self) -> np.ndarray:
         """ü_g + i (ü_v + g), what the ground's motion and gravity ask of every mass."""
-        return self.ground + 1j * (self.vertical + GRAVITY)
+        result: np.ndarray = self.ground + 1j * (self.vertical + GRAVITY)
+        return result
 
 
 @dataclass(frozen=True, eq=False)

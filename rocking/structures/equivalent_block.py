@@ -42,13 +42,15 @@ class Arc:
     def at(self, rotation: np.ndarray | float) -> np.ndarray:
         """Return the arc at `rotation` [rad], any shape."""
         rotation = np.asarray(rotation, dtype=float)
-        return rotation * _evaluated(self.means, rotation / self.last)
+        result: np.ndarray = rotation * _evaluated(self.means, rotation / self.last)
+        return result
 
     def rotation(self, arc: np.ndarray, inverse: "RotationMap | None" = None) -> np.ndarray:
         """Return the rotation [rad] at `arc`, any shape, by Newton's method. inverse: where that begins."""
         arc = np.asarray(arc, dtype=float)
         if self.means.size == 1:
-            return np.clip(arc, 0.0, self.last)
+            clipped: np.ndarray = np.clip(arc, 0.0, self.last)
+            return clipped
         if inverse is None:
             ends = np.linspace(0.0, self.last, self.means.shape[1] + 1)
             rotation = np.interp(arc, self.at(ends), ends)
@@ -61,12 +63,14 @@ class Arc:
             rotation = np.clip(rotation - step, 0.0, self.last)
             if np.all(np.abs(step) <= _SQUARED_IS_ROUNDING * rotation):
                 break
-        return rotation
+        found: np.ndarray = rotation
+        return found
 
     @cached_property
     def _rise(self) -> np.ndarray:
         """d(q/φ)/dφ, as `means`."""
-        return chebyshev.chebder(self.means) * 2 * self.means.shape[1] / self.last
+        result: np.ndarray = chebyshev.chebder(self.means) * 2 * self.means.shape[1] / self.last
+        return result
 
 
 def arc_of(inertia: Function, last: float, accuracy: float) -> Arc | None:
@@ -126,7 +130,8 @@ class RotationMap:
         arc = np.clip(np.asarray(arc, dtype=float), 0.0, self.end)
         ratio = _evaluated(self.coefficients, arc / self.end)
         slope = _evaluated(chebyshev.chebder(self.coefficients), arc / self.end)
-        return ratio + arc * slope * 2 * self.coefficients.shape[1] / self.end
+        result: np.ndarray = ratio + arc * slope * 2 * self.coefficients.shape[1] / self.end
+        return result
 
     def arc(self, rotation: float) -> float:
         """Return the arc at one rotation [rad], up to the end, by Newton's method."""
@@ -150,7 +155,8 @@ def rotation_map(arc: Arc, accuracy: float) -> RotationMap | None:
         return RotationMap(_ONE, end)
 
     def ratio(arcs: np.ndarray) -> np.ndarray:
-        return arc.rotation(arcs) / arcs
+        result: np.ndarray = arc.rotation(arcs) / arcs
+        return result
 
     series = _pieces(ratio, end, accuracy, 1)
     return None if series is None else RotationMap(series[0], end)
@@ -185,7 +191,8 @@ def _evaluated(coefficients: np.ndarray, share: np.ndarray) -> np.ndarray:
     twice, later, latest = 2 * x, np.zeros_like(x), np.zeros_like(x)
     for row in coefficients[:0:-1]:
         later, latest = row[piece] + twice * later - latest, later
-    return coefficients[0][piece] + x * later - latest
+    result: np.ndarray = coefficients[0][piece] + x * later - latest
+    return result
 
 
 Scale = Literal["rest", "linearised", "uplift", "mean"]

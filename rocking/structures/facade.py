@@ -132,6 +132,20 @@ class Facade(Tied):
         return float(sum(self.storey_heights))
 
     @property
+    def crack_position(self) -> float:
+        """Height of the crack, m."""
+        return self.crack_height
+
+    @property
+    def total_height(self) -> float:
+        """Of all storeys, m."""
+        return self.height
+
+    @property
+    def _place_is_given(self) -> bool:
+        return self.crack_storey > 1
+
+    @property
     def crack_height(self) -> float:
         """Of the crack above the ground, m."""
         return float(sum(self.storey_heights[: self.crack_storey - 1]))

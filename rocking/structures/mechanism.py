@@ -89,7 +89,8 @@ class Tie:
     def slope(self, stretch: np.ndarray, velocity: np.ndarray, acceleration: np.ndarray) -> np.ndarray:
         """Derivative of T du/dφ with φ, from those of u; beyond yield that of the force it keeps."""
         stiffness = np.where(stretch <= self.yield_stretch, self.stiffness, 0.0)
-        return self.tension(stretch) * acceleration + stiffness * velocity**2
+        result: np.ndarray = self.tension(stretch) * acceleration + stiffness * velocity**2
+        return result
 
 
 @dataclass(frozen=True)

@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
+CRACKS = 11
+"""Number of mechanisms that are followed where more than one may form."""
 HIGHEST_SHARE = 0.95
 """Share of the height up to which a hinge or a crack is moved; a wall's hinge also stays that far above its base."""
 
@@ -101,7 +103,7 @@ class Structure(ABC):
 
     def __getstate__(self) -> dict[str, Any]:
         """The fields and what was typed: the rest is computed again after a copy or in another process."""
-        state = {each.name: getattr(self, each.name) for each in fields(self)}  # type: ignore[arg-type]
+        state = {each.name: getattr(self, each.name) for each in fields(self)}
         return state | {name: self.__dict__[name] for name in ("_typed", "standing") if name in self.__dict__}
 
     @property
@@ -271,30 +273,37 @@ class Structure(ABC):
         """Return which ties have yielded or broken once a signed `rotation` [rad] was reached, in words; "" if none."""
         return ""
 
-    def candidates(self, count: int = 11) -> "tuple[Candidate, ...]":
-        """Return the mechanisms that may form, `count` or one more; first the one that statics chooses, of least λ.
+    def candidates(self, count: int = CRACKS) -> "tuple[Candidate, ...]":
+        """Return the mechanisms that may form, `count` or one more; the first decides, the others by their λ.
 
-        One, the structure as given, where the crack is known or there is none. The same objects at every call, as they
-        keep what they compute.
+        The first is the structure as given where it says where it is cracked, else the one that statics chooses, of
+        least λ. One, the structure as given, where the crack is known or there is none. The same objects at every call,
+        as they keep what they compute.
         """
         if count not in self._candidates:
-            known = getattr(self, "crack", "known") == "known"
-            as_given = (Candidate("as given", np.nan, self),)
-            self._candidates[count] = as_given if known else self._may_form(count)
+            self._candidates[count] = self._ranked_candidates(count)
         return self._candidates[count]
 
     @cached_property
     def _candidates(self) -> "dict[int, tuple[Candidate, ...]]":
         return {}
 
-    def _may_form(self, count: int) -> "tuple[Candidate, ...]":
-        """The candidates of an unknown crack."""
-        raise NotImplementedError
+    def _ranked_candidates(self, count: int) -> "tuple[Candidate, ...]":
+        """The candidates in their order."""
+        return (Candidate("as given", np.nan, self),)
+
+    @property
+    def crack_is_given(self) -> bool:
+        """Whether it says where it is cracked, so that this crack decides and not the one that statics chooses."""
+        return True
 
     @cached_property
     def static_multiplier(self) -> float:
         """The least λ of its candidates: the ground acceleration in g at which static limit analysis lets it fall."""
-        return self.candidates()[0].multiplier
+        first, *others = self.candidates()
+        if not self.crack_is_given:
+            return first.multiplier
+        return min(each.multiplier for each in (first, *others))
 
     @property
     def form(self) -> Form:
@@ -415,16 +424,82 @@ class Candidate:
 class Crackable(Structure):
     """A structure that may open somewhere else than where it is described.
 
-    crack: "known" where it exists (a joint, a survey); "unknown", the default: statics chooses, and others may form.
+    crack: "given" where the place is meant: it decides, and what else may form is told beside it. "known" where it
+    exists (a joint, a survey): nothing else forms. "unknown": statics chooses, and others may form. None, the default:
+    "given" where a place is given, else "unknown".
     """
 
     crack: Annotated[
-        Literal["unknown", "known"],
-        Value("Whether the crack or the hinges exist where they are given", "known", phrase="{name} {value}"),
-    ] = field(default="unknown", kw_only=True)
+        Literal["given", "known", "unknown"] | None,
+        Value(
+            "Where it cracks: given (the place above decides, others are told beside it), known (it exists there and "
+            "nothing else forms) or unknown (statics chooses); left out: given where a place is given",
+            "known",
+            phrase="{name} {value}",
+        ),
+    ] = field(default=None, kw_only=True)
+
+    @property
+    @abstractmethod
+    def crack_position(self) -> float:
+        """Height of the crack as given above the base, m; nan where a height does not tell it."""
+
+    @property
+    @abstractmethod
+    def crack_in_words(self) -> str:
+        """The crack as given, in words: "hinge at 1.6 m"."""
+
+    @property
+    @abstractmethod
+    def _place_is_given(self) -> bool:
+        """Whether its description says where it cracks."""
+
+    @property
+    def crack_is_given(self) -> bool:
+        """Whether it says where it is cracked, so that this crack decides and not the one that statics chooses."""
+        if self.crack is None:
+            return self._place_is_given
+        return self.crack != "unknown"
+
+    def _ranked_candidates(self, count: int) -> tuple[Candidate, ...]:
+        if self.crack == "known":
+            return (Candidate("as given", np.nan, self),)
+        others = self._may_form(count)
+        if not self.crack_is_given:
+            return others
+        known = replace(self, crack="known")
+        known.__dict__["_mechanism"] = self.mechanism()  # one object, so that it is integrated once
+        own = Candidate(self.crack_in_words, self.crack_position, known)
+        return (own, *(each for each in others if each.description != own.description))
+
+    @abstractmethod
+    def _may_form(self, count: int) -> tuple[Candidate, ...]:
+        """The mechanisms that may form, by their λ."""
+
+
+@dataclass(frozen=True, repr=False)
+class CrackedAtHeight(Crackable):
+    """A structure that opens along a horizontal section, at whatever height."""
 
     lowest_crack: ClassVar[float] = 0.0
     """Share of the height from which on it may open."""
+
+    @property
+    @abstractmethod
+    def total_height(self) -> float:
+        """Height of the structure, of which the shares are taken, m."""
+
+    @abstractmethod
+    def cracked_at(self, height: float) -> Self:
+        """Return this structure cracked at `height` [m] above its base."""
+
+    @property
+    def crack_in_words(self) -> str:
+        """The crack as given, in words."""
+        return self._in_words(self.crack_position)
+
+    def _in_words(self, height: float) -> str:
+        return f"{self.crack_name} at {height:.4g} m"
 
     @property
     def joints(self) -> np.ndarray | None:
@@ -437,14 +512,16 @@ class Crackable(Structure):
         Where λ has its least value between two of the heights, the height of that is one more. A crack at which what
         holds the structure leaves no mechanism is left out.
         """
-        own = float(getattr(self, f"{self.crack_name}_height"))
-        shares, joints = np.linspace(self.lowest_crack, HIGHEST_SHARE, count), self.joints
-        places = self.height * shares if joints is None else joints  # type: ignore[attr-defined]
-        heights = sorted({*map(float, places), own})
+        joints = self.joints
+        places = joints
+        if places is None:
+            places = self.total_height * np.linspace(self.lowest_crack, HIGHEST_SHARE, count)
+        heights = sorted({*map(float, places), float(self.crack_position)})
         cracked = [each for each in map(self._candidate, heights) if each]
         # of equal multipliers, as all along a solid spire, the lowest crack
         order = np.argsort([float(f"{each.multiplier:.9g}") for each in cracked], kind="stable")
-        ranked, least = [cracked[place] for place in order], int(order[0])
+        ranked = [cracked[place] for place in order]
+        least = int(order[0])
         if 0 < least < len(cracked) - 1 and joints is None:
             weakest = self._weakest_between(cracked[least - 1].position, cracked[least + 1].position)
             if weakest and weakest.multiplier < (1 - 1e-5) * ranked[0].multiplier:
@@ -468,14 +545,14 @@ class Crackable(Structure):
         with suppress(StructureError), warnings.catch_warnings():
             # a crack next to a support may keep nothing of an impact: nobody asked for that one
             warnings.simplefilter("ignore", StructureWarning)
-            structure = replace(self, crack="known").cracked_at(height)  # type: ignore[attr-defined]
+            structure = replace(self, crack="known").cracked_at(height)
             structure.mechanism()
-            return Candidate(f"{self.crack_name} at {height:.4g} m", height, structure)
+            return Candidate(self._in_words(height), height, structure)
         return None
 
     def cracked_by_statics(self) -> Self:
-        """Return this structure cracked where statics chooses; the crack stays unknown."""
-        return replace(self.candidates()[0].structure, crack=self.crack)  # type: ignore[call-arg,return-value]
+        """Return this structure cracked where statics chooses; the crack is unknown."""
+        return replace(self, crack="unknown").cracked_at(self._may_form(CRACKS)[0].position)
 
 
 def free_to_both_sides(structure: Structure) -> None:

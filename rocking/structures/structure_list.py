@@ -61,7 +61,7 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
         for key, value in mapping.items()
         if key not in ("type", "name", "stands_on") and value is not None
     }
-    form = _form(kind, values)
+    form = _form(kind, values, [key for key in mapping if key not in ("type", "name")])
     arguments: dict[str, Any] = {
         form.keys[key].name: form.keys[key].inward(value) for key, value in values.items()
     }
@@ -71,13 +71,21 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
     return structure
 
 
-def _form(kind: str, values: Mapping[str, object]) -> Form:
-    """The form of `kind` that the keys `given` fill; ConfigurationError names what is unknown, missing or too much."""
+def _form(kind: str, values: Mapping[str, object], keys_typed: Iterable[str]) -> Form:
+    """The form of `kind` that the keys of `values` fill; ConfigurationError names what is unknown, missing or too much.
+
+    keys_typed: those of `values`, and those whose value was left blank.
+    """
     forms = TYPES[kind].forms()
     allowed = {key for form in forms for key in form.keys}
-    for key in values:
+    for key in keys_typed:
         if key not in allowed:
             keys = ", ".join(sorted(allowed))
+            if str(key).isdigit() and key not in values:
+                raise ConfigurationError(
+                    f"{key} is not a key of {article(kind)}: a comma parts the entries within braces; write a number "
+                    f"with a point, as in 3.{key}."
+                )
             raise ConfigurationError(
                 f"{key} is not a key of {article(kind)}{_nearest(key, allowed)}; use {keys}."
             )
@@ -132,7 +140,8 @@ def structures_schema() -> dict[str, object]:
 def structures_schema_file() -> str:
     """Return the schema as the YAML file of the workflow."""
     plain = json.loads(json.dumps(structures_schema()))  # no part twice, which YAML would write as an anchor
-    return _HEAD + yaml.safe_dump(plain, sort_keys=False, allow_unicode=True, width=110)
+    result: str = _HEAD + yaml.safe_dump(plain, sort_keys=False, allow_unicode=True, width=110)
+    return result
 
 
 def _definition(kind: str, form: Form) -> dict[str, object]:

@@ -12,7 +12,7 @@ from rocking.structures.drawing import Mark, plane
 from rocking.structures.fields import OneSided, Value
 from rocking.structures.linkage import STILL, Hung
 from rocking.structures.mechanism import Tie
-from rocking.structures.structure import Crackable
+from rocking.structures.structure import CrackedAtHeight
 
 UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"gt": 0})]
 Eccentricity = Annotated[
@@ -47,7 +47,7 @@ def check_inside(field: str, value: float, height: float) -> None:
 
 
 @dataclass(frozen=True, repr=False)
-class Tied(Crackable):
+class Tied(CrackedAtHeight):
     """A structure with a row of equal ties.
 
     tie_heights: of ties above the ground, m; tie_stiffness: of each, N/m per m; tie_pretension, N/m; tie_strength,

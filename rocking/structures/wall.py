@@ -5,7 +5,7 @@ x is measured from the middle of the wall, outwards (to the right) positive; the
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Annotated, Any, ClassVar, Self
+from typing import Annotated, ClassVar, Literal, Self, TypedDict, Unpack
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import OneSided, Value, length, restitution_value
 from rocking.structures.linkage import Hung, Linkage, Motion, Restitution, cross, keeps_last
 from rocking.structures.stack import Course, Held, Stack, counted_courses, course_at, courses_between, slab
-from rocking.structures.structure import HIGHEST_SHARE, Crackable, free_to_both_sides
+from rocking.structures.structure import HIGHEST_SHARE, CrackedAtHeight, free_to_both_sides
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity
 
 _BEARING = 0.02
@@ -127,8 +127,29 @@ Thickness = Annotated[float, length("Thickness", 0.25, (0.05, 5), "t")]
 Balanced = Annotated[Restitution, restitution_value("momentum")]
 
 
+Crack = Literal["given", "known", "unknown"] | None
+"""See `Crackable`."""
+
+
+class LoadedWallOptions(TypedDict, total=False):
+    """What a loaded wall may be given besides its sizes; see `LoadedWall`."""
+
+    top_load: float
+    eccentricity: float
+    top_slab: Literal["hinged", "flat"]
+    load_held: bool
+    restitution: Restitution
+    tie_heights: tuple[float, ...]
+    tie_stiffness: float
+    tie_pretension: float
+    tie_strength: float | None
+    tie_plastic_elongation: float
+    one_sided: bool
+    restitution_range: float | None
+
+
 @dataclass(frozen=True, repr=False)
-class CrackedWall(Crackable):
+class CrackedWall(CrackedAtHeight):
     """A wall cracked into two blocks; base and top follow the ground, the top support slides vertically."""
 
     crack_name: ClassVar[str] = "hinge"
@@ -139,40 +160,29 @@ class CrackedWall(Crackable):
     thickness: Thickness
 
     @classmethod
-    def of_size(
-        cls,
-        height: Height,
-        thickness: Thickness,
-        hinge_height: HingeHeight = None,
-        *values: Any,
-        **options: Any,
-    ) -> Self:
-        """Return the wall of that height and thickness [m], hinged where statics puts the hinge or as it is given.
+    def _heights(cls, height: float, hinge_height: float | None, crack: Crack) -> tuple[float, float, Crack]:
+        """The heights below and above the hinge [m] and the crack, "unknown" where no hinge is given.
 
-        values, options: the others of the class.
+        Raises StructureError for a hinge outside the wall, or a crack that is said to be there, but not where.
         """
-        if hinge_height is not None:
-            return cls.hinged_at(height, hinge_height, thickness, *values, **options)
-        if options.get("crack") == "known":
-            raise StructureError(
-                "crack is 'known', but hinge_height is missing; give the height of the hinge."
-            )
         cls.check_values("of_size", height=height)
-        return cls(height / 2, height / 2, thickness, *values, **options).cracked_by_statics()
-
-    @classmethod
-    def hinged_at(
-        cls, height: float, hinge_height: float, thickness: float, *values: Any, **options: Any
-    ) -> Self:
-        """Return the wall of that total height whose hinge lies at `hinge_height` [m] above the base."""
-        cls.check_values("of_size", height=height)
+        if hinge_height is None:
+            if crack in ("known", "given"):
+                raise StructureError(
+                    f"crack is {crack!r}, but hinge_height is missing; give the height of the hinge."
+                )
+            return height / 2, height / 2, "unknown"
         hinge = finite(StructureError, "hinge_height", hinge_height, "m")
         if not 0 < hinge < height:
             raise StructureError(
                 f"hinge_height is {hinge!r} m, but must lie inside the wall, "
                 f"between 0 and its height of {height!r} m."
             )
-        return cls(hinge, height - hinge, thickness, *values, **options)
+        return hinge, height - hinge, crack
+
+    def _hinged(self, hinge_height: float | None) -> Self:
+        """This wall, hinged where statics puts the hinge unless its height is given."""
+        return self if hinge_height is not None else self.cracked_by_statics()
 
     @property
     def height(self) -> float:
@@ -183,6 +193,20 @@ class CrackedWall(Crackable):
     def hinge_height(self) -> float:
         """h₁, m."""
         return self.lower_height
+
+    @property
+    def crack_position(self) -> float:
+        """Height of the hinge, m."""
+        return self.lower_height
+
+    @property
+    def total_height(self) -> float:
+        """h₁ + h₂, m."""
+        return self.height
+
+    @property
+    def _place_is_given(self) -> bool:
+        return True
 
     def _linkage(self, mirrored: bool) -> WallLinkage:
         return WallLinkage(self.lower_height, self.upper_height, self.thickness)
@@ -244,6 +268,54 @@ class Wall(CrackedWall):
     restitution: Balanced = None
     one_sided: OneSided = False
 
+    @classmethod
+    def of_size(
+        cls,
+        height: Height,
+        thickness: Thickness,
+        hinge_height: HingeHeight = None,
+        restitution: Restitution = None,
+        one_sided: bool = False,
+        *,
+        crack: Crack = None,
+        restitution_range: float | None = None,
+    ) -> Self:
+        """Return the wall of that height and thickness [m], hinged where statics puts the hinge or as it is given."""
+        lower, upper, crack = cls._heights(height, hinge_height, crack)
+        wall = cls(
+            lower,
+            upper,
+            thickness,
+            restitution,
+            one_sided,
+            crack=crack,
+            restitution_range=restitution_range,
+        )
+        return wall._hinged(hinge_height)
+
+    @classmethod
+    def hinged_at(
+        cls,
+        height: float,
+        hinge_height: float,
+        thickness: float,
+        restitution: Restitution = None,
+        one_sided: bool = False,
+        *,
+        crack: Crack = None,
+        restitution_range: float | None = None,
+    ) -> Self:
+        """Return the wall of that total height whose hinge lies at `hinge_height` [m] above the base."""
+        return cls.of_size(
+            height,
+            thickness,
+            finite(StructureError, "hinge_height", hinge_height, "m"),
+            restitution,
+            one_sided,
+            crack=crack,
+            restitution_range=restitution_range,
+        )
+
 
 @dataclass(frozen=True, repr=False)
 class LoadedWall(CrackedWall, Tied):
@@ -283,16 +355,34 @@ class LoadedWall(CrackedWall, Tied):
         self.mechanism()  # one that its load pushes over is refused at birth
 
     @classmethod
-    def of_size(  # type: ignore[override]
+    def of_size(
         cls,
         height: Height,
         thickness: Thickness,
         unit_weight: UnitWeight,
         hinge_height: HingeHeight = None,
-        **options: Any,
-    ) -> "LoadedWall":
+        *,
+        crack: Crack = None,
+        **options: Unpack[LoadedWallOptions],
+    ) -> Self:
         """Return the wall of that height and thickness [m], hinged as `Wall.of_size`; options as for the class."""
-        return super().of_size(height, thickness, hinge_height, unit_weight, **options)
+        lower, upper, crack = cls._heights(height, hinge_height, crack)
+        return cls(lower, upper, thickness, unit_weight, crack=crack, **options)._hinged(hinge_height)
+
+    @classmethod
+    def hinged_at(
+        cls,
+        height: float,
+        hinge_height: float,
+        thickness: float,
+        unit_weight: float,
+        *,
+        crack: Crack = None,
+        **options: Unpack[LoadedWallOptions],
+    ) -> Self:
+        """Return the wall of that total height whose hinge lies at `hinge_height` [m] above the base."""
+        hinge = finite(StructureError, "hinge_height", hinge_height, "m")
+        return cls.of_size(height, thickness, unit_weight, hinge, crack=crack, **options)
 
     @property
     def symmetric(self) -> bool:

@@ -157,9 +157,10 @@ def json_schema(section: Any = None) -> dict[str, Any]:
 
 def schema_file() -> str:
     """Return the text of workflow/schemas/config.schema.yaml: the schema, and what writes it."""
-    return "# Written from rocking.study.settings by: make schema\n" + yaml.safe_dump(
+    result: str = "# Written from rocking.study.settings by: make schema\n" + yaml.safe_dump(
         json_schema(), sort_keys=False, allow_unicode=True, width=117
     )
+    return result
 
 
 def commented_yaml(settings: Settings) -> str:

@@ -73,7 +73,8 @@ def row(name: str = "", description: str = "") -> Callable[[type[R]], type[R]]:
             columns.append(replace(each, unit=each.unit or next(ends, "")))
         summary = description or (cls.__doc__ or "").partition("\n")[0].rstrip(".")
         row_class.table = Table(name, summary, tuple(columns))
-        return row_class
+        result: type[R] = row_class
+        return result
 
     return made
 

@@ -42,7 +42,7 @@ def scalar_value(text: str) -> Any:
         return text
 
 
-class _StrictLoader(yaml.SafeLoader):
+class _StrictLoader(yaml.SafeLoader):  # type: ignore[misc]
     """The safe loader without aliases, deep nesting, keys given twice and the traps of YAML 1.1."""
 
     depth = 0
@@ -74,7 +74,8 @@ class _StrictLoader(yaml.SafeLoader):
             if key.value in keys:
                 raise _refused(f"key {shown(key.value)} is given twice", node.start_mark)
             keys.add(key.value)
-        return super().construct_mapping(node, deep)
+        result: dict[object, object] = super().construct_mapping(node, deep)
+        return result
 
 
 _NUMBER = r"[-+]?(0|[1-9][0-9]*)"

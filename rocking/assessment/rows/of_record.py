@@ -86,7 +86,7 @@ class MembersRow(CaseRow):
     members: int = column("Number of members; 0 without an ensemble")
     overturning_share: float = column("Share of the members that overturn; of a single run 0 or 1")
     crack: str = column("Crack that governs, to which the numbers belong; empty where only one may form")
-    statics_crack: str = column("Crack of least λ, which statics chooses, where another one governs")
+    statics_crack: str = column("Crack of statics where another one governs; beside a crack that is given, the worst other")
     statics_overturning_members: int | None = column("Members that overturn with the crack of statics")
     statics_members: int | None = column("Number of members with the crack of statics")
     rotation_ratio_low: float = column("5 % quantile of largest rotation over critical rotation")

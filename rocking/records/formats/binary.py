@@ -23,7 +23,7 @@ _DAMAGE = re.compile(r"integrity|not a SEED record|unexpected end|will not be re
 """What libmseed warns of when the numbers are not those that were written."""
 
 
-def _stream(content: bytes, form: str, **options: Any):
+def _stream(content: bytes, form: str, **options: Any) -> Any:
     """Return obspy's Stream of `content` in its format `form`, joined, and warnings; RecordError for an error."""
     import obspy  # which takes a second to import
 
@@ -190,7 +190,7 @@ def _read_miniseed(content: bytes, options: Options) -> list[Accelerogram]:
     return records
 
 
-def _inventory(stats, options: Options):
+def _inventory(stats: Any, options: Options) -> Any:
     """Return the inventory given, else the one in the folder that names this network and station, or None."""
     if options.inventory is not None:
         return _parse(options.inventory)
@@ -210,7 +210,7 @@ def _inventory(stats, options: Options):
     return _parse(naming[0])
 
 
-def _parse(path: Path):
+def _parse(path: Path) -> Any:
     from obspy import read_inventory  # which takes a second to import
 
     content = read_whole(path, _LARGEST_XML, RecordError, path.name)

@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -73,7 +73,7 @@ class Options:
         return step
 
     def accelerogram(
-        self, unit: str | None, values: np.ndarray, time_step: float | None, **fields
+        self, unit: str | None, values: np.ndarray, time_step: float | None, **fields: Any
     ) -> Accelerogram:
         """Return an Accelerogram from `values` (n,) of a file; unit and time step [s] as the file declares them.
 

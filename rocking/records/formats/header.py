@@ -135,7 +135,7 @@ class Layout:
         labels: Sequence[str],
         options: Options,
         *,
-        peaks=None,
+        peaks: Sequence[float | None] | None = None,
         **fields: Any,
     ) -> list[Accelerogram]:
         """Return channel() of each column of `table` (n, channels), named by `labels`; peaks: stated of each."""

@@ -173,7 +173,8 @@ def even_step(times: np.ndarray) -> float | None:
     rate = round(1 / step)
     candidates = [1 / rate] if rate else []
     candidates += [float(f"{step:.{digits}g}") for digits in range(1, 10)]
-    return next((candidate for candidate in candidates if abs(candidate - step) <= uncertainty), step)
+    near = (float(candidate) for candidate in candidates if abs(candidate - step) <= uncertainty)
+    return next(near, float(step))
 
 
 def only_even_step(times: np.ndarray) -> float:

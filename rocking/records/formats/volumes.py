@@ -82,7 +82,7 @@ def _reals(head: list[str]) -> list[float]:
             rows = head[i + 1 :][: text.count("real-header lines", match[2])]
             values = text.fields(rows, int(match[3]) or 1)
             if values.size == text.count("real-header values", match[1]) > _PEAK_TIME:
-                return values.tolist()
+                return [float(each) for each in values]
     raise RecordError("the real header does not hold the values it announces: it is damaged; fetch it again.")
 
 
