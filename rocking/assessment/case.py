@@ -374,6 +374,11 @@ class StationResult(Judgement):
         return self.ensembles.governing.description if self.ensembles else self._fallen_crack
 
     @property
+    def body_crack_is_given(self) -> bool:
+        """Whether the structure says where it is cracked, so that this crack decides."""
+        return isinstance(self.body, Structure) and self.body.crack_is_given
+
+    @property
     def statics_crack(self) -> str:
         """The crack that statics chooses where another one governs; "" elsewhere."""
         return self.statics.description if self.statics else ""

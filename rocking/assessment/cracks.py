@@ -84,7 +84,7 @@ class CrackEnsembles:
 
     @property
     def beside(self) -> FollowedCrack | None:
-        """The crack told beside the one that governs: that of statics, or the worst beside a given one; None: neither."""
+        """The crack told beside the one that governs: that of statics, or the worst beside a given one; or None."""
         other = self.worst if self.given else self.statics
         return None if other is self.governing else other
 
@@ -110,7 +110,9 @@ class CrackEnsembles:
         crack = f" with the {governing.description}" if governing.description else ""
         words = f"{governing.count} members overturn{crack}"
         if self.given and self.beside is not None:
-            return f"{words} as given; should the {self.beside.description} form instead, {self.beside.count} do"
+            return (
+                f"{words} as given; should the {self.beside.description} form instead, {self.beside.count} do"
+            )
         if governing is not self.statics:
             words += f", {self.statics.count} with the {self.statics.description} of statics"
         return f"the cracks disagree: {words}" if self.disagree else words
@@ -149,9 +151,11 @@ def ensemble_over_cracks(
     statics = FollowedCrack(first.description if others else "", first.position, of_statics)
     if not others or isinstance(structure, Mechanism) or of_statics.verdict is Verdict.OVERTURNS:
         return CrackEnsembles((statics,), given)
-    doubtful = others if exhaustive else screened(
-            others, of_statics, motions, settings, first.mechanism.uplift_multiplier
-        )
+    doubtful = (
+        others
+        if exhaustive
+        else screened(others, of_statics, motions, settings, first.mechanism.uplift_multiplier)
+    )
     in_full = [
         FollowedCrack(each.description, each.position, _alone(each, motions, settings)) for each in doubtful
     ]

@@ -230,7 +230,8 @@ def _lines(structure: Structure, station: StationResult, peak_acceleration: floa
     lines.append(_short(station.crack))
     if station.statics_members:
         count = f"{station.statics_overturning_members} of {station.statics_members}"
-        lines.append(f"by statics {_short(station.statics_crack)}: {count}")
+        whose = "else" if station.body_crack_is_given else "by statics"
+        lines.append(f"{whose} {_short(station.statics_crack)}: {count}")
     return [part for line in lines for part in wrap(line, _LETTERS)]
 
 

@@ -86,9 +86,11 @@ class MembersRow(CaseRow):
     members: int = column("Number of members; 0 without an ensemble")
     overturning_share: float = column("Share of the members that overturn; of a single run 0 or 1")
     crack: str = column("Crack that governs, to which the numbers belong; empty where only one may form")
-    statics_crack: str = column("Crack of statics where another one governs; beside a crack that is given, the worst other")
-    statics_overturning_members: int | None = column("Members that overturn with the crack of statics")
-    statics_members: int | None = column("Number of members with the crack of statics")
+    statics_crack: str = column(
+        "Crack of statics where another governs; beside a crack that is given, the worst other"
+    )
+    statics_overturning_members: int | None = column("Members that overturn with that crack")
+    statics_members: int | None = column("Number of members with that crack")
     rotation_ratio_low: float = column("5 % quantile of largest rotation over critical rotation")
     rotation_ratio_median: float = column("Median of largest rotation over critical rotation")
     rotation_ratio_high: float = column("95 % quantile of the same ratio; INF if it overturns")
@@ -456,7 +458,7 @@ def ensemble_row(identity: ComponentRow, structure: str, ensembles: "CrackEnsemb
     """Return the row of the ensemble of the crack that governs."""
     governing = ensembles.governing
     ensemble = governing.ensemble
-    statics = None if governing is ensembles.statics else ensembles.statics
+    statics = ensembles.beside
     return EnsembleRow(
         record=identity.record,
         component=identity.component,

@@ -39,6 +39,7 @@ def record(amplitude: float, period: float = 0.9) -> Accelerogram:
 def test_the_verdict_and_every_number_are_those_of_all_cracks_followed_one_by_one(structure, expected):
     """The oracle follows every crack in full; a spire, which tapers, never stands once it has lifted."""
     seen = set()
+    structure = replace(structure, crack="unknown")
     for severity in (1.5, 2.5, 3.5, 5.0, 8.0, 14.0):
         motion = record(severity * structure.static_multiplier * 9.80665)
         assessment = rocking.assess(motion, structure)
@@ -74,6 +75,22 @@ def test_no_crack_is_followed_beyond_doubt_and_none_by_more_than_its_ensemble(st
     assert doubted[0] == 0, "what hardly lifts leaves no other crack in doubt"
     assert doubted[-1] == 0, "what overturns by statics already needs no other crack"
     assert max(doubted) > 0
+
+
+def test_a_crack_that_is_given_decides_and_what_falls_beside_it_is_told():
+    """Hinged at mid-height the wall stands where it falls with the hinge that statics chooses."""
+    given = Wall.hinged_at(6.0, 3.0, 0.4)
+    others = replace(given, crack="unknown")
+    motion = record(2.5 * given.static_multiplier * 9.80665)
+    meant = rocking.assess(motion, given)
+    exists = rocking.assess(motion, replace(given, crack="known"))
+    assert (meant.verdict, meant.overturning_members) == (exists.verdict, exists.overturning_members)
+    assert np.array_equal(meant.rotation_ratios, exists.rotation_ratios)
+    open_place = rocking.assess(motion, others)
+    assert open_place.overturning_members > meant.overturning_members
+    assert meant.statics_overturning_members == open_place.overturning_members
+    assert f"should the {open_place.crack} form instead" in meant.why
+    assert exists.statics_crack == "" and "should" not in exists.why
 
 
 def test_auto_rests_only_where_every_crack_does():
