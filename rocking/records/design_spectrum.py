@@ -39,6 +39,8 @@ LONGEST_FIRST_PERIOD = 0.05
 """s; what a spectrum by its points must reach down to, so that its first ordinate may stand for the peak."""
 
 _LARGEST_FILE = 2**20
+_SOUGHT = 401
+"""Periods at which the largest displacement of a spectrum by its points is sought, beside the points."""
 _ACCELERATIONS = {"acceleration_m_s2": 1.0, "acceleration_g": GRAVITY}
 
 
@@ -128,6 +130,21 @@ class DesignSpectrum(ABC):
         periods = self._checked(period)
         return self.acceleration(periods, damping) * (periods / (2 * math.pi)) ** 2
 
+    def largest_displacement(
+        self, shortest: float, longest: float, level: ArrayLike, damping: float
+    ) -> np.ndarray:
+        """Return the largest S_De [m] at periods from `shortest` to `longest` [s], were the level `level` [m/s²].
+
+        Raises ConfigurationError for a period beyond the points.
+        """
+        periods = self._checked(self._between(min(shortest, longest), longest))
+        shapes = self.ordinates(periods, self.level, damping) / self.level * (periods / (2 * math.pi)) ** 2
+        return np.asarray(level, dtype=float) * shapes.max()
+
+    def _between(self, shortest: float, longest: float) -> np.ndarray:
+        """Periods among which the largest S_De is sought."""
+        return np.linspace(shortest, longest, _SOUGHT)
+
     def _damping(self, damping: float | None) -> float:
         if damping is None:
             return self.damping
@@ -215,6 +232,13 @@ class NtcSpectrum(DesignSpectrum):
         shaking = self.f0 * np.asarray(ag, dtype=float) / GRAVITY
         return self.topography * np.clip(most - slope * shaking, low, high)
 
+    def largest_displacement(
+        self, shortest: float, longest: float, level: ArrayLike, damping: float
+    ) -> np.ndarray:
+        """Return S_De at `longest` [s], as it never falls with the period."""
+        periods = self._checked(longest)
+        return self.ordinates(periods, level, damping) * (periods / (2 * math.pi)) ** 2
+
     def ordinates(self, period: ArrayLike, level: ArrayLike, damping: float) -> np.ndarray:
         """Return S_e by the four branches of Eq. 3.2.2."""
         periods, ag = np.broadcast_arrays(np.asarray(period, dtype=float), np.asarray(level, dtype=float))
@@ -269,6 +293,11 @@ class PointSpectrum(DesignSpectrum):
         """Return it with all ordinates scaled so that the first one is `level` [m/s²]."""
         factor = level / self.level
         return replace(self, accelerations=tuple(factor * each for each in self.accelerations))
+
+    def _between(self, shortest: float, longest: float) -> np.ndarray:
+        points = np.array(self.periods)
+        within_range = points[(points > shortest) & (points < longest)]
+        return np.unique([*super()._between(shortest, longest), *within_range])
 
     def ordinates(self, period: ArrayLike, level: ArrayLike, damping: float) -> np.ndarray:
         """Return S_e between the points."""

@@ -37,11 +37,15 @@ def spectrum_of(record: Accelerogram) -> GroundSpectrum:
     return acceleration
 
 
+def mode_factor(mode: Mode) -> float:
+    """Return a_Z,k over the ground's S_e(T_k, ξ_k): |γ_k ψ_k(z)| √(1 + .0004 ξ_k²), ξ_k in per cent (C7.2.7)."""
+    per_cent = 100 * mode.damping_ratio
+    return abs(mode.participation) * math.sqrt(1 + 0.0004 * per_cent**2)
+
+
 def mode_acceleration(mode: Mode, ground: GroundSpectrum) -> float:
     """Return a_Z,k, m/s², the largest acceleration of the support in one mode (C7.2.7)."""
-    per_cent = 100 * mode.damping_ratio
-    own = ground(mode.period, mode.damping_ratio)
-    return own * abs(mode.participation) * math.sqrt(1 + 0.0004 * per_cent**2)
+    return ground(mode.period, mode.damping_ratio) * mode_factor(mode)
 
 
 def floor_acceleration(support: Support, ground: GroundSpectrum) -> float:
@@ -67,12 +71,23 @@ def floor_spectrum(
 
 
 def _of_mode(mode: Mode, periods: np.ndarray, damping_ratio: float, ground: GroundSpectrum) -> np.ndarray:
-    """S_eZ,k (C7.2.6). The damping of the mode is a ratio in p: in per cent p would fall below 1."""
+    """S_eZ,k (C7.2.6)."""
     if mode.period == 0:
         return np.zeros(periods.shape)
+    return mode_acceleration(mode, ground) * amplification(mode, periods, damping_ratio)
+
+
+def amplification(mode: Mode, periods: np.ndarray, damping_ratio: float) -> np.ndarray:
+    """Return S_eZ,k over a_Z,k (C7.2.6) at `periods` [s] of any shape; 0 for a rigid mode.
+
+    The damping of the mode is a ratio in p: in per cent p would fall below 1. Raises RecordError for a mode without
+    damping.
+    """
+    if mode.period == 0:
+        return np.zeros(np.shape(periods))
     within(RecordError, "damping_ratio of the support", mode.damping_ratio, 0.001, 0.999)
     a, b = LOWER_PERIOD, UPPER_PERIOD
     p = 1.1 / math.sqrt(mode.damping_ratio) * damping_factor(damping_ratio)
     below = np.maximum(1 - periods / (a * mode.period), 0) ** 1.6
     above = np.maximum(periods / (b * mode.period) - 1, 0) ** 1.2
-    return p * mode_acceleration(mode, ground) / (1 + (p - 1) * (below + above))
+    return p / (1 + (p - 1) * (below + above))

@@ -53,6 +53,7 @@ class Arch(Crackable):
 
     type_name: ClassVar[str] = "arch"
     crack_name: ClassVar[str] = "hinges"
+    statics_chooses: ClassVar[bool] = True
     usual_restitution: ClassVar[float | str] = 0.9
     described_as: ClassVar[dict[str, str]] = {
         "": "Circular arch with radial joints; radius of the centreline"

@@ -45,7 +45,8 @@ class Structure(ABC):
     its class method, "" for the class itself. crack_name: what its candidates move ("hinge", "crack"); "" without.
     tapers: whether its courses grow smaller upwards, so that each rocks by itself and throws what stands on it
     (docs/pages/validation.md). usual_restitution: where none is given. standing: of a structure of a list that names a
-    support; None: it meets each motion as it is given.
+    support; None: it meets each motion as it is given. statics_chooses: whether codes check the mechanism of least λ
+    alone, as between supports limit analysis finds it; otherwise every crack that may open is a mechanism of its own.
     """
 
     type_name: ClassVar[str] = ""
@@ -53,6 +54,7 @@ class Structure(ABC):
     crack_name: ClassVar[str] = ""
     tapers: ClassVar[bool] = False
     usual_restitution: ClassVar[float | str] = "momentum"
+    statics_chooses: ClassVar[bool] = False
     one_sided = False
     standing: ClassVar[Standing | None] = None
 

@@ -153,6 +153,7 @@ class CrackedWall(CrackedAtHeight):
     """A wall cracked into two blocks; base and top follow the ground, the top support slides vertically."""
 
     crack_name: ClassVar[str] = "hinge"
+    statics_chooses: ClassVar[bool] = True
     lowest_crack: ClassVar[float] = 1 - HIGHEST_SHARE
 
     lower_height: Annotated[float, length("Height below the hinge", 2.0, (0.2, 57), "h₁")]

@@ -1,0 +1,368 @@
+"""The checks of a local mechanism that the Italian code asks for: Circolare 7/2019, C8.7.1.2.1, to the NTC 2018.
+
+Linear and nonlinear kinematics here; the dynamic check, C8.7.1.2.1.9, is that of `dynamic_check`. What crosses over
+from the structure is its capacity by virtual work (`StaticCapacity`): α(d_C), e* and d of C8.7.1.1, 4 and 5. Masses Q
+that push without resting on the chain are not implemented, nor are other codes.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from rocking.errors import ConfigurationError, StructureError
+from rocking.quantities import GRAVITY, finite, positive
+from rocking.records.design_spectrum import DesignSpectrum
+from rocking.records.floor_demand import FloorDemand
+from rocking.records.support import Support
+from rocking.structures import Structure
+from rocking.structures.capacity import StaticCapacity
+
+CONFIDENCE_FACTOR = 1.35
+"""Of the level of knowledge LC1, which C8.7.1.2.1 asks for unless crushing enters α; here it does not."""
+
+BEHAVIOUR_FACTOR = 2.0
+"""q of the linear check where no better one is known (C8.7.1.2.1.7)."""
+
+_MOST_FALL = 0.5
+"""Share of the largest capacity in acceleration by which it may fall as a part breaks (C8.7.1.2.1.6)."""
+_JUST_BEFORE = 1 - 1e-12
+
+
+@dataclass(frozen=True)
+class LimitState:
+    """A limit state of collapse: its displacement over d_0, the factor of its secant period, and the damping."""
+
+    name: str
+    displacement_share: float
+    period_factor: float
+    damping: float
+
+
+LIMIT_STATES = {
+    "SLV": LimitState("SLV", 0.4, 1.68 * math.pi, 0.08),
+    "SLC": LimitState("SLC", 0.6, 1.56 * math.pi, 0.10),
+}
+"""C8.7.1.2.1.6 and C8.7.1.2.1.8; the limit state of damage, SLD, has the linear check alone."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Check:
+    """One check of one limit state, with the mechanism that decides it.
+
+    capacity, demand: a_g on rock [m/s²] at which the limit state is reached and that of the spectrum, or displacements
+    [m], as `unit` says. mechanism: what opens, and to which side it falls.
+    """
+
+    clause: str
+    limit_state: str
+    capacity: float
+    demand: float
+    mechanism: str
+    unit: str = "m/s²"
+    refusal: str = ""
+
+    @property
+    def ratio(self) -> float:
+        """Capacity over demand; 1 or more where it is met."""
+        return self.capacity / self.demand if self.demand else math.inf
+
+    @property
+    def passed(self) -> bool:
+        """Whether the check is met."""
+        return not self.refusal and self.capacity >= self.demand
+
+    def __str__(self) -> str:
+        outcome = self.refusal or ("met" if self.passed else "not met")
+        return (
+            f"{self.clause}, {self.limit_state}: capacity {self.capacity:.4g} {self.unit}, demand "
+            f"{self.demand:.4g} {self.unit}, ratio {self.ratio:.3g}, {outcome} ({self.mechanism})"
+        )
+
+
+@dataclass(frozen=True)
+class LimitPoint:
+    """Where a limit state lies on the capacity curve: d [m], a [m/s²], the secant period [s], and why there."""
+
+    displacement: float
+    acceleration: float
+    period: float
+    reason: str
+
+
+@dataclass(frozen=True, eq=False)
+class LocalMechanism:
+    """One mechanism to one side as the code sees it: one degree of freedom, with the confidence factor in it.
+
+    description: what opens, to which side. sign: of the rotation. elastic_period: T_0 of a part free to vibrate, s; 0
+    of one tied rigidly to the structure. support_loss: horizontal displacement of the control point at which what
+    it carries falls, m; inf where nothing does.
+    """
+
+    description: str
+    sign: int
+    static: StaticCapacity
+    confidence_factor: float
+    elastic_period: float = 0.0
+    support_loss: float = math.inf
+
+    @property
+    def onset_multiplier(self) -> float:
+        """α_0 (C8.7.1.1)."""
+        return self.static.side.uplift_multiplier
+
+    @property
+    def participating_mass_ratio(self) -> float:
+        """e* (C8.7.1.5); weights that something else holds sideways are left out, which is on the safe side."""
+        return self.static.participating_mass_ratio
+
+    @property
+    def onset_acceleration(self) -> float:
+        """α_0 g/(e* FC), m/s² (C8.7.1.8)."""
+        return self.onset_multiplier * GRAVITY / (self.participating_mass_ratio * self.confidence_factor)
+
+    def displacement(self, rotation: float) -> float:
+        """Return d [m] (C8.7.1.4)."""
+        return float(self.static.displacement(rotation)) * self.static.displacement_factor
+
+    def acceleration(self, rotation: float) -> float:
+        """Return a [m/s²]: C8.7.1.3, and of a part free to vibrate at most its elastic branch, C8.7.1.6."""
+        multiplier = float(self.static.multiplier(rotation))
+        rigid = multiplier * GRAVITY / (self.participating_mass_ratio * self.confidence_factor)
+        if not self.elastic_period:
+            return rigid
+        elastic = (2 * math.pi / self.elastic_period) ** 2 * self.displacement(rotation)
+        return min(rigid, elastic)
+
+    @cached_property
+    def ultimate_displacement(self) -> float:
+        """d_0 [m], where a vanishes with only such actions as hold on until then."""
+        return self.displacement(self.static.collapse_rotation)
+
+    @cached_property
+    def _limiting_rupture(self) -> float:
+        """The rotation at which a tie breaks and a falls more than half of its maximum below it; inf without."""
+        ruptures = self.static.ruptures
+        if not ruptures:
+            return math.inf
+        critical = self.static.side.critical_rotation
+        just_before = [rotation * _JUST_BEFORE for rotation in ruptures]
+        places = np.unique([*np.linspace(0.0, critical, 41), *just_before, *self.static.side.bends])
+        largest = max(self.acceleration(float(each)) for each in places if each <= critical)
+        for rotation in ruptures:
+            beyond = rotation * (2 - _JUST_BEFORE)
+            after = self.acceleration(beyond) if beyond < critical else 0.0
+            if after < (1 - _MOST_FALL) * largest:
+                return rotation
+        return math.inf
+
+    def limit(self, state: LimitState) -> LimitPoint:
+        """Return where `state` lies on the capacity curve; the period is nan where there is no displacement."""
+        share = state.displacement_share
+        limits = {share * self.ultimate_displacement: f"{share:g} d₀"}
+        if self._limiting_rupture < math.inf:
+            limits[self.displacement(self._limiting_rupture * _JUST_BEFORE)] = "a tie breaks"
+        if self.support_loss < math.inf:
+            limits[self.support_loss * self.static.displacement_factor] = "what it carries falls"
+        displacement = min(limits)
+        rotation = self.static.rotation_at(displacement / self.static.displacement_factor)
+        acceleration = self.acceleration(rotation)
+        period = math.nan
+        if displacement > 0:
+            period = state.period_factor * math.sqrt(displacement / acceleration)
+        return LimitPoint(displacement, acceleration, period, limits[displacement])
+
+
+def elastic_period(
+    length: float,
+    thickness: float,
+    unit_weight: float,
+    elastic_modulus: float,
+    *,
+    cantilever: bool = True,
+) -> float:
+    """Return T_0 = κ λ L √(W/(E g)), s (C8.7.1.7), of a part that is free to vibrate, λ = L/t.
+
+    length, thickness: m. unit_weight: W, N/m³. elastic_modulus: E, Pa. cantilever: κ = 6.2, else between two supports,
+    2.2. Raises ConfigurationError for what is not above zero.
+
+    >>> from rocking.assessment.code_check import elastic_period
+    >>> round(elastic_period(2.0, 0.3, 18e3, 1e9), 4)
+    0.112
+    """
+    given = {
+        "length": length,
+        "thickness": thickness,
+        "unit_weight": unit_weight,
+        "elastic_modulus": elastic_modulus,
+    }
+    for name, value in given.items():
+        positive(ConfigurationError, name, value)
+    factor = 6.2 if cantilever else 2.2
+    slenderness = length / thickness
+    return factor * slenderness * length * math.sqrt(unit_weight / (elastic_modulus * GRAVITY))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CodeCheck:
+    """The kinematic checks of one structure at one limit state.
+
+    linear: None for SLC, of which the code has none. nonlinear: None for SLD. mechanisms: all that were checked.
+    damage_level: the least a_g [m/s²] at which a mechanism starts, that of SLD.
+    """
+
+    limit_state: str
+    linear: Check | None
+    nonlinear: Check | None
+    damage_level: float
+    mechanisms: tuple[LocalMechanism, ...] = field(repr=False)
+    governing: LocalMechanism = field(repr=False)
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Those that the limit state has."""
+        return tuple(each for each in (self.linear, self.nonlinear) if each)
+
+    @property
+    def limit(self) -> LimitPoint | None:
+        """Where the limit state lies on the curve of the mechanism that governs; None for SLD."""
+        state = LIMIT_STATES.get(self.limit_state)
+        return self.governing.limit(state) if state else None
+
+
+def kinematic_check(
+    structure: Structure,
+    spectrum: DesignSpectrum,
+    *,
+    limit_state: str = "SLV",
+    confidence_factor: float = CONFIDENCE_FACTOR,
+    support: Support | None = None,
+    behaviour_factor: float = BEHAVIOUR_FACTOR,
+    elastic_period: float = 0.0,
+    support_loss: float | None = None,
+) -> CodeCheck:
+    """Return the linear and the nonlinear check of `structure`; see `check`."""
+    if limit_state not in ("SLD", *LIMIT_STATES):
+        raise ConfigurationError(
+            f"limit_state is {limit_state!r}, but must be one of SLD, {', '.join(LIMIT_STATES)}."
+        )
+    confidence = _at_least_one("confidence_factor", confidence_factor)
+    behaviour = _at_least_one("behaviour_factor", behaviour_factor)
+    if finite(ConfigurationError, "elastic_period", elastic_period, "s") < 0:
+        raise ConfigurationError(f"elastic_period is {elastic_period!r} s, but must be 0 or more.")
+    loss = math.inf
+    if support_loss is not None:
+        loss = positive(ConfigurationError, "support_loss", support_loss, "m")
+    floor = FloorDemand(spectrum, support)
+    mechanisms = tuple(
+        LocalMechanism(words, sign, static, confidence, elastic_period, loss)
+        for words, sign, static in _capacities(structure)
+    )
+    damage = [_damage_level(each, floor) for each in mechanisms]
+    first = int(np.argmin(damage))
+    linear = nonlinear = None
+    governing = mechanisms[first]
+    if limit_state != "SLC":
+        clause = "C8.7.1.2.1.7"
+        if limit_state == "SLD":
+            behaviour = 1.0
+            clause = "C8.7.1.9" if elastic_period else "C8.7.1.8"
+        linear = Check(
+            clause=clause,
+            limit_state=limit_state,
+            capacity=behaviour * damage[first],
+            demand=spectrum.level,
+            mechanism=mechanisms[first].description,
+        )
+    if limit_state in LIMIT_STATES:
+        state = LIMIT_STATES[limit_state]
+        levels = [_collapse_level(each, floor, state) for each in mechanisms]
+        reached = np.maximum(levels, damage)  # a_g,SLV is never below a_g,SLD
+        governed_by = int(np.argmin(reached))
+        governing = mechanisms[governed_by]
+        nonlinear = Check(
+            clause="C8.7.1.2.1.8",
+            limit_state=limit_state,
+            capacity=float(reached[governed_by]),
+            demand=spectrum.level,
+            mechanism=governing.description,
+        )
+    return CodeCheck(
+        limit_state=limit_state,
+        linear=linear,
+        nonlinear=nonlinear,
+        damage_level=damage[first],
+        mechanisms=mechanisms,
+        governing=governing,
+    )
+
+
+def _at_least_one(name: str, value: float) -> float:
+    number = finite(ConfigurationError, name, value)
+    if number < 1:
+        raise ConfigurationError(f"{name} is {value!r}, but must be 1 or more.")
+    return number
+
+
+def _capacities(structure: Structure) -> Iterator[tuple[str, int, StaticCapacity]]:
+    """What opens and to which side it falls, the sign of that side, and the capacity.
+
+    Of hinges between supports those that limit analysis finds, of other cracks all that may open.
+    """
+    if not isinstance(structure, Structure):
+        raise StructureError(
+            f"the structure is a {type(structure).__name__}, which has no capacity curve; give a structure with a "
+            "geometry, as rocking.Block or rocking.Facade."
+        )
+    candidates = structure.candidates()
+    for candidate in candidates[:1] if structure.statics_chooses else candidates:
+        body = candidate.structure
+        opens = "" if candidate.description == "as given" else f"{candidate.description}, "
+        signs = (1,) if body.symmetric or body.one_sided else (1, -1)
+        for sign, side in zip(signs, body.side_names, strict=False):
+            falls = "" if body.symmetric else side
+            yield f"{opens}{falls}".removesuffix(", ") or "as given", sign, body.static_capacity(sign)
+
+
+def _damage_level(mechanism: LocalMechanism, floor: FloorDemand) -> float:
+    """a_g [m/s²] at which the mechanism starts: C8.7.1.8, of a part free to vibrate C8.7.1.9."""
+    period = mechanism.elastic_period
+
+    def felt(level: np.ndarray) -> np.ndarray:
+        return floor.acceleration(period, level, floor.spectrum.damping) if period else floor.peak(level)
+
+    return least_level(floor.spectrum, felt, mechanism.onset_acceleration)
+
+
+def _collapse_level(mechanism: LocalMechanism, floor: FloorDemand, state: LimitState) -> float:
+    """a_g [m/s²] for which the displacement demand at the secant period is that of the limit state."""
+    point = mechanism.limit(state)
+    if not point.displacement > 0:
+        return 0.0
+
+    def asked(level: np.ndarray) -> np.ndarray:
+        return floor.displacement(mechanism.elastic_period, point.period, level, state.damping)
+
+    return least_level(floor.spectrum, asked, point.displacement)
+
+
+def least_level(
+    spectrum: DesignSpectrum, demand: Callable[[np.ndarray], np.ndarray], capacity: float
+) -> float:
+    """Return the least level [m/s²] of `spectrum` at which `demand`, of levels (n,), reaches `capacity`.
+
+    On soft soil the factor S_S falls with a_g, so that it may be reached more than once.
+    """
+    from scipy.optimize import brentq  # slow to import, and needed by checks only
+
+    near = spectrum.level * capacity / float(demand(np.array(spectrum.level)))
+    levels = near * np.geomspace(1e-2, 1e2, 801)
+    asked = demand(levels)
+    beyond = int(np.argmax(asked >= capacity))
+
+    def missing(level: float) -> float:
+        return float(demand(np.array(level))) - capacity
+
+    return float(brentq(missing, levels[beyond - 1], levels[beyond], rtol=1e-14, xtol=1e-16))
