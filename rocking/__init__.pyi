@@ -1,5 +1,9 @@
 from .assessment.assess import StructureAssessment as StructureAssessment
 from .assessment.assess import assess as assess
+from .assessment.code_check import Check as Check
+from .assessment.dynamic_check import DynamicCheck as DynamicCheck
+from .assessment.dynamic_check import StructureCheck as StructureCheck
+from .assessment.dynamic_check import check as check
 from .assessment.fragility import Fragility as Fragility
 from .assessment.fragility import fragility as fragility
 from .assessment.trade import trade as trade
@@ -32,6 +36,8 @@ from .records.measures import RecordMeasures as RecordMeasures
 from .records.measures import ResponseSpectrum as ResponseSpectrum
 from .records.measures import record_measures as record_measures
 from .records.measures import response_spectrum as response_spectrum
+from .records.selection import Selection as Selection
+from .records.selection import select as select
 from .records.support import Mode as Mode
 from .records.support import Support as Support
 from .reports.panels import plot as plot

@@ -53,7 +53,12 @@ class Check:
     """One check of one limit state, with the mechanism that decides it.
 
     capacity, demand: a_g on rock [m/s²] at which the limit state is reached and that of the spectrum, or displacements
-    [m], as `unit` says. mechanism: what opens, and to which side it falls.
+    [m], as `unit` says. mechanism: what opens, and to which side it falls. refusal: why it is not called met, where
+    that is not in the numbers.
+
+    >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
+    >>> rocking.check(rocking.Block.of_size(breadth=0.6, height=2.0), spectrum).linear.clause
+    'C8.7.1.2.1.7'
     """
 
     clause: str
@@ -98,7 +103,7 @@ class LocalMechanism:
 
     description: what opens, to which side. sign: of the rotation. elastic_period: T_0 of a part free to vibrate, s; 0
     of one tied rigidly to the structure. support_loss: horizontal displacement of the control point at which what
-    it carries falls, m; inf where nothing does.
+    it carries falls, m; inf where nothing does. one_sided: whether it leans on something.
     """
 
     description: str
@@ -107,6 +112,7 @@ class LocalMechanism:
     confidence_factor: float
     elastic_period: float = 0.0
     support_loss: float = math.inf
+    one_sided: bool = False
 
     @property
     def onset_multiplier(self) -> float:
@@ -257,7 +263,7 @@ def kinematic_check(
         loss = positive(ConfigurationError, "support_loss", support_loss, "m")
     floor = FloorDemand(spectrum, support)
     mechanisms = tuple(
-        LocalMechanism(words, sign, static, confidence, elastic_period, loss)
+        LocalMechanism(words, sign, static, confidence, elastic_period, loss, structure.one_sided)
         for words, sign, static in _capacities(structure)
     )
     damage = [_damage_level(each, floor) for each in mechanisms]

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from rocking.motion.response import Response
     from rocking.pulses import Pulse, PulseAnalysis
     from rocking.records.accelerogram import Accelerogram
+    from rocking.records.selection import Selection
     from rocking.structures import Mechanism, Structure
     from rocking.structures.capacity import CapacityCurve
 
@@ -262,6 +263,25 @@ def _plot_capacity(curve: "CapacityCurve", axes: Axes) -> None:
     axes.legend()
 
 
+def _plot_selection(selection: "Selection", axes: Axes) -> None:
+    """The scaled spectra of the chosen set, their mean, the target and what is allowed about it."""
+    for place in selection.chosen:
+        axes.plot(selection.periods, selection.spectra[place], color="0.75", linewidth=0.6)
+    target = selection.target
+    low, high = (1 - selection.below) * target, (1 + selection.above) * target
+    axes.fill_between(selection.periods, low, high, color=PULSE, alpha=0.15, linewidth=0)
+    allowed = f"target, {-100 * selection.below:+.0f} to {100 * selection.above:+.0f} %"
+    axes.plot(selection.periods, target, color=PULSE, label=allowed)
+    axes.plot(
+        selection.periods, selection.mean, color=RECORD, label=f"mean of {selection.chosen.size} records"
+    )
+    plain_logarithmic(axes, "x")
+    axes.set_ylim(bottom=0)
+    axes.margins(x=0)
+    axes.set(xlabel="period [s]", ylabel="spectral acceleration [m/s²]")
+    axes.legend()
+
+
 def _plot_structure(
     structure: "Structure", axes: Axes, rotation: float = 0.0, dimensions: bool = False
 ) -> None:
@@ -288,6 +308,7 @@ _PLOTS: dict[str, Callable[..., None]] = {
     "RockingSpectrum": _plot_spectrum,
     "Mechanism": _plot_mechanism,
     "CapacityCurve": _plot_capacity,
+    "Selection": _plot_selection,
     "Structure": _plot_structure,
 }
 """By the name of the class: to import the classes would cost whoever draws a record the kernels of the motion."""

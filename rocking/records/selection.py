@@ -1,0 +1,267 @@
+"""Sets of natural records whose mean spectrum is that of a design level, as NTC 2018, 3.2.3.6 asks for them.
+
+Each record has one factor, whatever set it stands in: the one that brings the logarithms of its spectrum nearest to the
+target, within limits. The mean of the set is then about 15 % above the target, amid what is allowed, as a mean lies
+above a median. Sets are drawn at random, one pair of components a station, so that other sets can be asked what they
+would have said.
+"""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from rocking.drawn import Drawn
+from rocking.errors import ConfigurationError
+from rocking.quantities import positive
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.design_spectrum import DesignSpectrum
+from rocking.records.measures import response_spectrum
+
+STATIONS = 20
+"""Of a set: of 7 records the verdict hangs on the choice for one wall in nine, of 20 for one in thirty-six."""
+
+SETS = 200
+"""Drawn beside the chosen one, to say what another would have said."""
+
+BELOW, ABOVE = 0.10, 0.30
+"""How far the mean spectrum may lie below and above the target (NTC 2018, 3.2.3.6)."""
+
+_CHUNK = 2000
+_PERIODS_PER_DOUBLING = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Selection(Drawn):
+    """Sets of records for a design spectrum; `plot` draws the chosen one against its target.
+
+    names, stations: (m,) of the pool. pairs: its horizontal components, unscaled. factors: (m,), by which each is
+    scaled. periods: (k,) s. target: (k,) m/s². spectra: (m, k) m/s², of each scaled pair the mean of its components,
+    5 % damping or that of the design spectrum. sets: (s, n) places in the pool, each within the limits; chosen: (n,),
+    the set whose mean lies nearest to the target. drawn: sets that were tried. below, above: the limits.
+
+    >>> (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
+    >>> pool = {"one": [record]}
+    >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.4)
+    >>> rocking.select(pool, spectrum, 1, below=0.9, above=9.0).chosen_names
+    ('one',)
+    """
+
+    names: tuple[str, ...]
+    stations: tuple[str, ...] = field(repr=False)
+    pairs: tuple[tuple[Accelerogram, ...], ...] = field(repr=False)
+    factors: np.ndarray = field(repr=False)
+    periods: np.ndarray = field(repr=False)
+    target: np.ndarray = field(repr=False)
+    spectra: np.ndarray = field(repr=False)
+    sets: np.ndarray = field(repr=False)
+    chosen: np.ndarray = field(repr=False)
+    drawn: int
+    below: float
+    above: float
+
+    @property
+    def mean(self) -> np.ndarray:
+        """(k,) m/s²: the mean spectrum of the chosen set."""
+        mean: np.ndarray = self.spectra[self.chosen].mean(axis=0)
+        return mean
+
+    @property
+    def deviations(self) -> tuple[float, float]:
+        """How far the mean of the chosen set lies below and above the target, as shares."""
+        ratio = self.mean / self.target
+        return float(ratio.min() - 1), float(ratio.max() - 1)
+
+    @property
+    def chosen_names(self) -> tuple[str, ...]:
+        """The records of the chosen set."""
+        return tuple(self.names[place] for place in self.chosen)
+
+    def scaled(self, place: int) -> tuple[Accelerogram, ...]:
+        """Return the components of a record of the pool, scaled."""
+        return tuple(each.scaled(float(self.factors[place])) for each in self.pairs[place])
+
+    def redrawn(self, rng: np.random.Generator, tries: int = 4000, most: int = SETS) -> np.ndarray:
+        """Return sets (s, n), s up to `most`, within the limits, of stations drawn again from those of the pool.
+
+        As often as a station is drawn again it counts as another one.
+        """
+        names, of_record = np.unique(np.asarray(self.stations), return_inverse=True)
+        again = rng.integers(0, names.size, names.size)
+        places = np.concatenate([np.flatnonzero(of_record == each) for each in again])
+        labels = np.repeat(np.arange(names.size), [int((of_record == each).sum()) for each in again])
+        ratios = self.spectra / self.target
+        found = []
+        number = 0
+        for drawn in _drawn(labels, self.chosen.size, tries, rng):
+            sets = places[drawn]
+            means = ratios[sets].mean(axis=1)
+            allowed = (means.min(axis=1) >= 1 - self.below) & (means.max(axis=1) <= 1 + self.above)
+            found.append(sets[allowed])
+            number += int(allowed.sum())
+            if number >= most:
+                break
+        return np.concatenate(found)[:most]
+
+    @cached_property
+    def words(self) -> str:
+        """How near the chosen set comes, and how far scaling went."""
+        low, high = self.deviations
+        factors = self.factors[self.chosen]
+        return (
+            f"{self.chosen.size} records of as many stations out of {len(self.names)} of {len(set(self.stations))}; "
+            f"the mean spectrum lies between {100 * low:+.0f} and {100 * high:+.0f} % of the target from "
+            f"{self.periods[0]:.3g} to {self.periods[-1]:.3g} s; factors from {factors.min():.3g} to "
+            f"{factors.max():.3g}, median {np.median(factors):.3g}; {len(self.sets)} other sets within the limits, "
+            f"of {self.drawn} drawn"
+        )
+
+
+def select(
+    records: Mapping[str, Sequence[Accelerogram]],
+    spectrum: DesignSpectrum,
+    stations: int = STATIONS,
+    *,
+    periods: tuple[float, float] = (0.15, 2.0),
+    factors: tuple[float, float] = (0.25, 4.0),
+    below: float = BELOW,
+    above: float = ABOVE,
+    sets: int = SETS,
+    tries: int = 100_000,
+    seed: int = 0,
+) -> Selection:
+    """Return sets of `stations` records whose mean spectrum lies within the limits about `spectrum`.
+
+    records: the horizontal components of each, by name; those of one station, by what its files call it, do not meet in
+    a set. periods: shortest and longest of the range that counts, s; the longest should be twice the secant period of
+    the structure where that is more than 2 s. factors: least and largest. below, above: shares. sets: how many are
+    drawn beside the chosen one. tries: most sets that are drawn. seed: the same one gives the same sets.
+    Raises ConfigurationError for fewer stations than asked for, a range or limits that are none, and where no set meets
+    the limits: it says how near the best one came.
+
+    >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.4)
+    >>> (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
+    >>> scaled = [rocking.Accelerogram(f * record.acceleration, 0.01, station=str(f)) for f in (0.9, 1.0, 1.1, 1.2)]
+    >>> pool = {each.station: [each] for each in scaled}
+    >>> rocking.select(pool, spectrum, 3, below=0.9, above=9.0, sets=2).chosen.size
+    3
+    """
+    shortest, longest = periods
+    least, most = factors
+    if not 0 < shortest < longest:
+        raise ConfigurationError(
+            f"periods is {shortest:g} to {longest:g} s, but must go from above 0 to a longer one."
+        )
+    if not 0 < least <= most:
+        raise ConfigurationError(
+            f"factors is {least:g} to {most:g}, but must go from above 0 to as much or more."
+        )
+    for name, value in (("stations", stations), ("below", below), ("above", above), ("tries", tries)):
+        positive(ConfigurationError, name, value)
+    count = 1 + math.ceil(_PERIODS_PER_DOUBLING * math.log2(longest / shortest))
+    grid = np.geomspace(shortest, longest, count)
+    target = np.asarray(spectrum.acceleration(grid))
+    own = np.array([_mean_spectrum(pair, grid, spectrum.damping) for pair in records.values()]).reshape(
+        -1, count
+    )
+    names = tuple(records)
+    places = tuple(_station(name, pair) for name, pair in records.items())
+    scaling = np.clip(np.exp(np.log(target / own).mean(axis=1)), least, most)
+    spectra = own * scaling[:, None]
+    found, chosen, drawn = search(
+        spectra / target, places, stations, below=below, above=above, sets=sets, tries=tries, seed=seed
+    )
+    return Selection(
+        names=names,
+        stations=places,
+        pairs=tuple(tuple(pair) for pair in records.values()),
+        factors=scaling,
+        periods=grid,
+        target=target,
+        spectra=spectra,
+        sets=found,
+        chosen=chosen,
+        drawn=drawn,
+        below=below,
+        above=above,
+    )
+
+
+def _mean_spectrum(pair: Sequence[Accelerogram], periods: np.ndarray, damping: float) -> np.ndarray:
+    spectra = [response_spectrum(each, periods, damping).pseudo_acceleration for each in pair]
+    mean: np.ndarray = np.mean(spectra, axis=0)
+    return mean
+
+
+def _station(name: str, pair: Sequence[Accelerogram]) -> str:
+    """What tells stations apart: network and code as the file gives them, else the name of the record."""
+    first = pair[0]
+    return f"{first.network}.{first.station}".strip(".") or name
+
+
+def search(
+    ratios: np.ndarray,
+    stations: Sequence[str],
+    count: int,
+    *,
+    below: float = BELOW,
+    above: float = ABOVE,
+    sets: int = SETS,
+    tries: int = 100_000,
+    seed: int = 0,
+) -> tuple[np.ndarray, np.ndarray, int]:
+    """Return sets (s, count) of places whose mean ratio lies within the limits, the nearest one, and how many it drew.
+
+    ratios: (m, k), spectrum over target. All `tries` are drawn unless twice as many sets as asked for were within the
+    limits; the nearest one is the least in the mean square of its logarithms. Raises ConfigurationError as `select`.
+    """
+    names = np.unique(np.asarray(stations))
+    if names.size < count:
+        raise ConfigurationError(
+            f"the records come from {names.size} stations, but a set of {count} needs as many; give more records, or "
+            "ask for fewer stations."
+        )
+    found: list[np.ndarray] = []
+    distances: list[np.ndarray] = []
+    number = drawn = 0
+    nearest, extremes = math.inf, (0.0, 0.0)
+    for places in _drawn(np.asarray(stations), count, tries, np.random.default_rng(seed)):
+        means = ratios[places].mean(axis=1)
+        low, high = means.min(axis=1) - 1, means.max(axis=1) - 1
+        excess = np.maximum(-below - low, high - above)
+        best = int(np.argmin(excess))
+        if excess[best] < nearest:
+            nearest, extremes = float(excess[best]), (float(low[best]), float(high[best]))
+        within_limits = excess <= 0
+        found.append(places[within_limits])
+        distances.append((np.log(means[within_limits]) ** 2).mean(axis=1))
+        drawn += len(places)
+        number += int(within_limits.sum())
+        if number > 2 * sets:
+            break
+    if not number:
+        raise ConfigurationError(
+            f"no set of {count} stations lies within {-100 * below:+.0f} and {100 * above:+.0f} % of the target, of "
+            f"{drawn} drawn; the nearest lies between {100 * extremes[0]:+.0f} and {100 * extremes[1]:+.0f} %; give "
+            "more records, wider factors or a narrower range of periods."
+        )
+    all_found = np.concatenate(found)
+    chosen = int(np.argmin(np.concatenate(distances)))
+    others = np.delete(all_found, chosen, axis=0)[:sets]
+    return others, all_found[chosen], drawn
+
+
+def _drawn(stations: np.ndarray, count: int, tries: int, rng: np.random.Generator) -> Iterator[np.ndarray]:
+    """Yield random sets (c, count) of places, each of as many stations, `tries` in all."""
+    _, of_record = np.unique(stations, return_inverse=True)
+    order = np.argsort(of_record, kind="stable")
+    sizes = np.bincount(of_record)
+    begins = np.concatenate([[0], np.cumsum(sizes)[:-1]])
+    for start in range(0, tries, _CHUNK):
+        rows = min(_CHUNK, tries - start)
+        lots = rng.random((rows, sizes.size), dtype=np.float32)
+        chosen = np.argpartition(lots, count - 1, axis=1)[:, :count]
+        of_station = np.floor(rng.random((rows, count)) * sizes[chosen]).astype(int)
+        yield np.sort(order[begins[chosen] + of_station], axis=1)

@@ -1,0 +1,121 @@
+"""The dynamic check: what it says of a set, by the integrations themselves; what other sets say; what is refused."""
+
+import numpy as np
+import pytest
+
+import rocking
+from rocking import Block, DesignSpectrum, Mechanism, Members, Mode, Support, integrate_members, select
+from tests.made_pools import made_pool
+
+SPECTRUM = DesignSpectrum.ntc(2.0, 2.5, 0.4)
+LIMITS = {"below": 0.3, "above": 0.4}
+
+
+@pytest.fixture(scope="module")
+def records():
+    return select(made_pool(30), SPECTRUM, 10, sets=60, **LIMITS)
+
+
+def largest_displacements(block, records, places):
+    """d of the top, half of it for one mass at mid-height, of the block under each component of a set."""
+    moved = []
+    for place in places:
+        for each in records.scaled(int(place)):
+            (ratio,) = integrate_members(block, each, Members()).rotation_ratio
+            rotation = ratio * block.mechanism().critical_rotation
+            if not np.isfinite(rotation):
+                moved.append(np.inf)
+                continue
+            moved.append((block.height * np.sin(rotation) + block.breadth * (1 - np.cos(rotation))) / 2)
+    return np.array(moved)
+
+
+def test_a_block_under_the_set_as_its_integrations_say(records):
+    """Without a confidence factor the mechanism is the block's own; d_0 is that of its diagonal upright."""
+    block = Block.of_size(0.45, 3.0)
+    found = rocking.check(block, SPECTRUM, confidence_factor=1.0, records=records).dynamic
+    moved = largest_displacements(block, records, records.chosen)
+    upright = block.mechanism().critical_rotation
+    ultimate = (3.0 * np.sin(upright) + 0.45 * (1 - np.cos(upright))) / 2
+    assert found.capacity == pytest.approx(0.4 * ultimate, rel=1e-9)
+    assert found.demand == pytest.approx(moved.mean(), rel=1e-9)
+    assert found.exceeding == (moved > ultimate).sum()
+    assert found.motions == 20
+    of_record = {place: largest_displacements(block, records, [place]) for place in range(len(records.names))}
+    met = []
+    for places in records.sets:
+        of_set = np.concatenate([of_record[place] for place in places])
+        met.append(of_set.mean() <= 0.4 * ultimate and (of_set <= ultimate).all())
+    assert found.sets == len(records.sets) == 60
+    assert found.share == pytest.approx(np.mean(met))
+    low, high = found.interval
+    assert low <= found.share <= high
+
+
+def test_the_confidence_factor_weakens_what_restores(records):
+    """The mechanism of a block with FC is the block whose gravity is g/FC: λ and p² fall by FC, φ_cr stays."""
+    from rocking.assessment.code_check import kinematic_check
+    from rocking.assessment.dynamic_check import with_confidence
+
+    block = Block.of_size(0.45, 3.0)
+    weak = with_confidence(kinematic_check(block, SPECTRUM, confidence_factor=1.35).mechanisms)
+    assert isinstance(weak, Mechanism)
+    own = block.mechanism()
+    assert weak.uplift_multiplier == pytest.approx(own.uplift_multiplier / 1.35, rel=1e-12)
+    frequency = own.positive.frequency_parameter / 1.35**0.5
+    assert weak.positive.frequency_parameter == pytest.approx(frequency, rel=1e-12)
+    assert weak.critical_rotation == own.critical_rotation
+
+
+def test_stout_blocks_meet_it_and_slender_ones_do_not(records):
+    stout = rocking.check(Block.of_size(2.5, 3.0), SPECTRUM, records=records).dynamic
+    assert stout.passed and stout.share == 1 and stout.demand == 0
+    slender = rocking.check(Block.of_size(0.12, 1.5), SPECTRUM, records=records).dynamic
+    assert not slender.passed and slender.exceeding and slender.share == 0
+    assert "d₀ is exceeded under" in slender.refusal
+
+
+def test_what_one_set_meets_is_not_called_met_where_others_do_not(records):
+    """Between blocks that all sets pass and that none passes, there is one that some pass, and it is refused."""
+    between = []
+    for breadth in np.linspace(0.4, 0.8, 9):
+        found = rocking.check(Block.of_size(float(breadth), 3.0), SPECTRUM, records=records).dynamic
+        between.append(found)
+        assert found.passed == (
+            found.demand <= found.capacity and not found.exceeding and found.share >= 0.95
+        )
+    assert any(0 < each.share < 0.95 for each in between)
+    undecided = [
+        each for each in between if not each.passed and each.demand <= each.capacity and not each.exceeding
+    ]
+    for each in undecided:
+        assert f"of {each.sets} sets" in each.refusal
+
+
+def test_a_rigid_support_changes_nothing_and_a_resonant_one_does(records):
+    block = Block.of_size(0.8, 3.0)
+    ground, rigid, resonant = (
+        rocking.check(block, SPECTRUM, support=support, records=records).dynamic
+        for support in (None, Support((Mode(0.0, 0.05, 1.0),)), Support((Mode(0.5, 0.05, 1.6),)))
+    )
+    assert rigid.demand == pytest.approx(ground.demand, rel=1e-9)
+    assert resonant.demand > 1.2 * ground.demand
+
+
+@pytest.mark.slow
+def test_the_interval_of_the_share_covers_what_sets_of_other_stations_say():
+    """Twelve pools of other stations each: the interval of one holds the share of the next, in nine tenths of cases.
+
+    Of 12 a nine-tenths interval holds 9 or more with a probability of .97.
+    """
+    block = Block.of_size(0.5, 3.0)
+    found = []
+    for seed in range(12):
+        pool = select(made_pool(40, seed=100 + seed), SPECTRUM, 10, sets=200, **LIMITS)
+        found.append(rocking.check(block, SPECTRUM, records=pool).dynamic)
+    fresh = [each.share for each in found[1:]] + [found[0].share]
+    held = [
+        each.interval[0] - 1e-9 <= share <= each.interval[1] + 1e-9
+        for each, share in zip(found, fresh, strict=True)
+    ]
+    assert sum(held) >= 9, [(each.share, each.interval) for each in found]

@@ -1,0 +1,103 @@
+"""Sets of records for a design level: their limits by another routine, their stations, their seed, what is refused."""
+
+import numpy as np
+import pytest
+
+from rocking import DesignSpectrum, select
+from rocking.errors import ConfigurationError
+from rocking.records.selection import search
+from tests.made_pools import made_pool
+from tests.oracles.oscillator import spectral_acceleration
+
+SPECTRUM = DesignSpectrum.ntc(2.0, 2.5, 0.4)
+LIMITS = {"below": 0.25, "above": 0.35}
+"""Wider than the code's: the made records are fewer and more alike than natural ones."""
+
+
+@pytest.fixture(scope="module")
+def pool():
+    return made_pool(30)
+
+
+@pytest.fixture(scope="module")
+def selection(pool):
+    return select(pool, SPECTRUM, 10, sets=40, seed=3, **LIMITS)
+
+
+def test_the_mean_spectrum_computed_anew_lies_within_the_limits(pool, selection):
+    """By matrix exponentials; both routines miss a peak between two steps by about 1 %."""
+    periods = selection.periods[::10]
+    anew = {}
+    for place in {*selection.chosen, *selection.sets[:2].ravel()}:
+        pair = pool[selection.names[place]]
+        factor = selection.factors[place]
+        of_pair = [
+            [
+                factor * spectral_acceleration(each.acceleration, each.time_step, period, 0.05)
+                for period in periods
+            ]
+            for each in pair
+        ]
+        anew[place] = np.mean(of_pair, axis=0)
+        np.testing.assert_allclose(anew[place], selection.spectra[place][::10], rtol=0.015)
+    target = SPECTRUM.acceleration(periods)
+    for places in (selection.chosen, *selection.sets[:2]):
+        ratio = np.mean([anew[place] for place in places], axis=0) / target
+        assert (ratio > 0.74).all() and (ratio < 1.37).all()
+
+
+def test_every_set_has_one_pair_a_station_and_is_another_one(pool, selection):
+    """Three more records of each of two stations never meet one another."""
+    more = dict(pool)
+    for number in (0, 1):
+        more |= {
+            f"again {number} {k}": [each.scaled(1 + 0.1 * k) for each in pool[f"R{number}"]] for k in range(3)
+        }
+    several = select(more, SPECTRUM, 10, sets=40, seed=3, **LIMITS)
+    stations = np.array(several.stations)
+    assert {"again 0 1", "again 1 2"} & {several.names[place] for place in several.sets.ravel()}
+    for places in (several.chosen, *several.sets):
+        assert len(set(stations[places])) == 10
+    assert len({tuple(places) for places in selection.sets}) == len(selection.sets) == 40
+
+
+def test_the_same_seed_gives_the_same_sets(pool, selection):
+    again = select(pool, SPECTRUM, 10, sets=40, seed=3, **LIMITS)
+    np.testing.assert_array_equal(again.sets, selection.sets)
+    np.testing.assert_array_equal(again.chosen, selection.chosen)
+    other = select(pool, SPECTRUM, 10, sets=40, seed=4, **LIMITS)
+    assert not np.array_equal(other.sets, selection.sets)
+
+
+def test_factors_stay_within_their_limits_and_scale_what_is_followed(pool):
+    narrow = select(pool, SPECTRUM, 10, sets=5, factors=(0.8, 1.25), below=0.9, above=2.0)
+    assert narrow.factors.min() >= 0.8 and narrow.factors.max() <= 1.25
+    place = int(narrow.chosen[0])
+    first = narrow.scaled(place)[0]
+    np.testing.assert_allclose(
+        first.acceleration, narrow.factors[place] * narrow.pairs[place][0].acceleration
+    )
+    assert f"factors from {narrow.factors[narrow.chosen].min():.3g}" in narrow.words
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"stations": 31}, "the records come from 30 stations, but a set of 31 needs as many"),
+        ({"below": 0.001, "above": 0.001, "tries": 4000}, "of 4000 drawn; the nearest lies between"),
+        ({"periods": (2.0, 0.5)}, "periods is 2 to 0.5 s, but must go from above 0 to a longer one"),
+        ({"factors": (0.0, 2.0)}, "factors is 0 to 2, but must go from above 0"),
+        ({"stations": 0}, "stations is 0, but must be greater than 0"),
+    ],
+)
+def test_what_cannot_be_met_is_refused_in_a_sentence(pool, options, sentence):
+    with pytest.raises(ConfigurationError) as error:
+        select(pool, SPECTRUM, **({"stations": 10} | options))
+    assert sentence in str(error.value)
+
+
+def test_the_nearest_set_is_the_one_whose_excess_is_least():
+    """Of four records in sets of three the mean of 1, 1 and 1.2 lies nearest to nothing above 5 %."""
+    ratios = np.array([[1.0], [1.0], [1.2], [2.0]])
+    with pytest.raises(ConfigurationError, match=r"nearest lies between \+7 and \+7 %"):
+        search(ratios, list("abcd"), 3, below=0.05, above=0.05, tries=2000)
