@@ -131,7 +131,7 @@ def agree_with_velocity(record: Accelerogram, stated: np.ndarray) -> Accelerogra
         return record
     times = np.linspace(-1, 1, stated.size)
     differing = stated - integral(record.acceleration, record.time_step)
-    differing = differing - differing.mean() - times * (times @ differing) / (times @ times)
+    differing = differing - differing.mean() - times * np.sum(times * differing) / np.sum(times * times)
     if differing.std() <= _VELOCITY_OFF * stated.std():
         return record
     return record.warned("The file's own velocity is not the integral of its acceleration: it is damaged.")

@@ -98,7 +98,9 @@ def _levelled(record: Accelerogram, processing: Processing) -> Accelerogram:
     if processing.baseline == "none":
         return record
     times = record.times - record.duration / 2
-    slope, mean = times @ record.acceleration / (times @ times), record.acceleration.mean()
+    # Summed rather than as a product of vectors: for that, BLAS starts threads that wait for longer than they work.
+    slope = float(np.sum(times * record.acceleration) / np.sum(times * times))
+    mean = record.acceleration.mean()
     sentence = f"Least-squares line removed, mean {mean:.6g} m/s² and slope {slope:.6g} m/s³."
     return record.processed_by(record.acceleration - mean - slope * times, sentence)
 
