@@ -22,6 +22,8 @@ _STAND_INS: dict[str, Any] = {"unit": "nm/s2", "time_step": 0.01}
 """With which a file that declares none is looked at; in so small a unit no counts are beyond what ground does."""
 _BAD_NAME = "its name holds a character that a catalogue does not allow, or a blank at its end; rename it."
 _LEADS_OUT = "it is a link that leads out of the folder; copy the file instead."
+_OF_UNIT = re.compile(r"m/s| g[ ,]")
+"""In a sentence that says nothing where the unit is a stand-in."""
 _SIDEWAYS = "The file's name says {}, but {} is taken as horizontal."
 _UPWARDS = re.compile(r"(?:^|[-_. ])(UP|UD|DN|DWN|DOWN|VER|VERT|VERTICAL)(?=[-_. ]|$)", re.I)
 
@@ -123,10 +125,12 @@ def read_for_listing(raw: bytes, sha256: str, path: Path, declared: Mapping[str,
         except RecordError as error:
             return Reading(sha256, refusal=printable(str(error)))
     is_known = all(declared[name] for name in missing)
+    is_unit_known = "unit" not in missing or bool(declared["unit"])
     doubts: dict[str, list[str]] = {}
     for channel in channels:
         for sentence in channel.warnings:
-            doubts.setdefault(sentence, []).append(channel.component)
+            if is_unit_known or not _OF_UNIT.search(sentence):
+                doubts.setdefault(sentence, []).append(channel.component)
     remarks = [s if len(of) == len(channels) else f"{', '.join(of)}: {s}" for s, of in doubts.items()]
     listed = tuple(_without_samples(channel, is_known) for channel in channels)
     return Reading(sha256, listed, tuple(remarks), missing=missing)
@@ -191,11 +195,9 @@ def _why_not_listed(path: Path, folder: Path) -> str:
 
 
 def doubts_of(file: ListedFile) -> Iterator[str]:
-    """Yield the doubts about a file that hold whatever its unit turns out to be and what its row calls it."""
+    """Yield the doubts about a file that hold whatever its row calls it."""
     for sentence in file.doubts:
-        is_of_unit = file.blanks and ("m/s" in sentence or " g," in sentence)
-        is_of_direction = file.direction and "is taken as horizontal" in sentence
-        if not (is_of_unit or is_of_direction):
+        if not (file.direction and "is taken as horizontal" in sentence):
             yield sentence
 
 

@@ -12,11 +12,12 @@ import numpy as np
 
 from rocking.errors import RecordError, UnknownFormatError, about
 from rocking.records.accelerogram import Accelerogram, Source
+from rocking.records.damage import damage_warnings, repeated_rows
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
 from rocking.records.formats.text import numbers_per_line
 from rocking.records.instrument import channel_warnings, site_warnings
-from rocking.records.plausibility import damage_warnings, exchanged_lines, pass_limits
+from rocking.records.plausibility import pass_limits
 from rocking.tables import read_whole
 
 LARGEST_FILE = 8 * 2**20
@@ -73,10 +74,12 @@ def read_content(
             raise RecordError("the file holds no channel of acceleration; use the acceleration file.")
         notes = (_DOUBLED,) if b"\r\r\n" in content[:2000] and text is not content else ()
         per_line = numbers_per_line(text)
+        repeated = tuple(filter(None, [repeated_rows(records)]))
         for i, record in enumerate(records):
             own = replace(source, format=reader.name, unit=record.source.unit)
-            doubts = (*record.warnings, *notes, *pass_limits(record), *damage_warnings(record))
-            records[i] = replace(record, source=own, warnings=doubts + exchanged_lines(record, per_line))
+            doubts = (*record.warnings, *notes, *pass_limits(record))
+            damage = (*damage_warnings(record, per_line), *repeated)
+            records[i] = replace(record, source=own, warnings=doubts + damage)
         return records
 
 

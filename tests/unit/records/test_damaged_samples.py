@@ -1,0 +1,106 @@
+"""Damage that only the samples tell of: warned of where it is no chance, and never of a whole record."""
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from rocking.quantities import GRAVITY
+from rocking.records import Accelerogram
+from rocking.records.damage import damage_warnings, repeated_rows
+
+SHAKING = np.sin(np.arange(400) / 5) * np.hanning(400)
+
+
+def told(values: np.ndarray, per_line: int = 0) -> str:
+    return " ".join(damage_warnings(Accelerogram(values, 0.01), per_line))
+
+
+def shaking(seed: int, size: int = 4000) -> np.ndarray:
+    """Noise of a resonance at 3 Hz within an envelope, printed with five decimals, to which no threshold was fitted."""
+    noise = np.random.default_rng(seed).standard_normal(size)
+    motion = lfilter([1.0], [1.0, -1.86, 0.9], noise) * (0.02 + np.hanning(size))
+    return np.round(motion, 5)
+
+
+def test_a_sample_alone_is_told_with_the_peak_without_it() -> None:
+    """An exponent E-01 read as E+01 made Rinaldi's 0.874 g 2.93 g."""
+    for place in (0, 150, 399):
+        struck = SHAKING.copy()
+        struck[place] = 30.0
+        sentence = told(struck)
+        assert f"at {place * 0.01:g} s is 3.06 g" in sentence
+        without = np.abs(np.delete(SHAKING, place)).max() / GRAVITY
+        assert f"without it the peak acceleration is {without:.3g} g" in sentence
+    for size, is_told in ((120, True), (80, False)):  # a hundred samples or more
+        short = np.ones(size)
+        short[size // 2] = 30.0
+        assert bool(told(short)) == is_told
+    # a peak of 1.9 times all others is a peak
+    struck[399] = 1.9
+    assert told(struck) == "" == told(SHAKING)
+
+
+def test_zeros_within_shaking_are_told() -> None:
+    """Of numbers of few digits, which stand still for a while anyway."""
+    coarse = np.round(SHAKING, 1) + 1e-9
+    for zeros, is_told in ((49, False), (50, True)):
+        gap = coarse.copy()
+        gap[180 : 180 + zeros] = 0.0
+        assert ("are zero" in told(gap)) == is_told
+    still = np.concatenate([np.zeros(300), SHAKING + 1e-9, np.zeros(300)])
+    assert not told(still) + told(np.zeros(400))
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_whole_record_is_not_accused(seed: int) -> None:
+    """Nor one of coarse numbers, pure noise, a sine, or one that begins and ends still."""
+    values = shaking(seed)
+    coarse = np.round(values, 0)
+    noise = np.random.default_rng(seed).standard_normal(2000)
+    sine = np.round(np.sin(np.arange(3000) * 2 * np.pi / 50), 4)
+    padded = np.concatenate([np.zeros(200), values, np.zeros(300)])
+    for whole in (values, coarse, noise, sine, padded):
+        for per_line in (0, 1, 5, 8, 10):
+            assert told(whole, per_line) == ""
+
+
+@pytest.mark.parametrize("per_line", [5, 8, 10])
+def test_two_lines_that_are_exchanged_are_told(per_line: int) -> None:
+    values = shaking(per_line)
+    count = 0
+    for row in range(20, 380, 4):
+        lines = values[: 400 * per_line].reshape(-1, per_line).copy()
+        lines[[row, row + 1]] = lines[[row + 1, row]]
+        sentence = told(lines.ravel(), per_line)
+        time = (row + 1) * per_line * 0.01
+        count += f"Around {time:g} s two lines of numbers seem to be exchanged" in sentence
+    assert count > 60  # of ninety
+
+
+@pytest.mark.parametrize(("start", "size", "is_told"), [(700, 60, True), (2000, 25, True), (2000, 15, False)])
+@pytest.mark.parametrize("value", [0.0, 0.5])
+def test_a_stretch_that_stands_still_is_told(start: int, size: int, is_told: bool, value: float) -> None:
+    """Outside of the strong shaking, too: zeroed lines, or a line that is repeated again and again."""
+    values = shaking(3)
+    values[start : start + size] = value
+    sentence = f"From {start * 0.01:g} s on {size} samples in a row are the same"
+    assert (sentence in told(values)) == is_told
+
+
+@pytest.mark.parametrize(("source", "target", "size"), [(1000, 2000, 8), (1500, 1508, 8), (500, 2500, 200)])
+def test_lines_that_are_copied_over_others_are_told(source: int, target: int, size: int) -> None:
+    values = shaking(4)
+    values[target : target + size] = values[source : source + size]
+    assert f"The {size} samples from {target * 0.01:g} s on are those from {source * 0.01:g} s on" in told(
+        values, 8
+    )
+
+
+def test_a_row_of_all_channels_that_stands_twice_is_told() -> None:
+    table = np.stack([shaking(seed) for seed in (5, 6, 7)], axis=1)
+    whole = [Accelerogram(column, 0.01) for column in table.T]
+    twice = [Accelerogram(column, 0.01) for column in np.insert(table, 2000, table[1999], axis=0).T]
+    assert repeated_rows(whole) == "" == repeated_rows(twice[:1])
+    assert repeated_rows(twice).startswith("At 20 s all channels repeat the sample before")
+    coarse = [Accelerogram(np.round(column), 0.01) for column in table.T]
+    assert repeated_rows(coarse) == ""
