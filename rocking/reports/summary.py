@@ -1,6 +1,5 @@
 """The report over all records: the map of what becomes of what, what each method costs, and where it fails."""
 
-import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
@@ -75,7 +74,7 @@ def summary_data(
     """Return what the template of the summary is given: texts, tables and figures.
 
     tables: the summary tables "record", "pulses", "comparison", "verdicts", "structures", "agreement" and "failures",
-    and where they exist "timings" (what each method takes), "fragility_summary" and "ida".
+    and where they exist "fragility_summary" and "ida".
     settings: at least tolerance and acceleration_scale; study, client, author and date where they are given.
     trade: figure and conclusion, where it was measured.
     """
@@ -186,13 +185,11 @@ def structure_table(verdicts: Sequence[VerdictRow]) -> dict[str, object]:
 
 
 def method_table(tables: Mapping[str, "DataFrame"]) -> dict[str, object]:
-    """Return how each method stands to the integration of the mechanism under the record, and what a case took it."""
+    """Return how each method stands to the integration of the mechanism under the record; the times stand in a table."""
     comparison = tables["comparison"]
     whole = comparison[RATIO_COLUMNS[Method.MECHANISM_ON_RECORD]]
     worth = ((method, *_worth(comparison[RATIO_COLUMNS[method]], whole)) for method in printing.METHODS)
     rows = [each for each in worth if each[1]]
-    timings = tables.get("timings")
-    spent = {} if timings is None else timings.groupby("stage")["duration_s"].sum().to_dict()
     return table_of(
         rows,
         ("Method", "1.6", "l", lambda row: printing.METHODS[row[0]]),
@@ -201,7 +198,6 @@ def method_table(tables: Mapping[str, "DataFrame"]) -> dict[str, object]:
         ("Less than happens", "0.8", "r", lambda row: strong(plain(row[3]), row[3] > 0)),
         ("More than happens", "0.8", "r", lambda row: plain(row[4])),
         ("Within a factor\u00a02", "0.8", "r", lambda row: printing.of(row[5], row[6])),
-        ("CPU of a case [ms]", "0.8", "r", lambda row: number(1e3 * spent.get(row[0], math.nan) / row[1], 1)),
     )
 
 

@@ -23,7 +23,8 @@ from rocking.records.processing import process
 from rocking.records.station import station_of
 from rocking.structures import Structure, load_structures
 from rocking.study.folder import locked
-from rocking.study.plan import JOBS, sha256_of, structures_sha256
+from rocking.study.hashes import sha256_of
+from rocking.study.plan import JOBS, structures_sha256
 from rocking.study.results import cases_of, remove_copies, written_part
 from rocking.study.settings import Settings, read_settings
 from rocking.study.terminal import record_line, tell, tell_error

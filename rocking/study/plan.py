@@ -1,13 +1,9 @@
 """The plan of a study before its first job: settings checked, inputs read, jobs shared out."""
 
 import hashlib
-import json
 import math
 import os
-import stat
-import time
 from collections.abc import Callable, Iterable, Mapping
-from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -20,8 +16,8 @@ from rocking.records.folder import unlisted
 from rocking.records.read import LARGEST_FILE
 from rocking.structures import Structure, load_structures
 from rocking.study.folder import REMEMBERED, check_own, results_folder, stands_inside
+from rocking.study.hashes import ContentHashes, sha256_of
 from rocking.study.settings import Settings, named_files, read_settings
-from rocking.tables import read_whole, write_whole
 from rocking.tables.yaml_file import read_yaml
 
 T = TypeVar("T")
@@ -30,10 +26,6 @@ JOBS = REMEMBERED / "rocking_jobs.lock"
 """Held by every job of a study while it works, in the folder of the study."""
 _HASHES = REMEMBERED / "rocking_hashes.json"
 """Beside what snakemake remembers of a study; it may be removed at any time."""
-_LARGEST_STORE = 500_000_000
-"""Bytes of it that are read; a hundred thousand files take about 25 million."""
-_SETTLED = 2.0
-"""s; a file that changed more recently may change again without its times telling, so its hash is not kept."""
 _SOURCE = {".py", ".csv", ".json", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
 _MOST_JOBS, _MANY = 8, 200
 _FEW = {True: 12, False: 24}
@@ -50,7 +42,7 @@ class Plan:
     settings_sha256: str
     structures_sha256: str
     package_sha256: str
-    hashes: "ContentHashes"
+    hashes: ContentHashes
 
     @property
     def doubts(self) -> tuple[str, ...]:
@@ -97,6 +89,17 @@ class Plan:
             "package_sha256": self.package_sha256,
         }
 
+    def made_from(self, job: str) -> str:
+        """Return one hash for everything on which the files of a job depend."""
+        settings = self.settings
+        shown = settings.about if settings.reports else ()
+        return sha256_of(*self.params(job).items(), shown, settings.reports, settings.histories)
+
+    @property
+    def summary_made_from(self) -> str:
+        """One hash for everything on which the files over all records depend."""
+        return sha256_of(*self.params().items(), self.settings)
+
 
 def make_plan(config: Mapping[str, Any]) -> Plan:
     """Check `config`, the catalogue and the structures it names, and share out the records; write nothing.
@@ -126,7 +129,7 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
         settings_sha256=settings_sha256(settings, structures),
         structures_sha256=structures_sha256(structures),
         package_sha256=package_sha256(reports=settings.reports),
-        hashes=ContentHashes(_HASHES),
+        hashes=ContentHashes(_HASHES, LARGEST_FILE),
     )
 
 
@@ -164,11 +167,6 @@ def _check_results(settings: Settings) -> None:
     check_own(results)
 
 
-def sha256_of(*contents: object) -> str:
-    """Return one hash for what `contents` say."""
-    return hashlib.sha256("\n".join(map(repr, contents)).encode()).hexdigest()
-
-
 def structures_sha256(structures: Mapping[str, Structure]) -> str:
     """Return one hash for what a structure list says, whatever its comments and its layout."""
     return sha256_of(*((name, each.as_config(), each.standing) for name, each in structures.items()))
@@ -197,41 +195,6 @@ def package_sha256(reports: bool = True) -> str:
         if path.suffix in _SOURCE:
             digest.update(name.encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()
-
-
-class ContentHashes:
-    """The sha256 of files, which the file `store` keeps from run to run for as long as their size and times stay.
-
-    The time of the last change (ctime), which no program can set, stands among them.
-    """
-
-    def __init__(self, store: Path) -> None:
-        self._store = store
-        self._before: dict[str, str] = {}
-        self._now: dict[str, str] = {}
-        with suppress(RockingError, ValueError, TypeError, RecursionError):
-            self._before = dict(json.loads(read_whole(store, _LARGEST_STORE, RockingError)))
-
-    def of(self, path: Path) -> str:
-        """Return the sha256 of the file at `path`, "" for what no reader takes: another kind of file, or too large."""
-        try:
-            status = path.stat()
-            if not stat.S_ISREG(status.st_mode) or status.st_size > LARGEST_FILE:
-                return ""
-            mark = f"{path} {status.st_ino} {status.st_size} {status.st_mtime_ns} {status.st_ctime_ns}"
-            if (sha256 := self._before.get(mark)) is None:
-                with path.open("rb") as stream:
-                    sha256 = hashlib.file_digest(stream, "sha256").hexdigest()
-        except OSError:
-            return ""
-        if time.time() - status.st_ctime > _SETTLED:
-            self._now[mark] = sha256
-        return sha256
-
-    def save(self) -> None:
-        """Keep the hashes of the files that were asked for, if the folder of the store is there."""
-        if self._store.parent.is_dir() and self._now != self._before:
-            write_whole(self._store, json.dumps(self._now).encode())
 
 
 def share_out(

@@ -27,7 +27,7 @@ from rocking.study.results import page_contents, part, remove_other_cases, remov
 from rocking.tables import Row, data_package, frame, write_tables, write_whole
 
 _GOVERNING = ("structure", "record", "level", "overturning_share")
-_SHOWN = ("record", "pulses", "comparison", "verdicts", "structures", "agreement", "failures", "timings")
+_SHOWN = ("record", "pulses", "comparison", "verdicts", "structures", "agreement", "failures")
 _LIBRARIES = ("rocking", "obspy", "numpy", "scipy", "pandas", "matplotlib", "numba", "snakemake", "typst")
 
 

@@ -7,8 +7,8 @@ for JOB, RECORDS in PLAN.jobs.items():
         name:
             f"assess_{JOB}"
         output:
-            part_of(JOB),
-            [
+            part=part_of(JOB),
+            own=[
                 report(
                     path,
                     caption="../report/record.rst",
@@ -17,14 +17,14 @@ for JOB, RECORDS in PLAN.jobs.items():
                 )
                 for path in own_of(JOB)
             ],
-            SUMMARIES if ALONE else [],
+            summary=SUMMARIES if ALONE else [],
         log:
             f"{SUMMARY}/logs/assess_{JOB}.log",
         benchmark:
             f"{SUMMARY}/benchmarks/assess_{JOB}.tsv"
         params:
             **PLAN.params(JOB),
-            reports_sha256=SETTINGS.reports and sha256_of(SETTINGS.about),
+            made_from=PLAN.made_from(JOB),
             files=[os.fsencode(path).hex() for path, sha256 in PLAN.files(RECORDS).items() if sha256],
             summary=ALONE and OF_SUMMARY,
         message:

@@ -9,10 +9,12 @@ close_doors()  # before the imports that open them
 
 from rocking.assessment.rows.of_record import RECORD_TABLES
 from rocking.assessment.rows.of_study import SUMMARY_TABLES
-from rocking.study.plan import check_config_file, config_file, make_plan, sha256_of
+from rocking.study.hashes import sha256_of
+from rocking.study.plan import check_config_file, config_file, make_plan
 from rocking.study.results import PAGE, part
 from rocking.study.run import begin
-from rocking.study.terminal import check_any_read
+from rocking.study.seal import SEAL, remove_broken_seals
+from rocking.study.terminal import check_any_read, tell
 from snakemake.utils import update_config
 
 # What the user writes (catalogue, records, StationXML, structures) is watched by its content, in params, not as input:
@@ -26,6 +28,9 @@ if not workflow.overwrite_configfiles:
     update_config(CONFIG, config)  # what --config says
     config.update(CONFIG)
 PLAN = make_plan(config)
+if workflow.is_main_process:
+    for SENTENCE in remove_broken_seals(PLAN):
+        tell("results", SENTENCE)
 # The page that snakemake --report makes shows captions and params as they stand: no text of a study may be in them, only its
 # hashes.
 SETTINGS = PLAN.settings
@@ -39,7 +44,7 @@ def part_of(job):
     """The files of a job over all its records."""
     return [
         f"{part(Path(RESULTS), job)}/{name}"
-        for name in (*(each.table.file_name for each in RECORD_TABLES), PAGE)
+        for name in (*(each.table.file_name for each in RECORD_TABLES), PAGE, SEAL)
     ]
 
 
@@ -55,7 +60,7 @@ def in_report(name, caption, category, **labels):
 
 
 TARGETS = [f"{SUMMARY}/{each.table.file_name}" for each in SUMMARY_TABLES]
-TARGETS += [f"{SUMMARY}/provenance.json", f"{SUMMARY}/datapackage.json"]
+TARGETS += [f"{SUMMARY}/{name}" for name in ("provenance.json", "datapackage.json", SEAL)]
 TARGETS += [path for job in PLAN.jobs for path in (*part_of(job), *own_of(job))]
 if SETTINGS.reports:
     TARGETS += [

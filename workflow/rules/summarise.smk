@@ -14,10 +14,11 @@ SUMMARIES += [
     in_report(name, caption, "Study", document=label)
     for name, (caption, label) in (DOCUMENTS.items() if SETTINGS.reports else ())
 ]
-SUMMARIES += [f"{SUMMARY}/provenance.json", f"{SUMMARY}/datapackage.json", f"{RESULTS}/datapackage.json"]
+SUMMARIES += [f"{SUMMARY}/{name}" for name in ("provenance.json", "datapackage.json", SEAL)]
+SUMMARIES += [f"{RESULTS}/datapackage.json"]
 OF_SUMMARY = {
     "jobs": list(PLAN.jobs),
-    "all_settings_sha256": sha256_of(SETTINGS),
+    "made_from": PLAN.summary_made_from,
     # Where the target fragility is run by hand, its curves come into the report with the next run.
     "fragility_sha256": "" if SETTINGS.fragility.in_every_run else PLAN.hashes.of(Path(FRAGILITY)),
 }

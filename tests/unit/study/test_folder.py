@@ -9,7 +9,7 @@ import pytest
 from rocking.errors import ConfigurationError, RockingError
 from rocking.study.cli import main
 from rocking.study.folder import check_own, locked, new_log, results_folder
-from rocking.study.plan import ContentHashes
+from rocking.study.hashes import ContentHashes
 
 PIER = "- {name: pier, type: block, breadth_m: 2.0, height_m: 9.0}\n"
 MINE = b"a file of the user\n"

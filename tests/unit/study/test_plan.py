@@ -13,9 +13,11 @@ from hypothesis import strategies as st
 
 from rocking.errors import ConfigurationError
 from rocking.records import CatalogueRecord
+from rocking.study import hashes as hashes_module
 from rocking.study import plan
+from rocking.study.hashes import ContentHashes
 from rocking.study.job import begin_job
-from rocking.study.plan import ContentHashes, Plan, make_plan, share_out
+from rocking.study.plan import Plan, make_plan, share_out
 from rocking.study.settings import Settings
 
 ROOT = Path(__file__).parents[3]
@@ -165,9 +167,9 @@ def test_every_file_that_is_read_counts_and_no_other(tmp_path, cells, content, f
 
 def test_a_file_that_stayed_is_not_read_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     record, store = _record(tmp_path), tmp_path / "hashes.json"
-    for settled in (plan._SETTLED, -1.0):
+    for settled in (hashes_module._SETTLED, -1.0):
         assert not store.exists(), "what changed a moment ago may change again"
-        monkeypatch.setattr(plan, "_SETTLED", settled)
+        monkeypatch.setattr(hashes_module, "_SETTLED", settled)
         hashes = ContentHashes(store)
         first = _hash(record, hashes)
         hashes.save()

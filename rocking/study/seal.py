@@ -1,0 +1,71 @@
+"""The seal of finished results: beside the files of a job stand the size and hash of each, and what they came from.
+
+A result counts as finished while its seal holds. A file that was cut, emptied or edited, or one that an earlier
+version made, is made again by the next run.
+"""
+
+import json
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from rocking.errors import RockingError
+from rocking.study.folder import REMEMBERED
+from rocking.study.hashes import ContentHashes
+from rocking.study.plan import Plan
+from rocking.study.results import part
+from rocking.tables import read_whole, write_whole
+
+SEAL = "seal.json"
+"""The name of a seal."""
+_UNSEALED = ("timings.csv",)
+"""What a run measures of itself; it differs from run to run."""
+_LARGEST = 100_000_000
+"""Bytes of a seal that are read; a record with its report takes about two thousand."""
+_HASHES = REMEMBERED / "rocking_results.json"
+"""Beside what snakemake remembers of a study; it may be removed at any time."""
+
+
+def write_seal(path: Path, made_from: str, files: Iterable[Path], results: Path) -> None:
+    """Seal `files`, of which those that do not stand are left out, at `path`; names are seen from the `results`."""
+    hashes = ContentHashes()
+    sealed = {
+        file.relative_to(results).as_posix(): [file.stat().st_size, hashes.of(file)]
+        for file in sorted(set(files))
+        if file.is_file() and file.name not in (SEAL, *_UNSEALED)
+    }
+    content = {"made_from": made_from, "files": sealed}
+    write_whole(path, (json.dumps(content, indent=1) + "\n").encode())
+
+
+def beside(outputs: Iterable[str]) -> list[Path]:
+    """Return the `outputs` of a job with the tables that stand beside the report of each of its records."""
+    files = [Path(output) for output in outputs]
+    tables = (table for file in files if file.name == "report.pdf" for table in file.parent.glob("*.csv"))
+    return [*files, *tables]
+
+
+def remove_broken_seals(plan: Plan) -> Iterator[str]:
+    """Remove each seal that does not hold, so that what it stood for is made again; yield a sentence for each."""
+    results = Path(plan.settings.results)
+    seals = {part(results, job) / SEAL: plan.made_from(job) for job in plan.jobs}
+    seals[results / "summary" / SEAL] = plan.summary_made_from
+    hashes = ContentHashes(_HASHES)
+    for path, made_from in seals.items():
+        if path.exists() and (why := _why_broken(path, made_from, results, hashes)):
+            path.unlink()
+            yield f"{why}; it is made again."
+    hashes.save()
+
+
+def _why_broken(path: Path, made_from: str, results: Path, hashes: ContentHashes) -> str:
+    """Return a sentence on what is not as it was sealed, or of another origin; "" where the seal holds."""
+    try:
+        content = json.loads(read_whole(path, _LARGEST, RockingError))
+        sealed = dict(content["files"])
+        for name, (size, sha256) in sealed.items():
+            file = results / name
+            if not file.is_file() or file.stat().st_size != size or hashes.of(file) != sha256:
+                return f"{file} is not as it was written"
+        return "" if content["made_from"] == made_from else f"{path.parent} was made from something else"
+    except (RockingError, OSError, ValueError, KeyError, TypeError, RecursionError):
+        return f"{path} cannot be read"
