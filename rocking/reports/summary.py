@@ -185,7 +185,7 @@ def structure_table(verdicts: Sequence[VerdictRow]) -> dict[str, object]:
 
 
 def method_table(tables: Mapping[str, "DataFrame"]) -> dict[str, object]:
-    """Return how each method stands to the integration of the mechanism under the record; the times stand in a table."""
+    """Return how each method stands to the integration of the mechanism under the record; times stand in a table."""
     comparison = tables["comparison"]
     whole = comparison[RATIO_COLUMNS[Method.MECHANISM_ON_RECORD]]
     worth = ((method, *_worth(comparison[RATIO_COLUMNS[method]], whole)) for method in printing.METHODS)

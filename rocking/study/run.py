@@ -36,6 +36,8 @@ _REFUSED = {
 }
 _RAISED = re.compile(r"Error in file .*\n(?!Command )(.+)")
 """How snakemake tells what a Snakefile raised."""
+_EXCEPTION = re.compile(r"(?m)^[\w.]*(?:Error|Exception)\b[^\n]{,200}")
+"""How a traceback ends: the name of the error and what it says."""
 _STOPS: list[int] = []
 """The signals by which somebody asked this process to stop."""
 
@@ -85,7 +87,7 @@ def run(folder: Path, options: Sequence[str]) -> int:
     if status:
         raised = _RAISED.findall("\n".join(progress.errors))
         reasons = progress.reasons or raised or progress.errors[-1:] or [f"see {log}"]
-        reason = "; ".join(dict.fromkeys(" ".join(each.split()) for each in reasons))
+        reason = "; ".join(dict.fromkeys(_in_a_sentence(each, folder, log) for each in reasons))
         print(f"Not finished: {reason}\nMend that, then go on: rocking run {folder}")
         return 1
     if options and not options[0].startswith("-"):
@@ -96,6 +98,21 @@ def run(folder: Path, options: Sequence[str]) -> int:
     for line in (*closing_lines(verdicts, failures), *paths_to_read(results, verdicts)):
         print(fitting(line, sys.stdout))
     return int(bool(failures))
+
+
+def _in_a_sentence(reason: str, folder: Path, log: Path) -> str:
+    """Return why a run ended as one sentence, also where it is the traceback of another program."""
+    if "Traceback" not in reason:
+        return " ".join(reason.split())
+    *_, raised = _EXCEPTION.findall(reason) or ["an error"]
+    if "MemoryError" in reason:
+        return f"there was not enough memory; give more, or run fewer jobs at once: rocking run {folder} -- --cores 1"
+    if "snakemake/persistence" in reason:
+        return (
+            f"what snakemake remembers of the study is damaged ({raised}); remove {folder / REMEMBERED}, and the "
+            "results that are whole stay"
+        )
+    return f"snakemake ended with {raised}; {log} tells more"
 
 
 def _plan(folder: Path) -> Plan:
