@@ -203,6 +203,12 @@ def tell_error(kind: type[BaseException], error: BaseException, trace: Traceback
     if isinstance(error, RockingError | OSError):
         place = f"{getattr(error, 'filename', None) or 'a file'}: " * isinstance(error, OSError)
         tell("error", place + (getattr(error, "strerror", None) or str(error)))
+    elif isinstance(error, MemoryError):
+        tell("error", "a job had not enough memory; give more, or run fewer jobs at once: -- --cores 1")
+    elif isinstance(error, Exception):
+        tell(
+            "error", f"a job ended with {kind.__name__}: {' '.join(str(error).split())}; its log tells where"
+        )
     sys.__excepthook__(kind, error, trace)
 
 

@@ -117,8 +117,12 @@ def _put_in_place(written: Mapping[Path, Path]) -> None:
     elif written:
         from concurrent.futures import ThreadPoolExecutor  # of which few readers of tables have need
 
-        with ThreadPoolExecutor(len(written)) as threads:
-            list(threads.map(_sync, written.values()))
+        try:
+            with ThreadPoolExecutor(len(written)) as threads:
+                list(threads.map(_sync, written.values()))
+        except RuntimeError:  # where memory is short, no thread can start
+            for temporary in written.values():
+                _sync(temporary)
     for path, temporary in written.items():
         os.replace(temporary, path)
     for folder in {path.parent for path in written}:

@@ -124,6 +124,27 @@ def _set_mode(folder: Path, mode: int) -> None:
         path.chmod(mode)
 
 
+JUNK = {
+    "metadata is a file": lambda folder: (shutil.rmtree(folder / "metadata"), (folder / "metadata").touch()),
+    "no JSON": lambda folder: [
+        each.write_bytes(b"\xff\xfe junk") for each in (folder / "metadata").iterdir()
+    ],
+    "another JSON": lambda folder: [each.write_text("[1, 2]") for each in (folder / "metadata").iterdir()],
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("junk", JUNK)
+def test_a_damaged_memory_of_snakemake_is_told_in_a_sentence(finished, tmp_path, junk: str) -> None:
+    """Without it, what was finished stays."""
+    study = finished.copy_to(tmp_path / "study")
+    JUNK[junk](study.folder / ".snakemake")
+    told = study.rocking("run", str(study.folder), status=1).stdout
+    assert "what snakemake remembers of the study is damaged" in told and "Traceback" not in told
+    shutil.rmtree(study.folder / ".snakemake")
+    assert study.planned() == []
+
+
 AWAY = "the file went away while the study ran; bring it back."
 
 
