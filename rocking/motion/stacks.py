@@ -78,8 +78,7 @@ def follow_stack(
             f"the time step is {step:.4g} s, but must be {SHORTEST:g} to {longest:.4g} s, which the smallest course "
             "and the stiffest tie of this stack allow; give a shorter step, or join courses."
         )
-    kicks = _kicks(motion, vertical, step)
-    still = len(kicks)
+    kicks, still = _strong(stack, _kicks(motion, vertical, step), step, whole=history or vertical is not None)
     kicks = np.vstack([kicks, np.zeros((math.ceil(AFTERWARDS / step), 2))])
     bodies = _bodies(stack)
     every = max(round(motion.time_step / step), 1) if history else 0
@@ -119,6 +118,17 @@ def _kicks(motion: Accelerogram, vertical: Accelerogram | None, step: float) -> 
             )
         gains.append(np.diff(_velocity(component, times)))
     return np.column_stack(gains)
+
+
+def _strong(stack: Stack, kicks: np.ndarray, step: float, whole: bool) -> tuple[np.ndarray, int]:
+    """The steps from where the ground may lift a stack at rest on, and the first one from which it no longer may.
+
+    Half of what lifts is the border, for bodies that still rock. whole: all of them are needed.
+    """
+    lifting = np.flatnonzero(np.abs(kicks[:, 0]) > 0.5 * stack.resting_multiplier * GRAVITY * step)
+    if whole or not lifting.size:
+        return kicks, len(kicks)
+    return kicks[lifting[0] :], int(lifting[-1] - lifting[0]) + 1
 
 
 def _velocity(motion: Accelerogram, times: np.ndarray) -> np.ndarray:

@@ -152,6 +152,19 @@ class Stack:
         lever = min(centre[0] - left, right - centre[0])
         return float(np.arctan2(max(lever, 0.0), centre[1] - above[0].base))
 
+    @cached_property
+    def resting_multiplier(self) -> float:
+        """A horizontal acceleration over g below which nothing at rest lifts: all above any joint as one free body.
+
+        A support of the top and a tie only hold; 0 where a force acts, which may push.
+        """
+        if any(any(each.force) for each in self.held):
+            return 0.0
+        slenderness = [
+            self._slenderness_above(place) for place, each in enumerate(self.courses) if not each.guided
+        ]
+        return float(np.tan(min(slenderness)))
+
     @property
     def longest_step(self) -> float:
         """The longest time step [s] that follows it.
