@@ -23,6 +23,8 @@ from .motion.members import MemberResponses as MemberResponses
 from .motion.members import Members as Members
 from .motion.members import integrate_members as integrate_members
 from .motion.response import Response as Response
+from .motion.stacks import StackResponse as StackResponse
+from .motion.stacks import follow_stack as follow_stack
 from .pulses import Pulse as Pulse
 from .pulses import PulseAnalysis as PulseAnalysis
 from .pulses import PulseSettings as PulseSettings
@@ -60,6 +62,7 @@ from .structures import Outcome as Outcome
 from .structures import RigidBody as RigidBody
 from .structures import Side as Side
 from .structures import Spire as Spire
+from .structures import Stack as Stack
 from .structures import Wall as Wall
 from .structures import structure_from_config as structure_from_config
 from .study.results import Results as Results

@@ -29,9 +29,14 @@ class StackResponse:
 
     falls: whether a course turned further than it comes back from. turns: (n,) of the courses where the largest of
     them was reached, clockwise positive, rad. largest_turns: (n,) the largest of each, rad. steps: that were followed.
-    unsolved_steps: those whose impulses were found one after the other to a millionth, not at once to rounding.
+    unsolved_steps: those whose impulses were found one after the other to a hundred-thousandth, not at once to rounding.
     With history: times (k,) s; places (k, n, 3), how far each centre of mass moved to the right and up beside the
     ground [m] and its clockwise turn [rad]; velocities (k, n, 3) of these.
+
+    >>> record = rocking.read("records/synthetic_strong_pulse.AT2")[0]
+    >>> response = rocking.follow_stack(rocking.Spire(width=3.0, height=15.0).stack(), record.scaled(0.4))
+    >>> response.falls, response.largest_turns.shape
+    (False, (6,))
     """
 
     falls: bool
@@ -65,10 +70,8 @@ def follow_stack(
     [rad/s]; at rest without it. Raises MotionError for a step that is too long for the stack, or another number of
     samples.
 
-    >>> import rocking
-    >>> from rocking.motion.stacks import follow_stack
     >>> record = rocking.read("records/synthetic_strong_pulse.AT2")[0]
-    >>> follow_stack(rocking.Block.of_size(breadth=0.6, height=4.0).stack(), record).falls
+    >>> rocking.follow_stack(rocking.Block.of_size(breadth=0.6, height=4.0).stack(), record).falls
     True
     """
     step = finite(MotionError, "step", step, "s")

@@ -11,6 +11,7 @@ from rocking.structures.mechanism import EquivalentBlock as EquivalentBlock
 from rocking.structures.mechanism import Mechanism as Mechanism
 from rocking.structures.mechanism import Outcome as Outcome
 from rocking.structures.mechanism import Side as Side
+from rocking.structures.stack import Stack as Stack
 from rocking.structures.structure import Structure as Structure
 from rocking.structures.structure_list import load_structures as load_structures
 from rocking.structures.structure_list import structure_from_config as structure_from_config

@@ -20,7 +20,7 @@ sys.path.append(str(Path(__file__).parents[1] / "unit" / "motion"))
 from conftest import assessed, shaken
 from oracle import Oracle
 
-from rocking import Accelerogram, Arch, Block, Pulse, Wall, integrate
+from rocking import Accelerogram, Arch, Block, Pulse, Spire, Wall, follow_stack, integrate
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.pulses import extract_pulses
@@ -41,6 +41,7 @@ def parts(folder: Path) -> dict[str, object]:
     path.write_text(at2_text(SyntheticRecord("bench", 1, 4.0, 1.0, 8.0, 2.0, 40.0, 0.005)))
     record = shaking(40, 3.0)
     blocks = [Block(height, 0.2).mechanism().equivalent_block() for height in np.linspace(1, 5, 100)]
+    spire, strong = Spire(width=3.0, height=15.0, wall_thickness=0.25).stack(), shaking(20, 3.5)
     draw = np.random.default_rng(1)
     pulses = [Pulse(float(a), float(w)) for a, w in draw.uniform((0.5, 1), (12, 30), (10_000, 2))]
     return {
@@ -49,6 +50,7 @@ def parts(folder: Path) -> dict[str, object]:
         "dominant pulses of 40 s at 200 Hz": lambda: extract_pulses(record),
         "mechanism of an arch of seven voussoirs": lambda: Arch(10.0, 1.5, 2.75, 7).mechanism(),
         "a million predictions under one sine pulse": lambda: predict_maxima(blocks, pulses),
+        "a stack of six courses through 20 s": lambda: follow_stack(spire, strong),
         "spectrum of one sine pulse, 200 x 200 cells": lambda: pulse_spectrum(RATIOS, RATIOS, 0.9),
     }
 
