@@ -344,9 +344,10 @@ def _direction_cases(
         if known is not None:
             results[name] = replace(known, structure=name)
             continue
+        bounces = any(case.check.bounces for case in cases[name].values())
         with clock.stage("directions"):
             result = replace(
-                assess_directions(name, structure, pair, extent.settings), fingerprint=fingerprint
+                assess_directions(name, structure, pair, extent.settings, bounces), fingerprint=fingerprint
             )
         results[name] = result
         if store is not None and fingerprint:
@@ -441,10 +442,12 @@ def _case(
     motions = _motion_of(component).ground_motions(settings.ensemble.processing)
     if members and answer.method is Method.MECHANISM_ON_RECORD:
         over_cracks = ensemble_over_cracks(structure, motions, settings, verdict_only=auto)
-        return with_contacts(replace(case, ensembles=over_cracks), structure, motions, settings)
+        return with_contacts(
+            replace(case, ensembles=over_cracks), structure, motions, settings, check.bounces
+        )
     if vertical is None and component.support is None:
         case = replace(case, overturning_estimate=estimated(Tier.PEAK_VELOCITY, mechanism, record))
-    return with_contacts(case, structure, motions, settings)
+    return with_contacts(case, structure, motions, settings, check.bounces)
 
 
 def with_contacts(
@@ -452,10 +455,14 @@ def with_contacts(
     structure: Structure | Mechanism,
     motions: GroundMotions,
     settings: AssessmentSettings,
+    bounces: bool | None,
 ) -> CaseResult:
-    """Return the case with what its contacts say: a doubt where it stands, and contact dynamics where that is asked."""
+    """Return the case with what its contacts say: a doubt where it stands, and contact dynamics where that is asked.
+
+    bounces: whether a contact opens in a run as recorded; None where that is not known.
+    """
     if case.verdict is Verdict.STANDS:
-        reason = doubt(structure, motions, case.largest_rotation_ratio, settings, case.check.bounces)
+        reason = doubt(structure, motions, case.largest_rotation_ratio, settings, bounces)
         case = replace(case, doubt=reason)
     undecided = case.doubt is not None or case.verdict is Verdict.UNDECIDED
     if settings.fidelity == "contact" and undecided and isinstance(structure, Structure):
@@ -596,15 +603,22 @@ def _ground_motions(motion: Motion, processing: bool) -> GroundMotions:
 
 
 def assess_directions(
-    name: str, structure: Structure | Mechanism, pair: Motion, settings: AssessmentSettings
+    name: str,
+    structure: Structure | Mechanism,
+    pair: Motion,
+    settings: AssessmentSettings,
+    bounces: bool | None = None,
 ) -> CaseResult:
-    """Return the ensemble of one structure over all directions of a pair; where it cannot be followed, why."""
+    """Return the ensemble of one structure over all directions of a pair; where it cannot be followed, why.
+
+    bounces: whether a contact opens under one of the components as recorded; None where that is not known.
+    """
     case = CaseResult(structure=name, component=BOTH_COMPONENTS)
     motions = _ground_motions(pair, settings.ensemble.processing)
     try:
         quick = settings.fidelity == "auto"
         over_cracks = ensemble_over_cracks(structure, motions, settings, verdict_only=quick)
-        return with_contacts(replace(case, ensembles=over_cracks), structure, motions, settings)
+        return with_contacts(replace(case, ensembles=over_cracks), structure, motions, settings, bounces)
     except RockingError as error:
         return replace(case, failures=(Failure("directions", str(error)),))
 

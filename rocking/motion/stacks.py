@@ -29,7 +29,7 @@ class StackResponse:
 
     falls: whether a course turned further than it comes back from. turns: (n,) of the courses where the largest of
     them was reached, clockwise positive, rad. largest_turns: (n,) the largest of each, rad. steps: that were followed.
-    unsolved_steps: those whose impulses were found one after the other to a hundred-thousandth, not at once to rounding.
+    unsolved_steps: those whose impulses were found one after the other, to a hundred-thousandth, not at once.
     With history: times (k,) s; places (k, n, 3), how far each centre of mass moved to the right and up beside the
     ground [m] and its clockwise turn [rad]; velocities (k, n, 3) of these.
 
