@@ -8,7 +8,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from rocking.assessment.rows.of_record import RECORD_TABLES, ComparisonRow
+from rocking.assessment.rows.of_record import RECORD_TABLES, ComparisonRow, TimingRow
 from rocking.assessment.rows.of_study import (
     AGREEMENT_COLUMNS,
     SUMMARY_TABLES,
@@ -25,7 +25,10 @@ from rocking.structures import Structure
 from rocking.study.job import Study
 from rocking.study.results import page_contents, part, remove_other_cases, remove_other_parts, table_lines
 from rocking.tables import Row, data_package, frame, write_tables, write_whole
+from rocking.tables.workbook import workbook
 
+WORKBOOK = "study.xlsx"
+"""The tables of the summary in one file, but for the times, which differ from run to run."""
 _GOVERNING = ("structure", "record", "level", "overturning_share")
 _SHOWN = ("record", "pulses", "comparison", "verdicts", "structures", "agreement", "failures")
 _LIBRARIES = ("rocking", "obspy", "numpy", "scipy", "pandas", "matplotlib", "numba", "snakemake", "typst")
@@ -65,6 +68,8 @@ def summarise(study: Study, records: Iterable[CatalogueRecord], jobs: Sequence[s
         _report(target, study, results / "fragility")
         page = explore_page(page_contents(parts, hashes), study.structures, study.settings.study or "")
         write_whole(target / "study.html", page)
+        paths = {each: target / each.table.file_name for each in SUMMARY_TABLES if each is not TimingRow}
+        write_whole(target / WORKBOOK, workbook(paths, study.settings.study or ""))
     remove_other_parts(results, jobs)
     remove_other_cases(results, hashes)
 

@@ -4,6 +4,8 @@ Every import of the package counts: at the top of a file, within a function and 
 """
 
 import ast
+import subprocess
+import sys
 from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
@@ -31,6 +33,7 @@ ONLY_IN = {
     "matplotlib": ("reports/",),
     "typst": ("reports/",),
     "snakemake": ("study/",),
+    "xlsxwriter": ("tables/",),
 }
 DRAWN = ("matplotlib.axes.Axes",)
 """What the methods plot() return, for a type checker; they call `rocking.plot` of the package root."""
@@ -83,3 +86,17 @@ def test_heavy_libraries_stay_in_their_place():
         for name in imported(module):
             homes = ONLY_IN.get(name.split(".")[0], "")
             assert place.startswith(homes), f"{place} imports {name}"
+
+
+def test_reading_a_text_file_and_assessing_a_structure_imports_no_more_than_it_uses():
+    """In a process of its own, for this one has imported everything."""
+    code = """
+import sys, rocking
+(record,) = rocking.read("records/synthetic_strong_pulse.AT2")
+rocking.assess(record, rocking.Block.of_size(breadth=1, height=4))
+print(sorted({"obspy", "matplotlib", "pandas", "typst", "xlsxwriter", "snakemake"} & set(sys.modules)))
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=PACKAGE.parent, capture_output=True, text=True, check=True
+    )
+    assert done.stdout == "[]\n"

@@ -66,5 +66,6 @@ if SETTINGS.reports:
     TARGETS += [
         f"{SUMMARY}/{name}" for name in ("summary.pdf", "prediction_against_integration.svg", "study.html")
     ]
+    TARGETS += [f"{SUMMARY}/study.xlsx"]
 if SETTINGS.fragility.in_every_run:
     TARGETS += [f"{RESULTS}/fragility/fragility.pdf"]

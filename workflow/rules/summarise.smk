@@ -15,7 +15,7 @@ SUMMARIES += [
     for name, (caption, label) in (DOCUMENTS.items() if SETTINGS.reports else ())
 ]
 SUMMARIES += [f"{SUMMARY}/{name}" for name in ("provenance.json", "datapackage.json", SEAL)]
-SUMMARIES += [f"{RESULTS}/datapackage.json"]
+SUMMARIES += [f"{RESULTS}/datapackage.json", *([f"{SUMMARY}/study.xlsx"] if SETTINGS.reports else [])]
 OF_SUMMARY = {
     "jobs": list(PLAN.jobs),
     "made_from": PLAN.summary_made_from,

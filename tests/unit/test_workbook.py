@@ -1,0 +1,87 @@
+"""A workbook holds what the tables hold, cell by cell with its type, and the same bytes each time."""
+
+import math
+import re
+import zipfile
+from io import BytesIO
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from rocking.tables import Row, column, row, write_rows
+from rocking.tables.workbook import workbook
+
+SPACE = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
+
+
+@row("cases", "Made for a test")
+class CaseRow(Row):
+    """One of each type."""
+
+    record: str = column("Whose row it is")
+    rotation_rad: float = column("How far it turns")
+    count: int | None = column("How many")
+    holds: bool | None = column("Whether it holds")
+    flags: tuple[str, ...] = column("What is doubtful")
+
+
+ROWS = [
+    CaseRow(record="=1+1", rotation_rad=0.25, count=3, holds=True, flags=("a", "b")),
+    CaseRow(record="http://x", rotation_rad=math.inf, count=None, holds=False, flags=()),
+    CaseRow(record="\x07bell", rotation_rad=math.nan, count=-(2**40), holds=None, flags=("one",)),
+]
+
+
+def _made(tmp_path: Path, rows: list[CaseRow] = ROWS) -> bytes:
+    write_rows(CaseRow, rows, tmp_path / "cases.csv")
+    return workbook({CaseRow: tmp_path / "cases.csv"}, "A study")
+
+
+def _cells(content: bytes, sheet: int) -> dict[str, tuple[str, str]]:
+    """Type and text of each cell, as the file format writes them: an oracle that knows nothing of the writer."""
+    with zipfile.ZipFile(BytesIO(content)) as book:
+        root = ElementTree.fromstring(book.read(f"xl/worksheets/sheet{sheet}.xml"))
+    cells = root.iter(f"{SPACE}c")
+    return {each.get("r", ""): (each.get("t", "n"), "".join(each.itertext())) for each in cells}
+
+
+def test_every_cell_has_its_type_and_every_head_its_unit(tmp_path: Path) -> None:
+    cells = _cells(_made(tmp_path), 2)
+    assert [cells[f"{place}1"][1] for place in "ABCDE"] == [
+        "record",
+        "rotation [rad]",
+        "count",
+        "holds",
+        "flags",
+    ]
+    assert cells["A2"] == ("inlineStr", "=1+1") and cells["A3"][1] == "http://x"
+    assert cells["B2"] == ("n", "0.25") and cells["B3"] == ("inlineStr", "INF") and "B4" not in cells
+    assert cells["C2"] == ("n", "3") and "C3" not in cells and float(cells["C4"][1]) == -(2**40)
+    assert cells["D2"] == ("b", "1") and cells["D3"] == ("b", "0") and "D4" not in cells
+    assert cells["E2"][1] == "a; b" and "E3" not in cells
+
+
+def test_the_first_sheet_says_what_each_column_means(tmp_path: Path) -> None:
+    cells = _cells(_made(tmp_path), 1)
+    assert [cells[f"{place}3"][1] for place in "ABCDE"] == [
+        "cases", "rotation [rad]", "rotation_rad", "rad", "How far it turns",
+    ]  # fmt: skip
+
+
+def test_no_cell_is_a_formula_and_nothing_in_it_changes_between_two_runs(tmp_path: Path) -> None:
+    first = _made(tmp_path)
+    with zipfile.ZipFile(BytesIO(first)) as book:
+        texts = [book.read(name).decode() for name in book.namelist()]
+    assert not any(re.search("<f>|\x07", text) for text in texts)
+    assert _made(tmp_path) == first
+
+
+def test_a_table_that_no_sheet_holds_is_left_out_and_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("rocking.tables.workbook.MOST_ROWS", 2)
+    content = _made(tmp_path)
+    assert "cases has more rows than a sheet holds; read cases.csv." in _cells(content, 1)["A2"][1]
+    with zipfile.ZipFile(BytesIO(content)) as book:
+        assert "xl/worksheets/sheet2.xml" not in book.namelist()
