@@ -128,7 +128,8 @@ class DesignSpectrum(ABC):
     def displacement(self, period: ArrayLike, damping: float | None = None) -> np.ndarray:
         """Return S_De(T, ξ) = S_e(T, ξ) (T/2π)², m, as `acceleration`."""
         periods = self._checked(period)
-        return self.acceleration(periods, damping) * (periods / (2 * math.pi)) ** 2
+        displacement: np.ndarray = self.acceleration(periods, damping) * (periods / (2 * math.pi)) ** 2
+        return displacement
 
     def largest_displacement(
         self, shortest: float, longest: float, level: ArrayLike, damping: float
@@ -139,7 +140,8 @@ class DesignSpectrum(ABC):
         """
         periods = self._checked(self._between(min(shortest, longest), longest))
         shapes = self.ordinates(periods, self.level, damping) / self.level * (periods / (2 * math.pi)) ** 2
-        return np.asarray(level, dtype=float) * shapes.max()
+        largest: np.ndarray = np.asarray(level, dtype=float) * shapes.max()
+        return largest
 
     def _between(self, shortest: float, longest: float) -> np.ndarray:
         """Periods among which the largest S_De is sought."""

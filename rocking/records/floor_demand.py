@@ -31,7 +31,9 @@ class FloorDemand:
         if self.support is None:
             return ground
         peaks = np.array(self._mode_peaks(self.support, level))
-        return np.maximum(ground, np.sqrt(np.square(peaks).sum(axis=0)))
+        floor = np.sqrt(np.square(peaks).sum(axis=0))
+        larger: np.ndarray = np.maximum(ground, floor)
+        return larger
 
     def acceleration(self, period: float, level: ArrayLike, damping: float) -> np.ndarray:
         """Return S_eZ(T, ξ, z) [m/s²] of a part of that `period` [s] (C7.2.5), were the level `level` [m/s²]."""

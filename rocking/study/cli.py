@@ -111,6 +111,15 @@ def _parser() -> argparse.ArgumentParser:
     add(
         "snakemake", nargs="*", help="a target such as trade; what follows -- goes to snakemake: -- --dry-run"
     )
+    add = verb(
+        _select, "select records for the design spectrum of a study, and write a catalogue with their factors"
+    )
+    add("folder", type=Path, nargs="?", default=Path(), help="folder of the study (default: this one)")
+    add(
+        "--output",
+        type=Path,
+        help="CSV file to write (default: selected.csv beside the catalogue of the pool)",
+    )
     add = verb(_tables, "write the tables of single records of a finished study")
     add("results", type=Path, help="folder of the results of a study")
     add("record", nargs="+", help="identifier of a record in the catalogue")
@@ -148,6 +157,12 @@ def _run(options: argparse.Namespace) -> int:
     from rocking.study.run import run
 
     return run(options.folder, options.snakemake)
+
+
+def _select(options: argparse.Namespace) -> None:
+    from rocking.study.selection import write_selection
+
+    print(*write_selection(options.folder, options.output), sep="\n")
 
 
 def _tables(options: argparse.Namespace) -> None:

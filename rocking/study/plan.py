@@ -119,6 +119,7 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
     catalogue = attempt(load_catalogue, settings.catalogue) or ()
     structures = attempt(load_structures, settings.structures) or {}
     attempt(_check_results, settings)
+    attempt(settings.design_spectrum.spectrum)
     if defects:
         raise ConfigurationError("\n".join(defects))
     records = {record.id: with_hashes(record, settings.mirror) for record in catalogue}

@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 import yaml
 
-from rocking.assessment.settings import AssessmentSettings, FragilitySettings
+from rocking.assessment.settings import AssessmentSettings, DesignSettings, FragilitySettings
 from rocking.described import (
     Described,
     check_described,
@@ -41,6 +41,15 @@ class StudyFragility(FragilitySettings):
 
 
 @dataclass(frozen=True)
+class StudyDesign(DesignSettings):
+    """The design level of a study, the checks at it, and where their records are drawn from."""
+
+    pool: str | None = described(
+        None, "catalogue from which sets of records are drawn; null: that of the study"
+    )
+
+
+@dataclass(frozen=True)
 class StudyTrade:
     """When error is measured against time."""
 
@@ -68,6 +77,7 @@ class Settings(AssessmentSettings):
         11, "number of heights tried for the hinge of a wall or the crack of a spire", ge=0, le=1000
     )
     processing_variants: bool = described(True, "whether other baselines and corner frequencies are tried")
+    design_spectrum: StudyDesign = StudyDesign()
     fragility: StudyFragility = StudyFragility()
     trade: StudyTrade = StudyTrade()
     reports: bool = described(True, "whether PDF reports are written beside the tables")
@@ -97,6 +107,7 @@ class Settings(AssessmentSettings):
 
 _ABOUT = ("study", "client", "author", "date")
 _NO_NUMBER = {*_ABOUT, "catalogue", "structures", "results", "mirror", "fragility", "trade", "reports"}
+_NO_NUMBER |= {"design_spectrum"}  # of the tables of records
 _NO_NUMBER |= {"histories", "records_per_job"}
 
 EXAMPLE = Settings(structures="workflow/structures.yaml")
@@ -111,6 +122,7 @@ LAYOUT = {
         *("processing_variants", "fidelity", "fidelity_risk"),
     ),
     "Ensemble: the uncertain inputs of a case vary within these ranges": ("ensemble",),
+    "Design level and the checks of the Italian code: snakemake checks": ("design_spectrum",),
     "Fragility from all records of the study: snakemake fragility": ("fragility",),
     "Trade of error for time: snakemake trade": ("trade",),
     "Output": ("reports", "histories", "records_per_job"),

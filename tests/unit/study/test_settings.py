@@ -171,6 +171,7 @@ def test_the_schema_allows_what_the_tree_allows(name: tuple[str, ...], value: ob
     except ConfigurationError as error:
         refused = str(error)
     of_two = any(
-        words in refused for words in ("must be above", "must be below", "or at least", "low_pass only")
+        words in refused
+        for words in ("must be above", "must be below", "or at least", "low_pass only", "be given with")
     )
     assert of_two or SCHEMA.is_valid(config) == (not refused), refused

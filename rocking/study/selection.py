@@ -1,0 +1,113 @@
+"""The records of a study that stand for its design level: the pool, the sets, and a catalogue with their factors."""
+
+import os
+from contextlib import chdir
+from pathlib import Path
+
+from rocking.errors import ConfigurationError, RecordError, RockingError
+from rocking.quantities import four_digits
+from rocking.records import Accelerogram, CatalogueRecord, load_catalogue
+from rocking.records.catalogue import COLUMNS, catalogue_text, read_rows
+from rocking.records.selection import Selection, select
+from rocking.study.job import Study
+from rocking.study.plan import check_config_file, config_file
+from rocking.study.settings import Settings, read_settings
+from rocking.tables import write_whole
+
+
+def pool_of(settings: Settings) -> Path:
+    """Return the catalogue from which the sets of a study are drawn."""
+    return Path(settings.design_spectrum.pool or settings.catalogue)
+
+
+def select_for(study: Study, records: tuple[CatalogueRecord, ...]) -> tuple[Selection, dict[str, str]]:
+    """Return sets of `records` for the design level of `study`, and by record why it could not be used.
+
+    They are processed as the study says; a record that cannot be read costs no other. Raises ConfigurationError where
+    there is no design level, or no set meets the limits.
+    """
+    design = study.settings.design_spectrum
+    spectrum = design.spectrum()
+    if spectrum is None:
+        raise ConfigurationError(
+            "setting design_spectrum.ag_g is null, and so is points, but records are selected for a design level; give "
+            "one."
+        )
+    pool: dict[str, list[Accelerogram]] = {}
+    reasons: dict[str, str] = {}
+    for record in records:
+        try:
+            pool[record.id] = study.open(record)[0]
+        except RockingError as error:
+            reasons[record.id] = str(error)
+    if records and not pool:
+        raise RecordError(
+            f"none of {len(records)} records could be read; the first: {next(iter(reasons.values()))}"
+        )
+    selection = select(
+        pool,
+        spectrum,
+        design.stations,
+        periods=(design.shortest_period, design.longest_period),
+        factors=(design.least_factor, design.largest_factor),
+        seed=design.seed,
+    )
+    return selection, reasons
+
+
+def write_selection(folder: Path, output: Path | None = None) -> list[str]:
+    """Select records for the study in `folder` and write them as a catalogue with factors; return what to tell.
+
+    output: where it goes, in the folder of the pool, whose paths it keeps. A figure of the set against its target
+    stands beside it. Raises as `select_for`.
+    """
+    target = None if output is None else output.absolute()
+    with chdir(folder):
+        path = config_file(Path())
+        settings = read_settings(check_config_file(path) if path else {})
+        catalogue = pool_of(settings)
+        target = target or catalogue.absolute().with_name("selected.csv")
+        if not os.path.samefile(target.parent, catalogue.parent):
+            raise ConfigurationError(
+                f"--output is {output}, but must lie in {catalogue.parent}, as the paths of the catalogue start there."
+            )
+        if target.name == catalogue.name:
+            raise ConfigurationError(
+                f"--output is {output}, but must be another file than the catalogue itself."
+            )
+        selection, reasons = select_for(Study({}, settings), load_catalogue(catalogue))
+        write_whole(target, _catalogue_of(selection, catalogue).encode())
+        image = target.with_suffix(".svg")
+        write_whole(image, _figure(selection))
+    lines = [f"{name}: not used, {reason}" for name, reason in reasons.items()]
+    factors = selection.factors[selection.chosen]
+    lines += [
+        f"{name}: factor {four_digits(float(factor))}"
+        for name, factor in zip(selection.chosen_names, factors, strict=True)
+    ]
+    return [*lines, selection.words, str(target), str(image)]
+
+
+def _catalogue_of(selection: Selection, catalogue: Path) -> str:
+    """The rows of the chosen set, each with its factor on top of its own."""
+    rows = {row["id"].strip(): row for _, row in read_rows(catalogue)}
+    chosen = []
+    for place in selection.chosen:
+        row = rows[selection.names[place]]
+        own = float((row.get("scale_factor") or "").strip() or 1)
+        chosen.append(row | {"scale_factor": repr(float(own * selection.factors[place]))})
+    columns = [name for name in COLUMNS if name in chosen[0]]
+    return catalogue_text(chosen, columns)
+
+
+def _figure(selection: Selection) -> bytes:
+    from rocking.reports.panels import plot  # matplotlib takes half a second to import
+    from rocking.reports.style import new_figure, styled, svg
+
+    @styled
+    def drawn() -> bytes:
+        figure = new_figure(90.0)
+        plot(selection, figure.subplots())
+        return svg(figure).encode()
+
+    return drawn()

@@ -1,0 +1,103 @@
+"""`rocking select`: a catalogue of the chosen records with factors, which a study takes as it is; what it refuses."""
+
+import csv
+
+import numpy as np
+import pytest
+import yaml
+
+from rocking.records import load_catalogue, open_record
+from rocking.study.cli import main
+from rocking.study.settings import read_settings
+from tests.made_pools import made_pool
+
+DESIGN = {
+    "ag_g": 0.2,
+    "f0": 2.5,
+    "tc_star_s": 0.4,
+    "stations": 3,
+    "shortest_period_s": 0.6,
+    "longest_period_s": 0.9,
+}
+
+
+@pytest.fixture
+def study(tmp_path):
+    """A study whose pool holds twelve stations, one of which cannot be read, and a factor of two on one row."""
+    folder = tmp_path / "study"
+    (folder / "records").mkdir(parents=True)
+    rows = []
+    for name, (first, _) in made_pool(12).items():
+        lines = [f"{t:.2f} {a:.9f}" for t, a in zip(first.times, first.acceleration, strict=True)]
+        (folder / "records" / f"{name}.txt").write_text("\n".join(lines) + "\n")
+        rows.append(
+            {
+                "id": name,
+                "file": f"{name}.txt",
+                "unit": "m/s2",
+                "station": name,
+                "scale_factor": 2 if name == "R1" else "",
+            }
+        )
+    rows.append({"id": "gone", "file": "gone.txt", "unit": "m/s2", "station": "gone", "scale_factor": ""})
+    with (folder / "records" / "catalogue.csv").open("w", newline="") as stream:
+        writer = csv.DictWriter(stream, list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
+    config = {"design_spectrum": DESIGN, "processing": {"apply": "never"}}
+    (folder / "config.yaml").write_text(yaml.safe_dump(config))
+    return folder
+
+
+def test_the_catalogue_of_the_set_holds_the_factors_and_can_be_opened(study, capsys):
+    assert main(["select", str(study)]) == 0
+    told = capsys.readouterr().out
+    assert "gone: not used" in told and "3 records of as many stations out of 12" in told
+    pool = {each.id: each for each in load_catalogue(study / "records" / "catalogue.csv")}
+    chosen = load_catalogue(study / "records" / "selected.csv")
+    assert len(chosen) == 3
+    for each in chosen:
+        factor = each.scale_factor / pool[each.id].scale_factor
+        assert f"{each.id}: factor {factor:.4g}" in told
+        ratio = open_record(each)[0].acceleration / open_record(pool[each.id])[0].acceleration
+        np.testing.assert_allclose(ratio, factor, rtol=1e-9)
+    first = (study / "records" / "selected.csv").read_bytes()
+    assert b"target" in (study / "records" / "selected.svg").read_bytes()
+    main(["select", str(study)])
+    assert (study / "records" / "selected.csv").read_bytes() == first
+
+
+@pytest.mark.parametrize(
+    ("design", "sentence"),
+    [
+        ({}, "records are selected for a design level"),
+        (DESIGN | {"f0": None}, "setting design_spectrum.f0 is missing, but must be given with ag_g."),
+        (DESIGN | {"soil": "F"}, "setting design_spectrum.soil is 'F', but must be A or B or C or D or E."),
+        (DESIGN | {"confidence_factor": 0.9}, "confidence_factor is 0.9, but must be a number from 1 to 2."),
+        (DESIGN | {"points": "site.csv"}, "one of the two must be null"),
+        (DESIGN | {"stations": 40}, "a set of 40 needs as many"),
+        (DESIGN | {"largest_factor": 0.26}, "no set of 3 stations lies within -10 and +30 % of the target"),
+    ],
+)
+def test_what_cannot_be_selected_is_refused_in_a_sentence(study, capsys, design, sentence):
+    (study / "config.yaml").write_text(yaml.safe_dump({"design_spectrum": design}))
+    assert main(["select", str(study)]) == 2
+    assert sentence in capsys.readouterr().err
+    assert not (study / "records" / "selected.csv").exists()
+
+
+def test_the_catalogue_itself_is_never_written_over(study, capsys):
+    catalogue = study / "records" / "catalogue.csv"
+    before = catalogue.read_bytes()
+    assert main(["select", str(study), "--output", str(catalogue)]) == 2
+    assert main(["select", str(study), "--output", str(study / "other.csv")]) == 2
+    assert "as the paths of the catalogue start there" in capsys.readouterr().err
+    assert catalogue.read_bytes() == before
+
+
+def test_points_of_a_file_are_a_design_level(tmp_path):
+    path = tmp_path / "site.csv"
+    path.write_text("period_s,acceleration_g\n0,0.2\n2,0.1\n")
+    spectrum = read_settings({"design_spectrum": {"points": str(path)}}).design_spectrum.spectrum()
+    assert spectrum.level == pytest.approx(0.2 * 9.80665)
+    assert read_settings({}).design_spectrum.spectrum() is None
