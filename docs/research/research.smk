@@ -27,6 +27,11 @@ TARGETS_OF_RESEARCH = {
         REAL_RECORDS,
         ["screening.csv"],
     ),
+    "floors": (
+        "Hold the closed form against integration on supports that ring",
+        REAL_RECORDS,
+        ["floors.csv"],
+    ),
     "validate": (
         "Predict the overturning of two specimens on a shake table",
         [f"{workflow.basedir}/records/shake_table.csv"],

@@ -6,7 +6,7 @@ from pathlib import Path
 
 def main(name, catalogues, mirror, structures, folder, tell):
     """Run the target `name`, which is a function of that name, and write its tables and its report into `folder`."""
-    from docs.research import cracks, ensembles, fragilities, stacks, tiers, validation
+    from docs.research import cracks, ensembles, floors, fragilities, stacks, tiers, validation
     from docs.research.comparison import table
     from docs.research.report import Target
     from docs.research.shake_table import Campaign
@@ -17,10 +17,12 @@ def main(name, catalogues, mirror, structures, folder, tell):
         campaign = Campaign.open(Path(catalogues[0]), mirror and Path(mirror))
         validation.validate(Target(folder, tell), campaign)
         return
-    modules = (tiers, ensembles, fragilities, cracks, stacks, table)
+    modules = (tiers, ensembles, fragilities, cracks, stacks, floors, table)
     run = next(getattr(each, name) for each in modules if hasattr(each, name))
     motions = [motions_of(load_catalogue(Path(each)), mirror, tell) for each in catalogues]
-    run(Target(folder, tell, motions, load_structures(Path(structures))))
+    listed = load_structures(Path(structures))
+    on_the_ground = {name: each for name, each in listed.items() if each.standing is None}
+    run(Target(folder, tell, motions, on_the_ground))
 
 
 def motions_of(catalogue, mirror, tell):

@@ -239,7 +239,9 @@ def _sentences(report: RecordReport) -> list[str]:
         if any(map(math.isinf, ratios)) and any(map(math.isfinite, ratios)):
             depends.append(station.structure)
     remark = f"Whether it overturns depends on the processing of the record: {printing.listed(depends)}."
-    return [*([remark] if depends else []), *warnings_of(report.tables)]
+    carried = (standing_of(station) for station in report.stations)
+    heavy = dict.fromkeys(each.warning for each in carried if each and each.warning)
+    return [*([remark] if depends else []), *heavy, *warnings_of(report.tables)]
 
 
 def warnings_of(tables: RecordRows) -> list[str]:

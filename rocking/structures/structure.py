@@ -340,6 +340,11 @@ class Structure(ABC):
         """Remember the `values` of a file by key, and their `texts` as they were typed; for the loader only."""
         object.__setattr__(self, "_typed", {key: (values[key], texts[key]) for key in values})
 
+    @property
+    def is_carried(self) -> bool:
+        """Whether it stands on a support of its list, not on the ground."""
+        return self.standing is not None and self.standing.support is not None
+
     def standing_on(self, standing: Standing) -> Self:
         """Return this structure where it stands; what it has computed is shared. For the loader only."""
         there = object.__new__(type(self))

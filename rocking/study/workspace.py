@@ -15,7 +15,7 @@ from rocking.records.catalogue import COLUMNS, CatalogueRecord, catalogue_text, 
 from rocking.records.folder import catalogue_of_folder
 from rocking.records.listing import listing_text
 from rocking.records.read import read
-from rocking.structures import load_structures
+from rocking.structures import Structure, load_structures
 from rocking.study.job import Study, assess_catalogued, rows_of, write_report
 from rocking.study.plan import settings_sha256, workflow_folder
 from rocking.study.settings import Settings, commented_yaml
@@ -100,14 +100,16 @@ def assess_file(
 ) -> list[str]:
     """Assess the structure `name` (None: all) of a list under one record and return lines of text.
 
+    A structure on a support is called by its name in the list, for all periods, or by that with one period.
     output: a folder for report.pdf and the tables, laid out like the results of a study. Raises RecordError or
     ConfigurationError before anything is written.
     """
     all_structures = load_structures(structures)
-    if name not in (None, *all_structures):
-        names = ", ".join(all_structures)
+    in_list = {each: _listed_name(each, structure) for each, structure in all_structures.items()}
+    if name not in (None, *all_structures, *in_list.values()):
+        names = ", ".join(dict.fromkeys(in_list.values()))
         raise ConfigurationError(f"structure is {name!r}, but must be one of those in {structures}: {names}.")
-    chosen = {each: all_structures[each] for each in all_structures if name in (None, each)}
+    chosen = {each: all_structures[each] for each, listed in in_list.items() if name in (None, each, listed)}
     study = Study(chosen, Settings(), settings_sha256(Settings(), all_structures))
     result = assess_catalogued(record, study, study.open(record, channels))
     rows = rows_of(result, record, study)
@@ -117,6 +119,10 @@ def assess_file(
         write_tables(tables, output / "summary")
     lines = [line for station in result.worst_first for line in _told(station, record.scale_factor)]
     return lines + [f"not assessed: {each.structure or each.stage}: {each.message}" for each in rows.failures]
+
+
+def _listed_name(name: str, structure: Structure) -> str:
+    return structure.standing.structure if structure.standing else name
 
 
 def _told(station: StationResult, scale_factor: float) -> Iterator[str]:

@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assess import Extent, assess_record
+from rocking.assessment.fragility import fragility
 from rocking.assessment.rows.of_record import rows_of_record
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
+from rocking.motion.integration import integrate
 from rocking.records import Accelerogram
 from rocking.structures import Block
 from rocking.structures.standing import support_from_config
@@ -107,3 +109,24 @@ def test_a_stored_case_of_one_support_is_not_taken_for_another():
         for other in (again, alone):
             assert other.stations[name].overturning_share == station.overturning_share
             assert other.stations[name].rotation_ratio == station.rotation_ratio
+
+
+def test_fragility_is_against_the_intensity_of_the_ground():
+    """Of floors given as records, each intensity is the floor's; on the support it is the ground's."""
+    records = [motion(seed=seed) for seed in (8, 9, 10)]
+    *_, carried = on_roof(0.3).values()
+    support = carried.standing.support
+    levels = [0.05, 0.1, 0.2, 0.4]
+    how = {"levels": levels, "stations": ["a", "b", "c"], "intensity_measure": "pga"}
+    there = fragility(records, carried, **how).analysis
+    floors = [support.motion(each) for each in records]
+    factors = np.array([[level / each.peak_acceleration for level in levels] for each in records])
+    factors *= 9.80665 if there.measure.unit == "g" else 1.0
+    expected = [
+        [integrate(BODY, floor.scaled(factor)).rotation_ratio for factor in row]
+        for floor, row in zip(floors, factors, strict=True)
+    ]
+    assert there.rotation_ratios[:, :, 0] == pytest.approx(np.array(expected), rel=1e-6)
+    on_ground = fragility(records, BODY, **how).analysis
+    assert on_ground.intensities == pytest.approx(there.intensities)
+    assert np.median(there.rotation_ratios[:, -1]) > np.median(on_ground.rotation_ratios[:, -1])

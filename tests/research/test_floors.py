@@ -1,0 +1,37 @@
+"""The trials on supports: every period once, the closed form under a pulse itself, and outcomes that turn back."""
+
+import math
+
+import numpy as np
+import pytest
+
+from docs.research.floors import BODIES, PERIODS, FloorTrial, course_scores, floor_trials
+from rocking.pulses import Pulse
+from rocking.records import Accelerogram
+
+
+def test_trials_of_a_pulse():
+    pulse = Pulse(amplitude=3.0, circular_frequency=2 * math.pi / 0.8, start_time=0.5)
+    record = Accelerogram(pulse.acceleration(np.arange(500) * 0.01), 0.01)
+    trials = list(floor_trials("made", "site", record))
+    assert len(trials) == len(BODIES) * (1 + PERIODS.size)
+    on_ground = [each for each in trials if each.support_period_s == 0]
+    assert {each.amplification for each in on_ground} == {1.0}
+    # on the ground the record is the pulse, so that the closed form misses no more than its samples do
+    for each in on_ground:
+        if 0.01 < each.integrated_rotation_ratio < math.inf:
+            assert each.predicted_rotation_ratio == pytest.approx(each.integrated_rotation_ratio, rel=0.1)
+
+
+def test_what_turns_back_is_counted_by_site():
+    def trial(site, period, ratio):
+        return FloorTrial(
+            record=site, site=site, structure="parapet", support_period_s=period, amplification=1.0,
+            integrated_rotation_ratio=ratio, predicted_rotation_ratio=0.0,
+        )  # fmt: skip
+
+    trials = [trial("a", 0.0, 0.1), trial("a", 0.3, math.inf), trial("a", 0.5, 0.2)]
+    trials += [trial("b", 0.0, 0.1), trial("b", 0.3, 0.1), trial("b", 0.5, math.inf)]
+    scores = [each for each in course_scores([*trials]) if each.subject == "parapet"]
+    (back,) = [each for each in scores if each.part == "over the periods"]
+    assert (back.value, back.sites) == (0.5, 2)
