@@ -6,6 +6,7 @@ from .assessment.dynamic_check import StructureCheck as StructureCheck
 from .assessment.dynamic_check import check as check
 from .assessment.fragility import Fragility as Fragility
 from .assessment.fragility import fragility as fragility
+from .assessment.reserve import Reserve as Reserve
 from .assessment.trade import trade as trade
 from .assessment.verdict import Verdict as Verdict
 from .errors import CatalogueError as CatalogueError

@@ -26,6 +26,7 @@ from rocking.assessment.contacts import contact_share, doubt
 from rocking.assessment.cracks import cracks, ensemble_over_cracks
 from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
 from rocking.assessment.ground_motions import GroundMotions, processed
+from rocking.assessment.reserve import reserve
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.variations import Variation, candidates, processed_variants
 from rocking.assessment.verdict import BOTH_COMPONENTS, Method, Verdict, ratio_in_words
@@ -441,13 +442,32 @@ def _case(
         return case
     motions = _motion_of(component).ground_motions(settings.ensemble.processing)
     if members and answer.method is Method.MECHANISM_ON_RECORD:
-        over_cracks = ensemble_over_cracks(structure, motions, settings, verdict_only=auto)
-        return with_contacts(
-            replace(case, ensembles=over_cracks), structure, motions, settings, check.bounces
-        )
+        case = with_ensembles(case, structure, motions, settings)
+        return with_contacts(case, structure, motions, settings, check.bounces)
     if vertical is None and component.support is None:
         case = replace(case, overturning_estimate=estimated(Tier.PEAK_VELOCITY, mechanism, record))
     return with_contacts(case, structure, motions, settings, check.bounces)
+
+
+def with_ensembles(
+    case: CaseResult,
+    structure: Structure | Mechanism,
+    motions: GroundMotions,
+    settings: AssessmentSettings,
+) -> CaseResult:
+    """Return the case with the ensembles of its cracks, and with the reserve of the one that governs.
+
+    With fidelity: auto, which asks for the verdict alone, no reserve is sought.
+    """
+    auto = settings.fidelity == "auto"
+    ensembles = ensemble_over_cracks(structure, motions, settings, verdict_only=auto)
+    case = replace(case, ensembles=ensembles)
+    if auto or not settings.ensemble.reserve:
+        return case
+    several = cracks(structure)
+    description = ensembles.governing.description
+    governing = next((each for each in several if each.description == description), several[0])
+    return replace(case, reserve=reserve(governing.mechanism, motions, settings.ensemble))
 
 
 def with_contacts(
@@ -616,9 +636,8 @@ def assess_directions(
     case = CaseResult(structure=name, component=BOTH_COMPONENTS)
     motions = _ground_motions(pair, settings.ensemble.processing)
     try:
-        quick = settings.fidelity == "auto"
-        over_cracks = ensemble_over_cracks(structure, motions, settings, verdict_only=quick)
-        return with_contacts(replace(case, ensembles=over_cracks), structure, motions, settings, bounces)
+        case = with_ensembles(case, structure, motions, settings)
+        return with_contacts(case, structure, motions, settings, bounces)
     except RockingError as error:
         return replace(case, failures=(Failure("directions", str(error)),))
 

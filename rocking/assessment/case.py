@@ -17,6 +17,7 @@ from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer, Estimate
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.over_periods import OverPeriods, over_periods
+from rocking.assessment.reserve import Reserve
 from rocking.assessment.variations import Variation
 from rocking.assessment.verdict import BOTH_COMPONENTS, POLARITIES, Doubt, Judgement, Method, Verdict
 from rocking.motion.response import UNKNOWN, ModelCheck, Response
@@ -108,9 +109,10 @@ class CaseResult:
     component: name of the motion. prediction: None without a pulse. responses: by method. check: whether the model held
     along the response of the mechanism to the record. answer: of the mechanism on the record, or of the cheapest method
     that settles the case; None of a pair, and where the case failed. ensembles: of the cracks that were followed; None
-    where none ran. overturning_estimate: from the peak velocity, where no ensemble ran; None of a structure unlike
-    those behind the estimate. variations: other cracks, then other processings. durations: CPU time of each method that
-    was compared, s. fingerprint: of motion, structure, settings and version of the computation.
+    where none ran. reserve: of the crack that governs; None where it was not sought. overturning_estimate: from the
+    peak velocity, where no ensemble ran; None of a structure unlike those behind the estimate. variations: other
+    cracks, then other processings. durations: CPU time of each method that was compared, s. fingerprint: of motion,
+    structure, settings and version of the computation.
     """
 
     structure: str
@@ -120,6 +122,7 @@ class CaseResult:
     check: ModelCheck = UNKNOWN
     answer: Answer | None = None
     ensembles: CrackEnsembles | None = None
+    reserve: Reserve | None = None
     overturning_estimate: Estimate | None = None
     doubt: Doubt | None = None
     contact: ContactShare | None = None
@@ -249,6 +252,11 @@ class StationResult(Judgement):
     def statics(self) -> FollowedCrack | None:
         """The crack of statics where another one governs, or the worst beside one that is given; None without one."""
         return self.ensembles.beside if self.ensembles else None
+
+    @property
+    def reserve(self) -> Reserve | None:
+        """The factors on the record at which 5, 50 and 95 % of the members overturn; None where it was not sought."""
+        return self.decisive.reserve if self.decisive else None
 
     @property
     def component(self) -> str:

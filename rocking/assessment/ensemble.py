@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -195,24 +196,51 @@ def drawn(
     tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
     situation = Situation.of(reduced, motions, settings)
     values = draw(situation, points)
+    followed = followed_at(reduced, motions, values, np.ones(1), tolerance=tolerance)
+    varied = {cause.name: values[cause.name] for cause in CAUSES if cause.varies_in(situation)}
+    return Ensemble(followed.rotation_ratios[0], varied, situation.settings, reasons=followed.reasons)
 
+
+class Followed(NamedTuple):
+    """Members that were followed at several factors on the motion.
+
+    rotation_ratios: (k, m) by factor and member. reasons: why a member failed, by its place.
+    """
+
+    rotation_ratios: np.ndarray
+    reasons: dict[int, str]
+
+
+def followed_at(
+    structure: Mechanism | EquivalentBlock,
+    motions: GroundMotions,
+    values: Mapping[str, np.ndarray],
+    factors: np.ndarray,
+    *,
+    tolerance: float,
+) -> Followed:
+    """Follow members at `factors` (k,) on the motion, the vertical component included.
+
+    values: of every cause, by member (m,), as `causes.draw` gives them.
+    """
     horizontal = values["amplitude"] * values["polarity"]
-    vertical = None if motions.vertical is None else values["amplitude"] * values["vertical"]
-    restitution = _restitution(reduced, values["restitution"])
+    vertical = values["amplitude"] * values["vertical"]
+    restitution = _restitution(structure, values["restitution"])
 
-    ratios = np.full(len(points), np.nan)
+    ratios = np.full((factors.size, horizontal.size), np.nan)
     reasons: dict[int, str] = {}
     for (direction, processing), motion in motions.horizontal.items():
         rows = np.flatnonzero((values["direction"] == direction) & (values["processing"] == processing))
-        if rows.size:
-            forcing = forcing_of(motion, motions.vertical)
-            lift = None if vertical is None else vertical[rows]
-            responses = follow_factors(reduced, forcing, horizontal[rows], lift, restitution[rows], tolerance)
-            ratios[rows] = responses.rotation_ratio
-            reasons |= {int(rows[k]): reason for k, reason in responses.reasons.items()}
-
-    varied = {cause.name: values[cause.name] for cause in CAUSES if cause.varies_in(situation)}
-    return Ensemble(ratios, varied, situation.settings, reasons=reasons)
+        if not rows.size:
+            continue
+        forcing = forcing_of(motion, motions.vertical)
+        along = np.outer(factors, horizontal[rows]).ravel()
+        lift = None if motions.vertical is None else np.outer(factors, vertical[rows]).ravel()
+        eta = np.tile(restitution[rows], (factors.size, 1))
+        responses = follow_factors(structure, forcing, along, lift, eta, tolerance)
+        ratios[:, rows] = responses.rotation_ratio.reshape(factors.size, rows.size)
+        reasons |= {int(rows[k % rows.size]): reason for k, reason in responses.reasons.items()}
+    return Followed(ratios, reasons)
 
 
 def _restitution(structure: Mechanism | EquivalentBlock, offset: np.ndarray) -> np.ndarray:

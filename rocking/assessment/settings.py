@@ -30,6 +30,9 @@ class EnsembleSettings:
     polarity: bool = described(True, "whether the sign of the motion varies, for unlike sides")
     processing: bool = described(True, "whether the processing of a raw record varies")
     risk: float = described(0.05, "largest probability of the outcome opposite to a verdict", gt=0, le=0.45)
+    reserve: float = described(
+        3.0, "largest factor on the record up to which the reserve is sought; 0: no reserve", ge=0, le=30
+    )
 
     def __post_init__(self) -> None:
         check_described(ConfigurationError, self)
@@ -66,7 +69,7 @@ class AssessmentSettings:
         "with uplift (a_sc,alt), linearised (a_sc) or mean",
     )
     tolerance: float = described(
-        1e-6, "tolerance of the integration, relative to the critical rotation", ge=1e-13, le=0.1
+        1e-6, "tolerance of the integration, relative to the largest rotation", ge=1e-13, le=0.1
     )
     pulse: PredictingPulse = PredictingPulse()
     ensemble: EnsembleSettings = EnsembleSettings()

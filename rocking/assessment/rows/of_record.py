@@ -238,6 +238,10 @@ class VerdictRow(MembersRow, Judgement):
     direction: str = column("Direction of the largest rotation; empty with one")
     polarity: str = column("Sign of the motion of the largest rotation: as recorded, reversed; or empty")
     peak_side: int | None = column(PEAK_SIDE)
+    reserve_low: float = column("Factor on the record at which 5 % of the members overturn; empty: none")
+    reserve_median: float = column("Factor on the record at which half of the members overturn; empty: none")
+    reserve_high: float = column("Factor on the record at which 95 % of the members overturn; empty: none")
+    reserve_limit: float = column("Largest factor on the record that was tried; empty without a reserve")
     why: str = column("Reason for the verdict")
     stack_falls: int | None = column("Stacks of courses that fall in contact dynamics; empty: not asked")
     stack_runs: int | None = column("Stacks that were followed, over amplitudes, time steps and directions")
@@ -489,6 +493,7 @@ def ensemble_row(identity: ComponentRow, structure: str, ensembles: "CrackEnsemb
 
 def verdict_row(identity: ComponentRow, station: "StationResult") -> VerdictRow:
     """Return what became of one structure. identity: of the component that rotates most."""
+    reserve = station.reserve
     return VerdictRow(
         record=identity.record,
         component=station.component,
@@ -508,6 +513,10 @@ def verdict_row(identity: ComponentRow, station: "StationResult") -> VerdictRow:
         direction=station.direction,
         polarity=station.polarity,
         peak_side=station.peak_side,
+        reserve_low=reserve.low if reserve else math.nan,
+        reserve_median=reserve.median if reserve else math.nan,
+        reserve_high=reserve.high if reserve else math.nan,
+        reserve_limit=reserve.limit if reserve else math.nan,
         why=station.why,
         stack_falls=station.stack_falls,
         stack_runs=station.stack_runs,

@@ -1,0 +1,122 @@
+"""The reserve: held against a scan of every level by single integrations, and what it owes whatever the motion."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rocking
+from rocking.assessment.causes import lattice
+from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.reserve import Reserve, reserve
+from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
+from rocking.errors import ConfigurationError
+from rocking.records import Accelerogram
+from rocking.structures import Block
+
+STEP = 0.01
+TIMES = np.arange(0, 20, STEP)
+BLOCK = Block(2.0, 0.2, restitution=0.9)
+
+
+def _record(amplitude: float, seed: int = 0) -> Accelerogram:
+    """Filtered noise of 20 s that grows and fades."""
+    noise = np.fft.rfft(np.random.default_rng(seed).standard_normal(TIMES.size))
+    frequencies = np.fft.rfftfreq(TIMES.size, STEP)
+    shaped = np.fft.irfft(noise * frequencies**0.5 / (1 + (frequencies / 1.2) ** 2), TIMES.size)
+    wave = shaped * (TIMES / 4) ** 2 * np.exp(-TIMES / 2)
+    return Accelerogram(amplitude * wave / np.abs(wave).max(), STEP)
+
+
+def _rising(shares: list[float]) -> list[float]:
+    """The rising curve nearest to the shares: whatever falls is pooled with what comes before it."""
+    pools: list[list[float]] = []
+    for share in shares:
+        pools.append([share])
+        while len(pools) > 1 and np.mean(pools[-2]) > np.mean(pools[-1]):
+            pools[-2:] = [pools[-2] + pools[-1]]
+    return [float(np.mean(pool)) for pool in pools for _ in pool]
+
+
+def _scanned(block: Block, record: Accelerogram, settings: EnsembleSettings) -> list[float]:
+    """The factors by following every member through every level, one member after the other."""
+    first, second = lattice(64)[:, 0], lattice(64)[:, 1]
+    amplitudes = 1 + settings.amplitude_range * (2 * first - 1)
+    offsets = settings.restitution_range * (2 * second - 1)
+    lowest = np.tan(block.slenderness) * 9.80665 / record.peak_acceleration / amplitudes.max()
+    levels = lowest * 1.06 ** np.arange(math.ceil(math.log(settings.reserve / lowest, 1.06)))
+    falls = [
+        np.isinf(
+            rocking.integrate_batch(
+                [replace(block, restitution=0.9 + offset)], record, (levels * amplitude).tolist()
+            )[0]
+        )
+        for amplitude, offset in zip(amplitudes, offsets, strict=True)
+    ]
+    curve = _rising(np.mean(falls, axis=0).tolist())
+    return [float(np.exp(np.interp(share, curve, np.log(levels)))) for share in (0.05, 0.5, 0.95)]
+
+
+def test_it_is_what_a_scan_of_every_member_at_every_level_gives():
+    """The scan follows 64 members at every level; the reserve, few. Where a structure stands again between two levels
+    that few meet, the upper factors may differ; of them all, so many must agree as of two halves of an ensemble do."""
+    settings = EnsembleSettings(reserve=6.0)
+    shipped = rocking.read("records/20161113_110259_WTMC_20.V2A")[:2]
+    found, expected = [], []
+    for record in (*(_record(3.0, seed) for seed in range(4)), *shipped):
+        own = reserve(BLOCK.mechanism(), GroundMotions.of(record), settings)
+        found.append([own.low, own.median, own.high])
+        expected.append(_scanned(BLOCK, record, settings))
+    ratios = np.array(found) / np.array(expected)
+    assert ratios[:, 0] == pytest.approx(1.0, abs=0.06), "the low factor, to a step of the levels"
+    assert np.mean(np.abs(np.log(ratios)) < np.log(1.1)) >= 0.85
+
+
+def test_a_stronger_record_has_as_much_less():
+    once, twice = (
+        reserve(BLOCK.mechanism(), GroundMotions.of(_record(each)), EnsembleSettings(reserve=10.0 * 3 / each))
+        for each in (3.0, 6.0)
+    )
+    assert (once.low, once.median) == pytest.approx((2 * twice.low, 2 * twice.median), rel=0.02)
+    assert once.low < once.median < once.high
+
+
+def test_at_the_reserve_so_many_members_of_the_ensemble_overturn():
+    record = _record(3.0, 2)
+    found = reserve(BLOCK.mechanism(), GroundMotions.of(record), EnsembleSettings(reserve=20.0))
+    low = rocking.assess(record.scaled(0.8 * found.low), BLOCK).overturning_share
+    median = rocking.assess(record.scaled(found.median), BLOCK).overturning_share
+    high = rocking.assess(record.scaled(1.3 * found.high), BLOCK).overturning_share
+    assert low <= 0.1 and 0.2 <= median <= 0.8 and high >= 0.9
+
+
+def test_up_to_the_limit_and_no_farther():
+    motions = GroundMotions.of(_record(0.5))
+    found = reserve(BLOCK.mechanism(), motions, EnsembleSettings(reserve=1.0))
+    assert math.isnan(found.low) and math.isnan(found.median) and found.limit == 1.0
+    assert str(found) == "fewer than 5 % of members fall up to 1 × this record"
+    farther = reserve(BLOCK.mechanism(), motions, EnsembleSettings(reserve=30.0))
+    assert 1.0 < farther.low < farther.median <= 30.0
+    assert str(Reserve(0.8, math.nan, math.nan, 3.0)).endswith("fewer than half up to 3 × this record")
+
+
+def test_still_ground_has_none():
+    still = Accelerogram(np.zeros(500), STEP)
+    assert math.isnan(reserve(BLOCK.mechanism(), GroundMotions.of(still)).low)
+
+
+def test_a_setting_turns_it_off_and_a_result_has_it():
+    record = _record(3.0)
+    assert isinstance(rocking.assess(record, BLOCK).reserve, Reserve)
+    off = AssessmentSettings(ensemble=EnsembleSettings(reserve=0.0))
+    assert rocking.assess(record, BLOCK, settings=off).reserve is None
+    with pytest.raises(ConfigurationError, match="reserve"):
+        EnsembleSettings(reserve=-1.0)
+
+
+def test_a_pair_has_one_over_its_directions():
+    pair = [_record(3.0, 1), _record(3.0, 2)]
+    found = rocking.assess(pair, BLOCK).reserve
+    assert found is not None
+    assert found.low < found.median
