@@ -46,9 +46,9 @@ class Reserve:
 
     nan where fewer overturn at every factor up to the `limit`.
 
-    >>> print(rocking.Reserve(0.8, 1.1, math.nan, limit=3.0))
+    >>> print(rocking.Reserve(0.8, 1.1, np.nan, limit=3.0))
     5 % of members fall at 0.8 ×, half at 1.1 × this record
-    >>> print(rocking.Reserve(math.nan, math.nan, math.nan, limit=3.0))
+    >>> print(rocking.Reserve(np.nan, np.nan, np.nan, limit=3.0))
     fewer than 5 % of members fall up to 3 × this record
     """
 
