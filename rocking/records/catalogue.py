@@ -14,6 +14,7 @@ from rocking.errors import CatalogueError, RockingError
 from rocking.quantities import acceleration_factor, shown
 from rocking.records.formats.format import plain
 from rocking.records.formats.text import is_number
+from rocking.records.scaling import ScalingTarget
 from rocking.tables import read_whole
 
 _OBSPY = "obspy:"
@@ -67,6 +68,9 @@ class CatalogueRecord:
         "", "unit of the samples, where the file is silent; a contradiction with the file is an error")
     time_step: float | None = described(None, "time step, where the file is silent", "s", gt=0)
     scale_factor: float = described(1.0, "factor on the acceleration")
+    scale_to: str = described(
+        "", "what the larger peak of the horizontal components is scaled to, by one factor on all components, in place "
+        "of scale_factor: `pga 0.35 g` or `pgv 50 cm/s`")
     event: str = described("", "the earthquake, for the reader")
     station: str = described("", "the station, for the reader")
     licence: str = described("", "licence of the files, for the reader")
@@ -148,13 +152,16 @@ def _defects(record: CatalogueRecord) -> Iterator[str]:
         (not is_fetched or _COMMIT.fullmatch(source[2]),
          f"source_commit is {shown(source[2])}, but must be 40 hexadecimal digits."),
         (record.scale_factor != 0, "scale_factor is 0, but must not be; leave the row out instead."),
+        (record.scale_factor == 1 or not record.scale_to,
+         f"scale_factor is {record.scale_factor:g} beside scale_to {shown(record.scale_to)}; give one of the two."),
     ]  # fmt: skip
     yield from (sentence for is_right, sentence in checks if not is_right)
-    if record.unit:
-        try:
-            acceleration_factor(record.unit)
-        except RockingError as error:
-            yield str(error)
+    for cell, check in ((record.unit, acceleration_factor), (record.scale_to, ScalingTarget.parse)):
+        if cell:
+            try:
+                check(cell)
+            except RockingError as error:
+                yield str(error)
 
 
 def is_safe_id(text: str) -> bool:
@@ -231,9 +238,9 @@ def catalogue_text(rows: Iterable[Mapping[str, str]], columns: Sequence[str] = C
 def repeated(records: Iterable[CatalogueRecord]) -> tuple[str, ...]:
     """Return a sentence for each record that is an earlier one again: one content and scale, a component in common."""
     sentences = []
-    earlier: dict[tuple[str, float], list[CatalogueRecord]] = {}
+    earlier: dict[tuple[str, float, str], list[CatalogueRecord]] = {}
     for record, file in [(row, file) for row in records for file in row.files if file.sha256]:
-        same = earlier.setdefault((file.sha256, record.scale_factor), [])
+        same = earlier.setdefault((file.sha256, record.scale_factor, record.scale_to), [])
         chosen = set(record.components)  # none names all
         both = (each for each in same if not (chosen and each.components) or chosen & set(each.components))
         if other := next(both, None):

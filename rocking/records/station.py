@@ -15,6 +15,7 @@ from rocking.records.instrument import directed
 from rocking.records.joining import direction_doubt, joined, names_no_direction
 from rocking.records.plausibility import scaled
 from rocking.records.read import bytes_of, read_raw
+from rocking.records.scaling import ScalingTarget, scaled_to
 
 _SIDEWAYS = "Component {} is vertical, but the catalogue takes it as horizontal."
 
@@ -30,8 +31,9 @@ class Station:
 def open_station(record: CatalogueRecord, mirror: str | Path | None = None) -> Station:
     """Return the components of `record`, each of its files read once, those of several on their common span.
 
-    Horizontal are the components it names, else every one at the surface that is not vertical. scale_factor, station,
-    event, high_pass, magnitude and distance of the row are applied. Raises RecordError naming record and file.
+    Horizontal are the components it names, else every one at the surface that is not vertical. scale_factor or
+    scale_to, station, event, high_pass, magnitude and distance of the row are applied. Raises RecordError naming record
+    and file.
     """
     with about(record.id):
         inventory = _inventory_of(record, mirror)
@@ -82,8 +84,11 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
         horizontal = _horizontal(channels, record, vertical)
         if doubt := direction_doubt(horizontal):
             horizontal = [channel.warned(doubt) for channel in horizontal]
-        declared = tuple(_as_declared(channel, record) for channel in horizontal)
-        return Station(declared, None if vertical is None else _as_declared(vertical, record))
+        declared = [_as_declared(channel, record) for channel in horizontal]
+        upwards = None if vertical is None else _as_declared(vertical, record)
+        if record.scale_to:
+            declared, upwards = scaled_to(ScalingTarget.parse(record.scale_to), declared, upwards)
+        return Station(tuple(declared), upwards)
 
 
 def _named_by_row(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sequence[Accelerogram]:

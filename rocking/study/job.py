@@ -17,9 +17,10 @@ from rocking.assessment.compilation import compile_all
 from rocking.assessment.rows.of_record import HistoryRow, RecordRows, history_rows, rows_of_record
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.store import RecordStore, computation_version
-from rocking.errors import ConfigurationError, RecordError, RockingError
+from rocking.errors import ConfigurationError, RecordError, RockingError, about
 from rocking.records import Accelerogram, CatalogueRecord, aligned, load_catalogue, open_station
 from rocking.records.processing import process
+from rocking.records.scaling import ScalingTarget, scaled_to
 from rocking.records.station import station_of
 from rocking.structures import Structure, load_structures
 from rocking.study.folder import locked
@@ -65,17 +66,25 @@ class Study:
         )
 
     def open(self, record: CatalogueRecord, channels: list[Accelerogram] | None = None) -> Opened:
-        """Return the components of `record`, processed as the settings say. channels: of its files, if they were read.
+        """Return the components of `record`, processed and scaled as its row and the settings say.
 
-        Raises RecordError naming the record, also when the vertical component does not fit the others.
+        channels: of its files, if they were read. Raises RecordError naming the record, also when the vertical
+        component does not fit the others.
         """
-        station = station_of(channels, record) if channels else open_station(record, self.settings.mirror)
+        scale_to = record.scale_to or self.settings.scale_to
+        unscaled = replace(
+            record, scale_to=""
+        )  # what is asked is the peak of the motion that acts, after processing
+        station = station_of(channels, unscaled) if channels else open_station(unscaled, self.settings.mirror)
         horizontal = [self._processed(accelerogram) for accelerogram in station.horizontal]
-        if station.vertical is None or not self.settings.vertical:
-            return horizontal, None
-        vertical = self._processed(station.vertical)
-        for accelerogram in horizontal:
-            aligned(vertical, accelerogram)
+        acts = station.vertical is not None and self.settings.vertical
+        vertical = self._processed(station.vertical) if station.vertical is not None and acts else None
+        if scale_to:
+            with about(record.id):
+                horizontal, vertical = scaled_to(ScalingTarget.parse(scale_to), horizontal, vertical)
+        if vertical is not None:
+            for accelerogram in horizontal:
+                aligned(vertical, accelerogram)
         return horizontal, vertical
 
     def _processed(self, accelerogram: Accelerogram) -> Accelerogram:

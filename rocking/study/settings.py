@@ -19,8 +19,9 @@ from rocking.described import (
     parts_of,
     read_described,
 )
-from rocking.errors import ConfigurationError
+from rocking.errors import ConfigurationError, RecordError
 from rocking.records.processing import Processing
+from rocking.records.scaling import ScalingTarget
 from rocking.tables.yaml_file import scalar_value
 
 
@@ -72,6 +73,11 @@ class Settings(AssessmentSettings):
     results: str = described("results", "folder of the results")
     mirror: str | None = described(None, "folder that already holds the files of remote records")
     processing: StudyProcessing = StudyProcessing(pre_event=1.0, baseline="linear", taper=0.02, high_pass=0.1)
+    scale_to: str | None = described(
+        None,
+        "what the larger peak of each record's horizontal components is scaled to, by one factor on all of them, like "
+        "pga 0.35 g or pgv 50 cm/s; null: as the catalogue says",
+    )
     vertical: bool = described(False, "whether the vertical component acts as well, where a record has one")
     candidates: int = described(
         11, "number of heights tried for the hinge of a wall or the crack of a spire", ge=0, le=1000
@@ -90,6 +96,14 @@ class Settings(AssessmentSettings):
         ge=1,
         le=100_000,
     )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.scale_to:
+            try:
+                ScalingTarget.parse(self.scale_to)
+            except RecordError as error:
+                raise ConfigurationError(str(error)) from None
 
     def mapping(self) -> dict[str, Any]:
         """All settings by their names."""
@@ -116,7 +130,7 @@ EXAMPLE = Settings(structures="workflow/structures.yaml")
 LAYOUT = {
     "Told on the first page of every report; each may stay blank": _ABOUT,
     "Records and structures": ("catalogue", "structures", "results", "mirror"),
-    "Processing, told in every report": ("processing",),
+    "Processing, told in every report": ("processing", "scale_to"),
     "Method": (
         *("acceleration_scale", "tolerance", "vertical", "friction_coefficient", "pulse", "candidates"),
         *("processing_variants", "fidelity", "fidelity_risk"),

@@ -1,0 +1,92 @@
+"""Scaling: one factor on all components of a record, such that a measure of its horizontal motion is what is asked."""
+
+import math
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rocking.described import comma_hint
+from rocking.errors import RecordError
+from rocking.quantities import acceleration_factor, shown
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.formats.text import is_number
+from rocking.records.plausibility import scaled
+from rocking.records.processing import velocity
+
+FORM = "a measure, pga or pgv, a number and its unit, as in pga 0.35 g or pgv 50 cm/s"
+_SPELLING = re.compile(r"(pga|pgv)\s+([-+.,\d]+(?:e[-+]?\d+)?|nan|inf)\s*([a-z].*)", re.I)
+_SPEEDS = {"m/s": 1.0, "cm/s": 0.01}
+"""Factor from each unit of velocity to m/s."""
+
+
+def _peak_acceleration(record: Accelerogram) -> float:
+    return record.peak_acceleration
+
+
+def _peak_velocity(record: Accelerogram) -> float:
+    return float(np.abs(velocity(record)).max())
+
+
+_MEASURES: dict[str, Callable[[Accelerogram], float]] = {"pga": _peak_acceleration, "pgv": _peak_velocity}
+
+
+@dataclass(frozen=True)
+class ScalingTarget:
+    """What the largest peak among the horizontal components of a record is scaled to.
+
+    measure: pga or pgv. value: m/s² or m/s, above 0. text: as it was asked for.
+
+    >>> ScalingTarget.parse("pga .35 g").value
+    3.4323275
+    """
+
+    measure: str
+    value: float
+    text: str
+
+    @classmethod
+    def parse(cls, text: str) -> "ScalingTarget":
+        """Return the target that `text` names. Raises RecordError when it names none."""
+        match = _SPELLING.fullmatch(text.strip())
+        if not match:
+            raise RecordError(f"scale_to is {shown(text)}, but must be {FORM}.")
+        measure, number, unit = match[1].lower(), match[2], match[3].strip()
+        if not is_number(number) or not 0 < float(number) < math.inf:
+            must = f"must be finite and above 0{comma_hint(number)}"
+            raise RecordError(f"scale_to is {shown(text)}, but its number {must}; give {FORM}.")
+        if measure == "pgv" and unit not in _SPEEDS:
+            raise RecordError(
+                f"scale_to is {shown(text)}, but a velocity is given in {' or '.join(_SPEEDS)}."
+            )
+        factor = acceleration_factor(unit) if measure == "pga" else _SPEEDS[unit]
+        return cls(measure, float(number) * factor, " ".join(text.split()))
+
+    def factor(self, horizontal: Sequence[Accelerogram]) -> float:
+        """Return the one factor on all components. Raises RecordError for a record that does not move."""
+        largest = max(map(_MEASURES[self.measure], horizontal))
+        if largest <= 0:
+            raise RecordError(f"the record is zero throughout, so that nothing scales it to {self.text}.")
+        return self.value / largest
+
+
+def scaled_to(
+    target: ScalingTarget, horizontal: Sequence[Accelerogram], vertical: Accelerogram | None = None
+) -> tuple[list[Accelerogram], Accelerogram | None]:
+    """Return the components of a record, each multiplied by the one factor that takes it to `target`, and told so.
+
+    The largest peak among the horizontal components becomes what is asked; scale_factor of each says by how much its
+    file was multiplied in all. Raises RecordError for a record that is zero throughout.
+    """
+    factor = target.factor(horizontal)
+    sentence = (
+        f"All components multiplied by {factor:.5g}, so that the larger {target.measure.upper()} of the horizontal "
+        f"ones is {target.text.split(' ', 1)[1]}."
+    )
+
+    def enlarged(record: Accelerogram) -> Accelerogram:
+        larger = scaled(record, factor)
+        return replace(larger, processing=(*larger.processing, sentence))
+
+    return [enlarged(record) for record in horizontal], None if vertical is None else enlarged(vertical)
