@@ -20,7 +20,7 @@ T = TypeVar("T")
 
 _IN_KEYS = str.maketrans({"/": "_", "²": "2", "³": "3", "°": "deg", "H": "h"})
 """A unit as the key of a value ends in it."""
-_BOUNDS = ("gt", "ge", "lt", "le")
+_BOUNDS = ("gt", "ge", "lt", "le", "pattern", "examples")
 
 
 @dataclass(frozen=True)
@@ -28,8 +28,8 @@ class Described:
     """What there is to say of one value.
 
     name: of the attribute. kind: its type. unit: of the value in a file, in which its key ends. one_of: gives the names
-    that are allowed, where a registry holds them. bounds: any of gt, ge, lt, le. default: ... where there is none.
-    more: what some kinds of values say besides.
+    that are allowed, where a registry holds them. bounds: any of gt, ge, lt, le, of a text the pattern that it matches
+    and examples. default: ... where there is none. more: what some kinds of values say besides.
     """
 
     name: str
@@ -37,7 +37,7 @@ class Described:
     meaning: str
     unit: str = ""
     one_of: Callable[[], tuple[str, ...]] | None = None
-    bounds: Mapping[str, float] = field(default_factory=dict)
+    bounds: Mapping[str, Any] = field(default_factory=dict)
     default: Any = ...
     more: Mapping[str, Any] = field(default_factory=dict)
 
@@ -222,6 +222,9 @@ _LONGEST_NAME = 80
 
 def _words(schema: Mapping[str, Any]) -> str:
     """What a JSON schema allows."""
+    if examples := schema.get("examples"):
+        bare = {key: value for key, value in schema.items() if key != "examples"}
+        return _words(bare).replace("a text that is not empty", f"a text like {' or '.join(examples)}", 1)
     if options := schema.get("anyOf") or schema.get("oneOf"):
         return " or ".join(map(_words, options))
     if names := schema.get("enum") or ([schema["const"]] if "const" in schema else None):

@@ -77,6 +77,8 @@ class Settings(AssessmentSettings):
         None,
         "what the larger peak of each record's horizontal components is scaled to, by one factor on all of them, like "
         "pga 0.35 g or pgv 50 cm/s; null: as the catalogue says",
+        pattern=r"^\s*[Pp][Gg][AaVv]\s+[0-9.]+([eE][-+]?[0-9]+)?\s*[A-Za-z].*$",
+        examples=["pga 0.35 g", "pgv 50 cm/s"],
     )
     vertical: bool = described(False, "whether the vertical component acts as well, where a record has one")
     candidates: int = described(
