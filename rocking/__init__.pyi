@@ -39,6 +39,7 @@ from .records.measures import RecordMeasures as RecordMeasures
 from .records.measures import ResponseSpectrum as ResponseSpectrum
 from .records.measures import record_measures as record_measures
 from .records.measures import response_spectrum as response_spectrum
+from .records.obspy_stream import from_obspy as from_obspy
 from .records.selection import Selection as Selection
 from .records.selection import select as select
 from .records.support import Mode as Mode

@@ -11,9 +11,8 @@ import numpy as np
 
 from rocking.drawn import Drawn
 from rocking.errors import RecordError, about
-from rocking.quantities import GRAVITY, UNPRINTABLE, acceleration_factor, finite, four_digits, positive
-from rocking.records.instrument import directed
-from rocking.records.traces import calibrated, joined, names, site
+from rocking.quantities import GRAVITY, UNPRINTABLE, finite, four_digits, positive
+from rocking.records.traces import OBSPY_EXTRAS
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -35,13 +34,6 @@ class Source:
     format: str = ""
     sha256: str = ""
     unit: str = ""
-
-
-_OBSPY_EXTRAS = (
-    "component", "event", "azimuth", "vertical", "processed", "processing", "warnings", "magnitude", "magnitude_type",
-    "event_time", "latitude", "longitude", "elevation", "epicentral_distance",
-)  # fmt: skip
-"""What a trace of obspy has no place for."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -181,37 +173,18 @@ class Accelerogram(Drawn):
         """Return an accelerogram for each channel of an obspy Trace or Stream, in the order of its channels.
 
         inventory: obspy's, by whose response counts become acceleration; it may be attached to the trace instead. unit:
-        of samples that are acceleration already ("m/s2", "cm/s2", "g", ...). response: as read() takes it. Raises
-        RecordError for a gap, and when neither or both are given.
+        of samples that are acceleration already ("m/s2", "cm/s2", "g", ...), which wins over a response. response: as
+        read() takes it. What obspy has noted of the processing is read: samples whose response was removed to
+        acceleration are in m/s². Every check of `read` is made. Raises RecordError for a gap, for velocity and
+        displacement, and where nothing says what the samples are.
 
         >>> from obspy import Trace
         >>> rocking.Accelerogram.from_obspy(Trace(np.sin(np.arange(9.0)), {"channel": "HNE"}), unit="m/s2")[0].azimuth
         90.0
         """
-        from obspy import Stream, Trace  # which takes a second to import
+        from rocking import from_obspy  # which stands above this
 
-        stream = Stream([trace_or_stream] if isinstance(trace_or_stream, Trace) else trace_or_stream).copy()
-        if not stream:
-            raise RecordError("the stream holds no trace; give one with acceleration.")
-        records = []
-        for trace in joined(stream):
-            own = dict(trace.stats.get("rocking", {}))
-            by_response = inventory is not None or "response" in trace.stats
-            declared = unit or (None if by_response else own.get("unit"))
-            if (declared is None) != by_response:
-                state = "both a unit and a response" if by_response else "neither a unit nor a response"
-                raise RecordError(f"{trace.id} has {state}; give unit= or the inventory= of counts.")
-            fields: dict[str, Any] = {"processed": False if by_response else None, **names(trace)}
-            fields |= {name: own[name] for name in _OBSPY_EXTRAS if name in own} | site(trace, inventory)
-            with about(trace.id):
-                if by_response:
-                    samples, step = calibrated(trace, inventory, response)
-                    fields["processing"] = (*fields.get("processing", ()), step)
-                else:
-                    samples = trace.data * acceleration_factor(str(declared))
-                source = Source(format="obspy", unit=declared or "m/s2")
-                records.append(cls(samples, float(trace.stats.delta), source=source, **directed(fields)))
-        return records
+        return from_obspy(trace_or_stream, inventory, unit, response)
 
     def to_obspy(self) -> Any:
         """Return an obspy Trace of the acceleration, m/s², from which from_obspy makes this accelerogram again.
@@ -220,7 +193,7 @@ class Accelerogram(Drawn):
         """
         from obspy import Trace, UTCDateTime  # which takes a second to import
 
-        more = {name: getattr(self, name) for name in _OBSPY_EXTRAS}
+        more = {name: getattr(self, name) for name in OBSPY_EXTRAS}
         header = {"delta": self.time_step, "rocking": more | {"unit": "m/s2", "format": self.source.format}}
         header |= {name: getattr(self, name) for name in ("network", "station", "location")}
         if self.start_time:

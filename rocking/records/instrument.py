@@ -7,20 +7,30 @@ from rocking.errors import RecordError
 
 _VERTICAL = {
     "UP", "-UP", "DOWN", "DN", "DWN", "V", "Z", "UD", "U-D", "U", "VER", "VERT", "VERTICAL", "UPDO", "U/D", "UPWARD",
-    "UP-DOWN", "UP/DOWN", "VERT.",
+    "UP-DOWN", "UP/DOWN", "VERT.", "VRT", "VRTL", "UPP", "UPWD", "DWNW", "VERTICAL UP", "VERTICAL DOWN", "V-UP",
 }  # fmt: skip
 _NAMED = {
     "N": 0.0, "NS": 0.0, "N-S": 0.0, "S-N": 180.0, "NORTH": 0.0, "E": 90.0, "EW": 90.0, "E-W": 90.0, "W-E": 90.0,
     "EAST": 90.0, "S": 180.0, "SOUTH": 180.0, "W": 270.0, "WEST": 270.0,
 }  # fmt: skip
 _QUADRANT = re.compile(r"([NS])\s*(\d{1,2})\s*([EW])")
-_BAND = re.compile(r"[A-Z][HNGL][ENZ123]")
+_BAND = re.compile(r"([A-Z][HNGL][ENZ123])(?:[._ -]?(?:\d\d|--))?")
+"""A channel code of three letters, and what may follow it of a code of location."""
+_NUMBERED_VERTICAL = re.compile(r"(V|Z|UP|DN|DWN|DOWN|VERT|VERTICAL)[ _.-]?(\d|00|-{1,2})")
+"""A vertical with a number of its own, as V1 or DWN1, or dashes in place of a code, as Z--."""
+_RELATIVE = re.compile(
+    r"H?[123XYLTR]|[A-Z][HNGL][RT]|L?N|TR|LN|FN|FP|(LONG|TRAN|RAD)\w*|(COMP|CHAN)\w*[ _-]?\d+", re.I
+)
+"""Names of components that say which of two it is, and not where it points."""
 
 
 def is_vertical(component: str) -> bool:
     """Whether the component's name says that it is vertical: UP, V, UD, or a channel code ending in Z."""
     name = component.strip().upper()
-    return name in _VERTICAL or (bool(_BAND.fullmatch(name)) and name.endswith("Z"))
+    band = _BAND.fullmatch(name)
+    if band:
+        return band[1].endswith("Z")
+    return name in _VERTICAL or bool(_NUMBERED_VERTICAL.fullmatch(name))
 
 
 def azimuth(component: str) -> float | None:
@@ -34,8 +44,8 @@ def azimuth(component: str) -> float | None:
     name = component.strip().upper()
     if re.fullmatch(r"\d{1,3}(\.\d*)?", name):
         return float(name) % 360 if float(name) <= 360 else None
-    if _BAND.fullmatch(name):
-        name = name[2]
+    if band := _BAND.fullmatch(name):
+        name = band[1][2]
     if quadrant := _QUADRANT.fullmatch(name):
         pole, degrees, side = quadrant.groups()
         turn = int(degrees) if (pole == "N") == (side == "E") else -int(degrees)
@@ -50,6 +60,25 @@ def directed(fields: dict[str, Any]) -> dict[str, Any]:
     along = fields.get("azimuth")
     along = None if vertical else azimuth(component) if along is None else along
     return fields | {"vertical": vertical, "azimuth": along}
+
+
+def direction_warnings(component: str, along: float | None, vertical: bool) -> tuple[str, ...]:
+    """Return a warning when nothing says where a component points: neither its header, nor its name."""
+    name = component.strip()
+    if (
+        vertical
+        or along is not None
+        or not name
+        or _RELATIVE.fullmatch(name)
+        or _BAND.fullmatch(name.upper())
+    ):
+        return ()
+    if re.search(r"\d\d", name):  # an angle to which a program has written more
+        return ()
+    return (
+        f"The direction of the component {name} is unknown: its name is neither a direction nor an angle, and it is "
+        "taken as horizontal; leave it out in the catalogue if it is not.",
+    )
 
 
 _STRUCTURE = re.compile(

@@ -113,6 +113,7 @@ def read_for_listing(raw: bytes, sha256: str, path: Path, declared: Mapping[str,
     declared: unit and time_step [s], None where the caller knows none; each is used only where the file is silent.
     """
     missing: tuple[str, ...] = ()
+    asked: UndeclaredError | None = None
     while True:
         values = {name: declared[name] or _STAND_INS[name] for name in missing}
         try:
@@ -122,8 +123,11 @@ def read_for_listing(raw: bytes, sha256: str, path: Path, declared: Mapping[str,
             if error.field in missing:
                 return Reading(sha256, refusal=printable(str(error)))
             missing = (*missing, error.field)
+            asked = asked or error
         except RecordError as error:
-            return Reading(sha256, refusal=printable(str(error)))
+            # A unit that stood in for one that nobody declared is no reason to refuse: what is missing is.
+            stood_in = asked is not None and not all(declared[name] for name in missing)
+            return Reading(sha256, refusal=printable(str(asked if stood_in else error)))
     is_known = all(declared[name] for name in missing)
     is_unit_known = "unit" not in missing or bool(declared["unit"])
     doubts: dict[str, list[str]] = {}

@@ -16,7 +16,7 @@ from rocking.records.damage import damage_warnings, repeated_rows
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
 from rocking.records.formats.text import numbers_per_line
-from rocking.records.instrument import channel_warnings, site_warnings
+from rocking.records.instrument import channel_warnings, direction_warnings, site_warnings
 from rocking.records.plausibility import pass_limits
 from rocking.tables import read_whole
 
@@ -81,6 +81,15 @@ def read_content(
             damage = (*damage_warnings(record, per_line), *repeated)
             records[i] = replace(record, source=own, warnings=doubts + damage)
         return records
+
+
+def checked_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
+    """Return channels that came without a file, with names of their own and the doubts that a file's would have."""
+    checked = []
+    for record in distinct_channels(records):
+        doubts = (*pass_limits(record), *damage_warnings(record, 1))
+        checked.append(record.warned(*(each for each in doubts if each not in record.warnings)))
+    return checked
 
 
 def bare_text(content: bytes) -> bytes:
@@ -165,7 +174,12 @@ def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
     for place, record in enumerate(records, 1):
         name = record.component or f"channel {place}"
         name += f" (channel {place})" if shared[record.component] > 1 else ""
-        doubts = (*record.warnings, *channel_warnings(record.component), *site_warnings(record.station))
+        doubts = (
+            *record.warnings,
+            *channel_warnings(record.component),
+            *site_warnings(record.station),
+            *direction_warnings(record.component, record.azimuth, record.vertical),
+        )
         channels.append(replace(record, component=name, warnings=tuple(dict.fromkeys(doubts))))
     return channels
 

@@ -1,5 +1,6 @@
 """Traces of obspy: pieces joined, counts turned into acceleration by the response of their instrument."""
 
+import re
 import warnings
 from contextlib import suppress
 from typing import Any
@@ -7,7 +8,14 @@ from typing import Any
 import numpy as np
 
 from rocking.errors import RecordError
+from rocking.quantities import GRAVITY
 
+OBSPY_EXTRAS = (
+    "component", "event", "azimuth", "vertical", "borehole", "processed", "processing", "warnings", "magnitude",
+    "magnitude_type", "event_time", "latitude", "longitude", "elevation", "epicentral_distance", "high_pass_frequency",
+    "scale_factor", "initial_velocity", "initial_displacement",
+)  # fmt: skip
+"""What a trace of obspy has no place for."""
 _CORNERS = (0.02, 0.05, 0.8, 0.95)
 """Band in which a full response is removed: Hz, Hz, and shares of the Nyquist frequency."""
 
@@ -26,6 +34,30 @@ def joined(result: Any) -> Any:
     return result
 
 
+_PREFIXES = {"N": 1e-9, "NANO": 1e-9, "U": 1e-6, "MICRO": 1e-6, "M": 1e-3, "C": 1e-2, "K": 1e3, "": 1.0}
+_ORDERS = {"M": 2, "M/S": 1, "M/S**2": 0, "M/S^2": 0, "M/S2": 0, "M/S/S": 0}
+"""How often what an instrument measures has to be differentiated to become an acceleration."""
+LARGEST_GAIN = 1e20
+"""Counts per m/s² beyond which a sensitivity is damaged; the most sensitive seismometers have 1e10."""
+_STAGES_AGREE = 0.05
+"""Difference of the overall sensitivity from the product of its stages up to which the two are the same."""
+
+
+def measured_as(units: str) -> tuple[float, int]:
+    """Return (factor to SI, number of differentiations to an acceleration) of the input units of a response.
+
+    "M/S**2" is (1, 0), "nm/s" is (1e-9, 1), "G" is (9.80665, 0). Raises ValueError for what is no motion, as volts.
+    """
+    name = units.strip().upper().replace("SEC", "S")
+    if name in ("G", "GRAVITY"):
+        return GRAVITY, 0
+    for prefix in sorted(_PREFIXES, key=len, reverse=True):
+        rest = name.removeprefix(prefix)
+        if name.startswith(prefix) and rest in _ORDERS:
+            return _PREFIXES[prefix], _ORDERS[rest]
+    raise ValueError(f"the instrument of this channel measures {units!r}, which is no motion of the ground")
+
+
 def calibrated(trace: Any, inventory: Any, response: str) -> tuple[np.ndarray, str]:
     """Return (acceleration (n,) m/s², the sentence that says how) of a trace of counts.
 
@@ -34,17 +66,33 @@ def calibrated(trace: Any, inventory: Any, response: str) -> tuple[np.ndarray, s
     stats = trace.stats
     try:
         of = stats.response if inventory is None else inventory.get_response(trace.id, stats.starttime)
-        measured = of.instrument_sensitivity.input_units.upper()
+        units = str(of.instrument_sensitivity.input_units)
         gain = float(of.instrument_sensitivity.value)
     except Exception as error:
         raise RecordError(f"the StationXML holds no response of {trace.id} at {stats.starttime}.") from error
-    if response == "sensitivity" and measured in ("M/S**2", "M/S/S", "M/S^2") and gain:
+    try:
+        factor, order = measured_as(units)
+    except ValueError as error:
+        raise RecordError(f"{error}; use a channel of acceleration or velocity.") from None
+    _check_gain(gain, of)
+    staged = bool(getattr(of, "response_stages", None))
+    if response == "sensitivity" and (order == 0 or (order == 1 and not staged)):
         counts = trace.data.astype(float)
-        mean = counts.mean() / gain
-        step = f"Counts divided by the overall sensitivity {gain:g}, and their mean removed, {mean:.6g} m/s²."
-        return counts / gain - mean, step
+        per_unit = gain / factor
+        mean = counts.mean() / per_unit
+        done = f"Counts divided by the overall sensitivity {per_unit:g}"
+        if order == 0:
+            return counts / per_unit - mean, f"{done}, and their mean removed, {mean:.6g} m/s²."
+        motion = np.gradient(counts / per_unit - mean, stats.delta)
+        stays = "the response of the seismometer has no stages and stays"
+        return motion, f"{done} to a velocity, its mean removed, and differentiated; {stays}."
     nyquist = stats.sampling_rate / 2
     band = (_CORNERS[0], _CORNERS[1], _CORNERS[2] * nyquist, _CORNERS[3] * nyquist)
+    if factor != 1:
+        raise RecordError(
+            f"the response of {trace.id} is in {units}, which its full removal does not convert; give a StationXML in "
+            "M/S or M/S**2, or take response: sensitivity."
+        )
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -57,15 +105,70 @@ def calibrated(trace: Any, inventory: Any, response: str) -> tuple[np.ndarray, s
     return clean.data, f"Mean removed, 5 % cosine taper, {removed}."
 
 
-def site(trace: Any, inventory: Any) -> dict[str, float]:
-    """Return azimuth, latitude, longitude [degrees] and elevation [m] of a trace, as far as the inventory has them."""
-    facts = {}
+def _check_gain(gain: float, response: Any) -> None:
+    """Refuse a sensitivity that no instrument has, or that its own stages contradict."""
+    if not 0 < abs(gain) < LARGEST_GAIN:
+        raise RecordError(
+            f"the overall sensitivity is {gain:g}, but must be above 0 and below {LARGEST_GAIN:g}; the StationXML is "
+            "damaged: fetch it again."
+        )
+    gains = [float(each.stage_gain) for each in response.response_stages or () if each.stage_gain]
+    product = float(np.prod(gains)) if gains else gain
+    if abs(product / gain - 1) > _STAGES_AGREE:
+        raise RecordError(
+            f"the overall sensitivity is {gain:g}, but the gains of its stages multiply to {product:g}, more than 5 % "
+            "off: the StationXML contradicts itself; ask the network which one holds."
+        )
+
+
+_STEEP = 45.0
+"""Degrees of dip from which on a sensor is vertical."""
+_BURIED = 5.0
+"""m below the surface from which on a sensor stands in a borehole; vaults are shallower."""
+
+
+def site(trace: Any, inventory: Any) -> dict[str, Any]:
+    """Return where a trace was recorded, as far as the inventory says it, as fields of an Accelerogram.
+
+    Azimuth, latitude and longitude [degrees], elevation [m], whether it is vertical (by its dip) and down-hole.
+    """
+    facts: dict[str, Any] = {}
     with suppress(Exception):  # obspy raises what it likes for what is not there
-        facts["azimuth"] = float(inventory.get_orientation(trace.id, trace.stats.starttime)["azimuth"]) % 360
+        orientation = inventory.get_orientation(trace.id, trace.stats.starttime)
+        if orientation.get("azimuth") is not None:
+            facts["azimuth"] = float(orientation["azimuth"]) % 360
+        if orientation.get("dip") is not None:
+            facts["vertical"] = abs(float(orientation["dip"])) > _STEEP
     with suppress(Exception):
         place = inventory.get_coordinates(trace.id, trace.stats.starttime)
         facts |= {name: float(place[name]) for name in ("latitude", "longitude", "elevation")}
+        if float(place.get("local_depth") or 0.0) >= _BURIED:
+            facts["borehole"] = True
     return facts
+
+
+_QUANTITIES = {"ACC": 0, "VEL": 1, "DISP": 2}
+
+
+def quantity_order(trace: Any) -> tuple[int | None, bool]:
+    """Return (how often the samples are integrated, or None where nothing says it; whether the response is removed).
+
+    By what obspy has noted in `stats.processing`: 0 is acceleration, 1 velocity, 2 displacement, negative the others.
+    """
+    order: int | None = None
+    removed = False
+    for step in trace.stats.get("processing", ()):
+        if "remove_response(" in step:
+            output = re.search(r"output='?(\w+)'?", step)
+            order = _QUANTITIES.get(output[1].upper() if output else "VEL", 1)
+            removed = True
+        elif "remove_sensitivity(" in step:
+            removed = True
+        elif "integrate(" in step:
+            order = (order or 0) + 1
+        elif "differentiate(" in step:
+            order = (order or 0) - 1
+    return order, removed
 
 
 def first_line(error: object) -> str:

@@ -81,6 +81,10 @@ def _check_blocks(content: bytes) -> set[str]:
 _SAC_HEADER = 632
 _SAC_PLACE = {"latitude": "stla", "longitude": "stlo", "elevation": "stel"}
 _UNDEFINED = -12345.0
+_STEEP = 45.0
+"""Degrees out of the horizontal from which on a component is vertical."""
+_BURIED = 5.0
+"""m below the surface from which on a sensor stands in a borehole."""
 _VERSION, _SAMPLES = 304, 316
 """Bytes at which the header's version and number of samples stand (SAC manual, words 76 and 79)."""
 
@@ -109,6 +113,10 @@ def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
         facts: dict[str, Any] = {name: header[key] for name, key in _SAC_PLACE.items() if key in header}
         if abs(header.get("cmpaz", _UNDEFINED)) <= 360:
             facts["azimuth"] = header["cmpaz"] % 360
+        if "cmpinc" in header:  # degrees from upwards: 0 and 180 are vertical, 90 is horizontal
+            facts["vertical"] = abs(header["cmpinc"] % 180 - 90) > _STEEP
+        if header.get("stdp", 0.0) >= _BURIED:
+            facts["borehole"] = True
         facts |= names(trace) | {"processing": (offset,), "warnings": warnings}
         records.append(options.accelerogram(unit, values, step, **facts))
     return records

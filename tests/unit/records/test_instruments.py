@@ -176,13 +176,133 @@ def test_what_a_stream_leaves_open_is_refused() -> None:
     counts.stats.response = object()
     for given, unit, word in (
         (trace(values), None, "neither a unit nor a response"),
-        (counts, "g", "both a unit and a response"),
         (Stream([trace(values), late]), "g", "has a gap at"),
         (Stream(), "g", "holds no trace"),
         (trace(values), "furlong", "unit is 'furlong'"),
     ):
         with pytest.raises(RecordError, match=word):
             Accelerogram.from_obspy(given, unit=unit)
+
+
+def inventory_of(**changed: str):
+    """The StationXML with other texts in place of those that are named."""
+    text = XML.format(units=changed.pop("units", "M/S**2"))
+    for old, new in changed.items():
+        before = {
+            "dip": "<Dip>0<",
+            "depth": "<Depth>0<",
+            "gain": "<Value>200000</Value><Frequency>1</Frequency><Input",
+        }
+        after = {"dip": f"<Dip>{new}<", "depth": f"<Depth>{new}<"}
+        after["gain"] = f"<Value>{new}</Value><Frequency>1</Frequency><Input"
+        text = text.replace(before[old], after[old])
+    return read_inventory(io.BytesIO(text.encode()), format="STATIONXML")
+
+
+def with_response(samples: np.ndarray) -> Stream:
+    """A trace to which the response of its instrument is attached."""
+    one = trace(samples)
+    one.stats.response = inventory_of().get_response(one.id, one.stats.starttime)
+    return Stream([one])
+
+
+def test_a_unit_that_is_given_wins_over_a_response() -> None:
+    stream = with_response(COUNTS / 1e4)
+    (record,) = Accelerogram.from_obspy(stream, unit="cm/s2")
+    assert record.peak_acceleration == pytest.approx(np.abs(COUNTS).max() / 1e6)
+
+
+def test_samples_whose_response_was_removed_are_not_divided_again() -> None:
+    stream = with_response(COUNTS)
+    removed = stream.copy().remove_response(output="ACC", water_level=None, pre_filt=(0.02, 0.05, 40, 45))
+    (record,) = Accelerogram.from_obspy(removed)
+    assert np.allclose(record.acceleration, removed[0].data)
+    (same,) = Accelerogram.from_obspy(removed, unit="m/s2")
+    assert np.array_equal(same.acceleration, record.acceleration)
+    for velocity in (
+        stream.copy().remove_response(output="VEL", water_level=None, pre_filt=(0.02, 0.05, 40, 45)),
+        removed.copy().integrate(),
+    ):
+        for unit in (None, "m/s2"):
+            with pytest.raises(RecordError, match="leaves velocity; give"):
+                Accelerogram.from_obspy(velocity, unit=unit)
+    (again,) = Accelerogram.from_obspy(removed.copy().integrate().differentiate())
+    assert again.acceleration.size == record.acceleration.size
+
+
+def test_what_a_rotation_made_untrue_is_not_believed() -> None:
+    pair = [
+        Accelerogram(each, 0.01, name) for each, name in zip(np.eye(2, 60) + 0.1, ("HNN", "HNE"), strict=True)
+    ]
+    turned = Stream([each.to_obspy() for each in pair]).rotate("NE->RT", back_azimuth=30.0)
+    for record in Accelerogram.from_obspy(turned):
+        assert record.component in ("HNR", "HNT") and record.azimuth is None
+
+
+def test_a_stream_passes_the_checks_of_a_file() -> None:
+    for samples, word in ((COUNTS * 1.0, "above the 5 g"), (np.zeros(4_000_001), "4000001 samples")):
+        with pytest.raises(RecordError, match=word):
+            Accelerogram.from_obspy(trace(samples), unit="m/s2")
+    calibrated = trace(COUNTS / 1e5)
+    calibrated.stats.calib = 2.0
+    (record,) = Accelerogram.from_obspy(calibrated, unit="m/s2")
+    assert record.peak_acceleration == pytest.approx(2 * np.abs(COUNTS).max() / 1e5)
+    assert "calibration" in record.processing[-1]
+    numbered = Stream([trace(COUNTS / (1e5 + n), channel=str(n)) for n in range(3)])
+    for record in Accelerogram.from_obspy(numbered, unit="m/s2"):
+        assert record.azimuth is None and record.component.startswith("channel ")
+
+
+def test_dip_and_depth_say_what_is_vertical_and_what_is_down_hole() -> None:
+    (record,) = Accelerogram.from_obspy(trace(), inventory_of(dip="-90", depth="156"))
+    assert record.vertical and record.borehole and not record.is_horizontal
+    (record,) = Accelerogram.from_obspy(trace(), inventory_of(depth="1.5"))
+    assert record.is_horizontal and record.azimuth == 72.0
+
+
+@pytest.mark.parametrize(
+    ("units", "factor"), [("NM/S**2", 1e-9), ("cm/s**2", 1e-2), ("G", 9.80665), ("M/S/S", 1.0)]
+)
+def test_the_input_unit_of_an_instrument_is_read_by_its_factor(units: str, factor: float) -> None:
+    samples = COUNTS / COUNTS.max() / factor * 200000
+    (record,) = Accelerogram.from_obspy(trace(samples), inventory_of(units=units))
+    assert record.peak_acceleration == pytest.approx(np.abs(samples - samples.mean()).max() * factor / 200000)
+
+
+@pytest.mark.parametrize(
+    ("changed", "word"),
+    [
+        ({"units": "V"}, "no motion of the ground"),
+        ({"gain": "INF"}, "overall sensitivity is inf"),
+        ({"gain": "1e300"}, "overall sensitivity is 1e+300"),
+        ({"gain": "0"}, "overall sensitivity is 0"),
+        ({"gain": "230000"}, "contradicts itself"),
+    ],
+)
+def test_a_response_that_is_none_is_refused(changed: dict[str, str], word: str) -> None:
+    with pytest.raises(RecordError, match=word.replace("+", r"\+")):
+        Accelerogram.from_obspy(trace(), inventory_of(**changed))
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["BHZ00", "HNZ.00", "HNZ--", "Z--", "VRT", "V1", "UPP", "UPWD", "DWN1", "Vertical Up", "hnz 10", "V"],
+)
+def test_names_of_verticals(name: str) -> None:
+    assert is_vertical(name) and azimuth(name) is None
+
+
+@pytest.mark.parametrize(
+    ("name", "along"), [("BH210", None), ("HNE.00", 90.0), ("BHN00", 0.0), ("V90", None), ("HNR", None)]
+)
+def test_names_that_are_no_verticals(name: str, along: float | None) -> None:
+    assert azimuth(name) == along
+    assert not is_vertical(name)
+
+
+def test_a_direction_that_nobody_states_is_told() -> None:
+    (record,) = Accelerogram.from_obspy(trace(COUNTS / 1e5, channel="QQX"), unit="m/s2")
+    assert any("direction of the component QQX is unknown" in each for each in record.warnings)
 
 
 @pytest.mark.real_records

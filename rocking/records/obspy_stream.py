@@ -1,0 +1,90 @@
+"""Streams of obspy as accelerograms, through the same checks as files."""
+
+from typing import Any
+
+import numpy as np
+
+from rocking.errors import RecordError, about
+from rocking.quantities import acceleration_factor
+from rocking.records.accelerogram import Accelerogram, Source
+from rocking.records.instrument import directed
+from rocking.records.read import checked_channels
+from rocking.records.traces import OBSPY_EXTRAS, calibrated, joined, names, quantity_order, site
+
+_DIRECTED = ("component", "azimuth", "vertical")
+"""Of these, what a rotation makes untrue."""
+
+
+LARGEST_TRACE = 4_000_000
+"""Samples of the longest trace that is taken: five and a half hours at 200 Hz."""
+
+
+def from_obspy(
+    trace_or_stream: Any, inventory: Any = None, unit: str | None = None, response: str = "sensitivity"
+) -> list[Accelerogram]:
+    """Return an accelerogram for each channel of an obspy Trace or Stream, as `Accelerogram.from_obspy` does.
+
+    Raises RecordError for a gap, for velocity and displacement, and where nothing says what the samples are.
+
+    >>> from obspy import Trace
+    >>> rocking.from_obspy(Trace(np.sin(np.arange(9.0)), {"channel": "HNZ"}), unit="m/s2")[0].vertical
+    True
+    """
+    from obspy import Stream, Trace  # which takes a second to import
+
+    stream = Stream([trace_or_stream] if isinstance(trace_or_stream, Trace) else trace_or_stream).copy()
+    if not stream:
+        raise RecordError("the stream holds no trace; give one with acceleration.")
+    records = []
+    for trace in joined(stream):
+        with about(trace.id):
+            records.append(_from_trace(trace, inventory, unit, response))
+    return checked_channels(records)
+
+
+def _from_trace(trace: Any, inventory: Any, unit: str | None, response: str) -> Accelerogram:
+    """The accelerogram of one trace without gaps."""
+    if trace.stats.npts > LARGEST_TRACE:
+        raise RecordError(
+            f"it holds {trace.stats.npts} samples, more than {LARGEST_TRACE}; cut the motion out of it first."
+        )
+    own = dict(trace.stats.get("rocking", {}))
+    steps = list(trace.stats.get("processing", ()))
+    if own and own.get("component") != trace.stats.channel:
+        own = {name: value for name, value in own.items() if name not in _DIRECTED}
+    order, removed = quantity_order(trace)
+    if order:
+        kinds = {1: "velocity", 2: "displacement"}
+        kind = kinds.get(order, "the derivative of an acceleration")
+        last = steps[-1].partition("(")[0].split()[-1]
+        raise RecordError(
+            f"its processing by obspy, {last} at the end, leaves {kind}; give acceleration: "
+            "remove_response(output='ACC')."
+        )
+    by_response = unit is None and not removed and (inventory is not None or "response" in trace.stats)
+    declared = unit
+    if declared is None and not by_response:
+        declared = "m/s2" if removed and order == 0 else own.get("unit")
+    if declared is None and not by_response:
+        state = "its sensitivity removed" if removed else "neither a unit nor a response"
+        raise RecordError(f"it has {state}; give unit= of its samples, or the inventory= of counts.")
+    fields: dict[str, Any] = {"processed": False if by_response else None, **names(trace)}
+    fields |= {name: own[name] for name in OBSPY_EXTRAS if name in own} | site(trace, inventory)
+    if str(trace.stats.channel).isdigit() and len(str(trace.stats.channel)) == 1:
+        fields.setdefault("azimuth", None)
+        fields["component"] = f"channel {trace.stats.channel}"
+    processing = [*fields.get("processing", ()), *(f"obspy: {step}"[:200] for step in steps)]
+    if by_response:
+        samples, step = calibrated(trace, inventory, response)
+        processing.append(step)
+    else:
+        calibration = float(trace.stats.get("calib", 1.0))
+        samples = np.asarray(trace.data, dtype=float) * acceleration_factor(str(declared))
+        if calibration != 1:
+            samples = samples * calibration
+            processing.append(
+                f"Samples multiplied by the calibration that the trace states, {calibration:g}."
+            )
+    fields["processing"] = tuple(processing)
+    source = Source(format="obspy", unit=declared or "m/s2")
+    return Accelerogram(samples, float(trace.stats.delta), source=source, **directed(fields))
