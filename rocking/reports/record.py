@@ -46,6 +46,8 @@ from rocking.structures.standing import Standing
 
 MOST_DRAWN = 10
 """Structures of page one and of the histories, the worst first; the tables hold all."""
+FEWER_DRAWN, MOST_LINES = 5, 4
+"""Structures of page one where more than so many lines stand above them, so that it stays one page."""
 MOST_NAMED, MOST_LETTERS = 12, 300
 """Structures that the first lines name with one verdict, and their letters."""
 MOST_PULSES = 3
@@ -108,6 +110,12 @@ class RecordReport:
         """The number by which each structure is called, from 1, by name."""
         names = dict.fromkeys([*self.structures, *(station.structure for station in self.stations)])
         return {name: str(place) for place, name in enumerate(names, start=1)}
+
+    def called(self, name: str) -> str:
+        """Return how a sentence calls a structure: one on a support without its period, as it names many."""
+        station = self.result.stations.get(name)
+        standing = standing_of(station) if station else None
+        return f"{standing.structure} on {standing.place}" if standing else name
 
     @cached_property
     def motions(self) -> list[Trace]:
@@ -237,7 +245,8 @@ def _sentences(report: RecordReport) -> list[str]:
             if row.processing and row.structure == station.structure
         ]
         if any(map(math.isinf, ratios)) and any(map(math.isfinite, ratios)):
-            depends.append(station.structure)
+            depends.append(report.called(station.structure))
+    depends = list(dict.fromkeys(depends))
     remark = f"Whether it overturns depends on the processing of the record: {printing.listed(depends)}."
     carried = (standing_of(station) for station in report.stations)
     heavy = dict.fromkeys(each.warning for each in carried if each and each.warning)
@@ -266,7 +275,7 @@ def _notices(report: RecordReport) -> list[Notice]:
         notices.append(Notice(text))
     if not tables.comparison:
         notices.append(Notice("No structure could be assessed under this record."))
-    failing = list(dict.fromkeys(_contact_failures(tables.comparison)))
+    failing = list(dict.fromkeys(_contact_failures(report)))
     if failing:
         names = printing.listed(failing)
         notices.append(Notice(f"The model does not hold, because a contact fails, for {names}."))
@@ -277,16 +286,16 @@ def _notices(report: RecordReport) -> list[Notice]:
     return [*notices, *map(Notice, dict.fromkeys(of_failures))]
 
 
-def _contact_failures(rows: Iterable[ComparisonRow]) -> Iterator[str]:
+def _contact_failures(report: RecordReport) -> Iterator[str]:
     """Yield each structure whose contacts fail under a component, with what they do."""
-    for row in rows:
+    for row in report.tables.comparison:
         kinds = []
         if row.slides:
             kinds.append("slides")
         if row.bounces:
             kinds.append("bounces")
         if kinds:
-            yield f"{row.structure} ({' and '.join(kinds)})"
+            yield f"{report.called(row.structure)} ({' and '.join(kinds)})"
 
 
 def _subtitle(rows: Sequence[RecordRow]) -> str:
@@ -367,7 +376,8 @@ def _pictures(report: RecordReport) -> dict[str, object]:
     """Return the pictures of the worst cases, and the sentences that say where the others stand."""
     motions, labels = report.motions, report.labels
     drawable = [station for station in report.stations if station.structure in report.structures]
-    stations = one_period_each(drawable)[:MOST_DRAWN]
+    most = FEWER_DRAWN if len(headlines(report.stations)) > MOST_LINES else MOST_DRAWN
+    stations = one_period_each(drawable)[:most]
     names = printing.listed([station.structure for station in stations])
     strip = (f"Drawings of the structures in their state: {names}.", report.structures, labels)
     histories = report.histories[:MOST_DRAWN]

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from rocking.assessment.rows.of_record import (
     FailureRow,
     PulseRow,
     RecordRow,
+    SupportRow,
     VerdictRow,
 )
 from rocking.assessment.rows.of_study import AgreementRow
@@ -41,7 +43,8 @@ from rocking.reports.printing import (
     table_of,
     words,
 )
-from rocking.reports.style import PREDICTED, elided, new_figure, picture, styled
+from rocking.reports.style import PREDICTED, elided, new_figure, picture, pictures, styled
+from rocking.reports.supports import shares_by_period_figure
 from rocking.tables import rows_of
 
 if TYPE_CHECKING:
@@ -74,11 +77,13 @@ def summary_data(
     """Return what the template of the summary is given: texts, tables and figures.
 
     tables: the summary tables "record", "pulses", "comparison", "verdicts", "structures", "agreement" and "failures",
-    and where they exist "fragility_summary" and "ida".
+    and where they exist "supports", "fragility_summary" and "ida".
     settings: at least tolerance and acceleration_scale; study, client, author and date where they are given.
     trade: figure and conclusion, where it was measured.
     """
     verdicts = sorted(rows_of(VerdictRow, tables["verdicts"]), key=lambda row: row.severity, reverse=True)
+    carried = supports_of(tables)
+    shown = one_period_each(verdicts, carried)
     comparison, failures, records = tables["comparison"], tables["failures"], tables["record"]
     unsafe = comparison[comparison["agreement"] == Agreement.TOO_LOW]
     unsafe = unsafe.sort_values("integrated_rotation_ratio", ascending=False, kind="stable")
@@ -92,9 +97,14 @@ def summary_data(
         "subtitle": f"{counted(records['record'].nunique(), 'record')}, "
         f"{counted(len(tables['structures']), 'structure')}, {counted(len(comparison), 'case')}.",
         "notices": [notice.data for notice in _notices(records, comparison, len(failures))],
-        "map": severity_map(verdicts, records),
+        "map": severity_map(shown, records),
+        "supports": pictures(
+            shares_by_period_figure,
+            carried,
+            "Mean share of members that overturn against the period of the support, by structure.",
+        ),
         "methods": method_table(tables),
-        "structures": structure_table(verdicts),
+        "structures": structure_table(shown),
         "scatter": [picture(prediction_scatter(comparison), alt)] if drawable else [],
         "agreement": table_of(rows_of(AgreementRow, tables["agreement"]), *AGREEMENT_COLUMNS),
         "unsafe": table_of(rows_of(ComparisonRow, unsafe.head(MOST_LISTED)), *UNSAFE_COLUMNS),
@@ -106,6 +116,25 @@ def summary_data(
         "records-note": remainder(len(records) - MOST_RECORDS, "component", "record.csv"),
         "trade": list(trade),
     }
+
+
+def supports_of(tables: Mapping[str, "DataFrame"]) -> list[SupportRow]:
+    """Return the rows of the table of supports; none where it is not there."""
+    table = tables.get("supports")
+    return [] if table is None else list(rows_of(SupportRow, table))
+
+
+def one_period_each(verdicts: Sequence[VerdictRow], carried: Sequence[SupportRow]) -> list[VerdictRow]:
+    """Return the verdicts, of each record and structure on a support that of the worst period only, by its listed name.
+
+    verdicts: the worst first.
+    """
+    listed = {row.structure: f"{row.listed_structure} on {row.support}, worst" for row in carried}
+    shown: dict[tuple[str, str], VerdictRow] = {}
+    for row in verdicts:
+        name = listed.get(row.structure, row.structure)
+        shown.setdefault((row.record, name), replace(row, structure=name))
+    return list(shown.values())
 
 
 def _notices(records: "DataFrame", comparison: "DataFrame", failures: int) -> list[Notice]:

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from rocking.assessment.case import RecordResult
 from rocking.assessment.component import Component
 from rocking.assessment.over_periods import OverPeriods
+from rocking.assessment.rows.of_record import SupportRow
 from rocking.quantities import GRAVITY
 from rocking.records.floor_spectrum import FLOOR_DAMPING, floor_spectrum, spectrum_of
 from rocking.records.measures import response_spectrum
@@ -26,6 +27,8 @@ from rocking.reports.style import (
 MOST_SUPPORTS = 4
 """Supports that are drawn; the table supports.csv holds all."""
 _LINES = ("-", "--", ":", "-.")
+_MARKS = "osD^v"
+_MOST_LINES = 12
 _PERIODS = np.geomspace(0.05, 3.0, 60)
 """Periods of the spectra, s."""
 
@@ -126,6 +129,27 @@ def _draw_spectra(axes: Axes, panel: SupportPanel) -> None:
     axes.set_ylabel("5 % spectrum [g]")
     axes.set_title(elided(f"component {record.component or 'not named'}", 30), loc="left")
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.05), fontsize=6.5)
+
+
+@styled
+def shares_by_period_figure(rows: Sequence[SupportRow]) -> Figure:
+    """Draw for each structure on a support the mean over the records of the share that overturns, by period."""
+    shares: dict[tuple[str, str], dict[float, dict[str, float]]] = {}
+    for row in rows:
+        periods = shares.setdefault((row.listed_structure, row.support), {})
+        periods.setdefault(row.support_period_s, {})[row.record] = row.overturning_share
+    figure = new_figure(62.0, margins=(14, 52, 11, 3))
+    axes = figure.subplots()
+    for number, ((structure, support), periods) in enumerate(list(shares.items())[:_MOST_LINES]):
+        ordered = sorted(periods)
+        means = [float(np.nanmean(list(periods[period].values()))) for period in ordered]
+        style = f"{_MARKS[number % len(_MARKS)]}{_LINES[number % len(_LINES)]}"
+        label = elided(f"{structure} on {support}", 30)
+        axes.plot(ordered, means, style, linewidth=0.9, markersize=4, clip_on=False, label=label)
+    axes.set(xlabel="period T_b of the support [s], 0: the ground", ylim=(0, 1), xlim=(0, None))
+    axes.set_ylabel("mean share that overturns [-]")
+    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=6.5)
+    return figure
 
 
 def floor_sentences(panels: Sequence[SupportPanel]) -> list[str]:

@@ -30,7 +30,9 @@ from rocking.tables.workbook import workbook
 WORKBOOK = "study.xlsx"
 """The tables of the summary in one file, but for the times, which differ from run to run."""
 _GOVERNING = ("structure", "record", "level", "overturning_share")
-_SHOWN = ("record", "pulses", "comparison", "verdicts", "structures", "agreement", "failures")
+_SHOWN = (
+    "record", "pulses", "comparison", "verdicts", "supports", "structures", "agreement", "failures",
+)  # fmt: skip
 _LIBRARIES = ("rocking", "obspy", "numpy", "scipy", "pandas", "matplotlib", "numba", "snakemake", "typst")
 
 
