@@ -12,9 +12,8 @@ from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.verdict import Verdict
 from rocking.structures import Mechanism, Structure
+from rocking.structures.structure import CRACKS
 
-CRACKS = 11
-"""Number of mechanisms that are followed where more than one may form."""
 IN_DOUBT = 0.3
 """Rotation ratio of a member beyond which it is in doubt that a mechanism other than that of statics stands."""
 

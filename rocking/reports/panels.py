@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.errors import MotionError
+from rocking.errors import MotionError, RockingError
+from rocking.quantities import shown
 from rocking.reports.drawings import draw_dimensions, draw_structure
 from rocking.reports.style import MOST_POINTS, PREDICTED, PULSE, RECORD, plain_logarithmic, thinned
 
@@ -41,7 +42,12 @@ def plot(thing: object, axes: Axes | None = None, **options: Any) -> Axes:
     >>> rocking.plot(rocking.Block(2.0, 0.2)).get_xlabel()
     '[m]'
     """
-    draw = next(_PLOTS[kind.__name__] for kind in type(thing).__mro__ if kind.__name__ in _PLOTS)
+    names = [kind.__name__ for kind in type(thing).__mro__ if kind.__name__ in _PLOTS]
+    if not names:
+        raise RockingError(
+            f"thing is {shown(thing)}, but must be something that has a picture: {', '.join(sorted(_PLOTS))}."
+        )
+    draw = _PLOTS[names[0]]
     if axes is None:
         from matplotlib import pyplot  # it owns the windows, which who gives axes does not need
 

@@ -34,7 +34,7 @@ UNSAFE_MOMENTUM = "unsafe momentum"
 """The balance of the mirrored mechanism by its name: it loses more speed than the hinges of a real arch do."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Arch(Crackable):
     """A circular arch of radial joints, its bars exact annular sectors; φ is the rotation of the bar AB.
 
@@ -288,7 +288,7 @@ class Arch(Crackable):
         return self.radius * plane(inner + from_inner / (from_inner + from_outer) * (outer - inner))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ArchOnPiers(Arch):
     """A circular arch on equal rectangular piers, flush with its intrados at the springings.
 
@@ -312,7 +312,13 @@ class ArchOnPiers(Arch):
         field(kw_only=True)
     )
     pier_density_ratio: Annotated[
-        float, Value("Density of the piers over that of the arch", 1.0, usual=(0.5, 1.5), bounds={"gt": 0})
+        float,
+        Value(
+            "Density of the piers over that of the arch",
+            1.0,
+            usual=(0.5, 1.5),
+            bounds={"ge": 1e-3, "le": 1e3},
+        ),
     ] = field(default=1.0, kw_only=True)
 
     @property

@@ -16,7 +16,7 @@ from rocking.structures.structure import CrackedAtHeight, Structure, free_to_bot
 Balanced = Annotated[Restitution, restitution_value("momentum", "housner")]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Block(Structure):
     """A homogeneous rectangular block that rocks about its two bottom corners.
 
@@ -101,7 +101,7 @@ class Block(Structure):
         }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RigidBody(Structure):
     """A body known by its centre of mass and inertia; it rocks about the right corner on the positive side.
 
@@ -184,7 +184,7 @@ _SPREAD = {"circular": 3 / 20, "square": 1 / 5}
 """Mean square of one horizontal coordinate over a solid cone or pyramid, in squares of its half width."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Spire(CrackedAtHeight):
     """A cone (plan "circular") or a square pyramid ("square") that rocks about the edge of a horizontal crack.
 

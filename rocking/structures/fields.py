@@ -4,10 +4,10 @@ A class says it in the type of each parameter: `height: Annotated[float, length(
 loader, the checks at birth, the JSON schema and the documentation follow from there.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cache, reduce
-from inspect import Parameter, signature
+from inspect import Parameter, Signature, signature
 from operator import or_
 from types import NoneType
 from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
@@ -21,6 +21,9 @@ from rocking.quantities import LENGTHS, finite
 
 _SI = {"°": np.pi / 180, "kN": 1e3, "kN/m": 1e3, "kN/m²": 1e3, "kN/m³": 1e3}
 """What a unit of the file is in SI; units that are not here are SI."""
+_MOST = 1e9
+"""The most that a number may be in the unit of the file where nothing less is stated: beyond it the powers of numbers,
+of which inertias are made, are no numbers any more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,6 +178,23 @@ class Form:
         return tuple(each.key for each in self.fields if each.required)
 
 
+def plain_signature(function: Callable[..., Any]) -> Signature:
+    """Return the signature with plain types, for a reader: what is said of each value stands in the documentation."""
+    own = signature(function)
+    plain = [each.replace(annotation=_plain(each.annotation)) for each in own.parameters.values()]
+    return own.replace(parameters=plain, return_annotation=Signature.empty)
+
+
+def _plain(hint: Any) -> Any:
+    """A type without what is said beside it."""
+    return get_args(hint)[0] if get_origin(hint) is Annotated else hint
+
+
+def _bounded(bounds: Mapping[str, float]) -> Mapping[str, float]:
+    """The bounds of a number, with an upper one where none is stated."""
+    return bounds if bounds.keys() & {"lt", "le"} else {**bounds, "le": _MOST}
+
+
 @cache
 def constructor(kind: Any) -> Form:
     """Return the form of the constructor of a structure's class, whether or not a file may use it."""
@@ -186,7 +206,7 @@ def _field(name: str, hint: Any, value: Value, default: Any) -> Field:
 
     def kind_of(hint: Any) -> Any:
         if hint in (float, int):
-            return Annotated[hint, Interval(**value.bounds)]
+            return Annotated[hint, Interval(**_bounded(value.bounds))]
         if hint is str:
             return Literal[value.names] if value.names else None
         if get_origin(hint) is tuple:

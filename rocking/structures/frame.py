@@ -20,7 +20,7 @@ BeamMassRatio = Annotated[
 Balanced = Annotated[Restitution, restitution_value("momentum")]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Frame(Structure):
     """`columns` equal free-standing columns capped by a freely supported rigid beam; all turn by the same φ.
 

@@ -15,6 +15,7 @@ from typing import Any
 import yaml
 
 from rocking.errors import ConfigurationError, StructureError, StructureWarning
+from rocking.quantities import shown
 from rocking.structures.fields import Form, article
 from rocking.structures.standing import GROUND, TYPE_NAME, NamedSupport, support_from_config, support_schema
 from rocking.structures.structure import Structure, typed_text
@@ -49,12 +50,12 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
     """
     if not isinstance(mapping, Mapping):
         raise ConfigurationError(
-            f"a structure is {mapping!r}, but must be a mapping with a type and its sizes."
+            f"a structure is {shown(mapping)}, but must be a mapping with a type and its sizes."
         )
     kind = mapping.get("type")
     if not isinstance(kind, str) or kind not in TYPES:
         raise ConfigurationError(
-            f"type is {kind!r}, but must be one of {', '.join(TYPES)}{_nearest(kind, TYPES)}."
+            f"type is {shown(kind)}, but must be one of {', '.join(TYPES)}{_nearest(kind, TYPES)}."
         )
     values = {
         key: value
@@ -86,8 +87,9 @@ def _form(kind: str, values: Mapping[str, object], keys_typed: Iterable[str]) ->
                     f"{key} is not a key of {article(kind)}: a comma parts the entries within braces; write a number "
                     f"with a point, as in 3.{key}."
                 )
+            name = str(key) if len(str(key)) <= _LONGEST_KEY else shown(key)
             raise ConfigurationError(
-                f"{key} is not a key of {article(kind)}{_nearest(key, allowed)}; use {keys}."
+                f"{name} is not a key of {article(kind)}{_nearest(key, allowed)}; use {keys}."
             )
     form = max(forms, key=lambda form: len(set(form.required) & values.keys()))
     missing = [key for key in form.required if key not in values]
@@ -101,8 +103,12 @@ def _form(kind: str, values: Mapping[str, object], keys_typed: Iterable[str]) ->
     return form
 
 
+_LONGEST_KEY = 80
+"""Characters of a key that is compared with those that exist, and repeated as it is."""
+
+
 def _nearest(word: object, allowed: Iterable[str]) -> str:
-    nearest = get_close_matches(str(word), list(allowed), n=1, cutoff=0.5)
+    nearest = get_close_matches(str(word)[:_LONGEST_KEY], list(allowed), n=1, cutoff=0.5)
     return f" (did you mean {nearest[0]}?)" if nearest else ""
 
 

@@ -14,7 +14,7 @@ from rocking.structures.linkage import STILL, Hung
 from rocking.structures.mechanism import Tie
 from rocking.structures.structure import CrackedAtHeight
 
-UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"gt": 0})]
+UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"ge": 1e-6})]
 Eccentricity = Annotated[
     float,
     Value("Distance of the bearing inwards from the middle of the wall", 0.05, "m", (-1, 1), bounds={}),
@@ -27,6 +27,10 @@ TopSlab = Annotated[
         phrase="{value} top slab",
     ),
 ]
+
+
+_LEAST_STIFFNESS = 1e-3
+"""Of a tie that holds anything, N/m²: a millionth of a newton per metre of wall and millimetre."""
 
 
 def check_eccentricity(value: float, thickness: float) -> None:
@@ -73,7 +77,7 @@ class Tied(CrackedAtHeight):
             "kN/m",
             (1, 500),
             "F",
-            bounds={"gt": 0},
+            bounds={"ge": 1e-6},
         ),
     ] = field(default=None, kw_only=True)
     tie_plastic_elongation: Annotated[
@@ -145,6 +149,11 @@ class Tied(CrackedAtHeight):
         stiffness, pretension, strength = self.tie_stiffness, self.tie_pretension, self.tie_strength
         for height in self.tie_heights:
             check_inside("tie_heights", height, self.height)
+        if 0 < stiffness < _LEAST_STIFFNESS:
+            raise StructureError(
+                f"tie_stiffness is {stiffness!r} N/m², but must be 0 or at least {_LEAST_STIFFNESS!r} N/m², below "
+                "which a tie holds nothing."
+            )
         if strength is not None and strength < pretension:
             raise StructureError(
                 f"tie_strength is {strength!r} N/m, but must be at least the pretension of {pretension!r} N/m."

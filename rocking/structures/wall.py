@@ -245,7 +245,7 @@ class CrackedWall(CrackedAtHeight):
         }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Wall(CrackedWall):
     """A wall cracked into two blocks; base and top follow the ground, the top support slides vertically.
 

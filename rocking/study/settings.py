@@ -22,6 +22,7 @@ from rocking.described import (
 from rocking.errors import ConfigurationError, RecordError
 from rocking.records.processing import Processing
 from rocking.records.scaling import ScalingTarget
+from rocking.structures.structure import CRACKS
 from rocking.tables.yaml_file import scalar_value
 
 
@@ -82,7 +83,7 @@ class Settings(AssessmentSettings):
     )
     vertical: bool = described(False, "whether the vertical component acts as well, where a record has one")
     candidates: int = described(
-        11, "number of heights tried for the hinge of a wall or the crack of a spire", ge=0, le=1000
+        CRACKS, "number of heights tried for the hinge of a wall or the crack of a spire", ge=0, le=1000
     )
     processing_variants: bool = described(True, "whether other baselines and corner frequencies are tried")
     design_spectrum: StudyDesign = StudyDesign()

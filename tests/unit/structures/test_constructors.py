@@ -1,0 +1,67 @@
+"""The constructors of structures: what they refuse, and what a reader sees of them."""
+
+import inspect
+import pydoc
+
+import pytest
+
+import rocking
+from rocking.errors import RockingError, StructureError
+from rocking.structures.structure_list import TYPES
+
+TIED = {"tie_heights": (1.6,), "tie_strength": 4e3}
+
+
+@pytest.mark.parametrize(
+    ("make", "says"),
+    [
+        (rocking.Block, "it takes semi_diagonal, slenderness, .*or use Block.of_size\\(breadth: float"),
+        (lambda: rocking.Wall(height=3), "it takes lower_height, upper_height, thickness"),
+        (lambda: rocking.Frame(1, 2, 3, 4, 5, 6, 7, 8), "too many positional arguments"),
+        (lambda: rocking.LoadedWall(1.6, 1.6, 0.25, 20e3, tie_stiffness=5e-324, **TIED), "at least 0.001"),
+        (lambda: rocking.LoadedWall(1.6, 1.6, 0.25, 20e3, tie_stiffness=1e308, **TIED), "from 0 to 1e"),
+        (lambda: rocking.Facade((3.5,), (0.6,), 1e308), "unit_weight is 1e.305 kN/m³"),
+        (lambda: rocking.structure_from_config({"type": "x" * 3_000_000}), "3000002 characters"),
+        (lambda: rocking.structure_from_config({"type": "wall", "h" * 3_000_000: 1}), "3000002 characters"),
+        (lambda: rocking.plot(3), "thing is 3, but must be something that has a picture: Accelerogram"),
+    ],
+)
+def test_wrong_arguments_and_extreme_values_are_refused_in_one_short_sentence(make, says):
+    with pytest.raises(RockingError, match=says) as caught:
+        make()
+    assert str(caught.value).endswith((".", ")")) and "\n" not in str(caught.value)
+    assert len(str(caught.value)) < 600
+
+
+def test_a_pier_of_no_density_of_masonry_is_refused():
+    piers = {"type": "arch_on_piers", "radius_m": 5, "thickness_m": 0.8, "embrace_angle_deg": 150}
+    piers |= {"pier_width_m": 2.0, "pier_height_m": 3.0}
+    rocking.structure_from_config(piers)
+    with pytest.raises(
+        StructureError, match=r"pier_density_ratio is 1e.308, but must be a number from 0.001 to 1000"
+    ):
+        rocking.structure_from_config(piers | {"pier_density_ratio": 1e308})
+
+
+def test_a_type_error_within_a_constructor_is_not_taken_for_wrong_arguments():
+    class Broken(rocking.Block):
+        def __post_init__(self) -> None:
+            raise TypeError("of its own")
+
+    with pytest.raises(TypeError, match="of its own"):
+        Broken(2.0, 0.2)
+
+
+@pytest.mark.parametrize("kind", TYPES.values())
+def test_help_shows_plain_types_and_the_names_of_the_constructor(kind):
+    lines = pydoc.plain(pydoc.render_doc(kind)).splitlines()
+    kept = ("__dataclass_fields__ =", "__annotations__ =")  # of the class itself, of which help cuts a line
+    assert not [each for each in lines if "Annotated" in each and not any(name in each for name in kept)]
+    taken = list(inspect.signature(kind).parameters)
+    assert taken == list(inspect.signature(kind.__init__).parameters)[1:]
+    assert {"restitution", "restitution_range"} <= set(taken)
+
+
+def test_a_structure_tells_what_is_unusual_about_it():
+    assert repr(rocking.Wall.of_size(5, 0.5, 2.5)) == "Wall(height 5 m, thickness 0.5 m, hinge height 2.5 m)"
+    assert "height_m is 500 m, but is usually between 0.5 and 60 m" in repr(rocking.Wall.of_size(500, 5, 250))
