@@ -82,6 +82,10 @@ def pulse_map(frequency_ratios: np.ndarray, amplitude_ratios: np.ndarray, ratios
     panel = figure.subplots()
     overturns = np.isinf(ratios)
     shown = np.where(overturns, np.nan, ratios).T
+    # Before the lines, whose labels are placed and turned as the axes stand then.
+    plain_logarithmic(panel, "x")
+    plain_logarithmic(panel, "y")
+    panel.set(xlim=frequency_ratios[[0, -1]], ylim=amplitude_ratios[[0, -1]])
     levels = [0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9]
     lines = panel.contour(
         frequency_ratios, amplitude_ratios, shown, levels=levels, colors="black", linewidths=0.5
@@ -91,8 +95,6 @@ def pulse_map(frequency_ratios: np.ndarray, amplitude_ratios: np.ndarray, ratios
     panel.contourf(
         frequency_ratios, amplitude_ratios, field, levels=[0.5, 1.5], colors="0.85", hatches=["///"]
     )
-    plain_logarithmic(panel, "x")
-    plain_logarithmic(panel, "y")
     panel.set_xlabel("ω = pulse frequency / frequency parameter [-]")
     panel.set_ylabel("a = pulse amplitude / uplift acceleration [-]")
     return figure

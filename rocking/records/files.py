@@ -95,7 +95,8 @@ def download(file: str, repository: str, commit: str, path: str, *, sha256: str 
     try:
         return Path(store.fetch(name, downloader=_Downloader()))
     except Exception as error:
-        failed = f"file {file!r} cannot be fetched from {address}, {first_line(error)}"
+        why = first_line(getattr(error, "reason", None) or error)
+        failed = f"file {file!r} cannot be fetched from {address}, {why}"
         raise RecordError(f"{failed}; try again or give a mirror folder.") from error
 
 

@@ -73,7 +73,9 @@
     structures.forEach((each) => heading(each.name + "/", each.name, `${each.type}: ${each.size}`));
     records.forEach((record, r) => {
       const row = add(body, "tr", { "data-record": r });
-      add(row, "th", { scope: "row" }, record.id);
+      const name = add(row, "th", { scope: "row" });
+      // A name may part behind its marks, not within a word.
+      record.id.split(/(?<=[_.-])/).forEach((piece) => { name.append(piece); add(name, "wbr"); });
       for (const peak of [record.pga, record.pgv]) add(row, "td", { class: "peak" }, peak === null ? "–" : Number(peak.toPrecision(2)));
       structures.forEach((structure, s) => {
         const { verdict, cell, text } = caseOf(record, structure);
@@ -100,6 +102,22 @@
     const cells = matrix.querySelectorAll(`tbody ${SHOWN}`);
     at("shown").textContent = `${cells.length} of ${records.length * structures.length} cells`;
     if (cells.length && !matrix.querySelector(`${SHOWN}[tabindex="0"]`)) roam(cells[0]);
+    beyond();
+  }
+
+  // Columns that the width of the page hides are told of
+  function beyond() {
+    const { left, right } = matrix.parentElement.getBoundingClientRect();
+    const first = matrix.querySelector("tbody tr:not([hidden]) th");
+    const from = first ? first.getBoundingClientRect().right : left;
+    const heads = [...matrix.tHead.rows[0].cells].slice(3).filter((head) => !head.hidden);
+    const count = (hides) => heads.filter((head) => hides(head.getBoundingClientRect())).length;
+    const sides = [
+      [count((box) => box.left < from - 1), "← ", " to the left"],
+      [count((box) => box.right > right + 1), "", " to the right →"],
+    ];
+    const told = sides.filter(([number]) => number);
+    at("beyond").textContent = told.map(([number, before, after]) => `${before}${number} of ${heads.length} structures${after}`).join("; ");
   }
 
   // One cell is in the order of the tabulator; arrows go on to the next one that is shown
@@ -143,13 +161,13 @@
   function panel({ top, bottom }, span, reach, label) {
     const x = (time) => LEFT + ((time - span[0]) / (span[1] - span[0])) * (RIGHT - LEFT);
     const y = (value) => (top + bottom) / 2 - (value / reach) * ((bottom - top) / 2);
-    draw("rect", { x: LEFT, y: top, width: RIGHT - LEFT, height: bottom - top, fill: "none", stroke: "#555" });
+    draw("rect", { x: LEFT, y: top, width: RIGHT - LEFT, height: bottom - top, fill: "none", stroke: "var(--axis)" });
     ticks(-reach, reach, 5).forEach((value) => {
-      draw("line", { x1: LEFT, x2: RIGHT, y1: y(value), y2: y(value), stroke: value === 0 ? "#888" : "#e2e2e2" });
+      draw("line", { x1: LEFT, x2: RIGHT, y1: y(value), y2: y(value), stroke: value === 0 ? "var(--zero)" : "var(--grid)" });
       draw("text", { x: LEFT - 6, y: y(value) + 4, "text-anchor": "end" }, String(value));
     });
     ticks(span[0], span[1], 8).forEach((value) => {
-      draw("line", { x1: x(value), x2: x(value), y1: bottom, y2: bottom + 4, stroke: "#555" });
+      draw("line", { x1: x(value), x2: x(value), y1: bottom, y2: bottom + 4, stroke: "var(--axis)" });
       draw("text", { x: x(value), y: bottom + 17, "text-anchor": "middle" }, String(value));
     });
     draw("text", { transform: `translate(16 ${(top + bottom) / 2}) rotate(-90)`, "text-anchor": "middle" }, label);
@@ -174,20 +192,20 @@
     if (motion) {
       const reach = 1.1 * Math.max(largest(motion.acceleration), largest(motion.pulse)) || 1;
       const axes = panel(PANELS[0], span, reach, "accel. [m/s²]");
-      drawTrace(motion.acceleration, span, axes, { stroke: "#444", "stroke-width": 0.8 });
-      if (motion.pulse) drawTrace(motion.pulse, span, axes, { stroke: "#d55e00", "stroke-width": 2 });
+      drawTrace(motion.acceleration, span, axes, { stroke: "var(--record)", "stroke-width": 0.8 });
+      if (motion.pulse) drawTrace(motion.pulse, span, axes, { stroke: "var(--pulse)", "stroke-width": 2 });
       draw("text", { x: RIGHT - 8, y: PANELS[0].top + 16, "text-anchor": "end" }, "grey: record; orange: dominant pulse");
     }
     const predicted = each.predicted < 1e9 ? each.predicted || 0 : 0;
     const reach = Math.min(3.1, 1.15 * Math.max(largest(each.history), predicted) || 1);
     const axes = panel(PANELS[1], span, reach, "rotation ratio [-]");
-    if (each.history) drawTrace(each.history, span, axes, { stroke: "#000", "stroke-width": 1.1, id: "rotation" });
+    if (each.history) drawTrace(each.history, span, axes, { stroke: "var(--ink)", "stroke-width": 1.1, id: "rotation" });
     for (const level of predicted > 0 ? [predicted, -predicted] : [])
-      draw("line", { x1: LEFT, x2: RIGHT, y1: axes.y(level), y2: axes.y(level), stroke: "#0072b2", "stroke-dasharray": "8 3 2 3" });
+      draw("line", { x1: LEFT, x2: RIGHT, y1: axes.y(level), y2: axes.y(level), stroke: "var(--closed)", "stroke-dasharray": "8 3 2 3" });
     const remark = predicted > 0 ? "dash-dot: largest by the closed form" : `closed form: ${each.closed}`;
     draw("text", { x: RIGHT - 8, y: PANELS[1].top + 16, "text-anchor": "end" }, remark);
     draw("text", { x: (LEFT + RIGHT) / 2, y: 292, "text-anchor": "middle" }, "time after the first sample [s]");
-    const cursor = draw("line", { y1: PANELS[0].top, y2: PANELS[1].bottom, stroke: "#009e73", "stroke-width": 1.5, id: "cursor" });
+    const cursor = draw("line", { y1: PANELS[0].top, y2: PANELS[1].bottom, stroke: "var(--mark)", "stroke-width": 1.5, id: "cursor" });
     return (time) => { cursor.setAttribute("x1", axes.x(time)); cursor.setAttribute("x2", axes.x(time)); };
   }
 
@@ -217,7 +235,9 @@
     const margin = 0.06 * Math.max(right - left, high - low);
     const wide = right - left + 2 * (travel + margin);
     at("mechanism").setAttribute("viewBox", `${(left + right - wide) / 2} ${-high - margin} ${wide} ${high - low + 2 * margin}`);
-    const foot = Math.max(low, Math.min(0, high));
+    const rest = frames.reduce((a, b) => (Math.abs(a.rotation) <= Math.abs(b.rotation) ? a : b));
+    const bodies = unpacked(rest.points).subarray(0, 2 * rest.parts.reduce((sum, count) => sum + count, 0));
+    const foot = bodies.reduce((least, value, k) => (k % 2 ? Math.min(least, value) : least), Infinity);
     const ground = { x1: left - 9 * wide, x2: right + 9 * wide };
     return (rotation, time) => {
       const { parts, hinges, marks, points } = frameAt(frames, rotation);
@@ -318,6 +338,8 @@
 
   fill();
   filter();
+  matrix.parentElement.addEventListener("scroll", beyond);
+  addEventListener("resize", beyond);
   at("text").addEventListener("input", filter);
   at("verdict").addEventListener("change", filter);
   at("filters").addEventListener("submit", (event) => event.preventDefault());

@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ft2font import FT2Font
-from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator, StrMethodFormatter
 
 TEXT_WIDTH = 170.0
 """Width of the text of a page, mm."""
@@ -22,6 +22,7 @@ MOST_POINTS = 4000
 """Points of a trace; a longer one keeps the least and the largest value of each stretch."""
 FONT_FOLDER = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
 _MILLIMETRES_PER_INCH = 25.4
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 styled = matplotlib.rc_context(
     matplotlib.rc_params_from_file(Path(__file__).with_name("rocking.mplstyle"), use_default_template=False)
@@ -74,6 +75,17 @@ def plain_logarithmic(panel: Axes, which: str) -> None:
     panel.set(**{f"{which}scale": "log"})
     axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axis.set_minor_locator(NullLocator())
+
+
+def powers_of_ten(panel: Axes, which: str) -> None:
+    """Give the x or y axis of `panel`, on which many decades stand, a logarithmic scale with powers as plain text."""
+    axis = panel.xaxis if which == "x" else panel.yaxis
+    panel.set(**{f"{which}scale": "log"})
+    axis.set_major_locator(LogLocator(numticks=7))
+    axis.set_major_formatter(
+        FuncFormatter(lambda value, _: "10" + str(round(math.log10(value))).translate(_RAISED))
+    )
     axis.set_minor_locator(NullLocator())
 
 

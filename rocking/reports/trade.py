@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from rocking.assessment.rows.of_study import TradeMethod, TradeRow
 from rocking.reports import printing
 from rocking.reports.document import compile_document
-from rocking.reports.style import new_figure, picture, styled, svg
+from rocking.reports.style import new_figure, picture, plain_logarithmic, powers_of_ten, styled, svg
 from rocking.tables import read_table, write_whole
 
 SMALLEST_ERROR = 1e-8
@@ -50,7 +50,10 @@ def trade_picture(folder: Path) -> list[dict[str, str]]:
         for row in rows
     )
     figure = picture(trade_figure(rows), "Median error against processor time of every method.")
-    caption = "Median error of the largest rotation against the processor time of one response, over all structures."
+    caption = (
+        "Median error of the largest rotation against the processor time of one response, over all structures. Errors "
+        "below 1e-8 stand at 1e-8."
+    )
     return [figure | {"caption": caption, "conclusion": f"{conclusion}."}] if rows else []
 
 
@@ -62,8 +65,11 @@ def trade_figure(rows: Sequence[TradeRow]) -> Figure:
     for row in (each for each in rows if each.structure == "" and each.error >= 0):
         error = max(row.error, SMALLEST_ERROR)
         panel.plot(1e3 * row.cpu_s, error, _MARKERS[row.method], markersize=6, label=row.method)
-    panel.set(xscale="log", yscale="log", xlabel="processor time of a response (ms)")
-    panel.set_ylabel("relative error of the largest rotation")
+    plain_logarithmic(panel, "x")
+    powers_of_ten(panel, "y")
+    panel.margins(0.08, 0.1)
+    panel.set_xlabel("processor time of a response [ms]")
+    panel.set_ylabel("relative error of the largest rotation [-]")
     panel.grid(True)
     figure.legend(loc="center right")
     return figure

@@ -33,6 +33,8 @@ STRUCTURES = f"""
 - {{name: wall, type: wall, height_m: 3.2, hinge_height_m: 1.6, thickness_m: 0.25}}
 - {{name: colonnade, type: frame, column_breadth_m: 1.1, column_height_m: 8.0, columns: 4, beam_mass_ratio: 0.3}}
 - {{name: spire, type: spire, width_m: 3.0, height_m: 15.0, wall_thickness_m: 0.25, crack_height_m: 5.0}}
+- {{name: vault, type: arch_on_piers, radius_m: 5, thickness_m: 0.8, embrace_angle_deg: 150, pier_width_m: 2.2,
+   pier_height_m: 4}}
 """
 
 
@@ -201,7 +203,38 @@ def test_every_structure_is_drawn(page, browser):
     for cell in page("button[data-record='0']"):
         cell.click()
         drawn.add(picture(browser))
-    assert len(drawn) == 6
+    assert len(drawn) == 7
+
+
+def test_the_ground_lies_below_the_feet_of_the_piers_and_not_through_them(page, browser):
+    """In the drawing y grows upwards, from the springings; the piers reach as far below them as they are high."""
+    page("button[data-record='0'][data-structure='6']")[0].click()
+    (ground, *_) = page("#mechanism #moving > line")
+    points = [re.split("[ ,]+", each.get_attribute("points").strip()) for each in page("#mechanism polygon")]
+    lowest = min(float(number) for values in points for number in values[1::2])
+    assert float(ground.get_attribute("y1")) == pytest.approx(lowest, abs=0.05) and lowest < -1
+
+
+def test_columns_that_the_width_hides_are_told_and_a_dark_screen_gets_a_dark_page(page, browser):
+    from selenium.webdriver.support.ui import WebDriverWait
+
+    narrow = {"width": 500, "height": 800, "deviceScaleFactor": 1, "mobile": False}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", narrow)
+    told = lambda: page("#beyond")[0].text  # noqa: E731
+    WebDriverWait(browser, PATIENCE).until(
+        lambda at: re.fullmatch(r"\d of 7 structures to the right →", told())
+    )
+    browser.execute_script("document.querySelector('.matrix').scrollLeft = 9999")
+    WebDriverWait(browser, PATIENCE).until(
+        lambda at: re.fullmatch(r"← \d of 7 structures to the left", told())
+    )
+    browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+    ink = "return getComputedStyle(document.body).{}.match(/\\d+/g).reduce((a, b) => a + Number(b), 0)"
+    for scheme, is_dark in (("dark", True), ("light", False)):
+        features = [{"name": "prefers-color-scheme", "value": scheme}]
+        browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
+        paper, text = (browser.execute_script(ink.format(each)) for each in ("backgroundColor", "color"))
+        assert (paper < text) == is_dark and abs(paper - text) > 400
 
 
 def test_the_filters_leave_what_they_name(page):

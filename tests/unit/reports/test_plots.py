@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 import rocking
 from rocking.reports.panels import draw_rotation, rotation_ratios
-from rocking.reports.style import plain_logarithmic
+from rocking.reports.style import plain_logarithmic, powers_of_ten
 from rocking.reports.summary import prediction_scatter
 
 TIMES = np.arange(3000) * 0.01
@@ -133,6 +133,17 @@ def test_what_overturns_and_what_rests_stand_beyond_a_line_from_what_rocks():
         assert max(rocking_ones) < upper < largest < axes.get_xlim()[1]
     factors = {line.get_ydata()[-1] / line.get_xdata()[-1] for line in axes.lines[:3]}
     assert factors == {0.5, 1.0, 2.0}
+
+
+@pytest.mark.parametrize("which", ["x", "y"])
+def test_an_axis_of_many_decades_names_powers_in_plain_text(which):
+    """What matplotlib writes itself, "$\\mathdefault{10^{-2}}$", a page shows as it stands."""
+    panel = Figure().subplots()
+    panel.set(xlim=(1e-8, 1), ylim=(1e-8, 1))
+    powers_of_ten(panel, which)
+    axis = panel.xaxis if which == "x" else panel.yaxis
+    assert axis.get_major_formatter().format_ticks([1e-8, 0.01, 1, 100]) == ["10⁻⁸", "10⁻²", "10⁰", "10²"]
+    assert 3 <= len([place for place in axis.get_majorticklocs() if 1e-8 <= place <= 1]) <= 9
 
 
 @pytest.mark.parametrize("which", ["x", "y"])
