@@ -208,6 +208,12 @@ def read_described(
     return default
 
 
+def kind_in_words(value: object) -> str:
+    """Return what a value of YAML is, in words: "a list"."""
+    kinds = {dict: "a mapping", list: "a list", str: "a text", bool: "a truth", NoneType: "nothing"}
+    return kinds.get(type(value), "a number")
+
+
 def comma_hint(value: object) -> str:
     """Return the end of a sentence on a text that is a number with a decimal comma, "" for another value."""
     if isinstance(value, str) and _WITH_COMMA.fullmatch(value.strip()):

@@ -1,9 +1,16 @@
 """What has a picture: the method `plot`, by which it is drawn."""
 
+from html import escape
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from pandas import DataFrame
+
+
+def in_a_notebook(sentence: str, table: "DataFrame") -> str:
+    """Return what a notebook shows of a result: its sentence, and its table below."""
+    return f"<p>{escape(sentence)}</p>{table.to_html(index=False, float_format='{:.3g}'.format)}"
 
 
 class Drawn:

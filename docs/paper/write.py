@@ -29,8 +29,9 @@ def write_paper(catalogue: Path, mirror: str | None, folder: Path) -> str:
         why = str(error) or f"{catalogue} lists no {EXAMPLE}."
         message = f"Fig. 8 is drawn for the shipped record, not for the paper's: {why}"
         instead = (
-            "The paper draws it for the record of Rinaldi (Northridge 1994), which may not be shipped and was neither in "
-            "a mirror folder nor to be had over the network; the log says why. These are the same panels for Te Mara Farm, N28W (Kaikōura 2016; GeoNet, CC BY 3.0 NZ). "
+            "The paper draws it for the record of Rinaldi (Northridge 1994), which may not be shipped and was neither "
+            "in a mirror folder nor to be had over the network; the log says why. These are the same panels for Te "
+            "Mara Farm, N28W (Kaikōura 2016; GeoNet, CC BY 3.0 NZ). "
         )
         motion = read(SHIPPED)[0]
     figures = paper_figures(motion, instead)

@@ -30,7 +30,7 @@ from rocking.assessment.reserve import reserve
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.variations import Variation, candidates, processed_variants
 from rocking.assessment.verdict import BOTH_COMPONENTS, Method, Verdict, ratio_in_words
-from rocking.drawn import Drawn
+from rocking.drawn import Drawn, in_a_notebook
 from rocking.errors import ConfigurationError, RecordError, RockingError
 from rocking.motion.integration import integrate
 from rocking.motion.response import UNKNOWN, Response, check_model
@@ -722,7 +722,7 @@ class StructureAssessment(StationResult, Drawn):
         )
 
     def frame(self) -> "DataFrame":
-        """One row per method and component: its rotation ratio, and how that stands to the integration, in words."""
+        """One row per method and component: its rotation ratio, how that stands to the integration, and the verdict."""
         from pandas import DataFrame  # slow to import, and needed by those alone who ask for a frame
 
         rows = []
@@ -732,8 +732,11 @@ class StructureAssessment(StationResult, Drawn):
             for method, ratio in ratios.items():
                 whole = method is Method.MECHANISM_ON_RECORD
                 words = "" if whole else ratio_in_words(ratio, case.integrated_rotation_ratio)
-                rows.append((component, str(method), ratio, words))
-        return DataFrame(rows, columns=["component", "method", "rotation_ratio", "in_words"])
+                rows.append((component, str(method), ratio, words, str(self.verdict)))
+        return DataFrame(rows, columns=["component", "method", "rotation_ratio", "in_words", "verdict"])
+
+    def _repr_html_(self) -> str:
+        return in_a_notebook(repr(self).strip("<>"), self.frame())
 
 
 def assess(

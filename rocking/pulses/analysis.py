@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rocking.described import check_described, described
-from rocking.drawn import Drawn
+from rocking.drawn import Drawn, in_a_notebook
 from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse
 from rocking.quantities import counted
@@ -174,6 +174,9 @@ class PulseAnalysis(Drawn):
             }
             for each in self.ranked
         )
+
+    def _repr_html_(self) -> str:
+        return in_a_notebook(repr(self).strip("<>"), self.frame())
 
 
 @dataclass(frozen=True)

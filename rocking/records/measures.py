@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rocking.drawn import Drawn
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, positive, within
 from rocking.records.accelerogram import Accelerogram
@@ -69,8 +70,8 @@ STEPS_PER_PERIOD = 20
 
 
 @dataclass(frozen=True, eq=False)
-class ResponseSpectrum:
-    """Largest responses of linear oscillators to one component.
+class ResponseSpectrum(Drawn):
+    """Largest responses of linear oscillators to one component; `plot` draws the pseudo-acceleration over the period.
 
     periods: (m,) s, undamped. displacement: (m,) m, largest magnitude relative to the ground. damping: share of the
     critical one.

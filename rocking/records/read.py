@@ -1,6 +1,7 @@
 """Read: open the bytes, recognise the format, refuse what is not known, dispatch to one reader."""
 
 import hashlib
+import os
 import zlib
 from collections import Counter
 from collections.abc import Sequence
@@ -11,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from rocking.errors import RecordError, UnknownFormatError, about
+from rocking.quantities import shown
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.damage import damage_warnings, repeated_rows
 from rocking.records.formats import FORMATS, Format, Options
@@ -46,6 +48,8 @@ def read(
     >>> [record.component for record in rocking.read("records/20161113_110259_WTMC_20.V2A")]
     ['N28W', 'S62W', 'Up']
     """
+    if not isinstance(path, str | os.PathLike):
+        raise RecordError(f"path is {shown(path)}, but must be the path of a file, as a text or a Path.")
     path = Path(path)
     options = Options(unit, time_step, Path(inventory) if inventory else None, path.parent, response)
     return read_raw(bytes_of(path), path, options)

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from rocking.motion.response import Response
     from rocking.pulses import Pulse, PulseAnalysis
     from rocking.records.accelerogram import Accelerogram
+    from rocking.records.measures import ResponseSpectrum
     from rocking.records.selection import Selection
     from rocking.structures import Mechanism, Structure
     from rocking.structures.capacity import CapacityCurve
@@ -288,6 +289,18 @@ def _plot_selection(selection: "Selection", axes: Axes) -> None:
     axes.legend()
 
 
+def _plot_response_spectrum(spectrum: "ResponseSpectrum", axes: Axes) -> None:
+    """The pseudo-acceleration over the undamped period."""
+    axes.plot(
+        spectrum.periods, spectrum.pseudo_acceleration, color=RECORD, label=f"damping {spectrum.damping:.0%}"
+    )
+    plain_logarithmic(axes, "x")
+    axes.set_ylim(bottom=0)
+    axes.margins(x=0)
+    axes.set(xlabel="period [s]", ylabel="pseudo-acceleration [m/s²]")
+    axes.legend()
+
+
 def _plot_structure(
     structure: "Structure", axes: Axes, rotation: float = 0.0, dimensions: bool = False
 ) -> None:
@@ -312,6 +325,7 @@ _PLOTS: dict[str, Callable[..., None]] = {
     "StructureAssessment": _plot_assessment,
     "Fragility": _plot_fragility,
     "RockingSpectrum": _plot_spectrum,
+    "ResponseSpectrum": _plot_response_spectrum,
     "Mechanism": _plot_mechanism,
     "CapacityCurve": _plot_capacity,
     "Selection": _plot_selection,

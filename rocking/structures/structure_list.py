@@ -14,6 +14,7 @@ from typing import Any
 
 import yaml
 
+from rocking.described import kind_in_words
 from rocking.errors import ConfigurationError, StructureError, StructureWarning
 from rocking.quantities import shown
 from rocking.structures.fields import Form, article
@@ -180,7 +181,7 @@ def load_structures(path: str | Path) -> dict[str, Structure]:
     entries, node = read_yaml(Path(path), ConfigurationError, "structure list")
     if not isinstance(entries, list) or not entries:
         raise ConfigurationError(
-            f"{path}: the file holds {type(entries).__name__}, but must hold a list of structures."
+            f"{path}: the file holds {kind_in_words(entries)}, but must hold a list of structures."
         )
     defects: list[str] = []
     supports: dict[str, NamedSupport | None] = {}

@@ -46,6 +46,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit status.
 
     0: all went well. 1: a record or a run failed. 2: what was asked for is wrong, such as a setting; it says why.
+    130: it was stopped by Ctrl-C, 128 and the number of the signal in general.
     """
     plain = _Escaped(sys.stdout), _Escaped(sys.stderr)
     with contextlib.redirect_stdout(plain[0]), contextlib.redirect_stderr(plain[1]):
@@ -90,7 +91,10 @@ def _parser() -> argparse.ArgumentParser:
     channels.add_argument("--component", default="", help="component to use (default: every horizontal one)")
 
     parser = argparse.ArgumentParser(
-        prog="rocking", description="Rocking structures under recorded earthquakes."
+        prog="rocking",
+        description="Rocking structures under recorded earthquakes.",
+        epilog="Exit status: 0, all went well; 1, a record or a run failed; 2, what was asked for is wrong; 130, "
+        "stopped by Ctrl-C.",
     )
     parser.add_argument("--version", action="version", version=f"%(prog)s {version('rocking')}")
     verbs = parser.add_subparsers(required=True, metavar="verb")

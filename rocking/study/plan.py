@@ -9,6 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, TypeVar
 
+from rocking.described import kind_in_words
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records.catalogue import CatalogueRecord, load_catalogue, repeated
 from rocking.records.files import fill_hashes, local_files, with_hashes
@@ -150,8 +151,10 @@ def check_config_file(path: Path) -> dict[str, Any]:
     """Return what a config.yaml says. Raises ConfigurationError, also where snakemake would be silent or hang."""
     content, _ = read_yaml(path, ConfigurationError, "file of settings", 100_000)
     if not isinstance(content or {}, dict):
-        kind = type(content).__name__
-        raise ConfigurationError(f"{path}: the file holds {kind}, but must hold settings; mend it.")
+        kind = kind_in_words(content)
+        raise ConfigurationError(
+            f"{path}: the file holds {kind}, but must hold settings, as tolerance: 1e-6."
+        )
     return content or {}
 
 

@@ -15,7 +15,7 @@ from typing import Any, TextIO
 
 from rocking.assessment.rows.of_record import FailureRow, VerdictRow
 from rocking.errors import ConfigurationError, RockingError
-from rocking.quantities import counted
+from rocking.quantities import counted, shown
 from rocking.study import close_doors
 from rocking.study.folder import REMEMBERED, locked, new_log
 from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_plan, workflow_folder
@@ -38,6 +38,9 @@ _RAISED = re.compile(r"Error in file .*\n(?!Command )(.+)")
 """How snakemake tells what a Snakefile raised."""
 _EXCEPTION = re.compile(r"(?m)^[\w.]*(?:Error|Exception)\b[^\n]{,200}")
 """How a traceback ends: the name of the error and what it says."""
+_RULE = re.compile(r"(?m)^rule (\w+):")
+_RESEARCH = re.compile(r'(?m)^    "(\w+)": \(')
+"""How a rule, and a target of the research, is declared."""
 _STOPS: list[int] = []
 """The signals by which somebody asked this process to stop."""
 
@@ -45,8 +48,9 @@ _STOPS: list[int] = []
 def run(folder: Path, options: Sequence[str]) -> int:
     """Run the workflow on the study in `folder`, with further options for snakemake, and return the exit status.
 
-    The status is 0, or 1 when a record or a job failed. Raises ConfigurationError, before snakemake starts, when the
-    folder holds no study or the study has defects; RockingError when another run works in it.
+    The status is 0, or 1 when a record or a job failed, or 128 and the number of the signal that stopped it. Raises
+    ConfigurationError, before snakemake starts, when the folder holds no study, the study has defects or the target
+    is none; RockingError when another run works in it.
     """
     plan = _plan(folder)
     for name in (option.partition("=")[0] for option in options):
@@ -54,6 +58,8 @@ def run(folder: Path, options: Sequence[str]) -> int:
             if name[:3] == refused[:3] and refused.startswith(name) and name != "--config":
                 raise ConfigurationError(f"{refused} {why}; leave it out.")
     home = workflow_folder()
+    if options and not options[0].startswith("-"):
+        _check_target(options[0], home)
     sys.path.append(str(home / "workflow" / "logger"))
     arguments = [
         *("--logger", "rocking"),  # takes all names that follow: never before the options
@@ -98,6 +104,24 @@ def run(folder: Path, options: Sequence[str]) -> int:
     for line in (*closing_lines(verdicts, failures), *paths_to_read(results, verdicts)):
         print(fitting(line, sys.stdout))
     return int(bool(failures))
+
+
+def targets(home: Path) -> list[str]:
+    """Return the names of what may be asked for; home: the folder that holds Snakefile and workflow/."""
+    files = [home / "Snakefile", *(home / "workflow" / "rules").glob("*.smk")]
+    names = {name for file in files for name in _RULE.findall(file.read_text(encoding="utf-8"))}
+    research = home / "docs" / "research" / "research.smk"
+    if research.is_file():
+        names |= set(_RESEARCH.findall(research.read_text(encoding="utf-8")))
+    return sorted(names - {"summarise"})
+
+
+def _check_target(target: str, home: Path) -> None:
+    names = targets(home)
+    if target not in names and "/" not in target:
+        raise ConfigurationError(
+            f"target is {shown(target)}, but must be one of {', '.join(names)}, or the path of a file of the results."
+        )
 
 
 def _in_a_sentence(reason: str, folder: Path, log: Path) -> str:

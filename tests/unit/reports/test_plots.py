@@ -27,6 +27,7 @@ PLOTTED = {
     "spectrum": SPECTRUM,
     "mechanism": BLOCK.mechanism(),
     "structure": rocking.Arch(10.0, 1.5, np.radians(157.5)),
+    "response spectrum": RECORD.spectrum(),
 }
 
 
@@ -157,6 +158,26 @@ def test_a_logarithmic_axis_names_one_two_and_five_in_plain_numbers_and_leaves_t
     assert chosen.get_major_formatter().format_ticks(places) == ["0.1", "0.2", "0.5", "1", "2", "5", "10"]
     assert chosen.get_scale() == "log" and not len(chosen.get_minorticklocs())
     assert [other.get_scale() for other in axes.values()] == ["linear"]
+
+
+def test_a_response_spectrum_is_its_pseudo_acceleration():
+    spectrum = PLOTTED["response spectrum"]
+    (curve,) = spectrum.plot().lines
+    assert np.array_equal(curve.get_xdata(), spectrum.periods) and curve.get_label() == "damping 5%"
+    assert np.allclose(
+        curve.get_ydata(), (2 * np.pi / spectrum.periods) ** 2 * spectrum.displacement, rtol=1e-14
+    )
+
+
+def test_a_notebook_shows_the_sentence_of_a_result_and_its_table():
+    assessment = rocking.assess(RECORD, BLOCK, members=16)
+    table = assessment.frame()
+    assert set(table["verdict"]) == {str(assessment.verdict)}
+    shown = assessment._repr_html_()
+    assert str(assessment.verdict) in shown.partition("<table")[0] and "<&" not in shown
+    assert (shown.count("<tr") == len(table) + 1 and "whole" in shown) or "record" in shown
+    pulses = PLOTTED["analysis"]
+    assert pulses._repr_html_().count("<tr") == len(pulses.ranked) + 1
 
 
 def test_what_cannot_be_drawn_is_said():

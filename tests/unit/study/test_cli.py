@@ -82,6 +82,26 @@ def test_a_factor_that_takes_the_peak_above_three_g_is_told(record, capsys, scal
     assert (f"Multiplied by {float(scale):g} the peak acceleration is" in text) == warned
 
 
+def test_an_unknown_target_names_those_there_are(study, capsys):
+    """Held against what the workflow declares: each is a rule of a file."""
+    assert main(["run", str(study), "nonsense"]) == 2
+    told = capsys.readouterr().err
+    for name in ("all", "documentation", "fragility", "paper", "trade", "validate"):
+        assert name in told
+    assert "target is 'nonsense', but must be one of" in told and not (study / "results").exists()
+
+
+@pytest.mark.parametrize(
+    ("content", "words"), [("[1, 2]", "a list"), ("3", "a number"), ("text", "a text"), ("true", "a truth")]
+)
+def test_what_a_file_holds_is_told_in_plain_words(study, capsys, content, words):
+    (study / "config.yaml").write_text(content, encoding="utf-8")
+    assert main(["run", str(study)]) == 2
+    assert f"the file holds {words}, but must hold settings" in capsys.readouterr().err
+    with pytest.raises(rocking.RecordError, match="path is 3, but must be the path of a file"):
+        rocking.read(3)
+
+
 def test_a_name_says_nothing_to_the_terminal_itself(tmp_path, capsys):
     """Nor does a message; and a folder of bytes that are no text is named, too."""
     folder = tmp_path / "my\x1b]0;title\x07 study"
