@@ -51,7 +51,7 @@ def study(tmp_path_factory) -> tuple[Path, Study, list]:
     study = Study(load_structures(folder / "structures.yaml"), read_settings(choices | paths))
     records = load_catalogue(paths["catalogue"])
     run_job(records, study, results / "part", results)
-    (results / "summary").mkdir(parents=True)
+    (results / "summary").mkdir(parents=True, exist_ok=True)
     page = results / "summary" / "study.html"
     contents = page_contents([results / "part"], [record.id for record in records])
     page.write_bytes(explore_page(contents, study.structures, f"A study of {HOSTILE}"))
@@ -168,7 +168,7 @@ def picture(browser) -> str:
 def test_it_begins_with_a_case_that_moves_and_a_cell_opens_its_case(page):
     assert len(page("button[aria-pressed='true']")) == 1
     assert page("#histories #rotation")[0].get_attribute("points")
-    assert "2 records, 6 structures" in page("header")[0].text and HOSTILE in page("h1")[0].text
+    assert "2 records, 7 structures" in page("header")[0].text and HOSTILE in page("h1")[0].text
     cell = moving(page)
     assert cell.get_attribute("aria-pressed") == "true"
     assert page("#title")[0].text.startswith("wall (") and "synthetic_00000" in page("#title")[0].text
