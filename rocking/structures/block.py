@@ -8,9 +8,9 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.structures.drawing import Path, rectangle, span, swept
-from rocking.structures.fields import OneSided, Value, length, restitution_value
+from rocking.structures.fields import OneSided, Value, count, length, restitution_value
 from rocking.structures.linkage import STILL, Restitution, Turning
-from rocking.structures.stack import Course, Stack, counted_courses, courses_between
+from rocking.structures.stack import MOST_COURSES, Course, Stack, counted_courses, courses_between
 from rocking.structures.structure import CrackedAtHeight, Structure, free_to_both_sides
 
 Balanced = Annotated[Restitution, restitution_value("momentum", "housner")]
@@ -191,7 +191,7 @@ class Spire(CrackedAtHeight):
     width: at the base, diameter or side, m. height: of the whole spire, m. wall_thickness: horizontal thickness of a
     hollow one, m, the inner surface parallel to the outer; None when it is solid. crack_height: above the base, m; the
     default of 0 says nothing of where it cracks, unless crack is "given" or "known".
-    restitution, one_sided: as for a RigidBody.
+    restitution, one_sided: as for a RigidBody. courses: their number over the whole height, for contact dynamics.
     Raises StructureError when it cannot stand, or the crack lies outside it.
 
     >>> rocking.Spire(width=3.0, height=15.0, wall_thickness=0.25, crack_height=5.0).mechanism()
@@ -217,6 +217,10 @@ class Spire(CrackedAtHeight):
     crack_height: Annotated[float, Value("Height of the crack above the base", 5.0, "m", (0, 95), "z")] = 0.0
     restitution: Balanced = None
     one_sided: OneSided = False
+    courses: Annotated[
+        int | None,
+        count("Number of courses of the masonry, for contact dynamics; left out: 6", 10, 1, MOST_COURSES),
+    ] = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -272,9 +276,9 @@ class Spire(CrackedAtHeight):
         return half_width**2 * height * moments
 
     def stack(self, courses: int | None = None) -> Stack:
-        """Return the courses above the crack where it is known, else all of them."""
+        """Return the courses above the crack where it is known, else all of them; their number as given, or its own."""
         free_to_both_sides(self)
-        number = counted_courses(courses)
+        number = counted_courses(self.courses if courses is None else courses)
         foot = self.crack_height if self.crack == "known" else 0.0
         levels = np.linspace(foot, self.height, number + 1)
         return Stack(tuple(self._course(*ends) for ends in pairwise(levels.tolist())))

@@ -153,9 +153,16 @@ def test_the_mass_of_a_spire_is_in_its_courses():
     assert body.inertia / body.mass == pytest.approx(linkage.inertias[0] / linkage.masses[0], rel=1e-12)
 
 
+def test_a_spire_has_the_courses_that_it_states():
+    assert len(Spire(3.0, 15.0, courses=9).stack().courses) == 9
+    assert len(Spire(3.0, 15.0, courses=9).stack(4).courses) == 4
+    assert len(Spire(3.0, 15.0).stack().courses) == 6
+
+
 @pytest.mark.parametrize(
     ("make", "words"),
     [
+        (lambda: Spire(3.0, 15.0, courses=41), "courses is 41, but must be"),
         (lambda: Spire(3.0, 15.0).stack(41), "courses is 41, but must be"),
         (lambda: Frame(Block.of_size(0.5, 4.0), 2, 1.0).stack(), "no stack of courses"),
         (lambda: Block(2.0, 0.2, 0.5, one_sided=True).stack(), "one-sided"),
