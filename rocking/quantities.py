@@ -43,6 +43,7 @@ ACCELERATION_UNITS = {
     "gal": 0.01,
     "g": GRAVITY,
     "mg": GRAVITY / 1000,
+    "%g": GRAVITY / 100,
     "g/10": GRAVITY / 10,
 }
 """Factor from each unit of acceleration to m/s²; one g = 9.80665 m/s² for units and gravity alike."""

@@ -746,12 +746,15 @@ def assess(
     members: int | None = None,
     settings: AssessmentSettings | None = None,
     vertical: Accelerogram | None = None,
+    unit: str | None = None,
+    inventory: object = None,
 ) -> StructureAssessment:
     """Return the verdict on `structure` under `record`, with the ensemble that says how sure it is.
 
     record: one accelerogram, or both horizontal components, which then make one ensemble over eight directions; or an
-    obspy Stream or Trace, as Accelerogram.from_obspy reads it, whose vertical component acts too. members: of the
-    ensemble, by default those of the settings. vertical: sample by sample as the record; half of the members feel it.
+    obspy Stream or Trace, as Accelerogram.from_obspy reads it with `unit` and `inventory`, whose vertical component
+    acts too. members: of the ensemble, by default those of the settings. vertical: sample by sample as the record; half of
+    the members feel it.
     Raises ConfigurationError for no record or more than two, RockingError where it cannot be followed.
 
     >>> pulse = rocking.Pulse(amplitude=3.0, circular_frequency=8.0, start_time=0.5)
@@ -760,8 +763,8 @@ def assess(
     stands
     """
     if type(record).__module__.startswith("obspy."):
-        channels = Accelerogram.from_obspy(record)
-        record = [each for each in channels if not each.vertical]
+        channels = Accelerogram.from_obspy(record, inventory, unit)
+        record = [each for each in channels if each.is_horizontal]
         vertical = vertical or next((each for each in channels if each.vertical), None)
     records = _checked_records(record)
     settings = settings or AssessmentSettings()

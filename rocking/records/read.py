@@ -25,6 +25,8 @@ from rocking.tables import read_whole
 LARGEST_FILE = 8 * 2**20
 """Bytes, unpacked: three channels of ten minutes at 100 Hz as text; the worst content of that size reads in seconds."""
 
+_MOST_MEMBERS = 1000
+"""Members of a gzip file: each is looked for in all that follows, so that many take the square of their number."""
 _PICKLE = tuple(b"\x80%c" % n for n in range(2, 6))
 _PICKLED = (b"ccopy_reg", b"(iobspy", b"cobspy", b"c__builtin__")
 
@@ -126,11 +128,13 @@ def recognise(content: bytes) -> Format:
     if forms:
         names = ", ".join(form.name for form in forms)
         raise UnknownFormatError(f"several readers recognise this file ({names}); none is preferred.")
+    if content.startswith(b"PK\x03\x04"):
+        raise UnknownFormatError("this is a zip archive; unpack it and read the files in it.")
     head = content.lstrip()[:40] or b" "
     words = head.decode("latin-1").splitlines()[0].strip()
     raise UnknownFormatError(
         f"no reader recognises this file, which begins with {(words if words.isprintable() else head[:8])!r}; "
-        "rocking read --details says what each of them looked for.",
+        "rocking read --details says why; for what obspy alone reads: rocking.from_obspy(obspy.read(path), unit=...).",
         details=tuple(f"{form.name}: no {form.signature}" for form in FORMATS),
     )
 
@@ -140,7 +144,13 @@ def unpack(raw: bytes, name: str) -> bytes:
     if not raw.startswith(b"\x1f\x8b"):
         return raw
     content = b""
+    members = 0
     while raw.strip(b"\0"):  # a gzip file may hold several members, and zeros that fill up a block of tape
+        members += 1
+        if members > _MOST_MEMBERS:
+            raise RecordError(
+                f"{name}: the gzip file has more than {_MOST_MEMBERS} members; unpack it first."
+            )
         unpacker = zlib.decompressobj(wbits=31)
         try:
             content += unpacker.decompress(raw, LARGEST_FILE + 1 - len(content))

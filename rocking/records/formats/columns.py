@@ -27,24 +27,73 @@ _COMMENTED_FORMAT = b"#Earthquake Information"
 def _table(content: bytes) -> tuple[tuple[str, ...], int, int] | None:
     """Return names and number of columns, and of the lines above: comments, at most one row of names; or None."""
     names: tuple[str, ...] = ()
+    commented = ""
     widths: list[int] = []
     start = 0
     for line in (line for line in text.lines(content, _HEAD) if len(line) < 2000):
         bare = line.strip().rstrip(",;").rstrip()
         if not bare or (bare.startswith(("#", "%")) and not widths):
             start += not widths
+            commented = bare.lstrip("#% ") or commented
         elif all(map(text.is_number, _SEPARATOR.split(bare))):
             widths.append(len(_SEPARATOR.split(bare)))
         elif names or widths:
             return None
         else:
-            parts = re.split(r"[,;\t]", line) if re.search(r"[,;\t]", line) else line.split()
-            names = tuple(part.strip().strip("\"'") for part in parts)
+            names = _labels(line)
             start += 1
     uneven = len(set(widths[:-1])) > 1 or widths[-1:] > widths[:1]
     if len(widths) < 2 or uneven or (names and len(names) != widths[0]):
         return None
+    of_comment = _labels(commented)
+    if (
+        not names
+        and len(of_comment) == widths[0]
+        and (_TIME.fullmatch(of_comment[0]) or any(map(_unit, of_comment)))
+    ):
+        names = of_comment
     return names, widths[0], start
+
+
+def _labels(line: str) -> tuple[str, ...]:
+    """The names in a line, parted by commas, semicolons or tabs, else by blanks; a unit in brackets stays with its."""
+    parts = (
+        re.split(r"[,;\t]", line) if re.search(r"[,;\t]", line) else re.split(r"\s+(?![(\[])", line.strip())
+    )
+    return tuple(part.strip().strip("\"'") for part in parts)
+
+
+_ABSCISSA = re.compile(r"(?i)\s*(period|freq(uency)?)\b.*")
+_ORDINATE = re.compile(r"(?i)\s*(p?s[av]|sd|fas|fourier|spectr\w*)\b.*")
+
+
+def _refuse_spectrum(names: tuple[str, ...]) -> None:
+    """Refuse a table over period or frequency: its numbers are ordinates of a spectrum, and no motion."""
+    if names and (_ABSCISSA.fullmatch(names[0]) or any(map(_ORDINATE.fullmatch, names[1:]))):
+        heads = ", ".join(names[:4])
+        raise RecordError(f"this is a spectrum ({heads}); use the record of acceleration against time.")
+
+
+_FEWEST_ROWS = 8
+"""Rows from which on it can be told whether numbers run along rows or along columns."""
+_OF_CHANNELS = (3, 4, 6, 9)
+"""Numbers of columns that a table of channels without names may well have."""
+
+
+def _runs_along_rows(values: np.ndarray, width: int, parted: bool) -> bool:
+    """Whether numbers in `width` columns without names are one series, wrapped, and not channels side by side.
+
+    Along a series the next number is nearer than the one a row further on; of channels it is that of another channel.
+    parted: whether commas or semicolons part them, as no series that is wrapped has.
+    """
+    rows = values.size // width
+    if parted or rows < _FEWEST_ROWS:
+        return not parted
+    whole = values[: rows * width]
+    along = float(np.abs(np.diff(whole)).mean())
+    across = float(np.abs(whole[width:] - whole[:-width]).mean())
+    most = 1.0 if width in _OF_CHANNELS else 1.5
+    return along <= most * across
 
 
 def _are_columns(content: bytes) -> bool:
@@ -57,13 +106,17 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     if pointed is None:
         raise RecordError("the commas are decimal signs or part columns; write points, or semicolons.")
     names, width, start = _table(pointed) or ((), 1, 0)  # it was recognised by that
+    _refuse_spectrum(names)
     refuse_other_quantity(options.file, "\n".join(text.lines(pointed, _HEAD)[:start]))
     body = text.after_lines(pointed, start)
     if _EMPTY_CELL.search(body):
         raise RecordError("a cell is empty; every column needs a number on every line.")
     spaced = body.replace(b",", b" ").replace(b";", b" ")
     values = text.numbers(spaced)
-    wrapped = width > 2 and not names and not _time_first(values, width)
+    wrapped = False
+    if width > 2 and not names and not _time_first(values, width):
+        parted = b"," in body[:_TAIL] or b";" in body[:_TAIL]
+        wrapped = _runs_along_rows(values, width, parted)
     octets = np.frombuffer(b"\n" + spaced + b"\n", dtype=np.uint8)
     begun = np.cumsum((octets[1:] > _BLANK) & (octets[:-1] <= _BLANK))  # numbers, up to each octet
     counts = np.diff(begun[octets[1:] == _LINE_END], prepend=0)
@@ -75,11 +128,26 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
         raise RecordError(f"row {at + 1} of the samples has {counts[at]} columns, but the first has {width}.")
     if width == 1 or wrapped:
         label = names[0] if names else ""
-        facts: dict[str, Any] = {"component": "" if _unit(label) else label, "warnings": _repeats(values)}
-        records = [options.accelerogram(_unit(label), values, None, processed=None, **facts)]
+        values, step, notes = _without_count(values)
+        facts: dict[str, Any] = {
+            "component": "" if _unit(label) else label,
+            "warnings": (*notes, *_repeats(values)),
+        }
+        records = [options.accelerogram(_unit(label), values, step, processed=None, **facts)]
     else:
         records = _timed_columns(values.reshape(-1, width), names, options)
     return [record.warned(*_cut_number(body)) for record in records]
+
+
+def _without_count(values: np.ndarray) -> tuple[np.ndarray, float | None, tuple[str, ...]]:
+    """Return the samples without a number of samples, and a time step [s], that stand above them as first numbers."""
+    for above in (1, 2):
+        if values.size > above + 2 and values[0] == values.size - above:
+            step = float(values[1]) if above == 2 else None
+            if step is None or 0 < step <= _LONGEST_STEP:
+                words = "number of samples" if above == 1 else "number of samples and the time step"
+                return values[above:], step, (f"The first of the numbers is the {words}, and no sample.",)
+    return values, None, ()
 
 
 def _cut_number(body: bytes) -> tuple[str, ...]:
@@ -107,13 +175,14 @@ def _repeats(values: np.ndarray) -> tuple[str, ...]:
 
 
 def _timed_columns(rows: np.ndarray, names: tuple[str, ...], options: Options) -> list[Accelerogram]:
-    labels = names or ("time", *[""] * (rows.shape[1] - 1))
+    timed_unnamed = rows.shape[1] == 2 or _time_first(rows.ravel(), rows.shape[1])
+    labels = names or ("time" if timed_unnamed else "", *[""] * (rows.shape[1] - 1))
     timed = bool(_TIME.fullmatch(labels[0]))
     processing: tuple[str, ...] = ()
     step = options.time_step
     warnings = () if timed else _repeats(rows.ravel())
     if timed:
-        times = rows[:, 0]
+        times = rows[:, 0] * _seconds(labels[0])
         step = text.even_step(times)
         if step is None:
             step, even, sentence = text.resampled(times)
@@ -126,6 +195,15 @@ def _timed_columns(rows: np.ndarray, names: tuple[str, ...], options: Options) -
             facts: dict[str, Any] = {"component": name, "processing": processing, "warnings": warnings}
             records.append(options.accelerogram(_unit(label), values, step, processed=None, **facts))
     return records
+
+
+_TIMES = {"ms": 1e-3, "msec": 1e-3, "min": 60.0, "minutes": 60.0}
+
+
+def _seconds(label: str) -> float:
+    """The unit of a column of times, s."""
+    match = _UNIT.search(label)
+    return _TIMES.get(match[1].lower(), 1.0) if match else 1.0
 
 
 def _unit(label: str) -> str | None:

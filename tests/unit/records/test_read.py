@@ -174,3 +174,15 @@ def test_the_worst_content_of_the_largest_size_takes_no_more_than_500_mb(name: s
     finally:
         tracemalloc.stop()
     assert peak < 500 * 2**20
+
+
+def test_an_archive_and_a_file_of_many_members_are_refused_at_once(tmp_path: Path) -> None:
+    (tmp_path / "records.zip").write_bytes(b"PK\x03\x04" + b"\0" * 100)
+    with pytest.raises(RecordError, match="zip archive; unpack it"):
+        read(tmp_path / "records.zip")
+    (tmp_path / "many.gz").write_bytes(gzip.compress(b"") * 100_000)
+    with pytest.raises(RecordError, match="more than 1000 members"):
+        read(tmp_path / "many.gz")
+    (tmp_path / "other.dat").write_bytes(b"WID2 2010/01/01 and so on\n" * 3)
+    with pytest.raises(RecordError, match=r"rocking\.from_obspy\(obspy\.read"):
+        read(tmp_path / "other.dat")

@@ -1,0 +1,79 @@
+"""Columns of numbers: what runs along rows and what along columns, what names say, and what is no record."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rocking.errors import RecordError
+from rocking.records import Accelerogram, read
+
+TIMES = np.arange(600) * 0.01
+WAVES = [
+    np.sin(4 * TIMES + phase) * np.exp(-((TIMES - 3) ** 2)) * size
+    for phase, size in ((0, 2), (1, 1.5), (2, 0.7))
+]
+
+
+def written(folder: Path, rows, head: str = "", parted: str = " ", digits: str = ".6f") -> Path:
+    path = folder / "made.txt"
+    lines = [parted.join(f"{value:{digits}}" for value in row) for row in rows]
+    path.write_text(head + "\n".join(lines) + "\n", encoding="utf-8")
+    return path
+
+
+def opened(path: Path, **options) -> list[Accelerogram]:
+    return read(path, **{"unit": "m/s2", "time_step": 0.01} | options)
+
+
+def test_three_columns_without_names_are_three_channels(tmp_path):
+    records = opened(written(tmp_path, np.transpose(WAVES)))
+    assert [
+        np.allclose(record.acceleration, wave, atol=1e-6) for record, wave in zip(records, WAVES, strict=True)
+    ]
+    assert [record.component for record in records] == ["channel 1", "channel 2", "channel 3"]
+    assert all(record.azimuth is None for record in records)
+
+
+@pytest.mark.parametrize("width", [3, 4, 5, 6, 8, 10])
+def test_a_series_that_is_wrapped_is_one_series(tmp_path, width):
+    whole = WAVES[0][: 600 - 600 % width]
+    (record,) = opened(written(tmp_path, whole.reshape(-1, width)))
+    assert np.allclose(record.acceleration, WAVES[0][: record.acceleration.size], atol=1e-6)
+
+
+@pytest.mark.parametrize("parted", [",", "; "])
+def test_rows_that_commas_part_are_never_one_series(tmp_path, parted):
+    rows = WAVES[0].reshape(-1, 4)
+    assert len(opened(written(tmp_path, rows, parted=parted))) == 4
+
+
+def test_names_and_units_in_a_comment_are_read(tmp_path):
+    head = "# made by a program\n# time(sec) N-S(cm/s/s) E-W(cm/s/s) U-D(cm/s/s)\n"
+    records = read(written(tmp_path, np.transpose([TIMES, *WAVES]), head))
+    assert [record.component for record in records] == ["N-S", "E-W", "U-D"]
+    assert [record.vertical for record in records] == [False, False, True]
+    assert records[0].peak_acceleration == pytest.approx(np.abs(WAVES[0]).max() / 100, abs=1e-8)
+
+
+@pytest.mark.parametrize("head", ["Period (s),SA (g)\n", "Frequency [Hz], FAS [m/s]\n", "T (s),PSA (g)\n"])
+def test_a_spectrum_is_no_record(tmp_path, head):
+    with pytest.raises(RecordError, match="this is a spectrum"):
+        read(written(tmp_path, np.transpose([TIMES, np.abs(WAVES[0])]), head, parted=","))
+
+
+@pytest.mark.parametrize(("label", "factor"), [("time (ms)", 1e-3), ("time (min)", 60.0), ("time [s]", 1.0)])
+def test_the_unit_of_times_is_read(tmp_path, label, factor):
+    path = written(tmp_path, np.transpose([TIMES / factor, WAVES[0]]), f"{label},acc (%g)\n", ",", ".12g")
+    (record,) = read(path)
+    assert record.time_step == pytest.approx(0.01)
+    assert record.peak_acceleration == pytest.approx(np.abs(WAVES[0]).max() * 0.0980665, rel=1e-9)
+
+
+@pytest.mark.parametrize("above", [[600], [600, 0.01]])
+def test_a_count_above_the_samples_is_no_sample(tmp_path, above):
+    path = written(tmp_path, [[value] for value in (*above, *WAVES[0])], digits=".9g")
+    (record,) = opened(path) if len(above) == 1 else read(path, unit="m/s2")
+    assert record.acceleration.size == 600 and record.time_step == 0.01
+    assert record.peak_acceleration == pytest.approx(np.abs(WAVES[0]).max())
+    assert any("no sample" in sentence for sentence in record.warnings)
