@@ -21,6 +21,8 @@ GroundSpectrum = Callable[[float, float], float]
 LOWER_PERIOD, UPPER_PERIOD = 0.8, 1.1
 """a and b of C7.2.6: shares of the period of a mode between which its floor spectrum is flat."""
 
+LEAST_DAMPING = 0.001
+"""Damping ratio below which the formula, which divides by its root, has no value that means anything."""
 
 FLOOR_DAMPING = 0.05
 """Damping ratio of the floor spectra of tables and reports."""
@@ -35,6 +37,11 @@ def spectrum_of(record: Accelerogram) -> GroundSpectrum:
         return float(response_spectrum(record, np.array([period]), damping_ratio).pseudo_acceleration[0])
 
     return acceleration
+
+
+def has_code_spectrum(support: Support) -> bool:
+    """Return whether the code's formula has a value for a support: each mode has some damping."""
+    return all(mode.damping_ratio >= LEAST_DAMPING for mode in support.modes)
 
 
 def mode_factor(mode: Mode) -> float:
@@ -61,7 +68,7 @@ def floor_spectrum(
     Above the first period of the support it is no less than the ground's. A rigid mode, of period 0, adds nothing to
     the ground. Raises RecordError for a damping of 0 of support or structure, of which the code's formula has no value.
     """
-    damping_ratio = within(RecordError, "damping_ratio", damping_ratio, 0.001, 0.999)
+    damping_ratio = within(RecordError, "damping_ratio", damping_ratio, LEAST_DAMPING, 0.999)
     periods = np.array([finite(RecordError, "period", period, "s") for period in np.atleast_1d(periods)])
     squares = sum(np.square(_of_mode(mode, periods, damping_ratio, ground)) for mode in support.modes)
     spectrum = np.sqrt(squares)
@@ -85,7 +92,7 @@ def amplification(mode: Mode, periods: np.ndarray, damping_ratio: float) -> np.n
     """
     if mode.period == 0:
         return np.zeros(np.shape(periods))
-    within(RecordError, "damping_ratio of the support", mode.damping_ratio, 0.001, 0.999)
+    within(RecordError, "damping_ratio of the support", mode.damping_ratio, LEAST_DAMPING, 0.999)
     a, b = LOWER_PERIOD, UPPER_PERIOD
     p = 1.1 / math.sqrt(mode.damping_ratio) * damping_factor(damping_ratio)
     below = np.maximum(1 - periods / (a * mode.period), 0) ** 1.6

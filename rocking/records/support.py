@@ -136,19 +136,21 @@ class Support:
         self, record: Accelerogram, ringing: "Sequence[_Ringing]", finer: int, after: int
     ) -> Accelerogram:
         """Return one component on the common samples: `finer` times as many, and `after` of still ground."""
-        motion = _refined(np.append(record.acceleration, np.zeros(after)), finer)
-        if record.vertical:
-            sentence = (
-                f"Taken {finer} times as fine, with {after} samples of still ground, as the horizontal."
-            )
-            return record.processed_by(motion, sentence, time_step=record.time_step / finer)
+        ground = np.append(record.acceleration, np.zeros(after))
+        rows = _between(ground, finer)
+        last = 0.0
         for each in ringing:
-            motion += each.relative(finer, after)
+            last += each.add_to(rows, after)
+        motion = _in_order(rows, ground[-1] + last)
+        step = record.time_step / finer
+        if record.vertical:
+            alike = f"Taken {finer} times as fine, with {after} samples of still ground, as the horizontal."
+            return record.processed_by(motion, alike, time_step=step)
         sentence = (
             f"Taken to a support of {self}: {finer} times as fine as the record, and {after * record.time_step:.4g} s "
             "of still ground after it."
         )
-        made = record.processed_by(motion, sentence, time_step=record.time_step / finer)
+        made = record.processed_by(motion, sentence, time_step=step)
         left = sum(each.level(after) for each in ringing)
         if left <= 2 * RINGING * made.peak_acceleration:
             return made
@@ -193,14 +195,20 @@ class _Ringing:
         excess = np.append(pole * before - slope, pole * last) * (mode.participation / pole.imag)
         return cls(mode, step, pole, excess)
 
-    def relative(self, finer: int, after: int) -> np.ndarray:
-        """Return Γψ times the mode's acceleration less the ground's, ((n − 1 + after) finer + 1,), m/s²."""
+    def add_to(self, rows: np.ndarray, after: int) -> float:
+        """Add Γψ times the mode's acceleration less the ground's to `rows`; return that of the last sample, m/s².
+
+        rows: (finer, n − 1 + after), by place within a sample and sample: long rows, which numpy adds fastest.
+        """
+        finer = len(rows)
         tail = self.excess[-1] * np.exp(self.pole * self.step * np.arange(after))
         starts = np.concatenate((self.excess[:-1], tail[:-1]))
         within_sample = np.exp(self.pole * self.step / finer * np.arange(finer))
-        values = within_sample.real[:, None] * starts.imag  # long rows, which numpy adds fastest
-        values += within_sample.imag[:, None] * starts.real
-        return _in_order(values, tail[-1].imag)
+        shifted, upright = np.ascontiguousarray(starts.imag), np.ascontiguousarray(starts.real)
+        for row, place in zip(rows, within_sample.tolist(), strict=True):
+            row += place.real * shifted
+            row += place.imag * upright
+        return float(tail[-1].imag)
 
     def level(self, after: int) -> float:
         """Return the most that the mode can reach any more, `after` samples after the record, m/s²."""
@@ -264,19 +272,16 @@ def _grid(record: Accelerogram, ringing: Sequence[_Ringing]) -> tuple[int, int]:
     return finer, after
 
 
-def _refined(samples: np.ndarray, finer: int) -> np.ndarray:
-    """Return `samples` (n,) with finer − 1 more on the line between each two, ((n − 1) finer + 1,)."""
-    if finer == 1:
-        return samples
-    shares = np.arange(finer) / finer
-    between = shares[:, None] * np.diff(samples)
+def _between(samples: np.ndarray, finer: int) -> np.ndarray:
+    """Return the values at `finer` places from each of `samples` (n,) on towards the next, (finer, n − 1)."""
+    between = (np.arange(finer) / finer)[:, None] * np.diff(samples)
     between += samples[:-1]
-    return _in_order(between, samples[-1])
+    return between
 
 
-def _in_order(values: np.ndarray, last: float) -> np.ndarray:
-    """Return values (finer, n) by place within a sample and sample as one motion, (n finer + 1,)."""
-    motion = np.empty(values.size + 1)
-    motion[:-1].reshape(values.T.shape)[:] = values.T
+def _in_order(rows: np.ndarray, last: float) -> np.ndarray:
+    """Return rows (finer, n) by place within a sample and sample as one motion, (n finer + 1,)."""
+    motion = np.empty(rows.size + 1)
+    motion[:-1].reshape(rows.T.shape)[:] = rows.T
     motion[-1] = last
     return motion

@@ -12,7 +12,7 @@ from rocking.assessment.component import Component
 from rocking.assessment.over_periods import OverPeriods
 from rocking.assessment.rows.of_record import SupportRow
 from rocking.quantities import GRAVITY
-from rocking.records.floor_spectrum import FLOOR_DAMPING, floor_spectrum, spectrum_of
+from rocking.records.floor_spectrum import FLOOR_DAMPING, floor_spectrum, has_code_spectrum, spectrum_of
 from rocking.records.measures import response_spectrum
 from rocking.reports.printing import LOOKS
 from rocking.reports.style import (
@@ -119,10 +119,11 @@ def _draw_spectra(axes: Axes, panel: SupportPanel) -> None:
         support = floor.support
         assert support is not None
         own = response_spectrum(floor.accelerogram, _PERIODS, FLOOR_DAMPING).pseudo_acceleration
-        code = floor_spectrum(support, _PERIODS, FLOOR_DAMPING, spectrum_of(record))
         label = f"T_b {support.modes[0].period:.3g} s"
         axes.plot(_PERIODS, own / GRAVITY, line, color="black", linewidth=0.9, label=label)
-        axes.plot(_PERIODS, code / GRAVITY, line, color=PREDICTED, linewidth=0.9)
+        if has_code_spectrum(support):
+            code = floor_spectrum(support, _PERIODS, FLOOR_DAMPING, spectrum_of(record))
+            axes.plot(_PERIODS, code / GRAVITY, line, color=PREDICTED, linewidth=0.9)
     axes.plot([], [], color=PREDICTED, linewidth=0.9, label="the code's, C7.2.5")
     plain_logarithmic(axes, "x")
     axes.set(xlim=(_PERIODS[0], _PERIODS[-1]), ylim=(0, None), xlabel="period of what stands there [s]")

@@ -22,7 +22,7 @@ from rocking.assessment.verdict import (
 )
 from rocking.pulses import Pulse, PulseEvidence
 from rocking.records import Accelerogram
-from rocking.records.floor_spectrum import FLOOR_DAMPING, floor_spectrum, spectrum_of
+from rocking.records.floor_spectrum import FLOOR_DAMPING, floor_spectrum, has_code_spectrum, spectrum_of
 from rocking.records.measures import record_measures
 from rocking.sine_pulse import Regime
 from rocking.structures import Outcome, Structure
@@ -532,6 +532,8 @@ def support_rows(result: "RecordResult", identities: Mapping[str, ComponentRow])
         standing = station.body.standing if isinstance(station.body, Structure) else None
         if standing is None:
             continue
+        if standing.support is not None and standing.support not in result.floors:
+            continue  # the record could not be taken there, as the table of failures says
         for component, floor in result.components_under(name).items():
             ground = (floor.ground or floor).accelerogram
             identity = identities[component]
@@ -541,6 +543,7 @@ def support_rows(result: "RecordResult", identities: Mapping[str, ComponentRow])
             own, by_code = math.nan, math.nan
             if standing.support is not None:
                 own = spectrum_of(floor.accelerogram)(standing.period, FLOOR_DAMPING)
+            if standing.support is not None and has_code_spectrum(standing.support):
                 places = np.array([standing.period])
                 by_code = floor_spectrum(standing.support, places, FLOOR_DAMPING, spectrum_of(ground))[0]
             yield SupportRow(

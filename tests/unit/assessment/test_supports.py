@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rocking.assessment.assess import Extent, assess_record
+from rocking.assessment.assess import Extent, assess_record, with_histories
 from rocking.assessment.fragility import fragility
 from rocking.assessment.rows.of_record import rows_of_record
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
@@ -90,6 +90,10 @@ def test_a_support_that_the_record_is_too_coarse_for_costs_no_other():
     assert verdicts["parapet, T_b 0.15 s"] == "unknown"
     assert "at least two samples of the record, 0.2 s" in result.stations["parapet, T_b 0.15 s"].why
     assert "unknown" not in (verdicts["pier"], verdicts["parapet, on the ground"])
+    rows = rows_of_record(result)
+    assert [row.support_period_s for row in rows.supports] == [0.0]
+    assert [row.structure for row in rows.failures] == ["parapet, T_b 0.15 s"]
+    assert with_histories(result, 1e-6).stations.keys() == result.stations.keys()
 
 
 def test_a_stored_case_of_one_support_is_not_taken_for_another():

@@ -71,3 +71,18 @@ def test_amplification_is_that_of_the_peaks(report):
 
 def test_the_document_has_the_page(report):
     assert report.pdf().startswith(b"%PDF")
+
+
+def test_a_support_without_damping_has_no_spectrum_of_the_code():
+    record = Accelerogram(np.sin(np.arange(300) / 5.0), STEP, component="HNE")
+    body = Block(semi_diagonal=0.5, slenderness=0.25)
+    roof = {"name": "roof", "period_s": 0.3, "participation": 1.3, "damping_ratio": 0}
+    structures = {
+        each.name: body.standing_on(each) for each in support_from_config(roof).standings("parapet")
+    }
+    result = assess_record("made", [record], structures)
+    rows = rows_of_record(result)
+    assert np.isnan(rows.supports[-1].code_spectral_acceleration_m_s2)
+    assert rows.supports[-1].floor_spectral_acceleration_m_s2 > 0
+    settings = {"tolerance": 1e-6, "acceleration_scale": "linearised", "friction_coefficient": 0.6}
+    assert RecordReport(result, rows, structures, settings).data()["supports"]
