@@ -4,8 +4,10 @@ import csv
 import os
 import random
 import shutil
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import settings
@@ -34,6 +36,39 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         draw = random.Random(seed)
         files = {item.path: draw.random() for item in items}
         items.sort(key=lambda item: (files[item.path], draw.random()))
+
+
+_LACKS = (_VARIABLE, "not installed", "by root", "asks Linux", "the extra compare")
+"""What the reason of a skip says where the machine itself lacks something."""
+
+
+def _skips(reporter: Any) -> Counter[str]:
+    """How many tests were skipped, by the reason."""
+    reasons = (report.longrepr[-1] for report in reporter.stats.get("skipped", []) if report.longrepr)
+    return Counter(str(reason).removeprefix("Skipped: ") for reason in reasons)
+
+
+def pytest_terminal_summary(terminalreporter: Any) -> None:
+    """Say what was not tested, and how to test it."""
+    terminal, skips = terminalreporter, _skips(terminalreporter)
+    left_out = len(terminal.stats.get("deselected", []))
+    if skips or left_out:
+        terminal.section("not tested")
+    for reason, number in skips.most_common():
+        terminal.write_line(f"{number} of the tests: {reason}")
+    if left_out:
+        terminal.write_line(f"{left_out} of the tests: slow or not asked for; make test-all runs every one")
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """With ROCKING_STRICT a skip fails the run, unless it says that the machine lacks something."""
+    reporter = session.config.pluginmanager.get_plugin("terminalreporter")
+    if reporter and os.environ.get("ROCKING_STRICT"):
+        avoidable = [each for each in _skips(reporter) if not any(word in each for word in _LACKS)]
+        if avoidable and session.exitstatus == pytest.ExitCode.OK:
+            reporter.write_line(f"skipped, though this machine can run it: {'; '.join(avoidable)}", red=True)
+            session.exitstatus = pytest.ExitCode.TESTS_FAILED
 
 
 @pytest.fixture(scope="session")
