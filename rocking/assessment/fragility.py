@@ -40,6 +40,9 @@ SEVERE = 3.0
 """p PGV/(gλ) from which nearly every structure overturns under nearly every record."""
 NEARLY_ALL = 0.95
 """Share that overturns at the highest level."""
+LARGEST_FACTOR = 10.0
+"""Largest factor on a record. A weak record that is scaled farther has neither the duration nor the periods of shaking
+that strong, and the noise of its instrument is scaled with it."""
 MEMBERS = 16
 """Members of each ensemble."""
 REPLICATES = 1000
@@ -104,7 +107,8 @@ class Fragility(Drawn):
     @property
     def reversals(self) -> np.ndarray:
         """How often each record, scaled up, lets stand again what it had overturned, (r,)."""
-        return np.asarray((np.diff((self.exceedance > 0.5).astype(int), axis=1) < 0).sum(axis=1))
+        falls = [each[np.isfinite(each)] > 0.5 for each in self.exceedance]
+        return np.array([int((np.diff(each.astype(int)) < 0).sum()) for each in falls])
 
 
 def fragility_of(levels: np.ndarray, exceedance: np.ndarray, stations: Sequence[str]) -> Fragility:
@@ -121,6 +125,8 @@ def fragility_of(levels: np.ndarray, exceedance: np.ndarray, stations: Sequence[
     tried = np.isfinite(exceedance)
     over = _by_station(np.where(tried, exceedance, 0.0), stations)
     trials = _by_station(tried.astype(float), stations)
+    ever = trials.any(axis=1)
+    over, trials = over[ever], trials[ever]
     count = len(over)
     probability, low, high = _empirical(over, trials)
     resampled = np.random.default_rng(0).multinomial(count, np.full(count, 1 / count), REPLICATES)
@@ -309,19 +315,21 @@ def fragility(
     stations: Sequence[str] | None = None,
     method: Literal["scaling", "cloud"] = "scaling",
     ensemble: EnsembleSettings | None = None,
-    over_cracks: bool = False,
+    over_cracks: bool = True,
+    largest_factor: float = LARGEST_FACTOR,
     tolerance: float = 1e-6,
 ) -> Fragility:
-    """Return the fragility of `structure` under `records`: of the mechanism that statics chooses where cracks may form,
-    and with over_cracks of the worst of them all. Its `analysis` holds the responses.
+    """Return the fragility of `structure` under `records`: of what governs, the worst of the cracks that may form,
+    member by member; without over_cracks of the one that statics chooses. Its `analysis` holds the responses.
 
     threshold: rotation ratio that is exceeded; inf: overturning. intensity_measure: a name of INTENSITY_MEASURES.
     levels: ascending, in the unit of the measure; by default 40 that lie where the probability of overturning moves.
     stations: what counts as one independent record, by default event and station. method: scaling takes every record to
     every level; cloud leaves it as recorded, and the levels are then those of the records. ensemble: ranges of the
     uncertain inputs; each case then has MEMBERS members. The intensity is that of the ground, also of a structure that
-    stands on a support of its list and meets the motion there. What cannot be followed counts as overturning. Raises
-    ConfigurationError for fewer than two stations, levels out of order, or a measure that a record lacks.
+    stands on a support of its list and meets the motion there. largest_factor: on a record; one that would need more to
+    reach a level is left out of that level. What cannot be followed counts as overturning. Raises ConfigurationError
+    for fewer than two stations, levels out of order or out of reach, or a measure that a record lacks.
 
     >>> pulses = [rocking.Pulse(1.0, frequency, 0.5) for frequency in (4.0, 6.0, 9.0)]
     >>> times = np.arange(400) * 0.01
@@ -352,8 +360,9 @@ def fragility(
         factors[order, places] = 1.0
         ratios = follow(mechanism, factors)
     else:
-        chosen, ratios = _at_levels(partial(follow, mechanism), mechanism, carried, intensities, levels)
-        factors = chosen / intensities[:, None]
+        scaling = _Scaling(intensities, names, largest_factor)
+        chosen, ratios = _at_levels(partial(follow, mechanism), mechanism, carried, scaling, levels)
+        factors = scaling.factors(chosen)
     worst = ratios if over_cracks and others else None
     for other in others if over_cracks else ():
         worst = follow(other.mechanism, factors, worst)
@@ -421,42 +430,83 @@ def _rotation_ratios(
         return np.array(list(pool.map(follow, records, factors, least)))
 
 
+@dataclass(frozen=True, eq=False)
+class _Scaling:
+    """How records are taken to levels. intensities: (r,) of the records as they are. stations: (r,)."""
+
+    intensities: np.ndarray
+    stations: tuple[str, ...]
+    largest_factor: float
+
+    def factors(self, levels: np.ndarray) -> np.ndarray:
+        """Return the factors (r, k) that take every record to each level; nan beyond the largest."""
+        factors = levels / self.intensities[:, None]
+        return np.where(factors <= self.largest_factor * (1 + 1e-9), factors, np.nan)
+
+    @property
+    def highest(self) -> float:
+        """The highest level that records of two stations reach."""
+        reach: dict[str, float] = {}
+        for name, intensity in zip(self.stations, self.intensities.tolist(), strict=True):
+            reach[name] = max(reach.get(name, 0.0), intensity * self.largest_factor)
+        return sorted(reach.values())[-2]
+
+
 def _at_levels(
     follow: Callable[[np.ndarray], np.ndarray],
     mechanism: Mechanism,
     records: Sequence[Accelerogram],
-    intensities: np.ndarray,
+    scaling: _Scaling,
     levels: Sequence[float] | np.ndarray | None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """The levels and (r, k, m) of what `follow` gives at the factors (r, k) that take every record to each of them.
 
-    records: as they arrive where the structure stands. intensities: of the ground.
-    By default LEVELS: spread from the first uplift to where nearly all overturn, and the rest where the share moves.
+    By default LEVELS: spread from the first uplift to where nearly all overturn, or to the highest that two stations
+    reach, and the rest where the share moves.
     """
 
     def at(some: np.ndarray) -> np.ndarray:
-        return follow(some / intensities[:, None])
+        return follow(scaling.factors(some))
 
     if levels is not None:
         chosen = _checked_levels(levels)
+        if chosen[0] > scaling.highest:
+            raise ConfigurationError(
+                f"levels begin at {chosen[0]:g}, but within a factor of {scaling.largest_factor:g} two stations reach "
+                f"{scaling.highest:.3g} at the most; take stronger records."
+            )
+        chosen = chosen[chosen <= scaling.highest * (1 + 1e-9)]
         return chosen, at(chosen)
     peaks = np.array([record.peak_acceleration for record in records])
-    lowest = float((intensities * mechanism.uplift_multiplier * GRAVITY / peaks).min())
+    uplifts = mechanism.uplift_multiplier * GRAVITY / peaks
+    within_reach = uplifts <= scaling.largest_factor
+    reach = scaling.highest
+    lowest = float((scaling.intensities * uplifts)[within_reach].min(initial=reach / 2))
     severities = per_velocity(mechanism.equivalent_block("rest")) * np.array(
         list(map(peak_velocity, records))
     )
-    highest = float((intensities * SEVERE / severities).max())
-    chosen = np.geomspace(lowest, max(highest, 2 * lowest), COARSE)
+    highest = min(float((scaling.intensities * SEVERE / severities).max()), reach)
+    chosen = np.geomspace(lowest, min(max(highest, 2 * lowest), max(reach, 1.01 * lowest)), COARSE)
     ratios = at(chosen)
-    while np.isinf(ratios[:, -1]).mean() < NEARLY_ALL and chosen.size < MOST_SPREAD:
+    while _share_that_overturns(ratios)[-1] < NEARLY_ALL and chosen.size < MOST_SPREAD:
         more = chosen[-1] * np.array([1.5, 2.25])
+        more = more[more <= reach]
+        if not more.size:
+            break
         ratios = np.hstack([ratios, at(more)])
         chosen = np.append(chosen, more)
-    between = _where_it_moves(chosen, np.isinf(ratios).mean(axis=(0, 2)), LEVELS - chosen.size)
+    between = _where_it_moves(chosen, _share_that_overturns(ratios), LEVELS - chosen.size)
     ratios = np.hstack([ratios, at(between)])
     chosen = np.append(chosen, between)
     order = np.argsort(chosen)
     return chosen[order], ratios[:, order]
+
+
+def _share_that_overturns(ratios: np.ndarray) -> np.ndarray:
+    """The share (k,) of ratios (r, k, m) that are inf, of those that were tried; 0 where none was."""
+    tried = np.isfinite(ratios) | np.isinf(ratios)
+    over = np.isinf(ratios).sum(axis=(0, 2))
+    return np.asarray(over / np.maximum(tried.sum(axis=(0, 2)), 1))
 
 
 def _where_it_moves(levels: np.ndarray, share: np.ndarray, count: int) -> np.ndarray:

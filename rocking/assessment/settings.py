@@ -95,6 +95,12 @@ class FragilitySettings:
         "pgv", f"measure of the levels: {MEASURES_IN_WORDS}", one_of=lambda: tuple(INTENSITY_MEASURES)
     )
     members: bool = described(True, "whether a case counts by the share of its members that overturn")
+    largest_factor: float = described(
+        10.0,
+        "largest factor on a record; what cannot reach a level within it is left out of that level",
+        ge=1,
+        le=1e6,
+    )
     hazard: str | None = described(
         None, "CSV of a hazard curve with the columns intensity and annual_rate, ascending, or null"
     )

@@ -1,6 +1,7 @@
 """The document of a study's fragility: curves with intervals, their medians, and which records govern them."""
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -30,7 +31,7 @@ _GOVERNING, _HALF = 3, 0.5
 """Records that are named for each structure; share of the members from which on a record overturns it."""
 _COLOURS = dict(zip(ROTATION_RATIOS, ("#56B4E9", "#0072B2", "#009E73"), strict=False))
 _WORST = "#D55E00"
-_READ = ("structure", "record", "station", "level", "overturning_share")
+_READ = ("structure", "record", "station", "level", "overturning_share", "governing_overturning_share")
 
 
 def write_fragility_report(folder: Path, pdf: Path, image: Path) -> None:
@@ -51,8 +52,8 @@ def fragility_data(curves: "DataFrame", summary: "DataFrame", ida: "DataFrame") 
     )
     few = f" With {counted(stations, 'station')} the curves are rough and their intervals wide: take more."
     of_curves = (
-        "Share of the stations that exceed a rotation (overturns, or a share of the critical rotation φcr) with the "
-        "crack that statics chooses, and that overturn it with the worst of the cracks that may form."
+        "Share of the stations that overturn each structure with the crack that governs, the worst of those that may "
+        "form, and that exceed a rotation (overturns, or a share of the critical rotation φcr) with that of statics."
     )
     parts = [{"text": scaled + few * (stations < FEW_STATIONS)}, fragility_table(summary, ida)]
     names = list(dict.fromkeys(curves["structure"]))
@@ -72,17 +73,24 @@ def fragility_data(curves: "DataFrame", summary: "DataFrame", ida: "DataFrame") 
 def fragility_table(summary: "DataFrame", ida: "DataFrame") -> dict[str, object]:
     """Return one row per structure: its median, that with the worst crack, and what overturns it first."""
     falls = list(rows_of(FragilitySummaryRow, summary[summary["threshold"] == math.inf]))
-    worst = {row.structure: _with_interval(row) for row in falls if row.governing}
+    first_rows: dict[str, FragilitySummaryRow] = {}
+    for row in falls:
+        if row.governing or row.structure not in first_rows:
+            first_rows[row.structure] = row
+    governed = {row.structure for row in falls if row.governing}
+    by_statics = {
+        row.structure: _with_interval(row) for row in falls if row.structure in governed and not row.governing
+    }
     records = governing_records(ida)
     first = "First to overturn it, and at what level"
-    elsewhere = "Median with the worst crack"
-    with_worst: Column = (elsewhere, "1.0", "l", lambda row: words(worst.get(row.structure)))
-    rate: Column = ("Annual rate [1/year]", "0.7", "r", lambda row: number(row.annual_rate, 2))
+    elsewhere = "Median with the crack of statics"
+    of_statics: Column = (elsewhere, "1.0", "l", lambda row: words(by_statics.get(row.structure)))
+    rate: Column = ("Annual rate and its 90 % interval [1/year]", "1.0", "r", _rate_with_interval)
     table = table_of(
-        [row for row in falls if not row.governing],
+        list(first_rows.values()),
         ("Structure", "1.3", "l", lambda row: row.structure),
         ("Median and its 90 % interval", "1.3", "l", lambda row: _with_interval(row, row.intensity_measure)),
-        *([with_worst] if worst else []),
+        *([of_statics] if by_statics else []),
         ("Disper\u00adsion [-]", "0.6", "r", lambda row: number(row.dispersion, 2)),
         ("Sta\u00adtions", "auto", "r", lambda row: plain(row.stations)),
         (first, "2.2", "l", lambda row: words(records.get(row.structure))),
@@ -91,11 +99,29 @@ def fragility_table(summary: "DataFrame", ida: "DataFrame") -> dict[str, object]
     )
     caption = (
         "Level that half of the stations overturn each structure at, with its 90 % interval by stations, for the crack "
-        "that statics chooses and for the worst of those that may form; dispersion of the lognormal curve; records "
-        "under which it overturns first, with the level of each: they govern the lower end of its curve; and how many "
-        "records, scaled up, let it stand again."
+        "that governs, the worst of those that may form, and for that of statics; dispersion of the lognormal curve; "
+        "records under which it overturns first, with the level of each: they govern the lower end of its curve; and "
+        f"how many records, scaled up, let it stand again.{_scaled(list(first_rows.values()))}"
     )
     return table | {"caption": caption}
+
+
+def _scaled(rows: Sequence[FragilitySummaryRow]) -> str:
+    """Return the sentence that says by how much records were scaled, and which did not reach the highest level."""
+    factors = [row.largest_scale_factor for row in rows if math.isfinite(row.largest_scale_factor)]
+    if not factors:
+        return ""
+    out = max(row.stations_out for row in rows)
+    sentence = f" Records are scaled by {number(max(factors), 2)} at the most"
+    return (
+        f"{sentence}; {counted(out, 'station')} do not reach the highest level so." if out else f"{sentence}."
+    )
+
+
+def _rate_with_interval(row: FragilitySummaryRow) -> str:
+    """Return the annual rate with its interval."""
+    low, high = number(row.annual_rate_low, 2), number(row.annual_rate_high, 2)
+    return f"{number(row.annual_rate, 2)} ({low}–{high})"
 
 
 def _with_interval(row: FragilitySummaryRow, measure: str = "") -> str:
@@ -110,7 +136,8 @@ def _unit(measure: str) -> str:
 
 def governing_records(ida: "DataFrame") -> dict[str, str]:
     """Return for each structure the records that overturn it at the lowest levels, with the level of each."""
-    falls = ida[ida["overturning_share"] >= _HALF]
+    governing = ida["governing_overturning_share"]
+    falls = ida[governing.where(governing.notna(), ida["overturning_share"]) >= _HALF]
     levels = falls.groupby(["structure", "record"], sort=False, observed=True)["level"].min()
     texts: dict[str, list[str]] = {}
     for (structure, record), level in levels.sort_values(kind="stable").items():

@@ -29,7 +29,7 @@ from rocking.tables.workbook import workbook
 
 WORKBOOK = "study.xlsx"
 """The tables of the summary in one file, but for the times, which differ from run to run."""
-_GOVERNING = ("structure", "record", "level", "overturning_share")
+_GOVERNING = ("structure", "record", "level", "overturning_share", "governing_overturning_share")
 _SHOWN = (
     "record", "pulses", "comparison", "verdicts", "supports", "structures", "agreement", "failures",
 )  # fmt: skip
@@ -158,14 +158,14 @@ def write_fragility(
             accelerograms,
             structure,
             intensity_measure=settings.intensity_measure,
-            over_cracks=True,
+            largest_factor=settings.largest_factor,
             ensemble=study.assessment.ensemble if settings.members else None,
             tolerance=study.assessment.tolerance,
         ).analysis
         assert analysis is not None
         tables[rows.IdaRow] += rows.ida_rows(name, names, analysis)
         for threshold in rows.ROTATION_RATIOS:
-            for governing in (False, True) if analysis.governing_ratios is not None else (False,):
+            for governing in (True, False) if analysis.governing_ratios is not None else (False,):
                 curve = analysis.fragility(threshold, governing=governing)
                 row = rows.fragility_summary_row(name, curve, governing, hazard)
                 tables[rows.FragilityRow] += rows.fragility_rows(name, curve, governing)

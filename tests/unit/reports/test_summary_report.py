@@ -173,11 +173,25 @@ def test_a_scatter_of_many_cases_does_not_grow_with_them():
 
 PIER = {"structure": "pier", "intensity_measure": "pgv", "threshold": math.inf, "governing": False}
 SHARES = {"a": (0.0, 0.4, 1.0), "b": (0.2, 0.6, 0.3), "c": (0.0, 0.0, 0.1), "d": (1, 1, 1)}
-MEDIAN = {"records": 4, "stations": 3, "median": 0.2, "median_low": 0.13, "median_high": 0.31, "reversals": 1}
+MEDIAN = {
+    "records": 4,
+    "stations": 3,
+    "median": 0.2,
+    "median_low": 0.13,
+    "median_high": 0.31,
+    "reversals": 1,
+    "stations_out": 0,
+}
 FRAGILITY = {
     "ida": pandas.DataFrame(
         [
-            {"structure": "pier", "record": record, "level": level, "overturning_share": share}
+            {
+                "structure": "pier",
+                "record": record,
+                "level": level,
+                "overturning_share": share,
+                "governing_overturning_share": math.nan,
+            }
             for record, shares in SHARES.items()
             for level, share in zip((0.1, 0.2, 0.4), shares, strict=True)
         ]
@@ -185,7 +199,10 @@ FRAGILITY = {
     "fragility": frame(
         FragilityRow,
         [
-            filled(FragilityRow, **PIER | {"governing": governing, "level": level, "probability": level})
+            filled(
+                FragilityRow,
+                **PIER | {"governing": governing, "level": level, "probability": level, "stations": 3},
+            )
             for governing in (False, True)
             for level in (0.1, 0.2, 0.4)
         ],
