@@ -21,6 +21,7 @@ include: "workflow/rules/summarise.smk"
 include: "workflow/rules/assess.smk"
 include: "workflow/rules/trade.smk"
 include: "workflow/rules/fragility.smk"
+include: "workflow/rules/checks.smk"
 include: "workflow/rules/paper.smk"
 include: "workflow/rules/documentation.smk"
 

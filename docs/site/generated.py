@@ -8,6 +8,7 @@ from typing import Any
 import rocking
 from docs.paper.report import equation_rows, equivalence_figures
 from docs.site.drawings import forms
+from rocking.assessment.rows.of_check import CodeCheckRow
 from rocking.assessment.rows.of_record import RECORD_TABLES, HistoryRow
 from rocking.assessment.rows.of_study import SUMMARY_TABLES, SpectrumRow
 from rocking.described import described_values, parts_of
@@ -43,7 +44,7 @@ def structures() -> str:
 
 def tables() -> str:
     """Every column of every table."""
-    classes = dict.fromkeys((*RECORD_TABLES, HistoryRow, *SUMMARY_TABLES, SpectrumRow))
+    classes = dict.fromkeys((*RECORD_TABLES, HistoryRow, *SUMMARY_TABLES, CodeCheckRow, SpectrumRow))
     package = json.loads(data_package("tables", {each: each.table.file_name for each in classes}))
     return "\n\n".join(map(_table_section, package["resources"]))
 

@@ -33,17 +33,21 @@ _JUST_BEFORE = 1 - 1e-12
 
 @dataclass(frozen=True)
 class LimitState:
-    """A limit state of collapse: its displacement over d_0, the factor of its secant period, and the damping."""
+    """A limit state of collapse: its displacement over d_0, the factor of its secant period, and the damping.
+
+    ends_with_ties: whether it is reached, too, where a tie breaks and the capacity falls by more than half.
+    """
 
     name: str
     displacement_share: float
     period_factor: float
     damping: float
+    ends_with_ties: bool
 
 
 LIMIT_STATES = {
-    "SLV": LimitState("SLV", 0.4, 1.68 * math.pi, 0.08),
-    "SLC": LimitState("SLC", 0.6, 1.56 * math.pi, 0.10),
+    "SLV": LimitState("SLV", 0.4, 1.68 * math.pi, 0.08, ends_with_ties=True),
+    "SLC": LimitState("SLC", 0.6, 1.56 * math.pi, 0.10, ends_with_ties=False),
 }
 """C8.7.1.2.1.6 and C8.7.1.2.1.8; the limit state of damage, SLD, has the linear check alone."""
 
@@ -101,12 +105,14 @@ class LimitPoint:
 class LocalMechanism:
     """One mechanism to one side as the code sees it: one degree of freedom, with the confidence factor in it.
 
-    description: what opens, to which side. sign: of the rotation. elastic_period: T_0 of a part free to vibrate, s; 0
-    of one tied rigidly to the structure. support_loss: horizontal displacement of the control point at which what
-    it carries falls, m; inf where nothing does. one_sided: whether it leans on something.
+    description: what opens, to which side. body: the structure with that crack. sign: of the rotation. elastic_period:
+    T_0 of a part free to vibrate, s; 0 of one tied rigidly to the structure. support_loss: horizontal displacement of
+    the control point at which what it carries falls, m; inf where nothing does. one_sided: whether it leans on
+    something.
     """
 
     description: str
+    body: Structure
     sign: int
     static: StaticCapacity
     confidence_factor: float
@@ -168,7 +174,7 @@ class LocalMechanism:
         """Return where `state` lies on the capacity curve; the period is nan where there is no displacement."""
         share = state.displacement_share
         limits = {share * self.ultimate_displacement: f"{share:g} d₀"}
-        if self._limiting_rupture < math.inf:
+        if state.ends_with_ties and self._limiting_rupture < math.inf:
             limits[self.displacement(self._limiting_rupture * _JUST_BEFORE)] = "a tie breaks"
         if self.support_loss < math.inf:
             limits[self.support_loss * self.static.displacement_factor] = "what it carries falls"
@@ -263,8 +269,17 @@ def kinematic_check(
         loss = positive(ConfigurationError, "support_loss", support_loss, "m")
     floor = FloorDemand(spectrum, support)
     mechanisms = tuple(
-        LocalMechanism(words, sign, static, confidence, elastic_period, loss, structure.one_sided)
-        for words, sign, static in _capacities(structure)
+        LocalMechanism(
+            description=words,
+            body=body,
+            sign=sign,
+            static=body.static_capacity(sign),
+            confidence_factor=confidence,
+            elastic_period=elastic_period,
+            support_loss=loss,
+            one_sided=structure.one_sided,
+        )
+        for words, sign, body in _opening(structure)
     )
     damage = [_damage_level(each, floor) for each in mechanisms]
     first = int(np.argmin(damage))
@@ -312,8 +327,8 @@ def _at_least_one(name: str, value: float) -> float:
     return number
 
 
-def _capacities(structure: Structure) -> Iterator[tuple[str, int, StaticCapacity]]:
-    """What opens and to which side it falls, the sign of that side, and the capacity.
+def _opening(structure: Structure) -> Iterator[tuple[str, int, Structure]]:
+    """What opens and to which side it falls, the sign of that side, and the structure with that crack.
 
     Of hinges between supports those that limit analysis finds, of other cracks all that may open.
     """
@@ -329,7 +344,7 @@ def _capacities(structure: Structure) -> Iterator[tuple[str, int, StaticCapacity
         signs = (1,) if body.symmetric or body.one_sided else (1, -1)
         for sign, side in zip(signs, body.side_names, strict=False):
             falls = "" if body.symmetric else side
-            yield f"{opens}{falls}".removesuffix(", ") or "as given", sign, body.static_capacity(sign)
+            yield f"{opens}{falls}".removesuffix(", ") or "as given", sign, body
 
 
 def _damage_level(mechanism: LocalMechanism, floor: FloorDemand) -> float:

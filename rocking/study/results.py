@@ -11,6 +11,7 @@ from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rocking.assessment.rows.of_check import CodeCheckRow
 from rocking.assessment.rows.of_record import RECORD_TABLES, RecordRows, TimingRow
 from rocking.assessment.rows.of_study import SUMMARY_TABLES, TradeRow
 from rocking.errors import RockingError
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
 PAGE = "explore.jsonl"
 """Beside them: what the page to explore shows of each record, one JSON value a line."""
-_ROWS: tuple[type[Row], ...] = (*RECORD_TABLES, *SUMMARY_TABLES, TradeRow)
+_ROWS: tuple[type[Row], ...] = (*RECORD_TABLES, *SUMMARY_TABLES, TradeRow, CodeCheckRow)
 _TABLES = {each.table.name: each for each in _ROWS}
 _JOB = re.compile(r"\d{5}_of_\d{5}")
 

@@ -67,5 +67,7 @@ if SETTINGS.reports:
         f"{SUMMARY}/{name}" for name in ("summary.pdf", "prediction_against_integration.svg", "study.html")
     ]
     TARGETS += [f"{SUMMARY}/study.xlsx"]
+if SETTINGS.design_spectrum.ag or SETTINGS.design_spectrum.points:
+    TARGETS += [f"{SUMMARY}/code_checks.csv", f"{SUMMARY}/structures.pdf"]
 if SETTINGS.fragility.in_every_run:
     TARGETS += [f"{RESULTS}/fragility/fragility.pdf"]

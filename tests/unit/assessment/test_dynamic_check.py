@@ -1,5 +1,7 @@
 """The dynamic check: what it says of a set, by the integrations themselves; what other sets say; what is refused."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -13,7 +15,7 @@ LIMITS = {"below": 0.3, "above": 0.4}
 
 @pytest.fixture(scope="module")
 def records():
-    return select(made_pool(30), SPECTRUM, 10, sets=60, **LIMITS)
+    return select(made_pool(30), SPECTRUM, 10, **LIMITS)
 
 
 def largest_displacements(block, records, places):
@@ -46,7 +48,7 @@ def test_a_block_under_the_set_as_its_integrations_say(records):
     for places in records.sets:
         of_set = np.concatenate([of_record[place] for place in places])
         met.append(of_set.mean() <= 0.4 * ultimate and (of_set <= ultimate).all())
-    assert found.sets == len(records.sets) == 60
+    assert found.sets == len(records.sets) == 200
     assert found.share == pytest.approx(np.mean(met))
     low, high = found.interval
     assert low <= found.share <= high
@@ -100,6 +102,13 @@ def test_a_rigid_support_changes_nothing_and_a_resonant_one_does(records):
     )
     assert rigid.demand == pytest.approx(ground.demand, rel=1e-9)
     assert resonant.demand > 1.2 * ground.demand
+
+
+def test_too_few_sets_call_nothing_met(records):
+    few = replace(records, sets=records.sets[:199])
+    found = rocking.check(Block.of_size(2.5, 3.0), SPECTRUM, records=few).dynamic
+    assert not found.passed and found.share == 1
+    assert "199 sets were found, and 200 must be asked" in found.refusal
 
 
 @pytest.mark.slow

@@ -1,0 +1,135 @@
+"""The row of a check of the code: its capacity and demand, and where the limit state lies on the capacity curve."""
+
+import math
+from collections.abc import Iterator
+
+from rocking.assessment.code_check import Check
+from rocking.assessment.dynamic_check import DynamicCheck, StructureCheck
+from rocking.assessment.rows.of_record import STRUCTURE
+from rocking.tables import Row, column, row
+
+KINDS = {
+    "C8.7.1.8": "linear",
+    "C8.7.1.9": "linear",
+    "C8.7.1.2.1.7": "linear",
+    "C8.7.1.2.1.8": "nonlinear",
+    "C8.7.1.2.1.9": "dynamic",
+}
+"""What a check is called, by its clause."""
+
+
+@row("code_checks")
+class CodeCheckRow(Row):
+    """One row per structure and check of the Italian code at the design level; written by the target checks."""
+
+    structure: str = column(STRUCTURE)
+    check: str = column("linear, nonlinear or dynamic")
+    clause: str = column("Clause of the Circolare 7/2019")
+    limit_state: str = column("Limit state: SLV or SLC")
+    mechanism: str = column("Mechanism that decides: what opens, and to which side it falls")
+    passed: bool = column("Whether the check is met")
+    ratio: float = column("Capacity over demand; 1 or more where it is met")
+    level_capacity_m_s2: float = column(
+        "a_g at which the limit state is reached; empty for the dynamic check"
+    )
+    level_demand_m_s2: float = column("a_g of the design level; empty for the dynamic check")
+    displacement_capacity_m: float = column("Displacement of the limit state; of the dynamic check alone")
+    displacement_demand_m: float = column(
+        "Mean of the largest displacements of the set; of the dynamic check alone"
+    )
+    exceeding_motions: int | None = column(
+        "Motions of the set under which d_0 is exceeded; of the dynamic check alone"
+    )
+    motions: int | None = column("Motions of the set; of the dynamic check alone")
+    sets: int | None = column("Sets that were drawn; of the dynamic check alone")
+    sets_share: float = column("Share of these that meet the check")
+    sets_share_low: float = column("Lower end of its 90 % interval for sets of other stations")
+    sets_share_high: float = column("Upper end of that interval")
+    onset_multiplier: float = column("α_0 of the mechanism that governs", equation="C8.7.1.1")
+    participating_mass_ratio: float = column("e* of that mechanism", equation="C8.7.1.5")
+    ultimate_displacement_m: float = column("d_0 of that mechanism", equation="C8.7.1.4")
+    limit_displacement_m: float = column("Displacement of the limit state of that mechanism")
+    secant_period_s: float = column("Secant period at that displacement")
+    confidence_factor: float = column("Confidence factor FC")
+    why: str = column("Why a check is not called met, where the numbers do not say it")
+
+
+def code_check_rows(structure: str, checked: StructureCheck) -> Iterator[CodeCheckRow]:
+    """Yield the row of each check of a structure."""
+    governing = checked.governing
+    point = checked.limit
+    for each in checked.checks:
+        dynamic = each if isinstance(each, DynamicCheck) else None
+        low, high = dynamic.interval if dynamic else (math.nan, math.nan)
+        yield CodeCheckRow(
+            structure=structure,
+            check=KINDS[each.clause],
+            clause=each.clause,
+            limit_state=each.limit_state,
+            mechanism=each.mechanism,
+            passed=each.passed,
+            ratio=each.ratio,
+            level_capacity_m_s2=_of(each, "m/s²", each.capacity),
+            level_demand_m_s2=_of(each, "m/s²", each.demand),
+            displacement_capacity_m=_of(each, "m", each.capacity),
+            displacement_demand_m=_of(each, "m", each.demand),
+            exceeding_motions=dynamic.exceeding if dynamic else None,
+            motions=dynamic.motions if dynamic else None,
+            sets=dynamic.sets if dynamic else None,
+            sets_share=dynamic.share if dynamic else math.nan,
+            sets_share_low=low,
+            sets_share_high=high,
+            onset_multiplier=governing.onset_multiplier,
+            participating_mass_ratio=governing.participating_mass_ratio,
+            ultimate_displacement_m=governing.ultimate_displacement,
+            limit_displacement_m=point.displacement if point else math.nan,
+            secant_period_s=point.period if point else math.nan,
+            confidence_factor=governing.confidence_factor,
+            why=each.refusal,
+        )
+
+
+def _of(check: Check, unit: str, value: float) -> float:
+    return value if check.unit == unit else math.nan
+
+
+def disagreement(checked: StructureCheck, overturning_share: float, stations: int) -> str:
+    """Return the sentence on where the formulas and the dynamics disagree, with both figures; "" where they do not.
+
+    overturning_share: of the records of the study; nan where there are none. Formulas that are met disagree with a
+    dynamic check that is not, or with a structure that overturns under more than a tenth of the records; those that are
+    not met, with a dynamic check that is and a structure that never overturns.
+    """
+    dynamic = checked.dynamic
+    formulas = [each for each in checked.checks if not isinstance(each, DynamicCheck)]
+    share = f"{100 * overturning_share:.0f} %"
+    of_records = f"under the {stations} records of the study it overturns with a share of {share}"
+    parts = []
+    for each in formulas:
+        figure = f"The {KINDS[each.clause]} check is {{}} with a ratio of {each.ratio:.3g}"
+        if each.passed and dynamic is not None and not dynamic.passed:
+            parts.append(f"{figure.format('met')}, but the dynamic check is not: {_why(dynamic)}.")
+        elif each.passed and overturning_share > _OFTEN:
+            parts.append(f"{figure.format('met')}, but {of_records}.")
+        elif not each.passed and dynamic is not None and dynamic.passed:
+            parts.append(
+                f"{figure.format('not met')}, but the dynamic check is with one of {dynamic.ratio:.3g}."
+            )
+        elif not each.passed and dynamic is None and overturning_share == 0:
+            parts.append(f"{figure.format('not met')}, but {of_records}.")
+    return " ".join(parts)
+
+
+_OFTEN = 0.1
+"""Share of the records beyond which a structure that passes a formula is said to contradict it."""
+
+
+def _why(dynamic: DynamicCheck) -> str:
+    if dynamic.exceeding:
+        return (
+            f"d₀ is exceeded under {dynamic.exceeding} of {dynamic.motions} motions, and {dynamic.sentence}"
+        )
+    if dynamic.demand <= dynamic.capacity:
+        return dynamic.refusal
+    allowed = f"{dynamic.capacity:.3g} m are allowed"
+    return f"the mean displacement is {dynamic.demand:.3g} m where {allowed}, and {dynamic.sentence}"

@@ -1,0 +1,221 @@
+"""The document of the structures at the design level: one page each, which an engineer signs."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from rocking.assessment.code_check import LIMIT_STATES, Check, LocalMechanism
+from rocking.assessment.dynamic_check import StructureCheck
+from rocking.assessment.rows.of_check import KINDS, disagreement
+from rocking.quantities import counted
+from rocking.records.design_spectrum import DesignSpectrum
+from rocking.records.selection import Selection
+from rocking.reports import printing
+from rocking.reports.document import compile_document
+from rocking.reports.drawings import draw_dimensions, draw_structure
+from rocking.reports.panels import ZERO, plot
+from rocking.reports.printing import Cell, number, percent, table
+from rocking.reports.style import PREDICTED, PULSE, new_figure, panel_at, picture, styled
+from rocking.structures import Structure
+
+_TURNED = 0.5
+"""Share of the critical rotation at which a mechanism is drawn."""
+_POINTS = 200
+_QUANTILE = 1.645
+"""Of the normal distribution: nine tenths lie within."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CheckedStructure:
+    """What the page of one structure shows.
+
+    checked: None where it could not be checked, and `refusal` then says why. overturning_share: mean over the records
+    of the study, nan without any; stations: how many records.
+    """
+
+    name: str
+    structure: Structure
+    checked: StructureCheck | None
+    refusal: str = ""
+    overturning_share: float = math.nan
+    stations: int = 0
+
+
+def structures_report(
+    structures: Sequence[CheckedStructure],
+    spectrum: DesignSpectrum,
+    settings: Mapping[str, Any],
+    selection: Selection | None = None,
+    notices: Sequence[str] = (),
+) -> bytes:
+    """Return the PDF. settings: as those of the summary. selection: the sets of the dynamic check, None without."""
+    return compile_document(
+        "structures.typ", structures_data(structures, spectrum, settings, selection, notices)
+    )
+
+
+def structures_data(
+    structures: Sequence[CheckedStructure],
+    spectrum: DesignSpectrum,
+    settings: Mapping[str, Any],
+    selection: Selection | None = None,
+    notices: Sequence[str] = (),
+) -> dict[str, object]:
+    """Return what the template is given."""
+    spectra = []
+    if selection is not None:
+        alt = "Spectra of the set of records and their mean beside the design spectrum."
+        spectra = [picture(_selection_figure(selection), alt) | {"caption": selection.words}]
+    return {
+        "title": "Checks at the design level",
+        **printing.settings_texts(settings),
+        "spectrum": spectrum.words,
+        "notices": list(notices),
+        "spectra": spectra,
+        "pages": [_page(each, spectrum) for each in structures],
+    }
+
+
+def _page(each: CheckedStructure, spectrum: DesignSpectrum) -> dict[str, object]:
+    head = {"name": each.name, "description": f"{each.structure.description}."}
+    if each.checked is None:
+        return head | {"refusal": each.refusal, "figure": [], "sentences": [], "finding": "", "share": ""}
+    checked = each.checked
+    alt = (
+        f"{each.name}: drawing with sizes and loads, mechanism, and capacity curve with limit displacements."
+    )
+    return head | {
+        "refusal": "",
+        "figure": [picture(_structure_figure(each.structure, checked), alt)],
+        "checks": _check_table(checked),
+        "sentences": _sentences(checked),
+        "share": _share(each),
+        "finding": disagreement(checked, each.overturning_share, each.stations),
+    }
+
+
+def _check_table(checked: StructureCheck) -> dict[str, object]:
+    heads = [
+        ("Check", "0.8", "l"),
+        ("Clause", "auto", "l"),
+        ("Capacity", "1.0", "r"),
+        ("Demand", "1.0", "r"),
+        ("Ratio [-]", "auto", "r"),
+        ("Result", "auto", "l"),
+        ("Mechanism that decides", "1.6", "l"),
+    ]
+    lines: list[list[Cell]] = [
+        [
+            KINDS[each.clause],
+            each.clause,
+            _valued(each, each.capacity),
+            _valued(each, each.demand),
+            number(each.ratio),
+            {"text": "met" if each.passed else "not met", "strong": True},
+            each.mechanism,
+        ]
+        for each in checked.checks
+    ]
+    return table(heads, lines)
+
+
+def _valued(check: Check, value: float) -> str:
+    letter = "d" if check.unit == "m" else "a_g"
+    return f"{letter} = {number(value)} {check.unit}"
+
+
+def _sentences(checked: StructureCheck) -> list[str]:
+    """What the checks rest on."""
+    mechanism = checked.governing
+    lines = [
+        f"Mechanism that governs: {mechanism.description}; α₀ = {number(mechanism.onset_multiplier)}, "
+        f"e* = {number(mechanism.participating_mass_ratio)}, FC = {number(mechanism.confidence_factor)}, "
+        f"d₀ = {number(mechanism.ultimate_displacement)} m; it starts at "
+        f"a_g = {number(checked.damage_level)} m/s² (SLD)."
+    ]
+    for state in LIMIT_STATES.values():
+        point = mechanism.limit(state)
+        lines.append(
+            f"d_{state.name} = {number(point.displacement)} m ({point.reason}), a = {number(point.acceleration)} m/s², "
+            f"T_{state.name} = {number(point.period)} s."
+        )
+    dynamic = checked.dynamic
+    if dynamic is not None:
+        said = f"Dynamic check under {counted(dynamic.motions, 'motion')}: {dynamic.sentence}"
+        lines.append(f"{said}; {dynamic.refusal}." if dynamic.refusal else f"{said}.")
+    else:
+        lines.append("The dynamic check was not made: there are no sets of records for it.")
+    return lines
+
+
+def _share(each: CheckedStructure) -> str:
+    if not each.stations:
+        return "No record of the study tells whether it overturns."
+    low, high = share_interval(each.overturning_share, each.stations)
+    return (
+        f"Under the {counted(each.stations, 'record')} of the study, uncertain inputs considered, it overturns with a "
+        f"share of {percent(each.overturning_share)} % (90 % interval over records: {percent(low)} to "
+        f"{percent(high)} %)."
+    )
+
+
+def share_interval(share: float, count: int) -> tuple[float, float]:
+    """Return the 90 % interval of a share of `count` records after Wilson (1927)."""
+    squared = _QUANTILE**2 / count
+    centre = (share + squared / 2) / (1 + squared)
+    half = math.sqrt(share * (1 - share) * squared + squared**2 / 4) / (1 + squared)
+    return max(centre - half, 0.0), min(centre + half, 1.0)
+
+
+@styled
+def _structure_figure(structure: Structure, checked: StructureCheck) -> Figure:
+    """Three panels: the structure with sizes and loads, its mechanism, and the capacity curve."""
+    figure = new_figure(76.0)
+    mechanism = checked.governing
+    drawn = panel_at(figure, 2, 6, 46, 68)
+    draw_structure(drawn, structure)
+    draw_dimensions(drawn, structure.dimensions())
+    turned = panel_at(figure, 50, 6, 46, 68)
+    critical = mechanism.static.side.critical_rotation
+    draw_structure(turned, mechanism.body, mechanism.sign * _TURNED * critical)
+    for axes, title in ((drawn, "sizes and loads"), (turned, "mechanism")):
+        axes.set_title(title)
+        axes.set_aspect("equal", adjustable="datalim")
+        axes.margins(0.08)
+        axes.autoscale_view()
+        axes.set_axis_off()
+    _draw_capacity(panel_at(figure, 112, 6, 56, 56), mechanism)
+    return figure
+
+
+def _draw_capacity(axes: Axes, mechanism: LocalMechanism) -> None:
+    """a against d with its limit displacements and the secants whose periods the check takes."""
+    side = mechanism.static.side
+    bends = np.array(side.bends)
+    steps = np.linspace(0.0, side.critical_rotation, _POINTS)
+    rotations = np.unique([*steps, *bends, *bends * (1 + 1e-9)])
+    displacements = [mechanism.displacement(float(each)) for each in rotations]
+    accelerations = [mechanism.acceleration(float(each)) for each in rotations]
+    axes.plot(displacements, accelerations, color="black")
+    for (name, state), colour in zip(LIMIT_STATES.items(), (PREDICTED, PULSE), strict=True):
+        point = mechanism.limit(state)
+        label = f"d {name} = {number(point.displacement)} m, T {name} = {number(point.period)} s"
+        axes.plot([0, point.displacement], [0, point.acceleration], "--", color=colour, linewidth=0.8)
+        axes.plot(point.displacement, point.acceleration, "o", color=colour, markersize=4, label=label)
+    axes.axhline(0, **ZERO)
+    axes.margins(x=0)
+    axes.set_ylim(0, 1.35 * max(accelerations))
+    axes.set(xlabel="displacement d [m]", ylabel="acceleration a [m/s²]", title="capacity curve")
+    axes.legend(loc="upper right")
+
+
+@styled
+def _selection_figure(selection: Selection) -> Figure:
+    figure = new_figure(80.0)
+    plot(selection, figure.subplots())
+    return figure

@@ -1,0 +1,84 @@
+"""The checks of every structure of a study at its design level: their table, and the page of each."""
+
+import math
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+from rocking.assessment.dynamic_check import StructureCheck, check
+from rocking.assessment.rows.of_check import KINDS, CodeCheckRow, code_check_rows
+from rocking.assessment.rows.of_record import VerdictRow
+from rocking.errors import ConfigurationError, RockingError
+from rocking.records import load_catalogue
+from rocking.records.selection import Selection
+from rocking.reports.structures import CheckedStructure, structures_report
+from rocking.study.job import Study
+from rocking.study.selection import pool_of, select_for
+from rocking.tables import read_table, write_tables, write_whole
+
+
+def write_checks(study: Study, folder: Path, tell: Callable[[str], None] = lambda _: None) -> None:
+    """Write code_checks.csv and structures.pdf of `study` into `folder`, where its verdicts lie.
+
+    A structure that cannot be checked costs no other, and without sets of records the dynamic check alone is left out;
+    both are said. tell: takes a line for each structure. Raises ConfigurationError where there is no design level.
+    """
+    design = study.settings.design_spectrum
+    spectrum = design.spectrum()
+    if spectrum is None:
+        raise ConfigurationError(
+            "setting design_spectrum.ag_g is null, and so is points, but checks need a design level; give one."
+        )
+    selection, notices = _sets(study)
+    verdicts = read_table(VerdictRow, folder)
+    pages = []
+    for name, structure in study.structures.items():
+        checked: StructureCheck | None = None
+        refusal = ""
+        try:
+            checked = check(
+                structure,
+                spectrum,
+                limit_state=design.limit_state,
+                confidence_factor=design.confidence_factor,
+                behaviour_factor=design.behaviour_factor,
+                support=structure.standing.support if structure.standing else None,
+                records=selection,
+            )
+        except RockingError as error:
+            refusal = f"It could not be checked: {error}"
+        shares = [each.overturning_share for each in verdicts if each.structure == name]
+        known = [share for share in shares if not math.isnan(share)]
+        page = CheckedStructure(
+            name=name,
+            structure=structure,
+            checked=checked,
+            refusal=refusal,
+            overturning_share=sum(known) / len(known) if known else math.nan,
+            stations=len(known),
+        )
+        pages.append(page)
+        tell(f"{name}: {refusal or _told(checked)}")
+    rows: Iterable[CodeCheckRow] = (
+        row for page in pages if page.checked for row in code_check_rows(page.name, page.checked)
+    )
+    write_tables({CodeCheckRow: rows}, folder, "rocking-code-checks", "code_checks.json")
+    report = structures_report(pages, spectrum, study.settings.mapping(), selection, notices)
+    write_whole(folder / "structures.pdf", report)
+
+
+def _told(checked: StructureCheck | None) -> str:
+    """The checks in a line."""
+    checks = checked.checks if checked else ()
+    return ", ".join(
+        f"{KINDS[each.clause]} {'met' if each.passed else 'not met'} ({each.ratio:.3g})" for each in checks
+    )
+
+
+def _sets(study: Study) -> tuple[Selection | None, list[str]]:
+    """The sets of records for the dynamic check, and what there is to say of them."""
+    try:
+        selection, reasons = select_for(study, load_catalogue(pool_of(study.settings)))
+    except RockingError as error:
+        return None, [f"The dynamic check was not made: {error}"]
+    names = ", ".join(reasons)
+    return selection, [f"Not used for the sets, as they could not be read: {names}."] if reasons else []

@@ -1,0 +1,150 @@
+"""The table of checks and the pages to sign: one of each structure, findings with both figures, and what is refused."""
+
+import csv
+from types import SimpleNamespace
+
+import pytest
+
+from rocking import Block, DesignSpectrum, Facade, check
+from rocking.assessment.dynamic_check import DynamicCheck
+from rocking.assessment.rows.of_check import CodeCheckRow, disagreement
+from rocking.assessment.rows.of_record import VerdictRow
+from rocking.errors import ConfigurationError
+from rocking.reports.structures import share_interval, structures_data
+from rocking.study.checks import write_checks
+from rocking.study.job import Study
+from rocking.study.settings import read_settings
+from rocking.tables import read_table, write_tables
+from tests.made_pools import made_pool
+
+DESIGN = {
+    "ag_g": 0.2,
+    "f0": 2.5,
+    "tc_star_s": 0.4,
+    "stations": 3,
+    "shortest_period_s": 0.6,
+    "longest_period_s": 0.9,
+}
+STRUCTURES = {
+    "parapet": Block.of_size(0.45, 3.0),
+    "front": Facade((3.5, 3.0), (0.6, 0.5), 20e3, floor_loads=(12e3, 6e3)),
+}
+
+
+@pytest.fixture
+def study(tmp_path):
+    rows = []
+    for name, (first, _) in made_pool(12).items():
+        lines = [f"{t:.2f} {a:.9f}" for t, a in zip(first.times, first.acceleration, strict=True)]
+        (tmp_path / f"{name}.txt").write_text("\n".join(lines) + "\n")
+        rows.append({"id": name, "file": f"{name}.txt", "unit": "m/s2", "station": name})
+    with (tmp_path / "catalogue.csv").open("w", newline="") as stream:
+        writer = csv.DictWriter(stream, list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
+    write_tables({VerdictRow: []}, tmp_path)
+    settings = {"catalogue": str(tmp_path / "catalogue.csv"), "processing": {"apply": "never"}}
+    return settings, tmp_path
+
+
+def test_every_structure_has_its_checks_and_its_page(study):
+    settings, folder = study
+    told = []
+    write_checks(
+        Study(STRUCTURES, read_settings(settings | {"design_spectrum": DESIGN})), folder, told.append
+    )
+    rows = read_table(CodeCheckRow, folder)
+    assert [(each.structure, each.check) for each in rows] == [
+        (name, kind) for name in STRUCTURES for kind in ("linear", "nonlinear", "dynamic")
+    ]
+    spectrum = read_settings({"design_spectrum": DESIGN}).design_spectrum.spectrum()
+    for each in rows[:2]:
+        alone = getattr(check(STRUCTURES["parapet"], spectrum), each.check)
+        assert each.level_capacity_m_s2 == alone.capacity and each.ratio == alone.ratio
+        assert each.passed == alone.passed and each.clause == alone.clause
+    assert (folder / "structures.pdf").read_bytes().startswith(b"%PDF")
+    assert len(told) == 2 and told[0].startswith("parapet: linear")
+
+
+def test_without_sets_the_formulas_stand_and_the_page_says_so(study):
+    settings, folder = study
+    write_checks(
+        Study(STRUCTURES, read_settings(settings | {"design_spectrum": DESIGN | {"stations": 40}})), folder
+    )
+    assert {each.check for each in read_table(CodeCheckRow, folder)} == {"linear", "nonlinear"}
+
+
+def test_checks_without_a_design_level_are_refused(study):
+    settings, folder = study
+    with pytest.raises(ConfigurationError, match="checks need a design level"):
+        write_checks(Study(STRUCTURES, read_settings(settings)), folder)
+
+
+def test_a_structure_that_cannot_be_checked_costs_no_other(study):
+    settings, folder = study
+    points = folder / "site.csv"
+    points.write_text("period_s,acceleration_g\n0,0.2\n0.5,0.5\n1.0,0.2\n")
+    design = {"points": str(points), "stations": 40}
+    structures = {"slender": Block.of_size(0.4, 6.0), "stout": Block.of_size(0.4, 0.5)}
+    told = []
+    write_checks(
+        Study(structures, read_settings(settings | {"design_spectrum": design})), folder, told.append
+    )
+    assert "the spectrum ends at 1 s" in told[0]
+    assert {each.structure for each in read_table(CodeCheckRow, folder)} == {"stout"}
+
+
+def found(passed, exceeding=0):
+    return DynamicCheck(
+        clause="C8.7.1.2.1.9", limit_state="SLV", capacity=0.1, demand=0.05 if passed else 0.2, mechanism="as given",
+        unit="m", refusal="" if passed else "not met", exceeding=exceeding, motions=40, sets=200,
+        share=1.0 if passed else 0.1, interval=(0.0, 1.0),
+    )  # fmt: skip
+
+
+def test_formulas_and_dynamics_that_disagree_are_told_with_both_figures():
+    spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
+    formulas = check(Block.of_size(0.6, 2.0), spectrum)
+
+    def said(dynamic, share=0.0, checked=formulas):
+        checks = tuple(each for each in (checked.linear, checked.nonlinear, dynamic) if each)
+        return disagreement(SimpleNamespace(dynamic=dynamic, checks=checks), share, 20)
+
+    ratio = f"{formulas.linear.ratio:.3g}"
+    assert said(found(True)) == said(None) == ""
+    assert f"linear check is met with a ratio of {ratio}, but the dynamic check is not" in said(
+        found(False, 3)
+    )
+    assert "3 of 40 motions" in said(found(False, 3)) and "10 % meet it" in said(found(False, 3))
+    assert "0.2 m where 0.1 m are allowed" in said(found(False))
+    assert "overturns with a share of 25 %" in said(None, 0.25)
+    weak = check(Block.of_size(0.1, 2.0), spectrum)
+    assert "is not met with a ratio of" in said(found(True), checked=weak)
+    assert "but the dynamic check is with one of 2" in said(found(True), checked=weak)
+
+
+def test_the_interval_of_a_share_is_that_of_wilson():
+    """Of 20 records 3: (.0583, .3331) at 90 %, by the quadratic (p − .15)² = 1.645² p(1 − p)/20, solved apart."""
+    import numpy as np
+
+    squared = 1.645**2 / 20
+    low, high = sorted(np.roots([1 + squared, -(0.3 + squared), 0.0225]))
+    assert share_interval(0.15, 20) == pytest.approx((low, high), rel=1e-12)
+    assert share_interval(0.0, 20)[0] == 0 and share_interval(1.0, 20)[1] == 1
+
+
+def test_the_page_names_the_client_and_what_the_checks_rest_on():
+    from rocking.reports.structures import CheckedStructure
+
+    spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
+    checked = check(STRUCTURES["parapet"], spectrum)
+    page = CheckedStructure(
+        name="parapet", structure=STRUCTURES["parapet"], checked=checked, overturning_share=0.5, stations=4
+    )
+    settings = {"client": "The town", "tolerance": 1e-6, "acceleration_scale": "rest"}
+    data = structures_data([page], spectrum, settings)
+    assert data["about"]["client"] == "The town"
+    (text,) = data["pages"]
+    assert "50 %" in text["share"] and text["figure"][0]["svg"].startswith("<?xml")
+    assert f"T_SLV = {checked.limit.period:.3g}" in " ".join(text["sentences"])
+    assert [line[0] for line in text["checks"]["rows"]] == ["linear", "nonlinear"]
