@@ -23,6 +23,7 @@ from rocking.assessment.rows.of_study import StructureRow, structure_rows
 from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Verdict, agreement
 from rocking.pulses import Flag
 from rocking.quantities import GRAVITY, counted
+from rocking.records.dates import day_of
 from rocking.reports import printing
 from rocking.reports import record_figures as figures
 from rocking.reports.document import compile_document
@@ -302,12 +303,19 @@ def _subtitle(rows: Sequence[RecordRow]) -> str:
     distances = [row.epicentral_distance_m / 1000 for row in rows if row.epicentral_distance_m]
     parts = {
         "{}": (row.event for row in rows),
+        "on {}": (day_of(row.event_time) for row in rows if day_of(row.event_time) not in row.event),
         "station {}": (row.station for row in rows),
-        "magnitude {}": (plain(row.magnitude) for row in rows if row.magnitude),
+        "magnitude {}": (_magnitude(row) for row in rows if row.magnitude),
         "{} km from the epicentre": map(plain, distances),
     }
     texts = [text.format(each) for text, many in parts.items() if (each := _unique(many))]
     return " · ".join(texts) or "The file names no event and no station."
+
+
+def _magnitude(row: RecordRow) -> str:
+    """Return the magnitude of the earthquake on its scale, as far as the file states one: 6.5 (Mw)."""
+    scale = f" ({row.magnitude_type})" if row.magnitude_type else ""
+    return f"{plain(row.magnitude)}{scale}"
 
 
 def _key_numbers(row: RecordRow) -> str:

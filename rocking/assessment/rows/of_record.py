@@ -104,7 +104,9 @@ class RecordRow(ComponentRow):
     magnitude: float | None = column("Magnitude of the earthquake; empty where nothing states it")
     epicentral_distance_m: float | None = column("Distance to the epicentre; empty where nothing states it")
     magnitude_type: str = column("Scale of the magnitude; empty where nothing states it")
-    event_time: str = column("Time or date of the earthquake, as the file prints it")
+    event_time: str = column(
+        "Date of the earthquake, and its time as far as the file says it, ISO 8601 in the zone of the file"
+    )
     station: str = column("Recording station")
     station_latitude_deg: float | None = column("Latitude of the station, north")
     station_longitude_deg: float | None = column("Longitude of the station, east")
