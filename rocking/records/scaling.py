@@ -17,6 +17,11 @@ from rocking.records.processing import velocity
 
 FORM = "a measure, pga or pgv, a number and its unit, as in pga 0.35 g or pgv 50 cm/s"
 _SPELLING = re.compile(r"(pga|pgv)\s+([-+.,\d]+(?:e[-+]?\d+)?|nan|inf)\s*([a-z].*)", re.I)
+LARGEST_FACTOR = 10.0
+"""Factor up to which a record may be scaled without a word, as for fragility."""
+_OTHER_MOTION = (
+    "a motion so far from that strength has another duration and other periods; choose another record"
+)
 _SPEEDS = {"m/s": 1.0, "cm/s": 0.01}
 """Factor from each unit of velocity to m/s."""
 
@@ -85,8 +90,15 @@ def scaled_to(
         f"ones is {target.text.split(' ', 1)[1]}."
     )
 
+    is_far = not 1 / LARGEST_FACTOR <= factor <= LARGEST_FACTOR
+    doubt = (
+        (f"Scaled by {factor:.3g}, beyond a factor of {LARGEST_FACTOR:g}: {_OTHER_MOTION}.",)
+        if is_far
+        else ()
+    )
+
     def enlarged(record: Accelerogram) -> Accelerogram:
-        larger = scaled(record, factor)
+        larger = scaled(record, factor).warned(*doubt)
         return replace(larger, processing=(*larger.processing, sentence))
 
     return [enlarged(record) for record in horizontal], None if vertical is None else enlarged(vertical)

@@ -269,10 +269,10 @@ def _notices(report: RecordReport) -> list[Notice]:
         notices.append(Notice(still, strong=False))
     scaled = [row for row in tables.record if row.scale_factor != 1]
     if scaled:
-        factors = "; ".join(
-            f"component {words(row.component)}: ×\u00a0{plain(row.scale_factor)}" for row in scaled
+        factors = _unique(plain(row.scale_factor) for row in tables.record) or "; ".join(
+            f"component {words(row.component)}: {plain(row.scale_factor)}" for row in scaled
         )
-        text = f"Not the recorded amplitude. The file was multiplied by a declared factor ({factors})."
+        text = f"Not the recorded amplitude. The file was multiplied by a declared factor (×\u00a0{factors})."
         notices.append(Notice(text))
     if not tables.comparison:
         notices.append(Notice("No structure could be assessed under this record."))

@@ -83,6 +83,12 @@ def test_a_study_scales_the_motion_that_acts(record: CatalogueRecord, apply: str
     assert Study({}, Settings()).open(record)[0][0].scale_factor == 1
 
 
+def test_a_factor_beyond_ten_is_told(record: CatalogueRecord) -> None:
+    for text, is_told in (("pga 1.7 g", False), ("pga 1.9 g", True), ("pga 0.01 g", True)):
+        (north, _) = open_station(replace(record, scale_to=text)).horizontal
+        assert any("beyond a factor of 10" in warning for warning in north.warnings) == is_told, text
+
+
 def test_a_velocity_is_reached(record: CatalogueRecord) -> None:
     station = open_station(replace(record, scale_to="pgv 30 cm/s"))
     assert max(each.measures.peak_velocity for each in station.horizontal) == pytest.approx(0.3, rel=1e-9)
