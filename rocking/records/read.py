@@ -134,7 +134,7 @@ def recognise(content: bytes) -> Format:
     words = head.decode("latin-1").splitlines()[0].strip()
     raise UnknownFormatError(
         f"no reader recognises this file, which begins with {(words if words.isprintable() else head[:8])!r}; "
-        "rocking read --details says why; for what obspy alone reads: rocking.from_obspy(obspy.read(path), unit=...).",
+        "rocking read --details says why. Or: rocking.from_obspy(obspy.read(path), unit=...).",
         details=tuple(f"{form.name}: no {form.signature}" for form in FORMATS),
     )
 
