@@ -753,8 +753,8 @@ def assess(
 
     record: one accelerogram, or both horizontal components, which then make one ensemble over eight directions; or an
     obspy Stream or Trace, as Accelerogram.from_obspy reads it with `unit` and `inventory`, whose vertical component
-    acts too. members: of the ensemble, by default those of the settings. vertical: sample by sample as the record; half of
-    the members feel it.
+    acts too. members: of the ensemble, by default those of the settings. vertical: sample by sample as the record; half
+    of the members feel it.
     Raises ConfigurationError for no record or more than two, RockingError where it cannot be followed.
 
     >>> pulse = rocking.Pulse(amplitude=3.0, circular_frequency=8.0, start_time=0.5)
