@@ -4,7 +4,7 @@ x = 0 is the outer face, x < 0 the building; the positive side rocks outwards ab
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Annotated, ClassVar
@@ -32,6 +32,8 @@ from rocking.structures.structure import free_to_both_sides
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity, check_inside
 
 _MOST_STOREYS = 50
+_SAME = 1e-6
+"""Share of the height within which a joint is the foot of a storey."""
 _SIZES = {"gt": 0, "le": 1000}
 
 
@@ -45,8 +47,9 @@ class Facade(Tied):
     mass, so that only their weight acts. top_slab: the uppermost load rests on a "hinged" bearing, or is a slab that
     stays "flat" and so rests on the corner that rises.
     thrust: of a vault or a roof outwards, N/m, at thrust_height above the ground, m; None is the top. crack_storey: 1
-    is the ground floor. restitution: η in [0, 1] or "momentum" (the default), for both sides; inward_restitution: of
-    the inward side instead. Ties and one_sided: as `Tied`.
+    is the ground floor. crack_height: above the ground, m, of a crack at another joint than the foot of a storey. Where
+    neither is given it may open at any joint. restitution: η in [0, 1] or "momentum" (the default), for both sides;
+    inward_restitution: of the inward side instead. Ties and one_sided: as `Tied`.
     Raises StructureError when it cannot stand.
 
     >>> rocking.Facade((3.5, 3.0), (0.6, 0.5), unit_weight=20e3, restitution=0.8).mechanism().positive
@@ -92,6 +95,12 @@ class Facade(Tied):
         int,
         Value("Storey at whose foot it cracks; 1 is the ground floor", 1, usual=(1, 12), bounds={"ge": 1}),
     ] = 1
+    crack_height: Annotated[
+        float | None,
+        Value(
+            "Height of the crack above the ground, where it is no foot of a storey", 1.2, "m", (0, 60), "z"
+        ),
+    ] = field(default=None, kw_only=True)
     restitution: Annotated[Restitution, restitution_value("momentum")] = None
     inward_restitution: Annotated[
         float | None,
@@ -125,6 +134,16 @@ class Facade(Tied):
         object.__setattr__(self, "crack_storey", whole("crack_storey", self.crack_storey, 1, len(heights)))
         if self.thrust_height is not None:
             check_inside("thrust_height", self.thrust_height, self.height)
+        if self.crack_height is not None and self.crack_storey > 1:
+            raise StructureError(
+                f"crack_height is {self.crack_height!r} m and crack_storey {self.crack_storey}, but one crack is "
+                "meant; give one of them."
+            )
+        if self.crack_height is not None and not self.crack_height < self.height:
+            raise StructureError(
+                f"crack_height is {self.crack_height!r} m, but must lie on the façade, from 0 to below its height of "
+                f"{self.height:.6g} m."
+            )
 
     @property
     def height(self) -> float:
@@ -133,8 +152,8 @@ class Facade(Tied):
 
     @property
     def crack_position(self) -> float:
-        """Height of the crack, m."""
-        return self.crack_height
+        """Height of the crack above the ground, m."""
+        return float(self.levels[self.crack_storey - 1]) if self.crack_height is None else self.crack_height
 
     @property
     def total_height(self) -> float:
@@ -143,12 +162,12 @@ class Facade(Tied):
 
     @property
     def _place_is_given(self) -> bool:
-        return self.crack_storey > 1
+        return self.crack_storey > 1 or self.crack_height is not None
 
-    @property
-    def crack_height(self) -> float:
-        """Of the crack above the ground, m."""
-        return float(sum(self.storey_heights[: self.crack_storey - 1]))
+    @cached_property
+    def _lowest_storey(self) -> int:
+        """The storey, from 0, in which it cracks or at whose foot: the lowest one of which something moves."""
+        return int(np.searchsorted(self.levels[1:], self.crack_position, side="right"))
 
     @cached_property
     def levels(self) -> np.ndarray:
@@ -162,13 +181,15 @@ class Facade(Tied):
 
     def _linkage(self, mirrored: bool) -> Turning:
         """The storeys above the crack about their outer toe, or in the mirror about the inner one."""
-        base, outwards = self.crack_storey - 1, -1.0 if mirrored else 1.0
-        heights, thicknesses = np.array(self.storey_heights)[base:], np.array(self.thicknesses)[base:]
+        base, outwards = self._lowest_storey, -1.0 if mirrored else 1.0
+        thicknesses = np.array(self.thicknesses)[base:]
+        feet = np.maximum(self.levels[base:-1], self.crack_position)
+        heights = self.levels[base + 1 :] - feet
         weights = self.unit_weight * heights * thicknesses
         return Turning(
-            complex(thicknesses[0] if mirrored else 0.0, self.crack_height),
+            complex(thicknesses[0] if mirrored else 0.0, self.crack_position),
             weights,
-            -outwards * thicknesses / 2 + 1j * (self.levels[base:-1] + heights / 2),
+            -outwards * thicknesses / 2 + 1j * (feet + heights / 2),
             weights * (heights**2 + thicknesses**2) / 12,
             self._hung(mirrored),
         )
@@ -182,7 +203,7 @@ class Facade(Tied):
         outwards = -1.0 if mirrored else 1.0
         hung, last = [], len(self.floor_loads) - 1
         for storey, load in enumerate(self.floor_loads):
-            if storey < self.crack_storey - 1 or not load:
+            if storey < self._lowest_storey or not load:
                 continue
             across = -self.thicknesses[storey] / 2 - self.eccentricity
             if storey == last and self.top_slab == "flat":
@@ -191,10 +212,10 @@ class Facade(Tied):
             hung.append(self._load(bearing, 0, load, self.loads_held))
         if self.thrust:
             height = self.height if self.thrust_height is None else self.thrust_height
-            part = 0 if height > self.crack_height else STILL
+            part = 0 if height > self.crack_position else STILL
             hung.append(Hung("thrust", 1j * height, part, complex(outwards * self.thrust)))
         for height in self.tie_heights:
-            part = 0 if height > self.crack_height else STILL
+            part = 0 if height > self.crack_position else STILL
             hung.append(Hung("tie", 1j * height, part, tie=None if mirrored else self._tie))
         return hung
 
@@ -202,9 +223,10 @@ class Facade(Tied):
         """Return all above the crack as one body where it is known, else courses that end at the feet of storeys."""
         free_to_both_sides(self)
         whole_body = courses is None and self.crack == "known"
-        body = list(self._storey_courses(1 if whole_body else counted_courses(courses)))
         if whole_body:
-            body = [joined(body[self.crack_storey - 1 :])]
+            body = [joined(list(self._storey_courses(1, self.crack_position)))]
+        else:
+            body = list(self._storey_courses(counted_courses(courses)))
         held: list[Held] = []
         slabs: tuple[Course, ...] = ()
         foot, last = body[0].base, len(self.floor_loads) - 1
@@ -238,38 +260,51 @@ class Facade(Tied):
             )
         return slab(-thickness, 0.0, self.height, load, upright=True)
 
-    def _storey_courses(self, courses: int) -> tuple[Course, ...]:
-        """Each storey in about as many courses as its share of the height asks, at least `courses` in all."""
+    def _storey_courses(self, courses: int, foot: float = 0.0) -> tuple[Course, ...]:
+        """What stands above `foot` [m], each storey in as many courses as its share of the height asks, or one more."""
         made: list[Course] = []
-        for storey, (height, thickness) in enumerate(zip(self.storey_heights, self.thicknesses, strict=True)):
+        for (low, high), thickness in zip(pairwise(self.levels), self.thicknesses, strict=True):
+            if high <= foot:
+                continue
+            height = high - max(low, foot)
             number = max(1, math.ceil(courses * height / self.height - 1e-9))
-            levels = self.levels[storey] + np.linspace(0.0, height, number + 1)
+            levels = max(low, foot) + np.linspace(0.0, height, number + 1)
             faces = [(-thickness, 0.0)] * (number + 1)
             made += courses_between(levels, faces, self.unit_weight / GRAVITY, [1.0] * number)
         return tuple(made)
 
-    @property
-    def joints(self) -> np.ndarray:
-        """The foot of every storey."""
-        return self.levels[:-1]
+    def _places(self, count: int) -> list[float]:
+        """Joints over the height, and the foot of every storey, where its thickness may change."""
+        feet = self.levels[:-1]
+        within = [
+            place for place in super()._places(count) if np.abs(feet - place).min() > _SAME * self.height
+        ]
+        return [*within, *feet.tolist()]
 
     def cracked_at(self, height: float) -> "Facade":
-        """Return this façade cracked at the foot of the storey nearest to `height` [m]."""
-        return replace(self, crack_storey=int(np.argmin(np.abs(self.joints - height))) + 1)
+        """Return this façade cracked at `height` [m] above the ground."""
+        foot = np.flatnonzero(self.levels[:-1] == height)
+        if foot.size:
+            return replace(self, crack_storey=int(foot[0]) + 1, crack_height=None)
+        return replace(self, crack_storey=1, crack_height=height)
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
-        return [
-            (0 if storey >= self.crack_storey - 1 else STILL, rectangle(-thickness, 0.0, *ends))
-            for storey, (thickness, ends) in enumerate(
-                zip(self.thicknesses, pairwise(self.levels), strict=True)
-            )
-        ]
+        parts = []
+        for (low, high), thickness in zip(pairwise(self.levels), self.thicknesses, strict=True):
+            crack = min(max(self.crack_position, low), high)
+            for part, foot, top in ((STILL, low, crack), (0, crack, high)):
+                if foot < top:
+                    parts.append((part, rectangle(-thickness, 0.0, foot, top)))
+        return parts
 
     def _dimensions(self) -> dict[str, list[Path]]:
         levels = self.levels
         apart = [0.12 * self.height, 0.0]
         middles = zip(self.thicknesses, (levels[1:] + levels[:-1]) / 2, strict=True)
-        return {
+        paths: dict[str, list[Path]] = {
             "storey_heights": [span([0.0, low], [0.0, high], apart) for low, high in pairwise(levels)],
             "thicknesses": [span([-thickness, z], [0.0, z]) for thickness, z in middles],
         }
+        if self.crack_height:
+            paths["crack_height"] = [span([0.0, 0.0], [0.0, self.crack_height], [0.06 * self.height, 0.0])]
+        return paths

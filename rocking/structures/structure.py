@@ -144,8 +144,8 @@ class Structure(metaclass=PlainlyMade):
                 each.in_si(values[each.name])
 
     def __repr__(self) -> str:
-        """What it was described by, and what is unusual about it."""
-        return " ".join([f"{type(self).__name__}({self.description})", *self.remarks])
+        """What it was described by, and the first of what is unusual about it."""
+        return " ".join([f"{type(self).__name__}({self.description})", *self.remarks[:1]])
 
     def mechanism(self) -> Mechanism:
         """Return the structure in standard form; the same object at every call."""
@@ -556,10 +556,10 @@ class CrackedAtHeight(Crackable):
     def _in_words(self, height: float) -> str:
         return f"{self.crack_name} at {height:.4g} m"
 
-    @property
-    def joints(self) -> np.ndarray | None:
-        """The heights above the base [m] at which alone it may open; None: between the shares of its height."""
-        return None
+    def _places(self, count: int) -> list[float]:
+        """The heights above the base [m] at which it may open, `count` over its height at least."""
+        shares = np.linspace(self.lowest_crack, HIGHEST_SHARE, count)
+        return [float(each) for each in self.total_height * shares]
 
     def _may_form(self, count: int) -> tuple[Candidate, ...]:
         """Each has its own momentum balance where no restitution is given.
@@ -567,17 +567,13 @@ class CrackedAtHeight(Crackable):
         Where λ has its least value between two of the heights, the height of that is one more. A crack at which what
         holds the structure leaves no mechanism is left out.
         """
-        joints = self.joints
-        places = joints
-        if places is None:
-            places = self.total_height * np.linspace(self.lowest_crack, HIGHEST_SHARE, count)
-        heights = sorted({*map(float, places), float(self.crack_position)})
+        heights = sorted({*self._places(count), float(self.crack_position)})
         cracked = [each for each in map(self._candidate, heights) if each]
         # of equal multipliers, as all along a solid spire, the lowest crack
         order = np.argsort([float(f"{each.multiplier:.9g}") for each in cracked], kind="stable")
         ranked = [cracked[place] for place in order]
         least = int(order[0])
-        if 0 < least < len(cracked) - 1 and joints is None:
+        if 0 < least < len(cracked) - 1:
             weakest = self._weakest_between(cracked[least - 1].position, cracked[least + 1].position)
             if weakest and weakest.multiplier < (1 - 1e-5) * ranked[0].multiplier:
                 ranked.insert(0, weakest)

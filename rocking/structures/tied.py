@@ -29,8 +29,8 @@ TopSlab = Annotated[
 ]
 
 
-_LEAST_STIFFNESS = 1e-3
-"""Of a tie that holds anything, N/m²: a millionth of a newton per metre of wall and millimetre."""
+_LEAST_STIFFNESS = 1e-12
+"""Of a tie, N/m²: of less the rotation at which it yields is no number any more."""
 
 
 def check_eccentricity(value: float, thickness: float) -> None:

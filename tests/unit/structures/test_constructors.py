@@ -18,7 +18,7 @@ TIED = {"tie_heights": (1.6,), "tie_strength": 4e3}
         (rocking.Block, "it takes semi_diagonal, slenderness, .*or use Block.of_size\\(breadth: float"),
         (lambda: rocking.Wall(height=3), "it takes lower_height, upper_height, thickness"),
         (lambda: rocking.Frame(1, 2, 3, 4, 5, 6, 7, 8), "too many positional arguments"),
-        (lambda: rocking.LoadedWall(1.6, 1.6, 0.25, 20e3, tie_stiffness=5e-324, **TIED), "at least 0.001"),
+        (lambda: rocking.LoadedWall(1.6, 1.6, 0.25, 20e3, tie_stiffness=5e-324, **TIED), "at least 1e-12"),
         (lambda: rocking.LoadedWall(1.6, 1.6, 0.25, 20e3, tie_stiffness=1e308, **TIED), "from 0 to 1e"),
         (lambda: rocking.Facade((3.5,), (0.6,), 1e308), "unit_weight is 1e.305 kN/m³"),
         (lambda: rocking.structure_from_config({"type": "x" * 3_000_000}), "3000002 characters"),

@@ -59,3 +59,31 @@ def test_a_structure_says_to_which_side_it_falls():
     tied = LoadedWall(1.6, 1.6, 0.25, 20e3, tie_strength=4e3, **ties)
     assert facade.side_names == tied.side_names == ("outwards", "inwards")
     assert Wall(1.6, 1.6, 0.25).side_names == Block(2.0, 0.2).side_names == ("to the right", "to the left")
+
+
+def test_a_facade_cracked_within_a_storey_is_the_facade_that_stands_above_the_crack():
+    """Whatever holds it, all heights taken from the crack; in the mirror too, and as a stack of courses."""
+    held = {"floor_loads": (12e3, 6e3), "thrust": 1e3, "eccentricity": 0.1}
+    held |= {"tie_stiffness": 5e4, "tie_strength": 4e3}
+    whole = Facade((3.5, 3.0), (0.6, 0.5), 20e3, **held, tie_heights=(3.4,), crack_height=1.2, crack="known")
+    above = Facade((2.3, 3.0), (0.6, 0.5), 20e3, **held, tie_heights=(2.2,), crack="known")
+    rotations = np.linspace(0.0, 0.2, 41)
+    for one, other in zip(whole.linkages, above.linkages, strict=True):
+        for name in ("inertia", "gravity", "gravity_slope", "ground"):
+            assert getattr(one, name)(rotations) == pytest.approx(getattr(other, name)(rotations), rel=1e-12)
+    assert whole.mechanism().restitution == pytest.approx(above.mechanism().restitution, rel=1e-12)
+    (course,), (same,) = whole.stack().courses, above.stack().courses
+    assert (course.mass, course.inertia) == pytest.approx((same.mass, same.inertia), rel=1e-12)
+    assert whole.outline()[0][:, 1].max() == whole.outline()[1][:, 1].min() == 1.2
+
+
+def test_a_facade_may_open_at_the_foot_of_every_storey_and_between():
+    facade = Facade((3.5, 3.0), (0.6, 0.2), 20e3)
+    places = sorted(each.position for each in facade.candidates(11))
+    assert {0.0, 3.5} <= set(places)
+    assert np.diff(places).max() <= 0.0951 * 6.5 and max(places) == pytest.approx(0.95 * 6.5)
+    assert {each.structure.crack_position for each in facade.candidates(11)} == set(places)
+    weakest = facade.candidates(11)[0]
+    assert (weakest.position, weakest.structure.crack_storey) == (3.5, 2)
+    given = Facade((3.5, 3.0), (0.6, 0.2), 20e3, crack_height=1.0)
+    assert given.crack_is_given and given.candidates(11)[0].position == 1.0

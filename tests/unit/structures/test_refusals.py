@@ -53,6 +53,11 @@ def facade(**changes):
         (lambda: facade(thrust=1e6), "does not stand: what acts on it at rest turns it over"),
         (lambda: facade(thrust_height=12.0), "thrust_height is 12.0 m, but must lie on the wall"),
         (lambda: facade(crack_storey=4), "crack_storey is 4, but must be a whole number from 1 to 3"),
+        (lambda: facade(crack_storey=2, crack_height=1.0), "one crack is meant; give one of them"),
+        (
+            lambda: facade(crack_height=9.0),
+            "crack_height is 9.0 m, but must lie on the façade, from 0 to below",
+        ),
         (lambda: LoadedWall(2.0, -1.4, 0.3, 19e3), "upper_height is -1.4 m"),
         (
             lambda: LoadedWall(1.9, 1.3, 0.25, 20e3, tie_heights=(1.6,), tie_stiffness=1e9),
