@@ -13,6 +13,7 @@ from functools import cached_property
 from rocking.assessment.component import Component, component_names
 from rocking.assessment.contacts import ContactShare
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
+from rocking.assessment.deciding import decided_by
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer, Estimate
 from rocking.assessment.ground_motions import GroundMotions
@@ -297,7 +298,8 @@ class StationResult(Judgement):
         assert self.worst is not None
         assert self.worst.answer is not None
         if self.ensembles is not None:
-            return self.ensembles.verdict, self.ensembles.why
+            words = [self.ensembles.why, *([self.decided_by] if self.decided_by else [])]
+            return self.ensembles.verdict, "; ".join(words)
         why = self.worst.answer.reason or "one run as recorded, without an ensemble"
         if self.worst.overturns:
             return Verdict.OVERTURNS, why
@@ -305,6 +307,13 @@ class StationResult(Judgement):
             crack = self._fallen_crack
             return Verdict.UNDECIDED, f"one run as recorded stands, and with the {crack} it overturns"
         return Verdict.STANDS, why
+
+    @property
+    def decided_by(self) -> str:
+        """The input that decides an undecided case, in words with its share; "" of another."""
+        if self.ensembles is None or self.ensembles.verdict is not Verdict.UNDECIDED:
+            return ""
+        return decided_by(self.ensembles)
 
     def _with_contacts(self, decided: Verdict, why: str) -> tuple[Verdict, str]:
         """What becomes of a verdict where contacts open or courses are thrown, and where contact dynamics was asked."""

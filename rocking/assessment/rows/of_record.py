@@ -244,6 +244,7 @@ class VerdictRow(MembersRow, Judgement):
     reserve_median: float = column("Factor on the record at which half of the members overturn; empty: none")
     reserve_high: float = column("Factor on the record at which 95 % of the members overturn; empty: none")
     reserve_limit: float = column("Largest factor on the record that was tried; empty without a reserve")
+    decided_by: str = column("What decides an undecided case, with its share of the variance")
     why: str = column("Reason for the verdict")
     stack_falls: int | None = column("Stacks of courses that fall in contact dynamics; empty: not asked")
     stack_runs: int | None = column("Stacks that were followed, over amplitudes, time steps and directions")
@@ -519,6 +520,7 @@ def verdict_row(identity: ComponentRow, station: "StationResult") -> VerdictRow:
         reserve_median=reserve.median if reserve else math.nan,
         reserve_high=reserve.high if reserve else math.nan,
         reserve_limit=reserve.limit if reserve else math.nan,
+        decided_by=station.decided_by,
         why=station.why,
         stack_falls=station.stack_falls,
         stack_runs=station.stack_runs,

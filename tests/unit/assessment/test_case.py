@@ -31,7 +31,7 @@ def test_the_ensemble_over_all_directions_decides_before_those_of_the_components
     assert (result.verdict, result.component) == (Verdict.OVERTURNS, "NS")
     result = station(*alone, falls_in_directions=32)
     assert (result.verdict, result.component, result.count) == (Verdict.UNDECIDED, "both", "32 of 64")
-    assert result.why == "32 of 64 members overturn"
+    assert result.why == "32 of 64 members overturn; nothing decides by itself"
     assert math.isinf(result.rotation_ratio), "of the worst component as recorded"
 
 
@@ -68,7 +68,8 @@ def test_the_worst_crack_gives_every_number_and_statics_stands_beside_it():
     assert math.isinf(result.rotation_ratio_high) and result.severity[1] == 40 / 64
     assert (result.statics_crack, result.statics_overturning_members) == ("crack at 3.0 m", 0)
     why = "the cracks disagree: 40 of 64 members overturn with the crack at 8.5 m, 0 of 64 with the crack at 3.0 m"
-    assert result.why == f"{why} of statics"
+    assert result.why == f"{why} of statics; {result.decided_by}"
+    assert result.decided_by.startswith("nothing decides by itself, most which crack opens (")
     (row,) = verdicts([result])
     assert (row.crack, row.overturning_members, row.statics_members) == ("crack at 8.5 m", 40, 64)
 
