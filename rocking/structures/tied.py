@@ -77,7 +77,7 @@ class Tied(CrackedAtHeight):
             "kN/m",
             (1, 500),
             "F",
-            bounds={"ge": 1e-6},
+            bounds={"gt": 0, "le": 1e30},
         ),
     ] = field(default=None, kw_only=True)
     tie_plastic_elongation: Annotated[
