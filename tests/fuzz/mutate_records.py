@@ -1,12 +1,12 @@
 """Mutated records: which damage a reader lets pass without a word, by format and kind.
 
-    python tests/fuzz/mutate_records.py [--mutants 30000] [--seed 1]
+    python tests/fuzz/mutate_records.py [--mutants 30000] [--seed 1] [--blocks]
 
 Each mutant is a whole file with one thing done to it, as disks, editors and transfers do: a line repeated, dropped or
-swapped with its neighbour, a digit changed, bytes cut, the end missing, the file appended to itself. It is silent when
-it is read with no warning that the whole file does not give, and yet the time step, the number of channels or more than
-three samples differ. Files are the made ones of the contract tests, of 403 samples, and with ROCKING_RECORDS set real
-ones.
+swapped with its neighbour, a digit changed, bytes cut, the end missing, the file appended to itself; with --blocks,
+many lines zeroed, or copied over others. It is silent when it is read with no warning that the whole file does not
+give, and yet the time step, the number of channels or more than three samples differ. Files are the made ones of the
+contract tests, of 403 samples, and with ROCKING_RECORDS set real ones.
 """
 
 import argparse
@@ -113,6 +113,34 @@ KINDS: Mapping[str, Callable[[bytes, random.Random], bytes]] = {
 }
 
 
+def _block(content: bytes, dice: random.Random) -> tuple[list[bytes], int, int]:
+    """Return the lines of a text, and the first and the end of a block of ten to forty in its second half."""
+    rows = content.split(b"\n")
+    size = min(dice.randint(10, 40), len(rows) // 4)
+    start = dice.randrange(len(rows) // 2, len(rows) - size)
+    return rows, start, start + size
+
+
+def zero_lines(content: bytes, dice: random.Random) -> bytes:
+    rows, start, end = _block(content, dice)
+    rows[start:end] = [re.sub(rb"\d", b"0", row) for row in rows[start:end]]
+    return b"\n".join(rows)
+
+
+def copy_lines(content: bytes, dice: random.Random) -> bytes:
+    rows, start, end = _block(content, dice)
+    size = end - start
+    target = dice.randrange(len(rows) // 2, len(rows) - size)
+    rows[target : target + size] = rows[start:end]
+    return b"\n".join(rows)
+
+
+BLOCKS: Mapping[str, Callable[[bytes, random.Random], bytes]] = {
+    kind.__name__: kind for kind in (zero_lines, copy_lines)
+}
+"""Of texts only: what an editor does to many lines at once."""
+
+
 def silent_difference(whole: Whole, content: bytes, expected: list[Accelerogram]) -> str | None:
     """Return what differs when `content` is read without a word; None when nothing, or when it is said or refused."""
     try:
@@ -155,9 +183,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--mutants", type=int, default=30_000)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--blocks", action="store_true")
     options = parser.parse_args()
     folder = os.environ.get("ROCKING_RECORDS")
-    found = run(made() + (real(Path(folder)) if folder else []), options.mutants, options.seed)
+    kinds = BLOCKS if options.blocks else KINDS
+    found = run(made() + (real(Path(folder)) if folder else []), options.mutants, options.seed, kinds)
     for (name, kind, what), count in sorted(found.items(), key=lambda item: (item[0][1], -item[1])):
         print(f"{kind:12} {count:6} {what:10} {name}")
 
