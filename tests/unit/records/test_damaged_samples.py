@@ -7,6 +7,8 @@ from scipy.signal import lfilter
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.records.damage import damage_warnings, repeated_rows
+from rocking.records.plausibility import agree_with_velocity
+from rocking.records.processing import integral
 
 SHAKING = np.sin(np.arange(400) / 5) * np.hanning(400)
 
@@ -104,3 +106,17 @@ def test_a_row_of_all_channels_that_stands_twice_is_told() -> None:
     assert repeated_rows(twice).startswith("At 20 s all channels repeat the sample before")
     coarse = [Accelerogram(np.round(column), 0.01) for column in table.T]
     assert repeated_rows(coarse) == ""
+
+
+@pytest.mark.parametrize(("size", "is_told"), [(0, False), (1, True), (8, True)])
+@pytest.mark.parametrize("of_velocity", [False, True])
+def test_a_velocity_that_strays_in_one_place_is_told(size: int, is_told: bool, of_velocity: bool) -> None:
+    """Samples exchanged in one of the two, whose whole courses agree within a thousandth."""
+    acceleration = shaking(8)
+    velocity = np.round(integral(acceleration, 0.01), 6)
+    series = velocity if of_velocity else acceleration
+    if size:
+        series[1900 : 1900 + 2 * size] = np.roll(series[1900 : 1900 + 2 * size], size)
+    told_of = agree_with_velocity(Accelerogram(acceleration, 0.01), velocity).warnings
+    assert bool(told_of) == is_told
+    assert not is_told or "s the file's own velocity is not the integral of its acceleration" in told_of[0]
