@@ -121,16 +121,18 @@ def contact_share(
 ) -> ContactShare:
     """Return how many stacks of the structure fall, at AMPLITUDES and STEPS.
 
-    Over several directions the steps take turns, so that each direction is followed at every amplitude. The bodies are
+    Over several directions the steps take turns, so that each direction is followed at every amplitude; of unlike sides
+    every other direction is, with both signs of the motion. The bodies are
     those of the mechanism where the crack is known, else the courses that `Structure.stack` gives.
     """
     settings = settings or AssessmentSettings()
-    directions = _directions(motions)
+    directions, signs = _directions(motions), _signs(structure, settings)
+    directions = directions[:: len(signs)]
     several = len(directions) > 1
     cases = [
         (motion, sign * amplitude, step)
         for place, motion in enumerate(directions)
-        for sign in _signs(structure, settings)
+        for sign in signs
         for turn, (amplitude, step) in enumerate(product(AMPLITUDES, STEPS))
         if not several or (turn + turn // len(STEPS) + place) % len(STEPS) == 0
     ]

@@ -107,6 +107,7 @@ def test_directions_share_the_steps_and_unlike_sides_meet_both_signs():
     assert contact_share(Block.of_size(0.8, 4.0), one).runs == 6
     facade = rocking.Facade((3.5, 3.0), (0.6, 0.5), 20e3)
     assert contact_share(facade, one).runs == 12
+    assert contact_share(facade, both).runs == 4 * 2 * 3
 
 
 def test_what_is_no_stack_says_so():
