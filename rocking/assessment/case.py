@@ -348,13 +348,13 @@ class StationResult(Judgement):
 
     @property
     def stack_falls(self) -> int | None:
-        """Stacks of courses that fall; None where contact dynamics was not asked."""
-        return self.stacks.falls if self.stacks else None
+        """Stacks of courses that fall; None where contact dynamics followed none."""
+        return self.stacks.falls if self.stacks and self.stacks.runs else None
 
     @property
     def stack_runs(self) -> int | None:
-        """Stacks of courses that were followed; None where contact dynamics was not asked."""
-        return self.stacks.runs if self.stacks else None
+        """Stacks of courses that were followed; None where contact dynamics followed none."""
+        return self.stacks.runs if self.stacks and self.stacks.runs else None
 
     @property
     def verdict(self) -> Verdict:

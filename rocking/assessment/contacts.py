@@ -138,6 +138,8 @@ def contact_share(
     ]
     try:
         stack = structure.stack()
+        if len(stack.courses) == 1:
+            return ContactShare(reason="one rigid body moves as its mechanism does, whose members say more")
         longest = stack.longest_step
         falls = [
             _falls(stack, motion.scaled(factor), min(step, longest * step / STEP), motions.vertical)

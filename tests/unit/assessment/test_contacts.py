@@ -102,12 +102,20 @@ def test_what_keeps_its_contacts_or_rests_is_not_doubted():
 
 def test_directions_share_the_steps_and_unlike_sides_meet_both_signs():
     both = GroundMotions.of(replace(sine(1.0), component="EW"), replace(sine(0.5), component="NS"))
-    assert contact_share(Block.of_size(0.8, 4.0), both).runs == 8 * 3
+    wall = Wall(1.6, 1.6, 0.25, crack="known")
+    assert contact_share(wall, both).runs == 8 * 3
     one = GroundMotions.of(sine(1.0))
-    assert contact_share(Block.of_size(0.8, 4.0), one).runs == 6
+    assert contact_share(wall, one).runs == 6
     facade = rocking.Facade((3.5, 3.0), (0.6, 0.5), 20e3)
     assert contact_share(facade, one).runs == 12
     assert contact_share(facade, both).runs == 4 * 2 * 3
+
+
+def test_one_rigid_body_is_left_to_its_members():
+    share = contact_share(Block.of_size(0.8, 4.0), GroundMotions.of(sine(2.0)))
+    assert share.verdict is Verdict.UNKNOWN
+    assert share.runs == 0
+    assert "moves as its mechanism does" in share.words
 
 
 def test_what_is_no_stack_says_so():
