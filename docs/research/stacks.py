@@ -122,6 +122,11 @@ class Made(Case):
             plain, sections=self.size * plain.sections, height=self.size * plain.height, depths=depths
         )
 
+    @property
+    def tapers(self) -> bool:
+        """Whether its courses grow smaller upwards."""
+        return members(COURSES[0])[self.kind].tapers
+
     @cached_property
     def mechanisms(self) -> dict[int, Mechanism]:
         """By the number of courses beneath the joint."""
@@ -138,9 +143,8 @@ class Made(Case):
         return self.mechanisms[self.static].uplift_multiplier
 
     def judged(self, motion: Accelerogram) -> Judged:
-        tapers = self._member(COURSES[0]).tapers
         alone, _ = ruled(self.mechanisms, self.static, motion)
-        with_rule, _ = ruled(self.mechanisms, self.static, motion, tapers)
+        with_rule, _ = ruled(self.mechanisms, self.static, motion, self.tapers)
         doubt = Doubt.COURSES_THROWN if with_rule is not alone else None
         judged = Judged(alone, doubt, None)
         if judged.without is not Verdict.UNDECIDED:

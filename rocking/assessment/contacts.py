@@ -20,7 +20,7 @@ from rocking.motion.stacks import STEP, follow_stack
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism, Structure
 from rocking.structures.linkage import Turning
-from rocking.structures.stack import Stack
+from rocking.structures.stack import COURSES, Stack
 
 AMPLITUDES = (0.9, 1.0, 1.1)
 """Factors on the motion at which contact dynamics follows a case: its steps are of first order, so that near a limit
@@ -86,6 +86,10 @@ def _opens(
     return check_model(structure, response, motion, vertical).bounces is True
 
 
+MANY_COURSES = 12
+"""Courses of the second stack of a tapering member that does not say how many it has."""
+
+
 @dataclass(frozen=True)
 class ContactShare:
     """How many stacks of rigid courses fall, of those that contact dynamics followed.
@@ -123,7 +127,8 @@ def contact_share(
 
     Over several directions the steps take turns, so that each direction is followed at every amplitude; of unlike sides
     every other direction is, with both signs of the motion. The bodies are
-    those of the mechanism where the crack is known, else the courses that `Structure.stack` gives.
+    those of the mechanism where the crack is known, else the courses that `Structure.stack` gives; a tapering member that
+    does not state its courses is followed with COURSES and MANY_COURSES in turn.
     """
     settings = settings or AssessmentSettings()
     directions, signs = _directions(motions), _signs(structure, settings)
@@ -137,17 +142,28 @@ def contact_share(
         if not several or (turn + turn // len(STEPS) + place) % len(STEPS) == 0
     ]
     try:
-        stack = structure.stack()
-        if len(stack.courses) == 1:
+        stacks = _stacks(structure)
+        if len(stacks[0].courses) == 1:
             return ContactShare(reason="one rigid body moves as its mechanism does, whose members say more")
-        longest = stack.longest_step
-        falls = [
-            _falls(stack, motion.scaled(factor), min(step, longest * step / STEP), motions.vertical)
-            for motion, factor, step in cases
-        ]
+        falls = []
+        for place, (motion, factor, step) in enumerate(cases):
+            # Each stack meets every amplitude in turn with either step.
+            stack = stacks[(place + place // len(STEPS)) % len(stacks)]
+            short_enough = min(step, stack.longest_step * step / STEP)
+            falls.append(_falls(stack, motion.scaled(factor), short_enough, motions.vertical))
     except RockingError as error:
         return ContactShare(reason=str(error))
     return ContactShare(int(np.sum(falls)), len(falls))
+
+
+def _stacks(structure: Structure) -> list[Stack]:
+    """The stacks to follow: where a member tapers and does not say how many courses it has, of a few and of many.
+
+    The more courses, the smaller is the topmost one, which is thrown first.
+    """
+    if structure.tapers and getattr(structure, "courses", None) is None:
+        return [structure.stack(COURSES), structure.stack(MANY_COURSES)]
+    return [structure.stack()]
 
 
 def _falls(stack: Stack, motion: Accelerogram, step: float, vertical: Accelerogram | None) -> bool:
