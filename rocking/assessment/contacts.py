@@ -126,9 +126,9 @@ def contact_share(
     """Return how many stacks of the structure fall, at AMPLITUDES and STEPS.
 
     Over several directions the steps take turns, so that each direction is followed at every amplitude; of unlike sides
-    every other direction is, with both signs of the motion. The bodies are
-    those of the mechanism where the crack is known, else the courses that `Structure.stack` gives; a tapering member that
-    does not state its courses is followed with COURSES and MANY_COURSES in turn.
+    every other direction is, with both signs of the motion. The bodies are those of the mechanism where the crack is
+    known, else the courses that `Structure.stack` gives; a tapering member that does not state its courses is followed
+    with COURSES and MANY_COURSES in turn.
     """
     settings = settings or AssessmentSettings()
     directions, signs = _directions(motions), _signs(structure, settings)

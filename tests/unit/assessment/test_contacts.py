@@ -111,6 +111,25 @@ def test_directions_share_the_steps_and_unlike_sides_meet_both_signs():
     assert contact_share(facade, both).runs == 4 * 2 * 3
 
 
+def test_a_spire_is_followed_with_few_and_many_courses_unless_it_says_how_many(monkeypatch):
+    followed = []
+
+    def noted(stack, motion, step, vertical):
+        followed.append((len(stack.courses), round(motion.peak_acceleration, 6), step))
+        return False
+
+    monkeypatch.setattr("rocking.assessment.contacts._falls", noted)
+    motions = GroundMotions.of(sine(2.0))
+    contact_share(SPIRE, motions)
+    for courses in (6, 12):
+        own = [each for each in followed if each[0] == courses]
+        assert len({peak for _, peak, _ in own}) == 3  # every amplitude
+        assert len({step for _, _, step in own}) == 2  # both steps
+    followed.clear()
+    contact_share(replace(SPIRE, courses=9), motions)
+    assert {courses for courses, _, _ in followed} == {9}
+
+
 def test_one_rigid_body_is_left_to_its_members():
     share = contact_share(Block.of_size(0.8, 4.0), GroundMotions.of(sine(2.0)))
     assert share.verdict is Verdict.UNKNOWN
