@@ -32,6 +32,11 @@ TARGETS_OF_RESEARCH = {
         REAL_RECORDS,
         ["floors.csv"],
     ),
+    "code_check": (
+        "Hold the formulas of the Italian code beside records of the design level",
+        REAL_RECORDS,
+        ["walls.csv"],
+    ),
     "validate": (
         "Predict the overturning of two specimens on a shake table",
         [f"{workflow.basedir}/records/shake_table.csv"],

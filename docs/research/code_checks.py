@@ -1,0 +1,144 @@
+"""The formulas of the Italian code beside the dynamics: cantilevers and walls under records of the design level.
+
+No number is fitted: each record has the factor that brings its spectrum nearest to the target, and a wall is called
+unsafe where it overturns under more than a tenth of the records, without any factor of confidence.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+
+import numpy as np
+
+from docs.research.report import Target
+from docs.research.scores import Measure, Score, scored
+from docs.research.sites import independent
+from rocking import Accelerogram, Block, DesignSpectrum, Wall, integrate_batch, response_spectrum
+from rocking.assessment.code_check import kinematic_check
+from rocking.quantities import GRAVITY
+from rocking.structures import Structure
+from rocking.tables import Row, column, row
+
+SPECTRUM = DesignSpectrum.ntc(0.25 * GRAVITY, 2.45, 0.35, "B")
+PERIODS = np.geomspace(0.15, 2.0, 30)
+HEIGHTS = {"cantilever": np.geomspace(1.5, 12.0, 11), "wall": np.geomspace(2.5, 9.0, 11)}
+SLENDERNESSES = {"cantilever": np.geomspace(2.5, 12.0, 13), "wall": np.geomspace(6.0, 24.0, 13)}
+"""Height over thickness."""
+OFTEN = 0.1
+"""Share of the records from which on a wall that overturns is called unsafe."""
+CONFIDENCE = (1.35, 1.0)
+
+
+@row("walls")
+class WallRow(Row):
+    """One row per wall: what the formulas say of it, and under how many records it overturns."""
+
+    kind: str = column(
+        "cantilever, or wall between floors, hinged where statics puts the hinge or at mid-height"
+    )
+    height_m: float = column("Height")
+    thickness_m: float = column("Thickness")
+    linear_ratio: float = column("Ratio of the linear check, FC 1.35, q 2")
+    nonlinear_ratio: float = column("Ratio of the nonlinear check, FC 1.35")
+    damage_level_m_s2: float = column("a_g at which it starts, FC 1")
+    records: int = column("Number of records")
+    overturning: int = column("Number of these under which it overturns")
+
+
+def made_walls() -> dict[tuple[str, float, float], Structure]:
+    """Return the cantilevers, and the walls hinged where statics puts the hinge and at mid-height."""
+    made: dict[tuple[str, float, float], Structure] = {}
+    for kind, heights in HEIGHTS.items():
+        for height in map(float, heights):
+            for slenderness in SLENDERNESSES[kind]:
+                thickness = float(height / slenderness)
+                if kind == "cantilever":
+                    made[kind, height, thickness] = Block.of_size(thickness, height)
+                    continue
+                made["wall, hinge of statics", height, thickness] = Wall.of_size(height, thickness)
+                half = height / 2
+                made["wall, hinge at mid-height", height, thickness] = Wall(
+                    half, half, thickness, crack="known"
+                )
+    return made
+
+
+def at_design_level(record: Accelerogram) -> Accelerogram:
+    """Return the record with the factor that brings the logarithms of its spectrum nearest to the target."""
+    own = response_spectrum(record, PERIODS).pseudo_acceleration
+    return record.scaled(float(np.exp(np.log(SPECTRUM.acceleration(PERIODS) / own).mean())))
+
+
+def code_check(target: Target) -> None:
+    """Hold the linear and the nonlinear check beside what overturns under records of the design level."""
+    walls = made_walls()
+    bodies = list(walls.values())
+    falls: list[np.ndarray] = []
+    sites: list[str] = []
+    for name, site, record in independent(target.records):
+        ratios = integrate_batch(bodies, at_design_level(record))
+        falls.append(np.isinf(ratios[:, 0]))
+        sites.append(site)
+        target.tell(f"{name}: {int(falls[-1].sum())} of {len(bodies)} overturn")
+    fallen = np.array(falls)  # (records, walls)
+    checks = {
+        factor: [kinematic_check(each, SPECTRUM, confidence_factor=factor) for each in bodies]
+        for factor in CONFIDENCE
+    }
+    ratios_of = {
+        (check, factor): np.array([getattr(each, check).ratio for each in of_factor])
+        for factor, of_factor in checks.items()
+        for check in ("linear", "nonlinear")
+    }
+    onset = np.array([each.damage_level for each in checks[1.0]])
+    rows = [
+        WallRow(
+            kind=kind,
+            height_m=height,
+            thickness_m=thickness,
+            linear_ratio=float(ratios_of["linear", 1.35][place]),
+            nonlinear_ratio=float(ratios_of["nonlinear", 1.35][place]),
+            damage_level_m_s2=float(onset[place]),
+            records=len(fallen),
+            overturning=int(fallen[:, place].sum()),
+        )
+        for place, (kind, height, thickness) in enumerate(walls)
+    ]
+    kinds = np.array([each.kind for each in rows])
+    scores = list(_scores(fallen, kinds, ratios_of, sites))
+    subtitle = (
+        f"{len(bodies)} walls under {len(fallen)} components of {len(set(sites))} sites, {SPECTRUM.words}."
+    )
+    target.publish("Code and dynamics", subtitle, {WallRow: rows, Score: scores})
+
+
+def _scores(
+    fallen: np.ndarray,
+    kinds: np.ndarray,
+    ratios_of: Mapping[tuple[str, float], np.ndarray],
+    sites: list[str],
+) -> Iterator[Score]:
+    parts = {
+        "cantilevers": kinds == "cantilever",
+        "walls hinged where statics puts it": kinds == "wall, hinge of statics",
+        "walls hinged at mid-height": kinds == "wall, hinge at mid-height",
+    }
+    parts["all, by the mechanism that governs"] = ~parts["walls hinged at mid-height"]
+    for (check, factor), ratios in ratios_of.items():
+        for part, own in parts.items():
+            passed = own & (ratios >= 1)
+            failed = own & (ratios < 1)
+            measures: dict[str, Measure] = {
+                f"unsafe of the {passed.sum()} that pass": _share(fallen[:, passed], lambda p: p > OFTEN),
+                f"never falls of the {failed.sum()} that fail": _share(fallen[:, failed], lambda p: p == 0),
+            }
+            yield from scored(f"{check}, FC {factor:g}", part, measures, sites)
+
+
+def _share(fallen: np.ndarray, says: Callable[[np.ndarray], np.ndarray]) -> Measure:
+    """The share of walls of which `says` holds, by the share of the records under which each overturns."""
+
+    def measure(rows: np.ndarray) -> float:
+        if not fallen.shape[1]:
+            return float("nan")
+        return float(np.mean(says(fallen[rows].mean(axis=0))))
+
+    return measure
