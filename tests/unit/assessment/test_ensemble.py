@@ -212,6 +212,8 @@ def test_a_probability_that_reaches_its_limit_with_its_error_still_decides(share
         (0.5, 0.2, "2.5 × too high"),
         (0.454, 0.001001, "450 × too high"),
         (0.4, 0.6, "1.5 × too low"),
+        (1.1, 1.0, "within 10 %"),
+        (1.0, 0.1, "10 × too high"),
         (0.0, 0.3, "misses the rocking"),
         (0.0, math.inf, "misses the overturning"),
         (0.3, 0.0, "rocks instead of resting"),

@@ -177,6 +177,13 @@ def test_a_measure_grows_in_proportion_to_the_motion(name):
     assert twice == pytest.approx(2 * once, rel=1e-9)
 
 
+def test_the_measure_of_a_pulse_is_its_amplitude_over_the_acceleration_of_uplift():
+    """Of a block of tan α = λ, the acceleration at which it lifts is gλ."""
+    mechanism, amplitude = BLOCK.mechanism(), rocking.extract_pulses(RECORDS[2]).dominant.amplitude
+    expected = abs(amplitude) / (9.80665 * math.tan(BLOCK.slenderness))
+    assert INTENSITY_MEASURES["pulse"].of(RECORDS[2], mechanism) == pytest.approx(expected, rel=1e-9)
+
+
 @pytest.mark.parametrize("members", [1, 2, 3, 4])
 def test_a_row_of_the_analysis_tells_the_lower_median_of_its_members(members):
     ratios = np.array([0.4, 0.1, math.inf, 0.2])[None, None, :members]

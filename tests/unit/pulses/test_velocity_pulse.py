@@ -42,6 +42,19 @@ def test_a_planted_wavelet_is_found(scale, angle):
     assert found.pulse_like
 
 
+@pytest.mark.parametrize("amplitude", [1.0, 2.0])
+def test_what_the_pulse_leaves_counts_as_a_share_of_the_peak(amplitude):
+    """Beside the wavelet stands a second one of 0.3 of its size: that is left, and 0.3² of 1.09 of the energy."""
+    first, second = (
+        np.interp((TIMES - begin) / 1.6 + 3.5, PLACES, WAVELET, left=0, right=0) for begin in (15, 30)
+    )
+    velocity = amplitude * (first + 0.3 * second)
+    found = velocity_pulse(from_velocity(velocity), from_velocity(0 * velocity))
+    expected = pulse_indicator(0.3, 0.09 / 1.09, found.peak_velocity)
+    # the period found is the planted one to 0.7 %, which leaves a little of the first wavelet too
+    assert found.indicator == pytest.approx(expected, rel=1e-3)
+
+
 def test_the_period_is_not_that_of_the_acceleration_pulse():
     motion = Pulse(3.0, math.pi, 10.0).acceleration(TIMES)
     found = velocity_pulse(Accelerogram(motion, STEP), Accelerogram(0 * motion, STEP))

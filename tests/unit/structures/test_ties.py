@@ -1,5 +1,7 @@
 """Ties that yield, break and go slack: scipy's own events, energy, limits, words."""
 
+import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -196,3 +198,19 @@ def test_a_tie_where_nothing_moves_does_nothing(height):
     assert expected[0] > 1e-3
     assert found == pytest.approx(expected, rel=1e-6)  # what a strength of .07 weights does over 1e-9 m
     assert still.tie_events(found[0]) == ""
+
+
+@pytest.mark.parametrize("share", [0.09, 0.12, 0.15])
+def test_a_tie_tells_by_how_much_it_yielded(share):
+    """How far its point goes, h sin φ but for the small way back about the toe, less what it stretches elastically."""
+    rotation = share * FACADE.mechanism().critical_rotation
+    (height, _), yields = FACADE.tie_heights, FACADE.tie_strength / FACADE.tie_stiffness
+    expected = height * math.sin(rotation) - yields
+    assert 0 < expected < FACADE.tie_plastic_elongation
+    (told, whole) = re.search(
+        r"tie at 3.1 m yields by (\S+) m of (\S+) m", FACADE.tie_events(rotation)
+    ).groups()
+    assert float(told) == pytest.approx(
+        expected, abs=2e-4
+    )  # b (1 - cos φ) of the toe's 0.6 m, and three digits
+    assert float(whole) == FACADE.tie_plastic_elongation

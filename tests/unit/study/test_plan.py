@@ -113,6 +113,24 @@ def test_every_record_is_in_one_job(identifiers: set[str], size: int | None) -> 
     assert all(job == tuple(sorted(job)) for job in jobs.values())
 
 
+@pytest.mark.parametrize(
+    ("number", "reports", "size", "jobs"),
+    [
+        (12, True, None, 1), (13, True, None, 2), (24, False, None, 1), (25, False, None, 2), (97, True, None, 8),
+        (1600, True, None, 8), (1601, True, None, 16), (100_000, False, None, 512),
+        (100, True, 25, 4), (101, True, 25, 8),
+    ],
+)  # fmt: skip
+def test_records_are_shared_out_to_a_power_of_two_by_the_hash_of_each(number, reports, size, jobs) -> None:
+    """The setting says: 12, or 24 without reports; of many an eighth, at most 200."""
+    names = [f"r{place}" for place in range(number)]
+    shared = share_out(names, size, reports)
+    assert {name.partition("_of_")[2] for name in shared} == {f"{jobs:05d}"}
+    for name in names[:3]:
+        place = int(hashlib.sha256(name.encode()).hexdigest()[:8], 16) % jobs
+        assert name in shared[f"{place:05d}_of_{jobs:05d}"]
+
+
 @pytest.mark.parametrize("number", [20, 100, 700, 3000])
 def test_a_record_more_changes_one_job(number: int) -> None:
     before = share_out([f"record_{i}" for i in range(number)])

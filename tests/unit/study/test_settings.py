@@ -14,7 +14,15 @@ from rocking.assessment.settings import AssessmentSettings, FragilitySettings
 from rocking.described import described_values, parts_of
 from rocking.errors import ConfigurationError
 from rocking.records.processing import UNPROCESSED_DEFAULT
-from rocking.study.settings import EXAMPLE, Settings, commented_yaml, json_schema, read_settings, schema_file
+from rocking.study.settings import (
+    EXAMPLE,
+    Settings,
+    commented_yaml,
+    json_schema,
+    named_files,
+    read_settings,
+    schema_file,
+)
 
 ROOT = Path(__file__).parents[3]
 SCHEMA = Draft7Validator(json_schema())
@@ -150,6 +158,17 @@ def test_a_refusal_says_what_to_write_and_repeats_no_long_value(config: object, 
 def test_a_text_that_says_a_value_is_that_value(name: tuple[str, ...], text: str, value: object) -> None:
     """So they come from snakemake --config; and YAML 1.1 takes 1e-7 for a text."""
     assert read_settings(_config(name, text)) == read_settings(_config(name, value))
+
+
+@pytest.mark.parametrize("wrong", ["", 3, None, ["a.csv"]])
+@pytest.mark.parametrize("name", ["catalogue", "structures", "results"])
+def test_of_defective_settings_the_files_that_they_name_are_looked_at_all_the_same(
+    name: str, wrong: object
+) -> None:
+    config = {"catalogue": "a.csv", "structures": "b.yaml", "results": "c", "tollerance": 1}
+    assert named_files(config) == Settings(catalogue="a.csv", structures="b.yaml", results="c")
+    default = getattr(Settings(), name)
+    assert getattr(named_files(config | {name: wrong}), name) == default
 
 
 VALUES = (
