@@ -12,7 +12,7 @@ COMPILE := uv pip compile --universal --python-version 3.11 --generate-hashes --
 EXECUTOR := snakemake-executor-plugin-slurm
 SLURM := workflow/profiles/slurm/requirements.lock
 
-.PHONY: all run setup slurm test test-all bench check schema paper documentation lock clean
+.PHONY: all run setup slurm test test-all bench check schema paper documentation wheel release lock clean
 
 all: run
 
@@ -68,6 +68,17 @@ paper: setup
 
 documentation: $(TOOLS)
 	$(BIN)/snakemake --workflow-profile workflow/profiles/default documentation
+
+# The wheel and the source archive in dist/, and a study that the wheel runs where nothing else of the project is.
+wheel: setup
+	.ci/wheel $(VENV)
+
+# The same of a version that stands in pyproject.toml and, with its date, in the changelog.
+release:
+	version=$$(sed -n 's/^version = "\(.*\)"/\1/p' pyproject.toml) && \
+	  grep -Eq "^## $$version - [0-9]{4}-[0-9]{2}-[0-9]{2}$$" CHANGELOG.md || \
+	  { echo "CHANGELOG.md has no entry like: ## $$version - 2026-01-31; date the one of this version."; exit 1; }
+	$(MAKE) wheel
 
 lock:
 	$(COMPILE) pyproject.toml --extra build --extra workflow -o requirements.lock

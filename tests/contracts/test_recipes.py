@@ -73,10 +73,12 @@ def tree(tmp_path) -> Path:
 @pytest.mark.parametrize("name", RECIPES)
 def test_a_recipe_can_be_followed_to_the_letter(tree, name):
     steps = blocks(RECIPES[name])
-    assert {language for language, _ in steps} == {"python", "diff", "sh"}
+    assert {"diff", "sh"} <= {language for language, _ in steps} <= {"python", "diff", "sh"}
     for language, text in steps:
         follow(tree, language, text)
     written = [own(tree, text.partition("\n")[0][2:]) for language, text in steps if language == "python"]
+    if not written:
+        return
     command = [sys.executable, "-m", "ruff", "check", *map(str, written)]
     check = subprocess.run(command, cwd=tree, capture_output=True, text=True, check=False)
     assert check.returncode == 0, check.stdout
