@@ -161,10 +161,10 @@ def ensemble(
 ) -> Ensemble:
     """Follow `structure` through the members of its ensemble, the same ones at every call.
 
-    It ends after FIRST members where they all rest. It grows from the number in the settings to MOST_NEAR_A_LIMIT
-    members where that may settle an undecided verdict, unless `grows` is False. verdict_only: it also ends after FIRST
-    members where they all stay far from overturning, which settles the verdict but says less of the quantiles. Raises
-    MotionError as `integrate` does.
+    It ends after FIRST members where they all rest. Unless `grows` is False, it grows from the number in the settings
+    to UNANIMOUS members where that may settle an undecided verdict, and then to MOST_NEAR_A_LIMIT. verdict_only: it
+    also ends after FIRST members where they all stay far from overturning, which settles the verdict but says less of
+    the quantiles. Raises MotionError as `integrate` does.
     """
     settings = settings or EnsembleSettings()
     points = design(settings)
@@ -178,8 +178,10 @@ def ensemble(
     usual = max(settings.size, FIRST)
     if usual > FIRST:
         members = members.followed_by(follow(points[FIRST:usual]))
-    if grows and usual < MOST_NEAR_A_LIMIT and members.near_a_limit:
-        members = members.followed_by(follow(points[usual:MOST_NEAR_A_LIMIT]))
+    for size in (UNANIMOUS, MOST_NEAR_A_LIMIT) if grows else ():
+        if usual < size and members.near_a_limit:
+            members = members.followed_by(follow(points[usual:size]))
+            usual = size
     return members
 
 

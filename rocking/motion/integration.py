@@ -69,8 +69,8 @@ def integrate(
     its samples, or a Pulse, exact. An EquivalentBlock under a record is solved exactly and ignores `tolerance`.
     tolerance: of the largest rotation, relative, in [1e-13, 0.1]. history: keep times, rotation and angular velocity.
     vertical: ü_v, sample by sample as `motion`; gravity becomes g + ü_v. sensitivity: also compute d ln φ_max / d ln a
-    and whether the verdict is `fragile`. initial_rotation [rad] and initial_velocity [rad/s], signed: the state when
-    the motion begins, instead of rest.
+    and whether the verdict is `fragile`; a run that is repeats itself at a tolerance of 1e-9. initial_rotation [rad]
+    and initial_velocity [rad/s], signed: the state when the motion begins, instead of rest.
 
     Overturning is a rotation past the mechanism's end, or outward motion that the largest acceleration still to come
     cannot turn back. Rocking ends at an impact that leaves less than 1e-14 of the energy that reaches φ_cr.
@@ -90,15 +90,14 @@ def integrate(
     change = within(MotionError, "fragility_change", fragility_change, 0, 0.5)
     again = _response(reduced, forcing, min(tolerance, _AGAIN), start, factor=1 + _AGAIN)
     close = math.isclose(again.rotation_ratio, response.rotation_ratio, rel_tol=_REPRODUCIBLE)
-    return replace(
-        response,
-        sensitivity=_sensitivity(reduced, forcing, start) if response.outcome is Outcome.ROCKS else math.nan,
-        fragile=not close
-        or any(
-            _response(reduced, forcing, tolerance, start, factor=factor).outcome is not response.outcome
-            for factor in (1 - change, 1 + change)
-        ),
+    fragile = not close or any(
+        _response(reduced, forcing, tolerance, start, factor=factor).outcome is not response.outcome
+        for factor in (1 - change, 1 + change)
     )
+    if fragile and tolerance > _AGAIN:
+        response = _response(reduced, forcing, _AGAIN, start, history)
+    slope = _sensitivity(reduced, forcing, start) if response.outcome is Outcome.ROCKS else math.nan
+    return replace(response, sensitivity=slope, fragile=fragile)
 
 
 def reduce(structure: Rocking) -> Mechanism | EquivalentBlock:

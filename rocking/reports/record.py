@@ -345,7 +345,11 @@ def _pulse_sentence(tables: RecordRows, motion: Trace) -> str:
         f"period {number(row.period_s)} s, from {number(row.start_time_s)} s on; it "
         f"explains {printing.percent(row.explained_energy)}\u00a0% of the acceleration energy."
     )
-    return " ".join([pulse, *doubts])
+    alike = printing.percent(row.same_outcome_share)
+    value = (
+        f"Where a pulse explains so much, closed form and integration end alike in {alike}\u00a0% of cases."
+    )
+    return " ".join([pulse, value, *doubts])
 
 
 def _doubts(rows: Sequence[ComparisonRow], several: bool) -> list[str]:

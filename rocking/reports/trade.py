@@ -1,5 +1,6 @@
 """The report of the trade of error for time, from its table."""
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -34,12 +35,27 @@ def write_trade_report(folder: Path, pdf: Path, image: Path) -> None:
         "Cases: those in which the method or the reference, the mechanism at a tolerance of 1e-12, does not rest. "
         "Errors: of the largest rotation where both rock. Unsafe: verdicts that say less than the reference. A record: "
         "the search for its pulses. The ensemble answers for all alike cases; its error is that of its median."
+        f"{_break_even(rows)}"
     )
     parts = [*trade_picture(folder), {**table, "caption": caption}]
     subtitle = "Processor times of the machine that measured, on the records and structures of the study."
     data = {"title": "What accuracy costs", "subtitle": subtitle, "parts": parts}
     write_whole(pdf, compile_document("plain.typ", data))
     write_whole(image, svg(trade_figure(rows)).encode())
+
+
+def _break_even(rows: Sequence[TradeRow]) -> str:
+    """Return the sentence that says from how many structures a record on the search for its pulses is repaid."""
+    of_all = {row.method: row for row in rows if row.structure == ""}
+    sine = of_all.get(TradeMethod.ONE_SINE)
+    mechanism = of_all.get(TradeMethod.MECHANISM)
+    if sine is None or mechanism is None or not mechanism.cpu_s > sine.cpu_s:
+        return ""
+    structures = math.ceil(sine.preparation_record_s / (mechanism.cpu_s - sine.cpu_s))
+    return (
+        f" Below {structures} structures a record the search for its pulses costs more than the integration of all "
+        "of them."
+    )
 
 
 def trade_picture(folder: Path) -> list[dict[str, str]]:

@@ -50,7 +50,7 @@ class Regime(StrEnum):
 
 
 _SENTENCES = {
-    Regime.NO_UPLIFT: "The pulse never reaches the uplift acceleration, so the structure does not rock.",
+    Regime.NO_UPLIFT: "The pulse never reaches the uplift acceleration: the structure does not rock under this pulse.",
     Regime.PRINTED_EXACT: "The structure stays off the ground until the pulse ends and is largest after its first "
     "impact, which is the one course of events for which Eq. 15 is exact.",
     Regime.AFTER_FIRST_IMPACT: "The structure stays off the ground until the pulse ends and is largest after an "
@@ -60,7 +60,7 @@ _SENTENCES = {
     Regime.OVERTURNS_WITHOUT_IMPACT: "The structure overturns on the side it first rocks to, without any impact.",
     Regime.OVERTURNS_AFTER_IMPACTS: "The structure overturns after one or more impacts.",
     Regime.UNRESOLVED: "More than 10000 impacts follow each other during the pulse without dying out, "
-    "because the restitution is so close to 1; a restitution of at most 0.999 can be followed.",
+    "because the restitution is so close to 1; a somewhat smaller one can be followed.",
 }
 
 

@@ -21,6 +21,7 @@ from rocking.assessment.verdict import (
     within_factor_two,
 )
 from rocking.pulses import Pulse, PulseEvidence
+from rocking.pulses.analysis import worth
 from rocking.records import Accelerogram
 from rocking.records.floor_spectrum import FLOOR_DAMPING, floor_spectrum, has_code_spectrum, spectrum_of
 from rocking.records.measures import record_measures
@@ -156,6 +157,7 @@ class PulseRow(ComponentRow):
     gain_m2_s3: float = column("Energy gain of the matched filter")
     gain_ratio: float = column("Energy gain over that of the dominant pulse")
     explained_energy: float = column("Share of the acceleration energy that the pulse explains (EVa)")
+    same_outcome_share: float = column("Share of cases with such pulses that end as the integration does")
     effective_length_m: float = column("Length scale: amplitude times period squared")
     flags: tuple[str, ...] = column("Reasons to doubt the pulse")
 
@@ -407,6 +409,7 @@ def pulse_rows(identity: ComponentRow, component: "Component") -> Iterator[Pulse
                 gain_m2_s3=evidence.gain,
                 gain_ratio=evidence.gain / analysis.evidence.gain,
                 explained_energy=evidence.explained_energy,
+                same_outcome_share=worth(evidence.explained_energy),
                 effective_length_m=evidence.effective_length,
                 flags=analysis.flags if dominant else (),
                 scale_factor=identity.scale_factor,

@@ -330,3 +330,14 @@ def test_fewer_than_64_members_that_agree_decide_only_far_from_overturning(ratio
 
 def test_a_member_that_could_not_be_followed_is_none_of_those_that_share():
     assert Ensemble(np.array([math.inf, 0.5, math.nan]), {}, FIXED).overturning_share == 0.5
+
+
+def test_an_ensemble_that_begins_with_few_costs_no_more_than_one_of_64():
+    """Where 16 members leave it open it grows to 64 first, and to 256 only where 64 would too."""
+    sizes = {}
+    for amplitude in np.arange(4.0, 16.0, 0.4):
+        motions = GroundMotions.of(_record(amplitude))
+        few, usual = (ensemble(BLOCK, motions, EnsembleSettings(members=each)).members for each in (16, 64))
+        assert few <= usual
+        sizes[few] = amplitude
+    assert len(sizes) >= 2
