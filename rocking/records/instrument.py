@@ -11,13 +11,15 @@ _VERTICAL = {
 }  # fmt: skip
 _NAMED = {
     "N": 0.0, "NS": 0.0, "N-S": 0.0, "S-N": 180.0, "NORTH": 0.0, "E": 90.0, "EW": 90.0, "E-W": 90.0, "W-E": 90.0,
-    "EAST": 90.0, "S": 180.0, "SOUTH": 180.0, "W": 270.0, "WEST": 270.0,
+    "WE": 90.0, "EAST": 90.0, "S": 180.0, "SOUTH": 180.0, "W": 270.0, "WEST": 270.0,
 }  # fmt: skip
 _QUADRANT = re.compile(r"([NS])\s*(\d{1,2})\s*([EW])")
 _BAND = re.compile(r"([A-Z][HNGL][ENZ123])(?:[._ -]?(?:\d\d|--))?")
 """A channel code of three letters, and what may follow it of a code of location."""
 _NUMBERED_VERTICAL = re.compile(r"(V|Z|UP|DN|DWN|DOWN|VERT|VERTICAL)[ _.-]?(\d|00|-{1,2})")
 """A vertical with a number of its own, as V1 or DWN1, or dashes in place of a code, as Z--."""
+_VERTICAL_WORD = re.compile(r"VERT\w*|VRT\w*|UPW\w*|DOWNW\w*|DWNW?|UPP?|DOWN|DN|Z|UD|UPDOWN")
+"""Words of which a name of a vertical consists, beside numbers and signs: "Vertical (up)", "UP 1", "-Z"."""
 _RELATIVE = re.compile(
     r"H?[123XYLTR]|[A-Z][HNGL][RT]|L?N|TR|LN|FN|FP|(LONG|TRAN|RAD)\w*|(COMP|CHAN)\w*[ _-]?\d+", re.I
 )
@@ -30,7 +32,10 @@ def is_vertical(component: str) -> bool:
     band = _BAND.fullmatch(name)
     if band:
         return band[1].endswith("Z")
-    return name in _VERTICAL or bool(_NUMBERED_VERTICAL.fullmatch(name))
+    if name in _VERTICAL or _NUMBERED_VERTICAL.fullmatch(name):
+        return True
+    words = [word for word in re.split(r"[^A-Z]+", name) if word]
+    return bool(words) and all(_VERTICAL_WORD.fullmatch(word) for word in words)
 
 
 def azimuth(component: str) -> float | None:

@@ -53,7 +53,8 @@ def _from_trace(trace: Any, inventory: Any, unit: str | None, response: str) -> 
     if own and own.get("component") != trace.stats.channel:
         own = {name: value for name, value in own.items() if name not in _DIRECTED}
     order, removed = quantity_order(trace)
-    if order:
+    is_motion = bool(own) or "output=" in " ".join(steps)  # what was integrated or differentiated is known
+    if order and (order > 0 or is_motion or unit is None):
         kinds = {1: "velocity", 2: "displacement"}
         kind = kinds.get(order, "the derivative of an acceleration")
         last = steps[-1].partition("(")[0].split()[-1]

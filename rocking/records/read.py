@@ -2,6 +2,7 @@
 
 import hashlib
 import os
+import re
 import zlib
 from collections import Counter
 from collections.abc import Sequence
@@ -116,6 +117,22 @@ def bare_text(content: bytes) -> bytes:
 _DOUBLED = "The line ends are doubled (CR CR LF) by a faulty conversion; the numbers are unharmed."
 
 
+_BY_OBSPY = "which is read by way of obspy: rocking.from_obspy(obspy.read(path), unit=...)"
+_TOLD = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence in (
+    (rb"PK\x03\x04", "this is a zip archive; unpack it and read the files in it."),
+    (rb"\s*(raw|uncorrected)\s+(acceleration\s+)?(counts|data)\b.*format v|\s*raw acceleration",
+     "this is a COSMOS V0 file of raw counts of a recorder; use the V1 or V2 file of the same record."),
+    (rb"(WID2|WID1|XW01|BEGIN (GSE|IMS)|DATA_TYPE WAVEFORM)", f"this is a GSE file, {_BY_OBSPY}."),
+    (rb"TIMESERIES \w+_", f"this is a SLIST or TSPAIR file, {_BY_OBSPY}."),
+    (rb"(\*.*\n)*\s*(ZEROS|POLES|CONSTANT)\s+-?\d", "this is a SAC file of poles and zeros, which holds a response "
+     "and no motion; use the waveform: rocking.from_obspy(obspy.read(path).remove_response(...), unit='m/s2')."),
+    (rb"\s*<\?xml|\s*<(FDSNStationXML|q:quakeml)", "this is an XML file, which holds no motion; read the record."),
+    (rb"\s*<(!doctype html|html)", "this is a web page, and no record: the download failed; fetch the file again."),
+    (rb"%PDF|\x89HDF|7z\xbc\xaf|Rar!", "this is a PDF, an archive or a data base; export the record as text."),
+))  # fmt: skip
+"""Kinds of file that no reader takes, and what to do with each."""
+
+
 def recognise(content: bytes) -> Format:
     """Return the one format that recognises `content`. Raises UnknownFormatError when none or several do."""
     if not content.strip(b"\0 \n"):
@@ -128,8 +145,9 @@ def recognise(content: bytes) -> Format:
     if forms:
         names = ", ".join(form.name for form in forms)
         raise UnknownFormatError(f"several readers recognise this file ({names}); none is preferred.")
-    if content.startswith(b"PK\x03\x04"):
-        raise UnknownFormatError("this is a zip archive; unpack it and read the files in it.")
+    for pattern, sentence in _TOLD:
+        if pattern.match(content[:400]):
+            raise UnknownFormatError(sentence)
     head = content.lstrip()[:40] or b" "
     words = head.decode("latin-1").splitlines()[0].strip()
     raise UnknownFormatError(

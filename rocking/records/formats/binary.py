@@ -81,6 +81,8 @@ def _check_blocks(content: bytes) -> set[str]:
 _SAC_HEADER = 632
 _SAC_PLACE = {"latitude": "stla", "longitude": "stlo", "elevation": "stel"}
 _UNDEFINED = -12345.0
+_OTHER_SAC = {6: "displacement", 7: "velocity"}
+"""Kinds of the dependent variable, `idep`, that are no acceleration (SAC manual: IDISP, IVEL)."""
 _STEEP = 45.0
 """Degrees out of the horizontal from which on a component is vertical."""
 _BURIED = 5.0
@@ -106,6 +108,10 @@ def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
     for trace in traces:
         numbers = {key: float(x) for key, x in trace.stats.sac.items() if isinstance(x, np.floating | float)}
         header = {key: value for key, value in numbers.items() if value != _UNDEFINED}
+        if quantity := _OTHER_SAC.get(int(trace.stats.sac.get("idep", 0))):
+            raise RecordError(
+                f"its header says that it holds {quantity}; use the acceleration of the same record."
+            )
         # The step in the file has single precision: 0.02 is stored as 0.0199999996.
         step = float(f"{trace.stats.delta:.6g}")
         _check_sac(header, trace.data, step)

@@ -14,14 +14,16 @@ from rocking.records.formats.format import Format, Options
 from rocking.records.instrument import other_quantity, refuse_other_quantity
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
-_TIME = re.compile(r"(?i)t|(time|zeit|tiempo|temp[os]|zaman|seconds?)\b.*|[^()\[\]]*[(\[]\s*s(ec)?\s*[)\]]")
+_TIME = re.compile(
+    r"(?i)t\d?|(time|zeit|tiempo|temp[os]|zaman|seconds?)(?![a-z]).*|[^()\[\]]*[(\[]\s*s(ec)?\s*[)\]]"
+)
 _UNIT = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
 _EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
 _DECIMALS = re.compile(r"[.]?(\d*)(?:[eE][+-]?\d+)?\s*$")
 _HEAD, _TAIL = 12, 4000  # lines and bytes that are looked at, of the beginning and of the end
 _BLANK, _LINE_END = 32, 10
-_COMMENTED_FORMAT = b"#Earthquake Information"
-"""CWB's header, which looks like comments above columns."""
+_COMMENTED_FORMAT = re.compile(rb"\s*#(Earthquake Information|StationCode\s*:)")
+"""CWB's headers, which look like comments above columns."""
 
 
 def _table(content: bytes) -> tuple[tuple[str, ...], int, int] | None:
@@ -57,12 +59,17 @@ def _table(content: bytes) -> tuple[tuple[str, ...], int, int] | None:
 
 def _labels(line: str) -> tuple[str, ...]:
     """The names in a line, parted by commas, semicolons or tabs, else by blanks; a unit in brackets stays with its."""
-    parts = (
-        re.split(r"[,;\t]", line) if re.search(r"[,;\t]", line) else re.split(r"\s+(?![(\[])", line.strip())
-    )
+    if re.search(r"[,;\t]", line):
+        parts = re.split(r"[,;\t]", line)
+    elif len(_BRACKET_END.findall(line)) > 1 and line.rstrip().endswith((")", "]")):  # names of several words
+        parts = _WITH_UNIT.findall(line)
+    else:
+        parts = re.split(r"\s+(?![(\[])", line.strip())
     return tuple(part.strip().strip("\"'") for part in parts)
 
 
+_BRACKET_END = re.compile(r"[)\]]")
+_WITH_UNIT = re.compile(r"[^)\]]+[)\]]")
 _ABSCISSA = re.compile(r"(?i)\s*(period|freq(uency)?)\b.*")
 _ORDINATE = re.compile(r"(?i)\s*(p?s[av]|sd|fas|fourier|spectr\w*)\b.*")
 
@@ -97,7 +104,9 @@ def _runs_along_rows(values: np.ndarray, width: int, parted: bool) -> bool:
 
 
 def _are_columns(content: bytes) -> bool:
-    is_other = content.startswith(_COMMENTED_FORMAT) or b"\0" in content[:4096]
+    is_other = (
+        bool(_COMMENTED_FORMAT.match(content)) or b"\0" in content[:4096] or _heading(content) is not None
+    )
     return not is_other and _table(_points_for_commas(content) or content) is not None
 
 
@@ -175,35 +184,77 @@ def _repeats(values: np.ndarray) -> tuple[str, ...]:
 
 
 def _timed_columns(rows: np.ndarray, names: tuple[str, ...], options: Options) -> list[Accelerogram]:
+    """Return the channels of a table: each column that is neither a time nor a count, with the times left of it."""
     timed_unnamed = rows.shape[1] == 2 or _time_first(rows.ravel(), rows.shape[1])
     labels = names or ("time" if timed_unnamed else "", *[""] * (rows.shape[1] - 1))
-    timed = bool(_TIME.fullmatch(labels[0]))
-    processing: tuple[str, ...] = ()
-    step = options.time_step
-    warnings = () if timed else _repeats(rows.ravel())
-    if timed:
-        times = rows[:, 0] * _seconds(labels[0])
-        step = text.even_step(times)
-        if step is None:
-            step, even, sentence = text.resampled(times)
-            rows = np.stack([np.interp(even, times, column) for column in rows.T], axis=1)
-            processing = warnings = (sentence,)
+    kinds = [_kind(label, column) for label, column in zip(labels, rows.T, strict=True)]
+    if "channel" not in kinds:  # a motion that rises evenly
+        kinds[1:] = ["channel"] * (len(kinds) - 1)
+    repeats = () if "time" in kinds else _repeats(rows.ravel())
+    times: np.ndarray | None = None
     records = []
-    for label, values in zip(labels[timed:], rows.T[timed:], strict=True):
-        if other_quantity(label) is None:
-            name = re.sub(r"^(acc|acceleration|a)[_\s-]+", "", _UNIT.sub("", label).strip(), flags=re.I)
-            facts: dict[str, Any] = {"component": name, "processing": processing, "warnings": warnings}
-            records.append(options.accelerogram(_unit(label), values, step, processed=None, **facts))
+    for label, kind, column in zip(labels, kinds, rows.T, strict=True):
+        if kind == "time":
+            times = column * _seconds(label)
+        elif kind == "channel" and other_quantity(label) is None:
+            records.append(_column(label, times, column, options, repeats))
     return records
 
 
-_TIMES = {"ms": 1e-3, "msec": 1e-3, "min": 60.0, "minutes": 60.0}
+_COUNT = re.compile(
+    r"(?i)(no|nr|n|i|id|#|index|count|counter|sample|samples|point|points|step|row|line)\b\.?.*"
+)
+
+
+def _kind(label: str, column: np.ndarray) -> str:
+    """Return "time", "count" or "channel" of a column: by its name, else by numbers that rise evenly all the way."""
+    if _TIME.fullmatch(label):
+        return "time"
+    steps = np.diff(column)
+    if (
+        _unit(label)
+        or column.size < _FEWEST_ROWS
+        or steps.min() <= 0
+        or float(np.ptp(steps)) > 0.01 * float(steps[0])
+    ):
+        return "channel"
+    return "count" if steps[0] == 1 or _COUNT.fullmatch(label) else "time"
+
+
+def _column(
+    label: str, times: np.ndarray | None, values: np.ndarray, options: Options, repeats: tuple[str, ...]
+) -> Accelerogram:
+    """The accelerogram of one column of a table; times: s, None where no column is of times."""
+    step = options.time_step
+    processing: tuple[str, ...] = ()
+    if times is not None:
+        step = text.even_step(times)
+        if step is None:
+            step, even, sentence = text.resampled(times)
+            values = np.interp(even, times, values)
+            processing = repeats = (sentence,)
+    name = re.sub(r"^(acc|acceleration|a)[_\s-]+", "", _UNIT.sub("", label).strip(), flags=re.I)
+    facts: dict[str, Any] = {"component": name, "processing": processing, "warnings": repeats}
+    return options.accelerogram(_unit(label), values, step, processed=None, **facts)
+
+
+_TIMES = {
+    "s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0, "ms": 1e-3, "msec": 1e-3, "millisecond": 1e-3,
+    "milliseconds": 1e-3, "us": 1e-6, "µs": 1e-6, "microseconds": 1e-6, "min": 60.0, "minute": 60.0, "minutes": 60.0,
+    "h": 3600.0, "hour": 3600.0, "hours": 3600.0,
+}  # fmt: skip
+_TIME_UNIT = re.compile(r"[(\[]\s*([^)\]]*?)\s*[)\]]\s*$|[\s,_]([A-Za-z]+)\s*$")
+"""The unit of times, in brackets or as the last word."""
 
 
 def _seconds(label: str) -> float:
-    """The unit of a column of times, s."""
-    match = _UNIT.search(label)
-    return _TIMES.get(match[1].lower(), 1.0) if match else 1.0
+    """Return the unit of a column of times, s. Raises RecordError where it is in brackets and unknown."""
+    match = _TIME_UNIT.search(label)
+    if match is None:
+        return 1.0
+    if match[1] and match[1].lower() not in _TIMES:
+        raise RecordError(f"the times are in {match[1][:20]!r}, but must be in s, ms or min; convert them.")
+    return _TIMES.get((match[1] or match[2] or "s").lower(), 1.0)
 
 
 def _unit(label: str) -> str | None:
@@ -265,7 +316,33 @@ def _title(content: bytes) -> tuple[str, str] | None:
     return None
 
 
+def _heading(content: bytes) -> tuple[str, str] | None:
+    """Return (samples, step) of a first line of these two, with or without words, above as many numbers, or None."""
+    if b"\0" in content[:4096]:
+        return None
+    head = [line for line in text.lines(content, _HEAD) if len(line) < 2000]
+    if len(head) < 4 or "NPTS" in head[0].upper():  # which is PEER's
+        return None
+    parts = _WORDS.sub(" ", head[0]).split()
+    rows = [row.split() for row in head[1:-1] if row.strip()]
+    if not rows or len(parts) != 2 or not all(map(text.is_number, sum(rows, parts))):
+        return None
+    found = len(text.after_lines(content, 1).split())
+    for samples, step in (parts, parts[::-1]):
+        is_count = samples.isdecimal() and int(samples) > 1
+        if (
+            is_count
+            and "." in step
+            and 0 < float(step) <= _LONGEST_STEP
+            and int(samples) in (found, found - 1)
+        ):
+            return samples, step
+    return None
+
+
 def _read_titled(content: bytes, options: Options) -> list[Accelerogram]:
+    if heading := _heading(content):
+        return _below_title(b"\n" + content, options, *heading)
     samples, step = _title(content) or ("", "")
     return _below_title(content, options, samples, step, event=text.lines(content, 1)[0].strip()[:60])
 
@@ -297,7 +374,7 @@ def _read_emod3d(content: bytes, options: Options) -> list[Accelerogram]:
 COLUMNS = Format("columns of numbers", "spreadsheets, OpenSees and scripts",
     "lines that hold numbers only, below at most one row of names", _are_columns, _read_columns)  # fmt: skip
 TITLED = Format("titled column", "programs of analysis, files like KOBE.000",
-    "title, then a line with number of samples and step, then numbers",
-    lambda content: _title(content) is not None, _read_titled)  # fmt: skip
+    "line with number of samples and step, below a title or first, then numbers",
+    lambda content: _heading(content) is not None or _title(content) is not None, _read_titled)  # fmt: skip
 EMOD3D = Format("EMOD3D text", "EMOD3D and ucgmsim, simulated and observed motion",
     "station and component above samples, step and six more numbers", _EMOD3D, _read_emod3d)  # fmt: skip

@@ -266,18 +266,21 @@ def typed_magnitude(text: str) -> dict[str, Any]:
     return {"magnitude": value, "magnitude_type": _SCALES.get(scale, "")}
 
 
-_ANGLE = r"(\d{1,3}(?:\.\d+)?)(?:[ °]+(\d\d?)[ ']+(\d\d?))?[ °\"]*(?:LAT\. *|LONG?\. *)?"
-_COORDINATES = re.compile(rf"{_ANGLE}([NS])\b[\s,:-]*{_ANGLE}([EW])\b", re.I)
+_ANGLE = r"(\d{1,3}(?:\.\d+)?)(?:[ °]+(\d\d?)[ ']+(\d\d?))?[ °\"]*(?:LAT\.? *|LONG?\.? *)?"
+_COORDINATES = re.compile(rf"{_ANGLE}([NS])\b[\s,;:/-]*{_ANGLE}([EWO])\b", re.I)
 
 
 def coordinates(text: str) -> Mapping[str, float]:
-    """Return latitude and longitude, degrees, of a text like "40.941N, 123.633W" or "42 37 10S 173 03 13E"."""
+    """Return latitude and longitude, degrees, of a text like "40.941N, 123.633W" or "42 37 10S 173 03 13E".
+
+    O is west (oeste), as Spanish headers write it.
+    """
     if not (match := _COORDINATES.search(text)):
         return {}
     angles = []
     for degrees, minutes, seconds, side in (match.groups()[:4], match.groups()[4:]):
         angle = float(degrees) + float(minutes or 0) / 60 + float(seconds or 0) / 3600
-        angles.append(-angle if side.upper() in "SW" else angle)
+        angles.append(-angle if side.upper() in "SWO" else angle)
     return site(*angles)
 
 

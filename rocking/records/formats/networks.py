@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from rocking.errors import RecordError
-from rocking.quantities import positive
+from rocking.quantities import acceleration_factor, positive
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.dates import iso_date
 from rocking.records.formats import header, text
@@ -266,7 +266,7 @@ _GEONET = Layout("mm/s2", {
     "samples": r"^Number of points\s+(\S+)", "step": r"(?:intervals of|data at)\s+([\d.]+)\s*s",
     "duration": r"\bDuration\s+([\d.]+)", "component": r"^Component\s+(\S+)", "station": r"^Site\s+(\S+)",
     "event": r"^(\d{4} \w+ \d+)\s", "event_time": r"^(\d{4} \w+ \d+\s+[\d:]+(?: UT)?)", "place": r"^Site\s+\S+\s+(.*)",
-    "magnitude": r"^Epicentre\b.*\b(M[A-Za-z]\s+[\d.]+)", "distance": r"^Epicentre\b.*\bDist\s+([\d.]+)\s*km",
+    "magnitude": r"^Epicentre\b.*\b(M[A-Za-z]?\s+[\d.]+)", "distance": r"^Epicentre\b.*\bDist\s+([\d.]+)\s*km",
     "high_pass": r"transition bands are\s+([\d.]+)", "peak": r"^Acceleration:\s+peak\s+(\S+)\s+mm/s/s",
     "peak_time": r"^Acceleration:\s+peak\s+\S+\s+mm/s/s at\s+([\d.]+)\s*s", "corrected": r"\A(corrected)",
     "rms": r"^Acceleration:.*\brms\s+([\d.]+)",
@@ -334,20 +334,55 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
     first = _SMC_REALS + remarks
     if any(row.startswith("|") != (at < first) for at, row in enumerate(rows[_SMC_REALS:], _SMC_REALS)):
         raise RecordError(f"the header declares {remarks} lines of comment, but others begin with |.")
+    body = [row for row in rows[first:] if row.strip()]
+    width = text.column_width(body[0]) if body else 10
+    numbers = text.fields(body, width)
+    if kind[:1] == "1" and (points := _smc_points(numbers, samples)) is not None:
+        return [_smc_digitised(head, *points, options, **_smc_facts(head, reals))]
     rate = float(reals[_RATE])
     if not 0 < rate < 1e6:
         raise RecordError(f"samples per second is {rate:g}, but must be greater than 0 and below 1e6.")
-    body = [row for row in rows[first:] if row.strip()]
-    width = text.column_width(body[0]) if body else 10
-    values, notes = text.whole(text.fields(body, width), samples, 80 // width)
+    values, notes = text.whole(numbers, samples, 80 // width)
+    return [_SMC.channel(head, values, options, step=1 / rate, warnings=notes, **_smc_facts(head, reals))]
+
+
+def _smc_facts(head: str, reals: np.ndarray) -> dict[str, Any]:
+    """What the real header of an SMC file says, as arguments of Layout.channel()."""
     extremes = [(abs(reals[i]), reals[i - 1]) for i in (_LARGEST, _SMALLEST) if abs(reals[i]) < _MISSING]
     peak, at = max(extremes, default=(None, 0.0))
     scales = " ".join(header.optional(r"^Moment (Mag.*)", head).replace("Mag", "Mw").split())
     place = header.site(*(real if abs(real) < _MISSING else None for real in reals[_PLACE].tolist()))
-    facts: dict[str, Any] = {**header.typed_magnitude(scales), **place, "warnings": notes, "peak": peak}
+    facts: dict[str, Any] = {**header.typed_magnitude(scales), **place, "peak": peak}
     facts["high_pass_frequency"] = float(reals[_CORNER]) if 0 < reals[_CORNER] < 100 else None
     facts["peak_time"] = float(at) if 0 < at < _MISSING else None
-    return [_SMC.channel(head, values, options, step=1 / rate, **facts)]
+    return facts
+
+
+def _smc_points(numbers: np.ndarray, samples: int) -> tuple[np.ndarray, np.ndarray] | None:
+    """Return (times s, accelerations) of an uncorrected file that holds points of film, None of one of even samples.
+
+    Every other number of such a file is a time: they rise from first to last, as no acceleration does. The header
+    counts points or numbers.
+    """
+    if numbers.size % 2 or numbers.size < 8 or samples not in (numbers.size, numbers.size // 2):
+        return None
+    times, values = numbers.reshape(-1, 2).T
+    if times[0] < 0 or np.diff(times).min() < 0:
+        return None
+    return times, values
+
+
+def _smc_digitised(
+    head: str, times: np.ndarray, values: np.ndarray, options: Options, **facts: Any
+) -> Accelerogram:
+    """Return the channel through digitised points, at even steps."""
+    step = text.even_step(times)
+    if step is not None:
+        return _SMC.channel(head, values, options, step=step, **facts)
+    step, even, sentence = text.through_points(times)
+    facts |= {"processing": (sentence,), "warnings": (sentence,)}
+    facts["file_samples"] = values * acceleration_factor(_SMC.unit)
+    return _SMC.channel(head, np.interp(even, times, values), options, step=step, **facts)
 
 
 DYNA = Format("DYNA (ESM, ITACA, AFAD)", "ESM and ITACA (ORFEUS, INGV), AFAD",
@@ -358,8 +393,9 @@ AFAD = Format("AFAD/NSMN text", "AFAD, Turkey", "first line STRONG GROUND MOTION
 RESORCE = Format("RESORCE", "RESORCE and SHARE, Europe",
     "Event Date & Time at the start and a line that names the time series", _RESORCE_FIRST, _read_resorce,
     "RESORCE")  # fmt: skip
-CWB = Format("CWB", "Central Weather Bureau, Taiwan", "first line #Earthquake Information",
-    re.compile(r"#Earthquake Information"), _read_cwb, "CWB")  # fmt: skip
+CWB = Format("CWB", "Central Weather Bureau, Taiwan",
+    "first line #Earthquake Information, or #StationCode: as on the disc of 1999",
+    re.compile(r"#(Earthquake Information|StationCode\s*:)"), _read_cwb, "CWB")  # fmt: skip
 UNAM = Format("UNAM/CICESE", "Instituto de Ingeniería UNAM and CICESE, Mexico",
     "line ARCHIVO ESTANDAR DE ACELERACION in the first 12",
     re.compile(r"(?:.*\n){0,11}ARCHIVO ESTANDAR DE ACELERACI"), _read_unam, "UNAM")  # fmt: skip

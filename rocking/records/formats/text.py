@@ -201,6 +201,23 @@ def resampled(times: np.ndarray) -> tuple[float, np.ndarray, str]:
     return step, times[0] + step * np.arange(number), sentence
 
 
+_APART = 0.005
+"""s; the even step at which lines through points of film are sampled."""
+_LONGEST_LINE = 0.25
+"""s; the longest line between two points of film."""
+
+
+def through_points(times: np.ndarray) -> tuple[float, np.ndarray, str]:
+    """Return (step, even times, the sentence that says so) for points of film, a dozen to a hundred a second.
+
+    They stand where the trace bends and are joined by lines. Raises RecordError at a gap.
+    """
+    check_no_gap(times, _LONGEST_LINE)
+    even = np.arange(round(times[0] / _APART), int(times[-1] / _APART + 1e-6) + 1) * _APART
+    change = f"interpolated linearly to {even.size}, {_APART:g} s apart"
+    return _APART, even, f"The {times.size} samples are unevenly spaced; {change}."
+
+
 def check_no_gap(times: np.ndarray, longest: float) -> None:
     """Raise RecordError when two neighbours of `times` (n,) s are more than `longest` s apart."""
     gaps = np.diff(times)

@@ -97,8 +97,6 @@ def _component(head: str) -> str:
 
 _HEADER, _REALS_AT, _RATE = 27, 20, 8
 _TEXT = 13
-_APART = 0.005  # s; the even step to which film records are interpolated
-_LONGEST_GAP = 0.25  # s
 _DURATION = r"NO\. OF POINTS\s*=\s*\S+\s+(?:DURATION|RECORD LENGTH)\s*=\s*([\d.]+)"
 _SIZE = {"samples": r"NO\. OF POINTS\s*=\s*(\S+)"}
 _USC = Layout("g/10", _SIZE | {
@@ -106,7 +104,7 @@ _USC = Layout("g/10", _SIZE | {
     "event": r"\A.*\n(.{,60})",
 }, width=7, margin=1)  # fmt: skip
 _RENADIC = Layout("g/10", _SIZE | {
-    "component": r"^CHAN\s*\d+:\s*(\S+)", "station": r"^(QDR S/N\s*\d+)", "event": r"^([\d/]+ [\d:]+)",
+    "component": r"^CHAN\s*\d+:\s*(\S+)", "station": r"^((?:\S+\s+)?S/N\s*\S+)", "event": r"^([\d/]+ [\d:]+)",
     "peak": r"MAX\s*=\s*(-?[\d.]+)\s*G", "rms": r"^RMS.*=\s*([\d.]+) G\b(?!/)",
 }, peak_unit="g", half_digit=5e-4, width=7)  # fmt: skip
 _BHRC = Layout("g/10", _SIZE | {
@@ -115,7 +113,8 @@ _BHRC = Layout("g/10", _SIZE | {
     "place": r"\bStation\s+(.*?)\s+Altitude", "elevation": r"\bAltitude\s+(\S+)",
 }, per_line=10, width=13)  # fmt: skip
 _CSMIP = {
-    "component": r"^Chan\s*\d+:\s*(\S+)", "station": r"^Station No\.\s*(\S+)", "place": r"^Station No\.\s*\S+\s+(.*)",
+    "component": r"^Chan\s*\d+:\s*(\S+)", "station": r"^Station (?:No|Id)\b\.?:?\s*(\S+)",
+    "place": r"^Station (?:No|Id)\b\.?:?\s*\S+\s+(.*)",
     "location": r"\bLocation:\s*(.*?)\s*$",  # of the times the earthquake's own, else that of the record
     "event_time": r"^(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)(?:[^|]*?\(Origin:\s*(\d[^)\n]*?)\s*\))?",
     "event": r"^(?:(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)|\s*(\S.*\bEARTHQUAKE\b.*))",
@@ -160,10 +159,8 @@ def _digitised(
     step = text.only_even_step(times) if is_even else text.even_step(times)
     if step is not None:
         return layout.channel(head, values, options, step=step, total=total)
-    text.check_no_gap(times, _LONGEST_GAP)
-    even = np.arange(round(times[0] / _APART), int(times[-1] / _APART + 1e-6) + 1) * _APART
-    note = f"The {times.size} samples are unevenly spaced; interpolated linearly to {even.size}, {_APART:g} s apart."
-    more: dict[str, Any] = {"processing": (note,), "warnings": (note,), "total": total, "step": _APART}
+    step, even, note = text.through_points(times)
+    more: dict[str, Any] = {"processing": (note,), "warnings": (note,), "total": total, "step": step}
     more["file_samples"] = values * acceleration_factor("g/10")
     return layout.channel(head, np.interp(even, times, values), options, **more)
 

@@ -1,0 +1,159 @@
+"""What a file or a channel is, asked before its numbers are used: kinds that are read, and kinds that are refused."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from obspy import Trace
+from obspy.io.sac import SACTrace
+
+from rocking.errors import RecordError
+from rocking.records import Accelerogram, read
+from rocking.records.formats.header import coordinates
+from rocking.records.instrument import azimuth, is_vertical
+from tests.contracts.made_files import TRUE, columns, cwb, smc
+
+TIMES = np.arange(600) * 0.01
+WAVE = np.round(np.sin(5 * TIMES) * np.exp(-((TIMES - 3) ** 2)), 6)
+
+
+def write(folder: Path, content: str | bytes, name: str = "made.txt") -> Path:
+    path = folder / name
+    path.write_bytes(content if isinstance(content, bytes) else content.encode("latin-1"))
+    return path
+
+
+def table(*series: np.ndarray, head: str = "", parted: str = ",") -> str:
+    rows = (parted.join(f"{value:.6f}" for value in row) for row in np.transpose(series))
+    return head + "\n".join(rows) + "\n"
+
+
+def test_every_channel_of_a_table_has_the_times_left_of_it(tmp_path):
+    head = "Time 1 (s),NS (g),Time 2 (s),EW (g)\n"
+    first, second = read(write(tmp_path, table(TIMES, WAVE, 2 * TIMES, 3 * WAVE, head=head)))
+    assert (first.component, first.time_step) == ("NS", 0.01)
+    assert (second.component, second.time_step) == ("EW", 0.02)
+    assert np.allclose(second.acceleration, 3 * first.acceleration)
+
+
+def test_without_names_a_column_that_rises_evenly_is_no_channel(tmp_path):
+    path = write(tmp_path, table(TIMES, WAVE, TIMES, 3 * WAVE))
+    assert [record.peak_acceleration for record in read(path, unit="m/s2")] == [
+        pytest.approx(np.abs(WAVE).max()),
+        pytest.approx(3 * np.abs(WAVE).max()),
+    ]
+
+
+@pytest.mark.parametrize("head", ["No,Time (s),acc (g)\n", "point,t,acc (g)\n"])
+def test_a_count_of_the_rows_is_no_channel(tmp_path, head):
+    (record,) = read(write(tmp_path, table(np.arange(600.0), TIMES, WAVE, head=head)))
+    assert record.time_step == 0.01
+    assert record.peak_acceleration == pytest.approx(9.80665 * np.abs(WAVE).max())
+
+
+def test_times_in_a_unit_that_is_none_are_refused(tmp_path):
+    with pytest.raises(RecordError, match="times are in 'furlongs', but must be in s, ms or min"):
+        read(write(tmp_path, table(TIMES, WAVE, head="time (furlongs),acc (g)\n")))
+
+
+def test_the_unit_of_times_may_be_the_last_word_of_their_name(tmp_path):
+    (record,) = read(write(tmp_path, table(1000 * TIMES, WAVE, head="time_ms,acc (g)\n")))
+    assert record.time_step == pytest.approx(0.01)
+
+
+@pytest.mark.parametrize(
+    "head", ["Time [sec] Corrected Acceleration [g]\n", "Time [sec]   Acceleration [g]\n"]
+)
+def test_names_of_several_words_are_one_name_each(tmp_path, head):
+    (record,) = read(write(tmp_path, table(TIMES, WAVE, head=head, parted="  ")))
+    assert record.peak_acceleration == pytest.approx(9.80665 * np.abs(WAVE).max())
+
+
+@pytest.mark.parametrize("head", ["600 0.01\n", "N= 600, DT= .0100 SEC\n", "N DT\n600 0.01\n", "0.01 600\n"])
+@pytest.mark.parametrize("per_line", [1, 5, 8])
+def test_a_count_and_a_step_head_the_samples(tmp_path, head, per_line):
+    path = write(tmp_path, head + columns(WAVE, per_line, "14.6E"))
+    (record,) = read(path, unit="m/s2")
+    assert record.acceleration.size == 600 and record.time_step == 0.01
+    assert record.peak_acceleration == pytest.approx(np.abs(WAVE).max(), rel=1e-6)
+
+
+def test_points_of_film_in_smc_are_joined_by_lines(tmp_path):
+    times = np.cumsum(np.random.default_rng(1).uniform(0.01, 0.04, 300))
+    values = 50 * np.sin(4 * times)
+    head, _, _ = smc().partition("| one\n")
+    head = head.replace("2 CORRECTED", "1 UNCORRECTED").replace(f"{TRUE.size:10d}", f"{300:10d}", 1)
+    head = head.replace(f"{1 / 0.01:15.7E}", f"{1.7e38:15.7E}", 1)
+    for extreme in (100 * TRUE.max(), 100 * TRUE.min()):
+        head = head.replace(f"{extreme:15.7E}", f"{1.7e38:15.7E}", 1)
+    (record,) = read(
+        write(tmp_path, head + "| one\n" + columns(np.column_stack([times, values]).ravel(), 8, "10.4f"))
+    )
+    even = np.arange(record.acceleration.size) * record.time_step + round(times[0] / 0.005) * 0.005
+    assert record.time_step == 0.005
+    assert np.allclose(
+        100 * record.acceleration, np.interp(even, times, values), atol=0.05
+    )  # times to 1e-4 s
+    assert any("unevenly spaced" in sentence for sentence in record.warnings)
+
+
+def test_the_disc_of_1999_is_read_as_its_later_files_are(tmp_path):
+    later = read(write(tmp_path, cwb(), "later.dat"))
+    disc = read(write(tmp_path, cwb().partition("\n")[2], "disc.dat"))
+    assert [record.sha256 for record in disc] == [record.sha256 for record in later]
+    assert [record.vertical for record in disc] == [True, False]
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (
+            "Raw acceleration counts   (Format v01.20 with 13 text lines)\n" * 3,
+            "COSMOS V0 file of raw counts",
+        ),
+        ("WID2 2010/01/01 00:00:00.000 AAA\n" * 3, "GSE file, which is read by way of obspy"),
+        (
+            "TIMESERIES XX_AAA__HNE_D, 600 samples\n" * 3,
+            "SLIST or TSPAIR file, which is read by way of obspy",
+        ),
+        ("* **********\n* NETWORK\nZEROS 3\nPOLES 5\n", "poles and zeros, which holds a response"),
+        ("<!DOCTYPE html><html><body>Not found\n", "web page, and no record"),
+        ("%PDF-1.5\nxx", "PDF, an archive or a data base"),
+    ],
+)
+def test_other_kinds_of_file_are_named_with_what_to_do(tmp_path, content, words):
+    with pytest.raises(RecordError, match=words):
+        read(write(tmp_path, content))
+
+
+@pytest.mark.parametrize(("kind", "word"), [("ivel", "velocity"), ("idisp", "displacement")])
+def test_a_sac_file_that_says_it_is_no_acceleration_is_refused(tmp_path, kind, word):
+    path = tmp_path / "made.sac"
+    SACTrace(data=WAVE.astype("f4"), delta=0.01, idep=kind, kcmpnm="HNE").write(str(path))
+    with pytest.raises(RecordError, match=f"holds {word}; use the acceleration"):
+        read(path, unit="m/s2")
+
+
+def test_a_unit_that_is_given_wins_where_obspy_differentiated_what_nobody_named():
+    trace = Trace(WAVE / 10, {"channel": "HNE", "delta": 0.01}).differentiate()
+    (record,) = Accelerogram.from_obspy(trace, unit="m/s2")
+    assert np.allclose(record.acceleration, trace.data)
+    with pytest.raises(RecordError, match="leaves velocity"):
+        Accelerogram.from_obspy(Trace(WAVE / 10, {"channel": "HNE", "delta": 0.01}).integrate(), unit="m/s2")
+
+
+@pytest.mark.parametrize(
+    "name", ["Vert up", "VERT1", "-Z", "UP 1", "Vertical (up)", "UD2", "Upwards", "HNZ_20"]
+)
+def test_more_names_of_verticals(name):
+    assert is_vertical(name)
+
+
+@pytest.mark.parametrize(("name", "along"), [("WE", 90.0), ("HNE.00", 90.0), ("UPLAND", None), ("X", None)])
+def test_names_of_horizontals(name, along):
+    assert not is_vertical(name) and azimuth(name) == along
+
+
+@pytest.mark.parametrize("text", ["31.86 LAT. N\n 116.60 LONG. W", "31.86 N / 116.60 O", "31.86 N; 116.60 W"])
+def test_places_are_read_as_they_are_written(text):
+    assert coordinates(text) == {"latitude": 31.86, "longitude": -116.6}
