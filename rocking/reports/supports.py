@@ -1,6 +1,6 @@
 """What stands on a support in a report: share against the period of the support, and the spectra of its motion."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from rocking.assessment.case import RecordResult
 from rocking.assessment.component import Component
 from rocking.assessment.over_periods import OverPeriods
+from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows.of_record import SupportRow
 from rocking.quantities import GRAVITY
 from rocking.records.floor_spectrum import FLOOR_DAMPING, floor_spectrum, has_code_spectrum, spectrum_of
@@ -37,12 +38,14 @@ _PERIODS = np.geomspace(0.05, 3.0, 60)
 class SupportPanel:
     """A support with the structures on it, and the component of the ground with the largest peak.
 
-    floors: that component on the support, by its first period, ascending.
+    floors: that component on the support, by its first period, ascending. reserves: of each structure of a period, by
+    name; those that were not sought are left out.
     """
 
     structures: Sequence[OverPeriods]
     ground: Component
     floors: Sequence[Component]
+    reserves: Mapping[str, Reserve]
 
 
 def support_panels(result: RecordResult, swept: Sequence[OverPeriods]) -> list[SupportPanel]:
@@ -60,7 +63,10 @@ def support_panels(result: RecordResult, swept: Sequence[OverPeriods]) -> list[S
         supports = [each.support for each in several[0].standings if each.support in result.floors]
         floors = [result.floors[support][worst] for support in supports if support is not None]
         if floors:
-            panels.append(SupportPanel(several, result.components[worst], floors))
+            names = [standing.name for each in several for standing in each.standings]
+            found = {name: result.stations[name].reserve for name in names}
+            reserves = {name: each for name, each in found.items() if each is not None}
+            panels.append(SupportPanel(several, result.components[worst], floors, reserves))
     return panels[:MOST_SUPPORTS]
 
 
@@ -71,9 +77,11 @@ def supports_figure(panels: Sequence[SupportPanel]) -> Figure:
     figure = new_figure(height * len(panels) + 2)
     for place, panel in enumerate(panels):
         top = 6 + place * height
-        share = panel_at(figure, 14, top, 62, height - 18)
-        spectra = panel_at(figure, 92, top, 48, height - 18)
+        share = panel_at(figure, 14, top, 60, height - 18)
+        spectra = panel_at(figure, 100, top, 42, height - 18)
         _draw_shares(share, panel.structures)
+        if panel.reserves:
+            _draw_reserves(share, panel)
         _draw_spectra(spectra, panel)
     return figure
 
@@ -108,6 +116,18 @@ def _draw_shares(axes: Axes, structures: Sequence[OverPeriods]) -> None:
     axes.legend(loc="best", fontsize=6.5)
 
 
+def _draw_reserves(axes: Axes, panel: SupportPanel) -> None:
+    """Draw on a scale of its own the factor on the record at which half of the members overturn, where there is one."""
+    beside = axes.twinx()
+    for line, each in zip(_LINES * len(panel.structures), panel.structures, strict=False):
+        found = [panel.reserves.get(standing.name) for standing in each.standings]
+        factors = [reserve.median if reserve else np.nan for reserve in found]
+        beside.plot(each.periods, factors, line, marker="x", color=PREDICTED, linewidth=0.7, markersize=3.5)
+    beside.set(ylim=(0, max(reserve.limit for reserve in panel.reserves.values())))
+    beside.set_ylabel("median reserve [×]", color=PREDICTED)
+    beside.spines["right"].set_visible(True)
+
+
 def _draw_spectra(axes: Axes, panel: SupportPanel) -> None:
     """Draw the 5 % spectra of ground and floor, and the code's floor spectrum from that of the ground."""
     record = panel.ground.accelerogram
@@ -124,7 +144,7 @@ def _draw_spectra(axes: Axes, panel: SupportPanel) -> None:
         if has_code_spectrum(support):
             code = floor_spectrum(support, _PERIODS, FLOOR_DAMPING, spectrum_of(record))
             axes.plot(_PERIODS, code / GRAVITY, line, color=PREDICTED, linewidth=0.9)
-    axes.plot([], [], color=PREDICTED, linewidth=0.9, label="the code's, C7.2.5")
+    axes.plot([], [], color=PREDICTED, linewidth=0.9, label="code, C7.2.5")
     plain_logarithmic(axes, "x")
     axes.set(xlim=(_PERIODS[0], _PERIODS[-1]), ylim=(0, None), xlabel="period of what stands there [s]")
     axes.set_ylabel("5 % spectrum [g]")

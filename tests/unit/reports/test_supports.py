@@ -46,7 +46,7 @@ def test_the_first_lines_say_it_once_for_all_periods(report):
 def test_the_figure_draws_the_cells_of_the_table(report):
     panels = support_panels(report.result, report.result.swept)
     figure = supports_figure(panels)
-    shares, spectra = figure.axes
+    shares, spectra, *_ = figure.axes
     (line,) = [each for each in shares.get_lines() if len(each.get_xdata()) > 1]
     rows = report.tables.supports
     assert list(line.get_xdata()) == [row.support_period_s for row in rows]
