@@ -1,8 +1,9 @@
 """The settings of an assessment, of a fragility, and of the design level with its checks."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from rocking.assessment.intensity import INTENSITY_MEASURES, MEASURES_IN_WORDS
 from rocking.described import check_described, described
@@ -165,6 +166,13 @@ class DesignSettings:
                 f"least_factor is {self.least_factor:g}, but must be below largest_factor, "
                 f"{self.largest_factor:g}."
             )
+
+    @classmethod
+    def told(cls, mapping: Mapping[str, Any]) -> "DesignSettings":
+        """Return the settings that a mapping of all of a study's tells; without any the default."""
+        own = mapping.get("design_spectrum") or {}
+        names = {each.name for each in fields(cls)}
+        return cls(**{name: value for name, value in own.items() if name in names})
 
     def spectrum(self) -> DesignSpectrum | None:
         """Return the spectrum; None where there is no design level. Raises ConfigurationError for its points."""

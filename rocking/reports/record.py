@@ -20,12 +20,14 @@ from rocking.assessment.rows.of_record import (
     VerdictRow,
 )
 from rocking.assessment.rows.of_study import StructureRow, structure_rows
+from rocking.assessment.settings import DesignSettings
 from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Verdict, agreement
 from rocking.pulses import Flag
 from rocking.quantities import GRAVITY, counted
 from rocking.records.dates import day_of
 from rocking.reports import printing
 from rocking.reports import record_figures as figures
+from rocking.reports.design_figure import design_figure
 from rocking.reports.document import compile_document
 from rocking.reports.panels import rotation_ratios
 from rocking.reports.printing import (
@@ -402,7 +404,11 @@ def _pictures(report: RecordReport) -> dict[str, object]:
     comparison = f"Closed form beside integration of {counted(len(cases), 'case')}."
     pulses = [motion for motion in motions if motion.pulses]
     verdicts = "the table of verdicts"
+    level = DesignSettings.told(report.settings).spectrum()
+    beside = "Spectra of the components beside the design spectrum."
     return {
+        "design": pictures(design_figure, motions, beside, level) if level else [],
+        "design-words": level.words if level else "",
         "ground": pictures(
             figures.ground_figure, motions, "Acceleration of the ground and its dominant pulse."
         ),

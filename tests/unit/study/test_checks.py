@@ -148,3 +148,17 @@ def test_the_page_names_the_client_and_what_the_checks_rest_on():
     assert "50 %" in text["share"] and text["figure"][0]["svg"].startswith("<?xml")
     assert f"T_SLV = {checked.limit.period:.3g}" in " ".join(text["sentences"])
     assert [line[0] for line in text["checks"]["rows"]] == ["linear", "nonlinear"]
+
+
+def test_the_report_of_a_record_draws_the_design_level_beside_its_spectra(study):
+    from rocking.assessment.settings import DesignSettings
+    from rocking.reports.design_figure import design_figure
+
+    settings, _ = study
+    told = read_settings(settings | {"design_spectrum": DESIGN}).mapping()
+    level = DesignSettings.told(told).spectrum()
+    record = next(iter(made_pool(1).values()))[0]
+    (axes,) = design_figure([SimpleNamespace(accelerogram=record)], level).axes
+    target = next(line for line in axes.lines if line.get_label() == "design level")
+    assert target.get_ydata() == pytest.approx(level.acceleration(target.get_xdata()))
+    assert DesignSettings.told({}).spectrum() is None
