@@ -336,6 +336,12 @@ class StationResult(Judgement):
         return Verdict.UNDECIDED, words
 
     @property
+    def is_in_doubt(self) -> bool:
+        """Whether the mechanism stands, but contacts open or courses may be thrown, of which it knows nothing."""
+        both = [*self.cases.values(), *([self.directions] if self.directions else [])]
+        return any(each.doubt is not None for each in both)
+
+    @property
     def stacks(self) -> ContactShare | None:
         """What contact dynamics says of all components together; None where it was not asked."""
         both = [*self.cases.values(), *([self.directions] if self.directions else [])]

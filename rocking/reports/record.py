@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 
 from rocking.assessment.case import RecordResult, StationResult, swept_over
+from rocking.assessment.causes import Origin
+from rocking.assessment.deciding import CRACK, deciding
 from rocking.assessment.rows.of_record import (
     RATIO_COLUMNS,
     ComparisonRow,
@@ -253,7 +255,39 @@ def _sentences(report: RecordReport) -> list[str]:
     remark = f"Whether it overturns depends on the processing of the record: {printing.listed(depends)}."
     carried = (standing_of(station) for station in report.stations)
     heavy = dict.fromkeys(each.warning for each in carried if each and each.warning)
-    return [*([remark] if depends else []), *heavy, *warnings_of(report.tables)]
+    return [*_advice(report), *([remark] if depends else []), *heavy, *warnings_of(report.tables)]
+
+
+_TELLS = 0.2
+"""Share of the variance of overturning from which on knowing one input better is worth a measurement."""
+_MEASURES = {
+    "restitution": "measure the restitution, or take it from tests of such masonry",
+    "processing": "take a processed record of the network instead of the raw one",
+    CRACK: "find out where it cracks, and give it (crack: known)",
+}
+"""What to do about an input that is not known."""
+
+
+def _advice(report: RecordReport) -> list[str]:
+    """Return what would tell more of the undecided cases of a record, each thing to do once with its structures."""
+    to_do: dict[str, list[str]] = {}
+    for station in report.stations:
+        if station.verdict is not Verdict.UNDECIDED or station.ensembles is None:
+            continue
+        worth = [
+            _MEASURES[each.name]
+            for each in deciding(station.ensembles)
+            if each.origin is Origin.IGNORANCE and each.share >= _TELLS and each.name in _MEASURES
+        ]
+        things = worth[:1]
+        if station.is_in_doubt:
+            things = ["follow it by contact dynamics (fidelity: contact)"]
+        for thing in things:
+            to_do.setdefault(thing, []).append(report.called(station.structure))
+    return [
+        f"To learn more of {printing.listed(list(dict.fromkeys(names)))}: {thing}."
+        for thing, names in to_do.items()
+    ]
 
 
 def warnings_of(tables: RecordRows) -> list[str]:
@@ -390,7 +424,9 @@ def _pictures(report: RecordReport) -> dict[str, object]:
     """Return the pictures of the worst cases, and the sentences that say where the others stand."""
     motions, labels = report.motions, report.labels
     drawable = [station for station in report.stations if station.structure in report.structures]
-    most = FEWER_DRAWN if len(headlines(report.stations)) > MOST_LINES else MOST_DRAWN
+    reserves = [each for each in one_period_each(drawable) if each.reserve is not None][:MOST_DRAWN]
+    crowded = len(headlines(report.stations)) > MOST_LINES or reserves
+    most = FEWER_DRAWN if crowded else MOST_DRAWN
     stations = one_period_each(drawable)[:most]
     names = printing.listed([station.structure for station in stations])
     strip = (f"Drawings of the structures in their state: {names}.", report.structures, labels)
@@ -413,6 +449,12 @@ def _pictures(report: RecordReport) -> dict[str, object]:
             figures.ground_figure, motions, "Acceleration of the ground and its dominant pulse."
         ),
         "strip": pictures(figures.strip_figure, stations, *strip, report.peak_acceleration),
+        "reserve": pictures(
+            figures.reserve_figure,
+            reserves,
+            "Factors on the record at which 5, 50 and 95 % of the members overturn, by structure.",
+            labels,
+        ),
         "strip-note": remainder(len(report.stations) - len(stations), "structure", verdicts),
         "histories": pictures(figures.histories_figure, histories, rotations, labels, motions),
         "histories-note": remainder(

@@ -15,6 +15,7 @@ from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator
 from matplotlib.transforms import Affine2D
 
 from rocking.assessment.case import StationResult
+from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows.of_record import RATIO_COLUMNS, ComparisonRow
 from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Method, Verdict, rests
 from rocking.pulses import Pulse
@@ -174,6 +175,64 @@ def strip_figure(
             below = middle, top - _DRAWN[1] - 16.5, "\n".join(lines[place])
             axes.text(*below, ha="center", va="top", fontsize=7, linespacing=1.25)
     return figure
+
+
+@styled
+def reserve_figure(stations: Sequence[StationResult], labels: Mapping[str, str]) -> Figure:
+    """Draw for each structure the factors on the record at which 5, 50 and 95 % of its members overturn, worst first.
+
+    A verdict is read off the line at 1: what lies left of it falls under the record as it is. A bar that ends in an
+    arrow goes on beyond the largest factor that was tried.
+    """
+    reserves = [(station, station.reserve) for station in stations if station.reserve is not None]
+    height = 3.9 * len(reserves) + 9.0
+    figure = new_figure(height, margins=(0, 0, 0, 0))
+    panel = panel_at(figure, 46, 0.5, TEXT_WIDTH - 82, height - 9)
+    limit = max(reserve.limit for _, reserve in reserves)
+    found = [each for _, reserve in reserves for each in (reserve.low, reserve.median) if each > 0]
+    least = min([0.5, *(0.8 * each for each in found)])
+    panel.axvline(1.0, color="black", linewidth=0.8)
+    for place, (station, reserve) in enumerate(reserves):
+        _, colour, _, _ = LOOKS[station.verdict]
+        low = limit if math.isnan(reserve.low) else reserve.low
+        high = limit if math.isnan(reserve.high) else reserve.high
+        bar: dict[str, Any] = {
+            "left": low,
+            "height": 0.55,
+            "color": colour,
+            "edgecolor": "0.25",
+            "linewidth": 0.5,
+        }
+        if high > low:
+            panel.barh(-place, high - low, **bar)
+        if not math.isnan(reserve.median):
+            panel.plot([reserve.median] * 2, [-place - 0.3, -place + 0.3], color="black", linewidth=1.2)
+        if math.isnan(reserve.high):
+            panel.plot(limit, -place, ">", color="0.25", markersize=3.5, clip_on=False)
+        panel.text(least, -place, elided(labels[station.structure], 26) + "  ", ha="right", va="center")
+        panel.text(1.06 * limit, -place, _reserve_in_numbers(reserve), ha="left", va="center", fontsize=7)
+    panel.set(xscale="log", xlim=(least, limit), ylim=(-len(reserves) + 0.4, 0.6), yticks=[])
+    ticks = [
+        tick
+        for tick in (0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0)
+        if least <= tick <= limit
+    ]
+    panel.xaxis.set_major_locator(FixedLocator(ticks))
+    panel.xaxis.set_major_formatter(FixedFormatter([f"{tick:g}" for tick in ticks]))
+    panel.xaxis.set_minor_locator(FixedLocator([]))
+    panel.set_xlabel(
+        "factor on the record [-]; bar: from 5 to 95 % of the members overturn, stroke: half of them"
+    )
+    return figure
+
+
+def _reserve_in_numbers(reserve: Reserve) -> str:
+    """The factors of 5 and of 50 %: "5 %: 0.80 ×, half: 1.1 ×"."""
+    if math.isnan(reserve.low):
+        return f"none up to {reserve.limit:g} ×"
+    if math.isnan(reserve.median):
+        return f"5 %: {number(reserve.low, 2)} ×"
+    return f"5 %: {number(reserve.low, 2)} ×, half: {number(reserve.median, 2)} ×"
 
 
 def _draw_state(axes: Axes, structure: Structure, station: StationResult, middle: float, top: float) -> None:
