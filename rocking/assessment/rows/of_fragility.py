@@ -117,9 +117,9 @@ def rate_interval(of_stations: np.ndarray) -> tuple[float, float]:
 
     Rates scatter by orders of magnitude, as the hazard curve raises a level to a power of 2 to 4. Resampling of 8 to 35
     stations seldom meets the few that make up the mean, and its interval holds the truth in 56 to 92 % only
-    (docs/pages/fragility.md). The interval is therefore that of the mean of a lognormal, by Student's law for few stations
-    (Cox's method: Zhou & Gao 1997, Confidence intervals for the log-normal mean, Stat. Med. 16, 783-790), times the
-    share of the stations that have a rate at all.
+    (docs/pages/fragility.md). The interval is therefore that of the mean of a lognormal, by Student's law for few
+    stations (Cox's method: Zhou & Gao 1997, Confidence intervals for the log-normal mean, Stat. Med. 16, 783-790),
+    times the share of the stations that have a rate at all.
     """
     positive = np.log(of_stations[of_stations > 0])
     count = positive.size
