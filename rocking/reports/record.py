@@ -484,7 +484,7 @@ def _tables(report: RecordReport) -> dict[str, object]:
         "methods": table_of(tables.comparison, number_of, *_method_columns(tables.comparison)),
         "friction": plain(report.settings.get("friction_coefficient")),
         "vertical": _unique(row.vertical_component for row in record),
-        "arch": any("arch" in row.type for row in structures),
+        "arch": any(each.hinges_migrate for each in report.structures.values()),
         "tapering": any(each.tapers for each in report.structures.values()),
         # the time of the run is left out
         "times": _unique(row.start_time for row in record),

@@ -52,6 +52,7 @@ class Arch(Crackable):
     """
 
     type_name: ClassVar[str] = "arch"
+    hinges_migrate: ClassVar[bool] = True
     crack_name: ClassVar[str] = "hinges"
     statics_chooses: ClassVar[bool] = True
     usual_restitution: ClassVar[float | str] = 0.9

@@ -84,7 +84,8 @@ class Structure(metaclass=PlainlyMade):
     type_name: the `type` in a file. described_as: what each constructor that a file may use describes, by the name of
     its class method, "" for the class itself. crack_name: what its candidates move ("hinge", "crack"); "" without.
     tapers: whether its courses grow smaller upwards, so that each rocks by itself and throws what stands on it
-    (docs/pages/validation.md). usual_restitution: where none is given. standing: of a structure of a list that names a
+    (docs/pages/validation.md). hinges_migrate: whether its hinges would move in flight, while the
+    mechanism leaves them. usual_restitution: where none is given. standing: of a structure of a list that names a
     support; None: it meets each motion as it is given. statics_chooses: whether codes check the mechanism of least λ
     alone, as between supports limit analysis finds it; otherwise every crack that may open is a mechanism of its own.
     """
@@ -93,6 +94,7 @@ class Structure(metaclass=PlainlyMade):
     described_as: ClassVar[dict[str, str]] = {}
     crack_name: ClassVar[str] = ""
     tapers: ClassVar[bool] = False
+    hinges_migrate: ClassVar[bool] = False
     usual_restitution: ClassVar[float | str] = "momentum"
     statics_chooses: ClassVar[bool] = False
     one_sided = False

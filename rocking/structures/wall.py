@@ -121,7 +121,12 @@ class WallLinkage(Linkage):
 Height = Annotated[float, length("Height between the supports", 3.2, (0.5, 60), "h")]
 HingeHeight = Annotated[
     float | None,
-    length("Height of the hinge above the base; left out: where statics puts it", 1.6, (0.2, 57), "h₁"),
+    length(
+        "Height of the hinge above the base; left out: where statics puts it, from 0.05 to 0.95 of the height",
+        1.6,
+        (0.2, 57),
+        "h₁",
+    ),
 ]
 Thickness = Annotated[float, length("Thickness", 0.25, (0.05, 5), "t")]
 Balanced = Annotated[Restitution, restitution_value("momentum")]
