@@ -2,8 +2,9 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
+from enum import StrEnum
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 from rocking.assessment.intensity import INTENSITY_MEASURES, MEASURES_IN_WORDS
 from rocking.described import check_described, described
@@ -13,6 +14,21 @@ from rocking.quantities import GRAVITY
 from rocking.records.design_spectrum import SOILS, TOPOGRAPHIES, DesignSpectrum
 from rocking.structures.equivalent_block import Scale
 
+
+class Heading(StrEnum):
+    """The headings of config.yaml, in their order; each setting says below which one it stands."""
+
+    ABOUT = "Told on the first page of every report; each may stay blank"
+    RECORDS = "Records and structures"
+    PROCESSING = "Processing, told in every report"
+    METHOD = "Method"
+    ENSEMBLE = "Ensemble: the uncertain inputs of a case vary within these ranges"
+    DESIGN = "Design level and the checks of the Italian code: snakemake checks"
+    FRAGILITY = "Fragility from all records of the study: snakemake fragility"
+    TRADE = "Trade of error for time: snakemake trade"
+    OUTPUT = "Output"
+
+
 SIZES = (16, 64, 256, 1024, 4096)
 """Numbers of points that a design may have; each is contained in the next."""
 
@@ -20,6 +36,8 @@ SIZES = (16, 64, 256, 1024, 4096)
 @dataclass(frozen=True)
 class EnsembleSettings:
     """The ranges of the uncertain inputs, and the risk that a verdict bears. Raises ConfigurationError."""
+
+    heading: ClassVar[Heading] = Heading.ENSEMBLE
 
     members: int = described(
         64, "number of members, rounded up to 16, 64, 256, 1024 or 4096; 0: no ensemble", ge=0, le=4096

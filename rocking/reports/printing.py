@@ -35,8 +35,6 @@ METHODS = {
     Method.MECHANISM_ON_RECORD: "Mechanism, record",
 }
 """Headings of the methods, from the plainest to the full integration."""
-_ABOUT = ("study", "client", "author", "date")
-"""Settings that stand above the title."""
 _LARGEST_PLAIN = 1e6
 """Numbers up to here are printed without a power of ten."""
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -131,7 +129,7 @@ def band_text(judgement: "Judgement", to: str) -> str:
 def settings_texts(settings: Mapping[str, Any]) -> dict[str, object]:
     """Return what both reports print of the settings: who, what and when; tolerance and acceleration scale."""
     return {
-        "about": {name: str(settings.get(name) or "") for name in _ABOUT},
+        "about": dict(settings.get("about", {})),
         "tolerance": plain(float(settings["tolerance"])),
         "acceleration-scale": str(settings["acceleration_scale"]),
     }

@@ -5,12 +5,12 @@ written, with its JSON schema, from these. After a change: make schema
 """
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass
-from typing import Any, Literal
+from dataclasses import asdict, dataclass, fields
+from typing import Any, ClassVar, Literal
 
 import yaml
 
-from rocking.assessment.settings import AssessmentSettings, DesignSettings, FragilitySettings
+from rocking.assessment.settings import AssessmentSettings, DesignSettings, FragilitySettings, Heading
 from rocking.described import (
     Described,
     check_described,
@@ -30,6 +30,8 @@ from rocking.tables.yaml_file import scalar_value
 class StudyProcessing(Processing):
     """Which records are processed, and how."""
 
+    heading: ClassVar[Heading] = Heading.PROCESSING
+
     apply: Literal["raw", "always", "never"] = described(
         "raw", "which records are processed: raw ones, whose file says so; always; never"
     )
@@ -39,12 +41,18 @@ class StudyProcessing(Processing):
 class StudyFragility(FragilitySettings):
     """What fragility is measured with, and when."""
 
+    heading: ClassVar[Heading] = Heading.FRAGILITY
+    changes_numbers: ClassVar[bool] = False
+
     in_every_run: bool = described(False, "whether every run measures the fragility")
 
 
 @dataclass(frozen=True)
 class StudyDesign(DesignSettings):
     """The design level of a study, the checks at it, and where their records are drawn from."""
+
+    heading: ClassVar[Heading] = Heading.DESIGN
+    changes_numbers: ClassVar[bool] = False  # of the tables of records
 
     pool: str | None = described(
         None, "catalogue from which sets of records are drawn; null: that of the study"
@@ -54,6 +62,9 @@ class StudyDesign(DesignSettings):
 @dataclass(frozen=True)
 class StudyTrade:
     """When error is measured against time."""
+
+    heading: ClassVar[Heading] = Heading.TRADE
+    changes_numbers: ClassVar[bool] = False
 
     in_summary: bool = described(False, "whether every run measures the trade and draws it in summary.pdf")
 
@@ -65,14 +76,42 @@ class StudyTrade:
 class Settings(AssessmentSettings):
     """What a study is made with; the names and their units are the keys of config.yaml."""
 
-    study: str | None = described("", "title of the study")
-    client: str | None = described("", "client of the study")
-    author: str | None = described("", "author of the study")
-    date: str | None = described("", "date of the reports, as they print it")
-    catalogue: str = described("records/catalogue.csv", "catalogue of the records, one row per station")
-    structures: str = described("structures.yaml", "list of the structures, in metres and degrees")
-    results: str = described("results", "folder of the results")
-    mirror: str | None = described(None, "folder that already holds the files of remote records")
+    study: str | None = described(
+        "", "title of the study", heading=Heading.ABOUT, told="study", changes_numbers=False
+    )
+    client: str | None = described(
+        "", "client of the study", heading=Heading.ABOUT, told="client", changes_numbers=False
+    )
+    project_number: str | None = described(
+        "", "number of the project", heading=Heading.ABOUT, told="project number", changes_numbers=False
+    )
+    author: str | None = described(
+        "", "author of the study", heading=Heading.ABOUT, told="author", changes_numbers=False
+    )
+    date: str | None = described(
+        "", "date of the reports, as they print it", heading=Heading.ABOUT, told="date", changes_numbers=False
+    )
+    catalogue: str = described(
+        "records/catalogue.csv",
+        "catalogue of the records, one row per station",
+        heading=Heading.RECORDS,
+        changes_numbers=False,
+    )
+    structures: str = described(
+        "structures.yaml",
+        "list of the structures, in metres and degrees",
+        heading=Heading.RECORDS,
+        changes_numbers=False,
+    )
+    results: str = described(
+        "results", "folder of the results", heading=Heading.RECORDS, changes_numbers=False
+    )
+    mirror: str | None = described(
+        None,
+        "folder that already holds the files of remote records",
+        heading=Heading.RECORDS,
+        changes_numbers=False,
+    )
     processing: StudyProcessing = StudyProcessing(pre_event=1.0, baseline="linear", taper=0.02, high_pass=0.1)
     scale_to: str | None = described(
         None,
@@ -80,6 +119,7 @@ class Settings(AssessmentSettings):
         "pga 0.35 g or pgv 50 cm/s; null: as the catalogue says",
         pattern=r"^\s*[Pp][Gg][AaVv]\s+[0-9.]+([eE][-+]?[0-9]+)?\s*[A-Za-z].*$",
         examples=["pga 0.35 g", "pgv 50 cm/s"],
+        heading=Heading.PROCESSING,
     )
     vertical: bool = described(False, "whether the vertical component acts as well, where a record has one")
     candidates: int = described(
@@ -89,15 +129,25 @@ class Settings(AssessmentSettings):
     design_spectrum: StudyDesign = StudyDesign()
     fragility: StudyFragility = StudyFragility()
     trade: StudyTrade = StudyTrade()
-    reports: bool = described(True, "whether PDF reports are written beside the tables")
+    reports: bool = described(
+        True,
+        "whether PDF reports are written beside the tables",
+        heading=Heading.OUTPUT,
+        changes_numbers=False,
+    )
     histories: bool = described(
-        False, "whether each record gets histories.csv, the rotation of every response"
+        False,
+        "whether each record gets histories.csv, the rotation of every response",
+        heading=Heading.OUTPUT,
+        changes_numbers=False,
     )
     records_per_job: int | None = described(
         None,
         "number of records per job; null: 12, or 24 without reports; of many an eighth, at most 200",
         ge=1,
         le=100_000,
+        heading=Heading.OUTPUT,
+        changes_numbers=False,
     )
 
     def __post_init__(self) -> None:
@@ -109,42 +159,40 @@ class Settings(AssessmentSettings):
                 raise ConfigurationError(str(error)) from None
 
     def mapping(self) -> dict[str, Any]:
-        """All settings by their names."""
-        return asdict(self)
+        """All settings by their names, and below "about" what every report tells of the study, by its label."""
+        return asdict(self) | {"about": self.about}
 
     def numbers(self) -> dict[str, Any]:
         """Those that change a number of a table."""
-        return {name: value for name, value in self.mapping().items() if name not in _NO_NUMBER}
+        return {
+            name: value for name, value in asdict(self).items() if _said_of(name, "changes_numbers", True)
+        }
 
     @property
-    def about(self) -> tuple[str | None, ...]:
-        """What every report tells of the study."""
-        return tuple(getattr(self, name) for name in _ABOUT)
+    def about(self) -> dict[str, str]:
+        """What every report tells of the study, by its label; what was left blank is left out."""
+        told = {name: _said_of(name, "told", "") for name in (each.name for each in fields(self))}
+        return {label: str(value) for name, label in told.items() if label and (value := getattr(self, name))}
 
 
-_ABOUT = ("study", "client", "author", "date")
-_NO_NUMBER = {*_ABOUT, "catalogue", "structures", "results", "mirror", "fragility", "trade", "reports"}
-_NO_NUMBER |= {"design_spectrum"}  # of the tables of records
-_NO_NUMBER |= {"histories", "records_per_job"}
+def _said_of(name: str, what: str, otherwise: Any) -> Any:
+    """What the declaration of a setting, or of a section of settings, says beside its type and meaning."""
+    values = described_values(Settings)
+    if name in values:
+        return values[name].more.get(what, otherwise)
+    return getattr(getattr(Settings, name), what, otherwise)
+
+
+def layout() -> dict[Heading, list[str]]:
+    """Return the names of the settings below each heading of config.yaml, as they are declared."""
+    by_heading: dict[Heading, list[str]] = {heading: [] for heading in Heading}
+    for name in _entries(Settings()):
+        by_heading[_said_of(name, "heading", Heading.METHOD)].append(name)
+    return by_heading
+
 
 EXAMPLE = Settings(structures="workflow/structures.yaml")
 """The settings of the shipped example, whose structures stand beside its rules."""
-
-LAYOUT = {
-    "Told on the first page of every report; each may stay blank": _ABOUT,
-    "Records and structures": ("catalogue", "structures", "results", "mirror"),
-    "Processing, told in every report": ("processing", "scale_to"),
-    "Method": (
-        *("acceleration_scale", "tolerance", "vertical", "friction_coefficient", "pulse", "candidates"),
-        *("processing_variants", "fidelity", "fidelity_risk"),
-    ),
-    "Ensemble: the uncertain inputs of a case vary within these ranges": ("ensemble",),
-    "Design level and the checks of the Italian code: snakemake checks": ("design_spectrum",),
-    "Fragility from all records of the study: snakemake fragility": ("fragility",),
-    "Trade of error for time: snakemake trade": ("trade",),
-    "Output": ("reports", "histories", "records_per_job"),
-}
-"""The settings in the order of config.yaml, below their headings."""
 
 
 def read_settings(config: Mapping[str, Any]) -> Settings:
@@ -196,7 +244,7 @@ def commented_yaml(settings: Settings) -> str:
     """Return `settings` as a config.yaml in which every line says what it sets."""
     lines = ["# Every setting with its unit. What is left out keeps the value that it has here."]
     lines += ["# Paths are relative to the folder in which the study runs."]
-    for heading, names in LAYOUT.items():
+    for heading, names in layout().items():
         lines += ["", f"# {heading} ".ljust(105, "-"), *_yaml_lines(settings, names)]
     return "\n".join([*lines, ""])
 

@@ -1,7 +1,7 @@
 """The tree of settings: what it refuses, and that every file made from it says the same."""
 
 import math
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 
 import pytest
@@ -14,6 +14,7 @@ from rocking.assessment.settings import AssessmentSettings, FragilitySettings
 from rocking.described import described_values, parts_of
 from rocking.errors import ConfigurationError
 from rocking.records.processing import UNPROCESSED_DEFAULT
+from rocking.reports.printing import settings_texts
 from rocking.study.settings import (
     EXAMPLE,
     Settings,
@@ -194,3 +195,16 @@ def test_the_schema_allows_what_the_tree_allows(name: tuple[str, ...], value: ob
         for words in ("must be above", "must be below", "or at least", "low_pass only", "be given with")
     )
     assert of_two or SCHEMA.is_valid(config) == (not refused), refused
+
+
+def test_what_a_study_is_told_by_stands_in_every_report_and_changes_no_number() -> None:
+    """Whatever declares that it is told: nothing but its declaration puts it there."""
+    told = {
+        each.name: each.more["told"] for each in described_values(Settings).values() if "told" in each.more
+    }
+    assert {"study", "client", "author", "date", "project_number"} <= told.keys()
+    settings = replace(Settings(), **{name: f"the {name}" for name in told})
+    printed = settings_texts(settings.mapping())["about"]
+    assert printed == {label: f"the {name}" for name, label in told.items()}
+    assert settings.numbers() == Settings().numbers()
+    assert replace(settings, tolerance=1e-7).numbers() != settings.numbers()
