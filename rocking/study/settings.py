@@ -5,7 +5,7 @@ written, with its JSON schema, from these. After a change: make schema
 """
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass
 from typing import Any, ClassVar, Literal
 
 import yaml
@@ -171,8 +171,9 @@ class Settings(AssessmentSettings):
     @property
     def about(self) -> dict[str, str]:
         """What every report tells of the study, by its label; what was left blank is left out."""
-        told = {name: _said_of(name, "told", "") for name in (each.name for each in fields(self))}
-        return {label: str(value) for name, label in told.items() if label and (value := getattr(self, name))}
+        labels = {name: each.more.get("told", "") for name, each in described_values(Settings).items()}
+        told = {label: getattr(self, name) for name, label in labels.items() if label}
+        return {label: str(value) for label, value in told.items() if value}
 
 
 def _said_of(name: str, what: str, otherwise: Any) -> Any:
