@@ -134,12 +134,15 @@ class CaseResult:
 
     @property
     def kept(self) -> "CaseResult":
-        """What a store keeps of it: without the histories, and without the prediction, which a pulse gives at once."""
+        """What a store keeps of it: the same for the same input, whenever and wherever it is computed.
+
+        Without the histories, without the prediction, which a pulse gives at once, and without the times it took.
+        """
         responses = {method: _without_history(each) for method, each in self.responses.items()}
         answer = self.answer
         if answer is not None and answer.response is not None:
             answer = replace(answer, response=_without_history(answer.response))
-        return replace(self, prediction=None, responses=responses, answer=answer)
+        return replace(self, prediction=None, responses=responses, answer=answer, durations={})
 
     @property
     def ensemble(self) -> Ensemble | None:

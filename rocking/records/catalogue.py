@@ -20,9 +20,11 @@ from rocking.tables import read_whole
 _OBSPY = "obspy:"
 _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,79}")
 _RESERVED = re.compile(
-    r"(con|prn|aux|nul|(com|lpt)\d|summary|datapackage|paper|calibration|documentation|fragility|checks|code_check|validation|comparison|"
-    r"cracks|calibrate|calibrate_ensemble|cover|trade_fragility|govern|screen|validate|compare)(\..*)?", re.I,
-)  # fmt: skip
+    r"(con|prn|aux|nul|(com|lpt)\d|summary|datapackage|paper|calibration|documentation|fragility|checks|code_check|"
+    r"validation|comparison|cracks|calibrate|calibrate_ensemble|cover|trade_fragility|govern|stand|floors|screen|"
+    r"validate|compare)(\..*)?",
+    re.I,
+)
 _HASH = re.compile(r"[0-9a-f]{64}")
 _COMMIT = re.compile(r"[0-9a-f]{40}")
 _REPOSITORY = re.compile(r"(?!\.+/)[\w.-]+/(?!\.+$)[\w.-]+", re.ASCII)

@@ -247,5 +247,5 @@ def test_candidates_stand_and_the_weakest_comes_first(structure):
         assert type(each.structure) is type(structure) and each.structure.crack == "known"
         assert (each.structure.restitution_range, each.structure.mechanism().restitution) == (0.03, 0.9)
         if np.isfinite(each.position):
-            own = getattr(each.structure, f"{structure.crack_name}_height")
+            own = each.structure.crack_position
             assert own == pytest.approx(each.position, abs=1e-12)

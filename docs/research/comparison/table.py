@@ -15,7 +15,7 @@ from docs.research.comparison import codes
 from docs.research.report import Target
 from docs.research.sites import timed
 from rocking import Mechanism, integrate
-from rocking.assessment.variations import cracks
+from rocking.assessment.cracks import cracks
 from rocking.tables import Row, column, row
 
 REFERENCE = "scipy DOP853, 1e-12 (reference)"
