@@ -455,6 +455,7 @@ def _pictures(report: RecordReport) -> dict[str, object]:
             "Factors on the record at which 5, 50 and 95 % of the members overturn, by structure.",
             labels,
         ),
+        "reserve-note": _reserve_note(reserves),
         "strip-note": remainder(len(report.stations) - len(stations), "structure", verdicts),
         "histories": pictures(figures.histories_figure, histories, rotations, labels, motions),
         "histories-note": remainder(
@@ -469,6 +470,17 @@ def _pictures(report: RecordReport) -> dict[str, object]:
         "comparison": pictures(figures.comparison_figure, cases, comparison, labels, len(motions) > 1),
         "comparison-note": remainder(len(rows) - len(cases), "case", "the table of every method"),
     }
+
+
+def _reserve_note(stations: Sequence[StationResult]) -> str:
+    """Say of which structures the reserve is that of a mechanism which knows less than may happen; "" of none."""
+    doubtful = [station.structure for station in stations if station.is_in_doubt]
+    if not doubtful:
+        return ""
+    return (
+        f" It is that of the mechanism and may be too high for {printing.listed(doubtful)}, whose contacts open or "
+        "whose courses may be thrown."
+    )
 
 
 def _tables(report: RecordReport) -> dict[str, object]:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from rocking.assessment.rows.of_study import structure_rows
-from rocking.assessment.verdict import Agreement, Verdict
+from rocking.assessment.verdict import Agreement, Doubt, Verdict
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports.record import RecordReport, failure_report
 from rocking.structures import Block
@@ -174,3 +174,14 @@ def test_a_contact_that_fails_is_told_first(example):
     failing = f"{next(iter(example.structures))} (slides and bounces)"
     assert any(failing in notice["text"] and notice["strong"] for notice in data["notices"])
     assert data["methods"]["rows"][0][-2:] == ["yes", "yes"]
+
+
+def test_a_reserve_that_may_be_too_high_is_told_as_such(example):
+    """Of a structure whose contacts open the mechanism knows too little; of the others nothing is said."""
+    name = next(each.structure for each in example.stations if each.reserve is not None)
+    assert example.data()["reserve-note"] == ""
+    station = example.result.stations[name]
+    cases = {each: replace(case, doubt=Doubt.CONTACTS_OPEN) for each, case in station.cases.items()}
+    stations = example.result.stations | {name: replace(station, cases=cases)}
+    doubtful = replace(example, result=replace(example.result, stations=stations))
+    assert f"may be too high for {name}" in doubtful.data()["reserve-note"]
