@@ -242,11 +242,31 @@ def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
     raise RecordError("a StationXML holds no samples, but describes an instrument; read the miniSEED.")
 
 
-SAC = Format("SAC", "SAC (IRIS, and many networks)",
-    "SAC header of version 6 or 7 whose number of samples fits the size of the file", _is_sac, _read_sac)  # fmt: skip
-EVT = Format("Kinemetrics EVT", "Kinemetrics recorders", "KMI mark at the start of the file",
-    lambda content: content[:1] == b"K" and content[:32].count(b"KMI") == 1, _read_evt)  # fmt: skip
-MINISEED = Format("miniSEED", "FDSN data centres", "miniSEED fixed header (six digits, then D, R, Q or M)",
-    lambda content: len(content) >= 128 and bool(_FIXED_HEADER.match(content)), _read_miniseed)  # fmt: skip
-STATIONXML = Format("StationXML", "FDSN data centres", "FDSNStationXML element",
-    lambda content: b"<FDSNStationXML" in content[:2000], _refuse)  # fmt: skip
+SAC = Format(
+    "SAC",
+    "SAC (IRIS, and many networks)",
+    "SAC header of version 6 or 7 whose number of samples fits the size of the file",
+    _is_sac,
+    _read_sac,
+)
+EVT = Format(
+    "Kinemetrics EVT",
+    "Kinemetrics recorders",
+    "KMI mark at the start of the file",
+    lambda content: content[:1] == b"K" and content[:32].count(b"KMI") == 1,
+    _read_evt,
+)
+MINISEED = Format(
+    "miniSEED",
+    "FDSN data centres",
+    "miniSEED fixed header (six digits, then D, R, Q or M)",
+    lambda content: len(content) >= 128 and bool(_FIXED_HEADER.match(content)),
+    _read_miniseed,
+)
+STATIONXML = Format(
+    "StationXML",
+    "FDSN data centres",
+    "FDSNStationXML element",
+    lambda content: b"<FDSNStationXML" in content[:2000],
+    _refuse,
+)

@@ -371,10 +371,24 @@ def _read_emod3d(content: bytes, options: Options) -> list[Accelerogram]:
     return _below_title(content, options, *second.split()[:2], station=station, component=component)
 
 
-COLUMNS = Format("columns of numbers", "spreadsheets, OpenSees and scripts",
-    "lines that hold numbers only, below at most one row of names", _are_columns, _read_columns)  # fmt: skip
-TITLED = Format("titled column", "programs of analysis, files like KOBE.000",
+COLUMNS = Format(
+    "columns of numbers",
+    "spreadsheets, OpenSees and scripts",
+    "lines that hold numbers only, below at most one row of names",
+    _are_columns,
+    _read_columns,
+)
+TITLED = Format(
+    "titled column",
+    "programs of analysis, files like KOBE.000",
     "line with number of samples and step, below a title or first, then numbers",
-    lambda content: _heading(content) is not None or _title(content) is not None, _read_titled)  # fmt: skip
-EMOD3D = Format("EMOD3D text", "EMOD3D and ucgmsim, simulated and observed motion",
-    "station and component above samples, step and six more numbers", _EMOD3D, _read_emod3d)  # fmt: skip
+    lambda content: _heading(content) is not None or _title(content) is not None,
+    _read_titled,
+)
+EMOD3D = Format(
+    "EMOD3D text",
+    "EMOD3D and ucgmsim, simulated and observed motion",
+    "station and component above samples, step and six more numbers",
+    _EMOD3D,
+    _read_emod3d,
+)

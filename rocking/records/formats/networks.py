@@ -385,29 +385,81 @@ def _smc_digitised(
     return _SMC.channel(head, np.interp(even, times, values), options, step=step, **facts)
 
 
-DYNA = Format("DYNA (ESM, ITACA, AFAD)", "ESM and ITACA (ORFEUS, INGV), AFAD",
-    "EVENT_NAME: at the start, or below lines AAD_, and SAMPLING_INTERVAL_S: below", _DYNA_FIRST, _read_dyna,
-    "DYNA")  # fmt: skip
-AFAD = Format("AFAD/NSMN text", "AFAD, Turkey", "first line STRONG GROUND MOTION RECORDS OF TURKIYE",
-    re.compile(r"STRONG GROUND MOTION RECORDS OF T", re.I), _read_afad, "AFAD")  # fmt: skip
-RESORCE = Format("RESORCE", "RESORCE and SHARE, Europe",
-    "Event Date & Time at the start and a line that names the time series", _RESORCE_FIRST, _read_resorce,
-    "RESORCE")  # fmt: skip
-CWB = Format("CWB", "Central Weather Bureau, Taiwan",
+DYNA = Format(
+    "DYNA (ESM, ITACA, AFAD)",
+    "ESM and ITACA (ORFEUS, INGV), AFAD",
+    "EVENT_NAME: at the start, or below lines AAD_, and SAMPLING_INTERVAL_S: below",
+    _DYNA_FIRST,
+    _read_dyna,
+    "DYNA",
+)
+AFAD = Format(
+    "AFAD/NSMN text",
+    "AFAD, Turkey",
+    "first line STRONG GROUND MOTION RECORDS OF TURKIYE",
+    re.compile(r"STRONG GROUND MOTION RECORDS OF T", re.I),
+    _read_afad,
+    "AFAD",
+)
+RESORCE = Format(
+    "RESORCE",
+    "RESORCE and SHARE, Europe",
+    "Event Date & Time at the start and a line that names the time series",
+    _RESORCE_FIRST,
+    _read_resorce,
+    "RESORCE",
+)
+CWB = Format(
+    "CWB",
+    "Central Weather Bureau, Taiwan",
     "first line #Earthquake Information, or #StationCode: as on the disc of 1999",
-    re.compile(r"#(Earthquake Information|StationCode\s*:)"), _read_cwb, "CWB")  # fmt: skip
-UNAM = Format("UNAM/CICESE", "Instituto de Ingeniería UNAM and CICESE, Mexico",
+    re.compile(r"#(Earthquake Information|StationCode\s*:)"),
+    _read_cwb,
+    "CWB",
+)
+UNAM = Format(
+    "UNAM/CICESE",
+    "Instituto de Ingeniería UNAM and CICESE, Mexico",
     "line ARCHIVO ESTANDAR DE ACELERACION in the first 12",
-    re.compile(r"(?:.*\n){0,11}ARCHIVO ESTANDAR DE ACELERACI"), _read_unam, "UNAM")  # fmt: skip
-KNET = Format("K-NET/KiK-net", "NIED, Japan",
-    "header that starts with Origin Time, Lat., Long., Depth. (km)", _KNET_FIRST, _read_knet)  # fmt: skip
-JMA = Format("JMA CSV", "Japan Meteorological Agency",
-    "SITE CODE= at the start and a seventh line NS,EW,UD", _JMA_FIRST, _read_jma)  # fmt: skip
-CSMNC = Format("CSMNC", "China Strong Motion Networks Centre",
-    "lines OBSERVING POINT: and NO. OF POINTS: in the first 16", _CSMNC_FIRST, _read_csmnc, "CSMNC")  # fmt: skip
-GEONET = Format("GeoNet V1A/V2A", "GeoNet (GNS Science), New Zealand",
-    "first line Corrected or Uncorrected accelerogram above a Site line", _GEONET_FIRST,
-    header.in_blocks(_GEONET_BLOCK, _geonet_channel), "GEONET")  # fmt: skip
-SMC = Format("USGS SMC", "U.S. Geological Survey",
-    "first line like 2 CORRECTED ACCELEROGRAM above ten text lines and integers", _SMC_FIRST, _read_smc,
-    "USGS_SMC")  # fmt: skip
+    re.compile(r"(?:.*\n){0,11}ARCHIVO ESTANDAR DE ACELERACI"),
+    _read_unam,
+    "UNAM",
+)
+KNET = Format(
+    "K-NET/KiK-net",
+    "NIED, Japan",
+    "header that starts with Origin Time, Lat., Long., Depth. (km)",
+    _KNET_FIRST,
+    _read_knet,
+)
+JMA = Format(
+    "JMA CSV",
+    "Japan Meteorological Agency",
+    "SITE CODE= at the start and a seventh line NS,EW,UD",
+    _JMA_FIRST,
+    _read_jma,
+)
+CSMNC = Format(
+    "CSMNC",
+    "China Strong Motion Networks Centre",
+    "lines OBSERVING POINT: and NO. OF POINTS: in the first 16",
+    _CSMNC_FIRST,
+    _read_csmnc,
+    "CSMNC",
+)
+GEONET = Format(
+    "GeoNet V1A/V2A",
+    "GeoNet (GNS Science), New Zealand",
+    "first line Corrected or Uncorrected accelerogram above a Site line",
+    _GEONET_FIRST,
+    header.in_blocks(_GEONET_BLOCK, _geonet_channel),
+    "GEONET",
+)
+SMC = Format(
+    "USGS SMC",
+    "U.S. Geological Survey",
+    "first line like 2 CORRECTED ACCELEROGRAM above ten text lines and integers",
+    _SMC_FIRST,
+    _read_smc,
+    "USGS_SMC",
+)

@@ -91,9 +91,18 @@ def _component(title: str) -> str:
     return last if len(last) <= _LONGEST_COMPONENT else ""
 
 
-PEER_AT2 = Format("PEER AT2", "PEER (NGA databases), USA",
+PEER_AT2 = Format(
+    "PEER AT2",
+    "PEER (NGA databases), USA",
     "line with NPTS and DT in the first 8 lines of an acceleration file",
-    lambda content: _kind(content) == "acceleration", _read, "PEER_AT2")  # fmt: skip
-PEER_OTHER = Format("PEER VT2 or DT2", "PEER (NGA databases), USA",
+    lambda content: _kind(content) == "acceleration",
+    _read,
+    "PEER_AT2",
+)
+PEER_OTHER = Format(
+    "PEER VT2 or DT2",
+    "PEER (NGA databases), USA",
     "NPTS and DT below VELOCITY or DISPLACEMENT TIME SERIES",
-    lambda content: _kind(content) in ("velocity", "displacement"), _refuse)  # fmt: skip
+    lambda content: _kind(content) in ("velocity", "displacement"),
+    _refuse,
+)

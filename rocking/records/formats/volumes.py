@@ -257,20 +257,50 @@ _USC_FIRST = re.compile(r"FILE\s+\d+\s+OF UNCORRECTED ACCELEROGRAM DATA OF VOLUM
 _BHRC_FIRST = re.compile(r"\* VOL1DS FILE:", re.I)
 
 
-COSMOS = Format("COSMOS V1/V2", "COSMOS, CESMD and USGS, USA",
-    "first line like Corrected acceleration (Format v01.20", _COSMOS_FIRST, header.in_blocks(_COSMOS_FIRST, _cosmos),
-    "COSMOS_V1V2")  # fmt: skip
-USC = Format("USC Volume 1", "University of Southern California",
-    "first line FILE n OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I", _USC_FIRST,
-    header.in_blocks(_USC_FIRST, partial(_digitised, _USC)), "USC_V1")  # fmt: skip
-RENADIC = Format("RENADIC", "RENADIC (Universidad de Chile)",
+COSMOS = Format(
+    "COSMOS V1/V2",
+    "COSMOS, CESMD and USGS, USA",
+    "first line like Corrected acceleration (Format v01.20",
+    _COSMOS_FIRST,
+    header.in_blocks(_COSMOS_FIRST, _cosmos),
+    "COSMOS_V1V2",
+)
+USC = Format(
+    "USC Volume 1",
+    "University of Southern California",
+    "first line FILE n OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I",
+    _USC_FIRST,
+    header.in_blocks(_USC_FIRST, partial(_digitised, _USC)),
+    "USC_V1",
+)
+RENADIC = Format(
+    "RENADIC",
+    "RENADIC (Universidad de Chile)",
     "first line UNCORRECTED ACCELEROGRAM DATA PROCESSED with RENADIC below",
     re.compile(_VOLUME_1.pattern + _OF_RENADIC, re.I),
-    header.in_blocks(_VOLUME_1, partial(_digitised, _RENADIC, is_even=True)), "RENADIC")  # fmt: skip
-BHRC = Format("BHRC", "BHRC, Iran", "first line * VOL1DS FILE:", _BHRC_FIRST, header.in_blocks(_BHRC_FIRST, _bhrc),
-    "BHRC")  # fmt: skip
-CSMIP = Format("CSMIP V1/V2", "California Geological Survey (CSMIP, CDMG)",
-    "first line like Uncorrected Accelerogram Data Processed, or Corrected accelerogram Chan", _CSMIP_FIRST,
-    _read_csmip, "CSMIP_V1V2")  # fmt: skip
-SPECTRA = Format("CSMIP V3 spectra", "California Geological Survey (CSMIP, CDMG)",
-    "first line that names response or Fourier spectra", _VOLUME_3, _refuse)  # fmt: skip
+    header.in_blocks(_VOLUME_1, partial(_digitised, _RENADIC, is_even=True)),
+    "RENADIC",
+)
+BHRC = Format(
+    "BHRC",
+    "BHRC, Iran",
+    "first line * VOL1DS FILE:",
+    _BHRC_FIRST,
+    header.in_blocks(_BHRC_FIRST, _bhrc),
+    "BHRC",
+)
+CSMIP = Format(
+    "CSMIP V1/V2",
+    "California Geological Survey (CSMIP, CDMG)",
+    "first line like Uncorrected Accelerogram Data Processed, or Corrected accelerogram Chan",
+    _CSMIP_FIRST,
+    _read_csmip,
+    "CSMIP_V1V2",
+)
+SPECTRA = Format(
+    "CSMIP V3 spectra",
+    "California Geological Survey (CSMIP, CDMG)",
+    "first line that names response or Fourier spectra",
+    _VOLUME_3,
+    _refuse,
+)
