@@ -66,8 +66,8 @@ class RecordReport:
     """The report of one record, and what several of its pages ask for.
 
     Every number of a table is a cell of `tables`, the rows of `result`, or of the structures table, rounded.
-    structures: by name. settings: at least tolerance and acceleration_scale; study, client, author and date where they
-    are given.
+    structures: by name. settings: at least tolerance and acceleration_scale; below "about" what is told of the study,
+    where it is given.
     """
 
     result: RecordResult

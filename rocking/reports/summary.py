@@ -78,7 +78,7 @@ def summary_data(
 
     tables: the summary tables "record", "pulses", "comparison", "verdicts", "structures", "agreement" and "failures",
     and where they exist "supports", "fragility_summary" and "ida".
-    settings: at least tolerance and acceleration_scale; study, client, author and date where they are given.
+    settings: at least tolerance and acceleration_scale; below "about" what is told of the study, where it is given.
     trade: figure and conclusion, where it was measured.
     """
     verdicts = sorted(rows_of(VerdictRow, tables["verdicts"]), key=lambda row: row.severity, reverse=True)

@@ -13,7 +13,7 @@ from rocking.errors import ConfigurationError
 from rocking.reports.structures import share_interval, structures_data
 from rocking.study.checks import write_checks
 from rocking.study.job import Study
-from rocking.study.settings import read_settings
+from rocking.study.settings import Settings, read_settings
 from rocking.tables import read_table, write_tables
 from tests.made_pools import made_pool
 
@@ -141,7 +141,7 @@ def test_the_page_names_the_client_and_what_the_checks_rest_on():
     page = CheckedStructure(
         name="parapet", structure=STRUCTURES["parapet"], checked=checked, overturning_share=0.5, stations=4
     )
-    settings = {"client": "The town", "tolerance": 1e-6, "acceleration_scale": "rest"}
+    settings = Settings(client="The town").mapping()
     data = structures_data([page], spectrum, settings)
     assert data["about"]["client"] == "The town"
     (text,) = data["pages"]
