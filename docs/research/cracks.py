@@ -20,10 +20,10 @@ from docs.research import scores
 from docs.research.comparison.bodies import BASE_DEPTH, RigidBodies, rectangle
 from docs.research.comparison.codes import ask
 from docs.research.comparison.lmgc90 import FALLEN, follow
-from docs.research.ensembles import verdict_of_all
 from docs.research.report import Target
 from docs.research.sites import Trial, draw_of, independent, lifting_factor, one_of_each
 from rocking import Accelerogram, LoadedWall, Mechanism, RigidBody, Verdict
+from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.errors import StructureWarning
@@ -245,7 +245,9 @@ def ruled(
     """
     motions = GroundMotions.of(motion)
     of_each = {joint: ensemble(mechanism, motions) for joint, mechanism in mechanisms.items()}
-    verdict = verdict_of_all(of_each[static], of_each.values())
+    statics_first = sorted(of_each, key=lambda joint: joint != static)
+    followed = (FollowedCrack(f"joint {joint}", joint, of_each[joint]) for joint in statics_first)
+    verdict = CrackEnsembles(tuple(followed)).verdict
     lifts = any(np.any(each.rotation_ratios > 0) for each in of_each.values())
     if verdict is Verdict.STANDS and tapers and lifts:
         verdict = Verdict.UNDECIDED

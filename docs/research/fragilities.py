@@ -14,7 +14,7 @@ import numpy as np
 from docs.research import scores, sites
 from docs.research.report import Target
 from rocking import Accelerogram, Block, EquivalentBlock, Pulse, integrate_batch, predict_maxima
-from rocking.assessment.fragility import crossing, fragility, fragility_of
+from rocking.assessment.fragility import Fragility, crossing, fragility, fragility_of
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.trade import TradeMethod, best_sines
 from rocking.structures import Structure
@@ -114,16 +114,11 @@ def _by_sines(block: EquivalentBlock, sines: Sequence[Sequence[Pulse]], factors:
 
 def cover(target: Target) -> None:
     """Score the median of fragilities whose truth is known: the curve of all real stations, or of a population."""
-    labels, motions = zip(*((site, each) for _, site, each in sites.independent(target.records)), strict=True)
-    tried = {name: each for name, each in sites.structures_tried().items() if name in TRIED}
     rows: list[scores.Score] = []
-    for name, structure in {"stone pier, 2 by 9 m": Block.of_size(2.0, 9.0), **tried}.items():
-        analysis = fragility(motions, structure, stations=labels, **ALL_LEVELS).analysis
-        shares = np.isinf(analysis.rotation_ratios).mean(axis=2)
-        pool = np.array([shares[np.array(labels) == site].mean(axis=0) for site in dict.fromkeys(labels)])
+    for name, curve, pool in real_sites(target):
         whence = f"of {len(pool)} real ones"
         rows += _scores(
-            name, whence, analysis.levels, pool.mean(axis=0), lambda rng, n, pool=pool: rng.choice(pool, n)
+            name, whence, curve.levels, pool.mean(axis=0), lambda rng, n, pool=pool: rng.choice(pool, n)
         )
         target.tell(name)
     for name in POPULATIONS:
@@ -131,6 +126,18 @@ def cover(target: Target) -> None:
         target.tell(name)
     subtitle = f"{TRIALS} intervals and {ESTIMATES} medians of each; of real stations the pool is the truth."
     target.publish("What the interval of a fragility's median covers", subtitle, {scores.Score: rows})
+
+
+def real_sites(target: Target) -> Iterator[tuple[str, Fragility, np.ndarray]]:
+    """Yield name and curve of each structure tried, and the shares (n, k) that overturn at each of the real sites."""
+    labels, motions = zip(*((site, each) for _, site, each in sites.independent(target.records)), strict=True)
+    tried = {name: each for name, each in sites.structures_tried().items() if name in TRIED}
+    for name, structure in {"stone pier, 2 by 9 m": Block.of_size(2.0, 9.0), **tried}.items():
+        curve = fragility(motions, structure, stations=labels, **ALL_LEVELS)
+        assert curve.analysis is not None
+        shares = np.isinf(curve.analysis.rotation_ratios).mean(axis=2)
+        pool = np.array([shares[np.array(labels) == site].mean(axis=0) for site in dict.fromkeys(labels)])
+        yield name, curve, pool
 
 
 def population_scores(name: str) -> Iterator[scores.Score]:

@@ -6,7 +6,17 @@ from pathlib import Path
 
 def main(name, catalogues, mirror, structures, folder, tell):
     """Run the target `name`, which is a function of that name, and write its tables and its report into `folder`."""
-    from docs.research import code_checks, cracks, ensembles, floors, fragilities, stacks, tiers, validation
+    from docs.research import (
+        code_checks,
+        cracks,
+        ensembles,
+        floors,
+        fragilities,
+        rates,
+        stacks,
+        tiers,
+        validation,
+    )
     from docs.research.comparison import table
     from docs.research.report import Target
     from docs.research.shake_table import Campaign
@@ -17,7 +27,7 @@ def main(name, catalogues, mirror, structures, folder, tell):
         campaign = Campaign.open(Path(catalogues[0]), mirror and Path(mirror))
         validation.validate(Target(folder, tell), campaign)
         return
-    modules = (tiers, ensembles, fragilities, cracks, code_checks, stacks, floors, table)
+    modules = (tiers, ensembles, fragilities, rates, cracks, code_checks, stacks, floors, table)
     run = next(getattr(each, name) for each in modules if hasattr(each, name))
     motions = [motions_of(load_catalogue(Path(each)), mirror, tell) for each in catalogues]
     listed = load_structures(Path(structures))

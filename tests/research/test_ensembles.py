@@ -10,7 +10,7 @@ from docs.research import ensembles
 from docs.research.ensembles import CHOSEN, LEFT_OUT, PAIRS, EnsembleTrial, ScreeningTrial, try_ensembles
 from rocking.assessment.verdict import Verdict
 from rocking.records import Accelerogram
-from rocking.structures import Block, Wall
+from rocking.structures import Block, Spire, Wall
 
 TIMES = np.arange(0, 6, 0.01)
 RECORDS = [
@@ -58,23 +58,43 @@ def test_each_measure_counts_what_it_names():
 
 def test_each_measure_of_the_screen_counts_what_it_names():
     stands, overturns, undecided = Verdict.STANDS, Verdict.OVERTURNS, Verdict.UNDECIDED
-    cases = [(stands, stands, 0.06), (stands, stands, 0.04), (stands, overturns, np.nan)]
-    cases += [(undecided, stands, 0.01), (overturns, overturns, np.nan)]
-    about = {"record": "r", "structure": "wall", "scale_factor": 1.0, "largest_share": 0.0}
+    cases = [
+        (stands, stands, 0.06, 0.0, 0.0),
+        (stands, stands, 0.04, 0.0, 0.6),
+        (stands, overturns, np.nan, 0.02, 0.04),
+        (undecided, stands, 0.01, 0.5, 0.6),
+        (overturns, overturns, np.nan, 0.9, 1.0),
+    ]
+    about = {"record": "r", "structure": "wall", "scale_factor": 1.0}
     trials = [
-        ScreeningTrial(verdict=verdict, exhaustive=exhaustive, fresh_share=fresh, site=f"{k}", **about)
-        for k, (verdict, exhaustive, fresh) in enumerate(cases)
+        ScreeningTrial(
+            verdict=verdict,
+            exhaustive=exhaustive,
+            fresh_share=fresh,
+            share=share,
+            largest_share=largest,
+            site=f"{k}",
+            **about,
+        )
+        for k, (verdict, exhaustive, fresh, share, largest) in enumerate(cases)
     ]
     values = [row.value for row in ensembles.screening_scores(trials) if row.part == "wall"]
-    assert values == pytest.approx([3 / 5, 1 / 3, 1 / 3, 2 / 5])
+    assert values == pytest.approx([3 / 5, 1 / 3, 1 / 3, 2 / 5, 2 / 4, 1 / 2])
+
+
+def test_a_crack_that_is_given_is_no_trial_of_the_screen():
+    motion = Accelerogram(3 * np.sin(2 * np.pi * TIMES / 1.5) * (TIMES < 1.5), 0.01)
+    given = {"spire": Spire(3.0, 15.0, 0.25, crack_height=5.0)}
+    assert list(ensembles.screening_trials("r", "s", motion, given)) == []
 
 
 def test_the_verdict_over_all_cracks_is_that_of_the_ensembles_of_all():
     """Of a wall that may crack anywhere; a block has one mechanism and is no trial."""
     motion = Accelerogram(3 * np.sin(2 * np.pi * TIMES / 1.5) * (TIMES < 1.5), 0.01)
-    made = {"wall": Wall(1.6, 1.6, 0.25), "block": Block(2.0, 0.2)}
+    made = {"wall": Wall.of_size(3.2, 0.25), "block": Block(2.0, 0.2)}
     trials = list(ensembles.screening_trials("r", "s", motion, made))
     assert [(each.structure, each.verdict) for each in trials] == [("wall", e.exhaustive) for e in trials]
+    assert all(each.share <= each.largest_share for each in trials)
     values = {each.measure: each.value for each in ensembles.screening_scores(trials) if each.part == "wall"}
     assert values["other verdict than that of all cracks"] == 0
     assert values['share of "stands"'] == float(trials[0].verdict is Verdict.STANDS)

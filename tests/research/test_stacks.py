@@ -52,14 +52,15 @@ def test_a_trial_is_the_same_at_every_call():
 
 def test_the_scores_count_what_they_name():
     base = {"record": "r", "structure": "spire", "courses": 6, "scale_factor": 1.0, "velocity_ratio_s": 0.1}
-    base |= {"contact_s": 0.1, "stack_falls": None, "stack_runs": None}
+    base |= {"contact_s": 0.1, "stack_falls": None, "stack_runs": None, "opened": 1}
+    base |= {"opened_height_m": 1.0}
     stands, falls, open_ = Verdict.STANDS, Verdict.OVERTURNS, Verdict.UNDECIDED
     cases = [
-        (stands, "thrown", open_, stands, False),
-        (stands, "thrown", open_, falls, True),
-        (stands, "thrown", open_, open_, True),
-        (falls, "", falls, falls, True),
-        (stands, "", stands, stands, False),
+        (stands, "thrown", open_, stands, False, 0.1, False),
+        (stands, "thrown", open_, falls, True, 0.9, False),
+        (stands, "thrown", open_, open_, True, 0.9, True),
+        (falls, "", falls, falls, True, 0.9, True),
+        (stands, "", stands, stands, False, 1e-6, False),
     ]
     rows = [
         StackRow(
@@ -68,15 +69,22 @@ def test_the_scores_count_what_they_name():
             without=without,
             verdict=verdict,
             falls=fell,
+            turn_rad=turn,
+            opened_at_storey=at_storey,
             site=str(place),
             **base,
         )
-        for place, (mechanism, doubt, without, verdict, fell) in enumerate(cases)
+        for place, (mechanism, doubt, without, verdict, fell, turn, at_storey) in enumerate(cases)
     ]
     found = {row.measure: (row.value, row.cases) for row in stack_scores(rows) if row.part == "spire"}
     assert found['falls among "stands" by mechanisms'] == (0.5, 4)
     assert found['falls among "stands" without contact dynamics'] == (0.0, 1)
     assert found['falls among "stands" with it'] == (0.0, 2)
+    assert found['falls among "stands" with it whose stack lifts'] == (0.0, 1)
+    assert found["trials whose stack lifts"] == (0.8, 5)
+    assert found["stacks of storeys that open most between two feet"] == (0.5, 4)
+    assert found['falls among "stands" with it that open most between two feet'] == (0.0, 1)
+    assert found['survivals among "overturns" with it that open so'] == (0.0, 1)
     assert found["undecided without contact dynamics"] == (pytest.approx(0.6), 5)
     assert found["undecided with it"] == (pytest.approx(0.2), 5)
     assert found["undecided that contact dynamics settles"] == (pytest.approx(2 / 3), 3)
@@ -91,7 +99,7 @@ def test_each_kind_is_judged_on_one_half_of_the_sites():
 
 
 def test_the_target_goes_on_where_it_was_stopped(tmp_path, monkeypatch):
-    monkeypatch.setattr(stacks, "TRIALS", 1)
+    monkeypatch.setattr(stacks, "TRIALS", {"loaded wall": 1, "gable": 1})
     monkeypatch.setattr(stacks, "judged_kinds", lambda _: ["loaded wall", "gable"])
     target = Target(tmp_path, print, [[("r", SINE)]])
     stacks.stand(target)

@@ -1,0 +1,167 @@
+"""Does the 90 % interval of an annual rate hold the truth, how far does it reach, and how far must any reach?
+
+Stations are drawn from populations and from real sites on which the interval was not chosen. Of a population, the
+truth is the mean rate of very many stations; of real sites, that of all of them, from which few are drawn with
+repetition.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+from scipy.special import ndtri
+
+from docs.research import scores
+from docs.research.fragilities import real_sites
+from docs.research.report import Target
+from rocking.assessment.fragility import Fragility
+from rocking.assessment.rows.of_fragility import HazardRow, annual_rate, rate_interval
+
+SLOPES = (1.5, 2.5, 3.5)
+"""Of the logarithm of the hazard over that of the level, downwards."""
+STATIONS = (8, 12, 20, 35)
+"""Drawn for one interval."""
+TRIALS = 2000
+"""Intervals of each population, slope and number of stations."""
+MANY = 4_000_000
+"""Stations whose mean is the truth of a population."""
+DISPERSIONS = (0.3, 0.5, 0.7)
+"""Of the lognormals for which the least reach is told."""
+Draw = Callable[[np.random.Generator, int, float], np.ndarray]
+"""Rates (n,) of so many stations under a hazard of a slope that is 1 at the level 1."""
+
+
+def cover_rate(target: Target) -> None:
+    """Score the interval of the rate on populations and on real sites that no part of it was chosen on."""
+    rows: list[scores.Score] = list(bounds())
+    for name, draw in POPULATIONS.items():
+        rng = np.random.default_rng(17)
+        for slope in SLOPES:
+            rows += interval_scores(name, slope, draw(rng, MANY, slope).mean(), partial(draw, slope=slope))
+        target.tell(name)
+    for name, curve, pool in real_sites(target):
+        for slope in SLOPES:
+            rates = rates_of_sites(curve, pool, slope)
+            subject = f"{name}, {len(pool)} real sites"
+            rows += interval_scores(
+                subject, slope, rates.mean(), lambda rng, n, own=rates: rng.choice(own, n)
+            )
+        target.tell(name)
+    subtitle = f"{TRIALS} intervals each; slope: of the logarithm of the hazard."
+    target.publish("What the interval of an annual rate covers", subtitle, {scores.Score: rows})
+
+
+def interval_scores(
+    subject: str, slope: float, truth: float, draw: Callable[[np.random.Generator, int], np.ndarray]
+) -> Iterator[scores.Score]:
+    """Yield coverage, misses to either side and reach at each number of stations. truth: rate of all stations."""
+    for count in STATIONS:
+        rng = np.random.default_rng(count)
+        drawn = [draw(rng, count) for _ in range(TRIALS)]
+        low, high = np.array([rate_interval(each) for each in drawn]).T
+        rate = np.array([each.mean() for each in drawn])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            reach = np.where(rate > 0, np.maximum(high, rate) / rate, np.nan)
+        measures: dict[str, scores.Measured] = {
+            "intervals that hold the rate": (low <= truth) & (truth <= high),
+            "rate above the interval": truth > high,
+            "rate below the interval": truth < low,
+            "high end over rate": lambda rows, reach=reach: float(np.nanmedian(reach[rows])),
+        }
+        yield from scores.scored(subject, f"slope {slope:g}, {count} stations", measures, range(TRIALS), 200)
+
+
+def bounds() -> Iterator[scores.Score]:
+    """Yield the least reach of any interval, at each number of stations of lognormals."""
+    for dispersion in DISPERSIONS:
+        for slope in SLOPES:
+            for count in STATIONS:
+                for known in (False, True):
+                    reach = least_reach(slope, dispersion, count, dispersion_is_known=known)
+                    words = "known" if known else "unknown"
+                    yield scores.Score(
+                        subject=f"lognormal, β {dispersion:g}",
+                        part=f"slope {slope:g}, {count} stations",
+                        measure=f"least high end over rate, β {words}",
+                        value=reach,
+                        value_low=reach,
+                        value_high=reach,
+                        cases=count,
+                        sites=count,
+                    )
+
+
+def least_reach(
+    slope: float, dispersion: float, stations: int, *, dispersion_is_known: bool = False
+) -> float:
+    """Return high end over rate of an interval of 90 % with equal tails that loses no information.
+
+    Levels are lognormal with σ = dispersion, and each station tells its own. The logarithm of the rate is
+    −kμ + k²σ²/2, and the information of n stations on (μ, σ²) is n/σ² and n/(2σ⁴), so that no unbiased estimate of it
+    varies by less than (k²σ² + k⁴σ⁴/2)/n (Cramér and Rao), and by less than k²σ²/n where σ is known. What is valid for
+    more than lognormals is valid for them, and so does not reach less.
+    """
+    scatter = (slope * dispersion) ** 2
+    variance = scatter if dispersion_is_known else scatter + scatter**2 / 2
+    return math.exp(float(ndtri(0.95)) * math.sqrt(variance / stations))
+
+
+def rates_of_sites(curve: Fragility, pool: np.ndarray, slope: float) -> np.ndarray:
+    """Return the annual rate (n,) of each site, whose curves (n, k) are `pool`, under a hazard of one slope."""
+    ends = curve.levels[[0, -1]] * np.array([0.5, 2.0])
+    points = [HazardRow(intensity=level, annual_rate=(level / ends[0]) ** -slope) for level in ends.tolist()]
+    of_each = (
+        replace(curve, probability=own, exceedance=own[None], stations=(str(place),))
+        for place, own in enumerate(pool)
+    )
+    return np.array([annual_rate(each, points)["annual_rate"] for each in of_each])
+
+
+def _lognormal(
+    rng: np.random.Generator, count: int, slope: float, *, median: float, dispersion: float
+) -> np.ndarray:
+    return (median * np.exp(dispersion * rng.standard_normal(count))) ** -slope
+
+
+def _weibull(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
+    """Levels with a tail to the weak side: some stations overturn far below the median."""
+    return rng.weibull(6.0, count) ** -slope
+
+
+def _frechet(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
+    """Levels with a tail to the strong side."""
+    return rng.weibull(2.5, count) ** slope
+
+
+def _one_in_five_weaker(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
+    weaker = rng.random(count) < 0.2
+    return (np.where(weaker, 0.5, 1.0) * np.exp(0.3 * rng.standard_normal(count))) ** -slope
+
+
+def _plateau(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
+    """Two in five stations never overturn."""
+    ever = rng.random(count) < 0.6
+    return ever * np.exp(0.4 * rng.standard_normal(count)) ** -slope
+
+
+def _dip(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
+    """A third of the stations let stand again, over a range of levels, what they had overturned."""
+    first = 1.5 * np.exp(0.6 * rng.standard_normal(count))
+    stands = first * np.exp(rng.uniform(0.05, 0.3, count))
+    again = stands * np.exp(rng.uniform(0.2, 0.9, count))
+    back = rng.random(count) < 1 / 3
+    return first**-slope - back * (stands**-slope - again**-slope)
+
+
+POPULATIONS: Mapping[str, Draw] = {
+    "lognormal, β 0.3": partial(_lognormal, median=0.5, dispersion=0.3),
+    "lognormal, β 0.7": partial(_lognormal, median=2.0, dispersion=0.7),
+    "tail to the weak side": _weibull,
+    "tail to the strong side": _frechet,
+    "one in five weaker by half": _one_in_five_weaker,
+    "a plateau of 0.6": _plateau,
+    "a dip in one of three": _dip,
+}
+"""None of them was looked at when the interval was chosen."""
