@@ -59,7 +59,9 @@ class Options:
 
     def at(self, coordinates: np.ndarray) -> np.ndarray:
         """Return the values (m,) at coordinates (m,) in (0, 1)."""
-        return np.array(self.values)[(coordinates * len(self.values)).astype(int)]
+        places = (coordinates * len(self.values)).astype(int)
+        drawn: np.ndarray = np.array(self.values)[places]
+        return drawn
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,7 +163,7 @@ def lattice(size: int) -> np.ndarray:
     while order.size < size:
         order = np.append(4 * order, np.setdiff1d(np.arange(4 * order.size), 4 * order))
     generator = np.array([cause.generator for cause in CAUSES])
-    points = (order[:, None] * (generator % size) % size / size + _SHIFT) % 1.0
+    points: np.ndarray = (order[:, None] * (generator % size) % size / size + _SHIFT) % 1.0
     points.setflags(write=False)
     return points
 

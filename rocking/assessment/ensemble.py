@@ -56,7 +56,8 @@ class Ensemble:
 
     @cached_property
     def _followed(self) -> np.ndarray:
-        return self.rotation_ratios[~np.isnan(self.rotation_ratios)]
+        followed: np.ndarray = self.rotation_ratios[~np.isnan(self.rotation_ratios)]
+        return followed
 
     @property
     def members(self) -> int:
@@ -249,4 +250,5 @@ def _restitution(structure: Mechanism | EquivalentBlock, offset: np.ndarray) -> 
     """The restitution of members (m, 2) on both sides, whose offset (m,) from the structure's own is drawn."""
     own = np.array([structure.sides[0].restitution, structure.sides[-1].restitution])
     most = np.maximum(own, 1 - LEAST_LOSS)
-    return np.clip(own + offset[:, None], 0.0, most)
+    restitution: np.ndarray = np.clip(own + offset[:, None], 0.0, most)
+    return restitution

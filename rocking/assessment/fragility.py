@@ -155,7 +155,8 @@ def fragility_of(levels: np.ndarray, exceedance: np.ndarray, stations: Sequence[
 def _by_station(values: np.ndarray, stations: Sequence[str]) -> np.ndarray:
     """The mean over the records of each station, (s, k)."""
     names, place, records = np.unique(np.asarray(stations), return_inverse=True, return_counts=True)
-    return (place == np.arange(names.size)[:, None]) @ values / records[:, None]
+    mean: np.ndarray = (place == np.arange(names.size)[:, None]) @ values / records[:, None]
+    return mean
 
 
 def _empirical(over: np.ndarray, trials: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

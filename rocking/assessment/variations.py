@@ -90,7 +90,5 @@ def _rotation_ratios(
     vertical: Accelerogram | None = None,
 ) -> list[float]:
     """The largest rotation ratio of each, nan where it cannot be followed; one thread, as a job has one core."""
-    tolerance = settings.tolerance
-    return integrate_batch(structures, record, tolerance=tolerance, vertical=vertical, workers=1)[
-        :, 0
-    ].tolist()
+    ratios = integrate_batch(structures, record, tolerance=settings.tolerance, vertical=vertical, workers=1)
+    return [float(ratio) for ratio in ratios[:, 0]]
