@@ -123,7 +123,7 @@ class Accelerogram(Drawn):
     @cached_property
     def peak_acceleration(self) -> float:
         """Largest magnitude of the samples, m/s²."""
-        return float(np.abs(self.acceleration).max())
+        return max(abs(float(self.acceleration.max())), abs(float(self.acceleration.min())))
 
     @cached_property
     def measures(self) -> "RecordMeasures":
@@ -219,8 +219,8 @@ def _samples(values: np.ndarray) -> np.ndarray:
         raise RecordError("the samples are not all real numbers; give a one-dimensional array.") from None
     if samples.ndim != 1 or samples.size < 2:
         raise RecordError(f"the samples have shape {samples.shape}, but must be one row of at least 2.")
-    bad = np.flatnonzero(~np.isfinite(samples))
-    if bad.size:
+    if not np.isfinite(samples).all():
+        bad = np.flatnonzero(~np.isfinite(samples))
         first = f"sample {bad[0]} is {samples[bad[0]]}, one of {bad.size} that are not finite"
         raise RecordError(f"{first}; fill or cut the gap before use.")
     samples.flags.writeable = False

@@ -136,12 +136,7 @@ class Support:
         self, record: Accelerogram, ringing: "Sequence[_Ringing]", finer: int, after: int
     ) -> Accelerogram:
         """Return one component on the common samples: `finer` times as many, and `after` of still ground."""
-        ground = np.append(record.acceleration, np.zeros(after))
-        rows = _between(ground, finer)
-        last = 0.0
-        for each in ringing:
-            last += each.add_to(rows, after)
-        motion = _in_order(rows, ground[-1] + last)
+        motion = _finer(record.acceleration, ringing, finer, after)
         step = record.time_step / finer
         if record.vertical:
             alike = f"Taken {finer} times as fine, with {after} samples of still ground, as the horizontal."
@@ -195,20 +190,13 @@ class _Ringing:
         excess = np.append(pole * before - slope, pole * last) * (mode.participation / pole.imag)
         return cls(mode, step, pole, excess)
 
-    def add_to(self, rows: np.ndarray, after: int) -> float:
-        """Add Γψ times the mode's acceleration less the ground's to `rows`; return that of the last sample, m/s².
+    def still(self, after: int) -> np.ndarray:
+        """Return the excess at the starts of the first `after` still samples, complex, (after,)."""
+        return self.excess[-1] * np.exp(self.pole * self.step * np.arange(after))
 
-        rows: (finer, n − 1 + after), by place within a sample and sample: long rows, which numpy adds fastest.
-        """
-        finer = len(rows)
-        tail = self.excess[-1] * np.exp(self.pole * self.step * np.arange(after))
-        starts = np.concatenate((self.excess[:-1], tail[:-1]))
-        within_sample = np.exp(self.pole * self.step / finer * np.arange(finer))
-        shifted, upright = np.ascontiguousarray(starts.imag), np.ascontiguousarray(starts.real)
-        for row, place in zip(rows, within_sample.tolist(), strict=True):
-            row += place.real * shifted
-            row += place.imag * upright
-        return float(tail[-1].imag)
+    def within_sample(self, finer: int) -> np.ndarray:
+        """Return what the excess at the start of a sample is multiplied by at `finer` places within it, complex."""
+        return np.exp(self.pole * self.step / finer * np.arange(finer))
 
     def level(self, after: int) -> float:
         """Return the most that the mode can reach any more, `after` samples after the record, m/s²."""
@@ -272,16 +260,28 @@ def _grid(record: Accelerogram, ringing: Sequence[_Ringing]) -> tuple[int, int]:
     return finer, after
 
 
-def _between(samples: np.ndarray, finer: int) -> np.ndarray:
-    """Return the values at `finer` places from each of `samples` (n,) on towards the next, (finer, n − 1)."""
-    between = (np.arange(finer) / finer)[:, None] * np.diff(samples)
-    between += samples[:-1]
-    return between
+def _finer(
+    acceleration: np.ndarray, ringing: Sequence[_Ringing], finer: int, after: int
+) -> np.ndarray:
+    """Return the absolute acceleration of the support, m/s², ((n − 1 + after) finer + 1,).
 
-
-def _in_order(rows: np.ndarray, last: float) -> np.ndarray:
-    """Return rows (finer, n) by place within a sample and sample as one motion, (n finer + 1,)."""
-    motion = np.empty(rows.size + 1)
-    motion[:-1].reshape(rows.T.shape)[:] = rows.T
+    acceleration: of the ground, (n,) m/s², linear between its samples, and still from one sample after its end. Each
+    value is a sum of what its sample starts with, (ground, its slope, and both parts of each mode's excess), weighted
+    by its place within the sample: one product of two matrices.
+    """
+    ground = np.append(acceleration, np.zeros(after))
+    places = np.arange(finer) / finer
+    starts = [ground[:-1], np.diff(ground)]
+    weights = [np.ones(finer), places]
+    last = ground[-1]
+    for each in ringing:
+        still = each.still(after)
+        excess = np.concatenate((each.excess[:-1], still[:-1]))
+        within_sample = each.within_sample(finer)
+        starts += [excess.imag, excess.real]
+        weights += [within_sample.real, within_sample.imag]
+        last += still[-1].imag
+    motion = np.empty((ground.size - 1) * finer + 1)
+    np.matmul(np.array(starts).T, np.array(weights), out=motion[:-1].reshape(-1, finer))
     motion[-1] = last
     return motion
