@@ -183,29 +183,17 @@ def _not_carried(
 def _on_support(
     support: Support, grounds: Sequence[Component], extent: Extent, store: Store | None, clock: Clock
 ) -> tuple[Component, ...]:
-    """The components as they arrive on a support, with the pulses of the motion there.
-
-    The pulses are sought at the record's own samples, which no pulse needs finer.
-    """
-    pairs = [(each.accelerogram, each.vertical) for each in grounds]
+    """The components as they arrive on a support, with the pulses of the motion there."""
     with clock.stage("supports"):
         motions = [
-            Motion((horizontal,), vertical, support).ground_motions(processing=False)
-            for horizontal, vertical in pairs
+            Motion((each.accelerogram,), each.vertical, support).ground_motions(processing=False)
+            for each in grounds
         ]
-    fine = [next(iter(each.horizontal.values())) for each in motions]
-    coarse = [
-        replace(
-            floor,
-            acceleration=floor.acceleration[:: round(ground.time_step / floor.time_step)],
-            time_step=ground.time_step,
-        )
-        for floor, (ground, _) in zip(fine, pairs, strict=True)
-    ]
-    sought = _components(coarse, None, replace(extent, motion_measures=False), store, clock)
+    floors = [next(iter(each.horizontal.values())) for each in motions]
+    sought = _components(floors, None, replace(extent, motion_measures=False), store, clock)
     return tuple(
-        replace(each, accelerogram=floor, vertical=motion.vertical, support=support, ground=ground)
-        for each, floor, motion, ground in zip(sought, fine, motions, grounds, strict=True)
+        replace(each, vertical=motion.vertical, support=support, ground=ground)
+        for each, motion, ground in zip(sought, motions, grounds, strict=True)
     )
 
 

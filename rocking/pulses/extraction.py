@@ -46,13 +46,18 @@ FILTERED_CYCLES = 0.2
 """Periods beyond this share of the longest period that a high-pass leaves are reduced by it."""
 GAP_DURATION = 1.0
 """Run of identical samples, s, that looks like a filled gap."""
+SAMPLES_ENOUGH = 40
+"""Samples in the shortest cycle that a search needs; the sum of squares of a sine over so many is exact."""
+LEAST_THINNING = 4
+"""Times finer than that from which only every fourth, fifth, ... sample is searched, as of the motion of a floor."""
 
 
 def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None = None) -> PulseAnalysis:
     """Return the one-cycle sine pulses of largest energy gain in `accelerogram`.
 
     The gain G = ⟨a, s⟩²/⟨s, s⟩ is scanned over frequencies and onsets; the best maxima are refined on the
-    continuous sine and ranked by gain. The record is taken as it stands: no filter, no baseline.
+    continuous sine and ranked by gain. The record is taken as it stands: no filter, no baseline; of one that is
+    sampled far more finely than its shortest cycle asks for, samples between are left out.
     Raises PulseError when the samples are all equal or no period of the band fits the record.
 
     >>> import numpy as np
@@ -73,7 +78,9 @@ def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None
             f"{name} has a peak of {accelerogram.peak_acceleration:g} m/s², but a peak between {LEAST_PEAK:g} and "
             f"{GREATEST_PEAK:g} m/s² is needed; check its unit."
         )
-    search = PulseSearch.of(accelerogram, settings)
+    searched = _thinned(accelerogram, settings)
+    search = PulseSearch.of(searched, settings)
+    samples = searched.acceleration
     maxima = search.maxima(samples)
     if maxima.gains.max(initial=0.0) <= NOTHING_LEFT * search.energy(samples):
         raise PulseError(
@@ -82,24 +89,38 @@ def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None
         )
     ranked = search.ranked(samples, maxima)
     sequence = _pursued(search, samples, maxima, ranked[0])
-    residual = samples - ranked[0].pulse.acceleration(accelerogram.times)
+    residual = accelerogram.acceleration - ranked[0].pulse.acceleration(accelerogram.times)
     residual.flags.writeable = False
-    flags = _raised(accelerogram, search, ranked, sequence)
+    flags = _raised(searched, search, ranked, sequence)
     return PulseAnalysis(accelerogram, ranked, sequence, residual, flags, search.band)
 
 
 def energy_map(
     accelerogram: Accelerogram, *, settings: PulseSettings | None = None
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return (gains, frequencies): the energy gain (n, m) in m²/s³ of a cycle that starts at each sample (n,).
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return (gains, onsets, frequencies): the energy gain (n, m) in m²/s³ of each cycle that the search looks at.
 
-    frequencies: (m,) Hz, ascending. Where the cycle does not fit in the record the gain is 0.
+    onsets: (n,) s, ascending. frequencies: (m,) Hz, ascending. Where the cycle does not fit in the record the gain
+    is 0.
     """
     from rocking.pulses.scan import energy_gains
 
-    frequencies = PulseSearch.of(accelerogram, settings or PulseSettings()).frequencies
-    angles = 2 * np.pi * accelerogram.time_step * frequencies
-    return energy_gains(accelerogram.acceleration[np.newaxis], accelerogram.time_step, angles), frequencies
+    settings = settings or PulseSettings()
+    searched = _thinned(accelerogram, settings)
+    frequencies = PulseSearch.of(searched, settings).frequencies
+    angles = 2 * np.pi * searched.time_step * frequencies
+    gains = energy_gains(searched.acceleration[np.newaxis], searched.time_step, angles)
+    return gains, searched.times, frequencies
+
+
+def _thinned(accelerogram: Accelerogram, settings: PulseSettings) -> Accelerogram:
+    """Return every sample that the search needs: itself where that is all of them."""
+    enough = 1 / (SAMPLES_ENOUGH * settings.highest_frequency)
+    each = math.floor(enough / accelerogram.time_step * (1 + 1e-9))
+    if each < LEAST_THINNING or accelerogram.acceleration.size <= 2 * each:
+        return accelerogram
+    thinned = accelerogram.acceleration[::each]
+    return replace(accelerogram, acceleration=thinned, time_step=each * accelerogram.time_step)
 
 
 class Maxima(NamedTuple):

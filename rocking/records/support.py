@@ -192,11 +192,11 @@ class _Ringing:
 
     def still(self, after: int) -> np.ndarray:
         """Return the excess at the starts of the first `after` still samples, complex, (after,)."""
-        return self.excess[-1] * np.exp(self.pole * self.step * np.arange(after))
+        return np.asarray(self.excess[-1] * np.exp(self.pole * self.step * np.arange(after)))
 
     def within_sample(self, finer: int) -> np.ndarray:
         """Return what the excess at the start of a sample is multiplied by at `finer` places within it, complex."""
-        return np.exp(self.pole * self.step / finer * np.arange(finer))
+        return np.asarray(np.exp(self.pole * self.step / finer * np.arange(finer)))
 
     def level(self, after: int) -> float:
         """Return the most that the mode can reach any more, `after` samples after the record, m/s²."""
@@ -260,9 +260,7 @@ def _grid(record: Accelerogram, ringing: Sequence[_Ringing]) -> tuple[int, int]:
     return finer, after
 
 
-def _finer(
-    acceleration: np.ndarray, ringing: Sequence[_Ringing], finer: int, after: int
-) -> np.ndarray:
+def _finer(acceleration: np.ndarray, ringing: Sequence[_Ringing], finer: int, after: int) -> np.ndarray:
     """Return the absolute acceleration of the support, m/s², ((n − 1 + after) finer + 1,).
 
     acceleration: of the ground, (n,) m/s², linear between its samples, and still from one sample after its end. Each

@@ -136,10 +136,10 @@ def pulses_figure(motions: Sequence[Trace]) -> Figure:
         span = max(pulse.start_time - zoom, 0.0), min(pulse.end_time + zoom, accelerogram.duration)
         _draw_ground(near, motion, span, last=True)
         # of several onsets the largest gain: no printer shows more
-        gains, frequencies = energy_map(accelerogram)
+        gains, onsets, frequencies = energy_map(accelerogram)
         starts = np.arange(0, gains.shape[0], max(1, gains.shape[0] // _MAP_COLUMNS))
         gains = np.maximum.reduceat(gains, starts, axis=0)
-        draw_energy_map(energy, starts * accelerogram.time_step, 1 / frequencies, gains, motion.pulses)
+        draw_energy_map(energy, onsets[starts], 1 / frequencies, gains, motion.pulses)
         _fixed_ticks(energy, "x", *motion.span, 6)
     return figure
 

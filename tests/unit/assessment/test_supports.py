@@ -45,11 +45,7 @@ def test_the_floors_motion_as_a_record_gives_the_same_rows():
         for name in ours.values() if isinstance(ours, dict) else type(ours).__dataclass_fields__:
             first, second = getattr(ours, name), getattr(theirs, name)
             if isinstance(first, float):
-                # only the pulse is sought at the record's own samples there, and at the floor's finer ones here
-                of_pulse = name.startswith(
-                    ("predicted", "printed", "prediction", "mechanism_on_pulse", "amplitude", "frequency")
-                )
-                assert first == pytest.approx(second, rel=1e-2 if of_pulse else 1e-12, nan_ok=True), name
+                assert first == pytest.approx(second, rel=1e-12, nan_ok=True), name
             else:
                 assert first == second, name
 

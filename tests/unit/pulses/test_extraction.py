@@ -138,3 +138,17 @@ def test_any_record_gives_a_pulse_within_it_or_a_sentence(samples, step):
         low, high = found.band
         assert low * (1 - 1e-9) <= 1 / evidence.pulse.period <= high * (1 + 1e-9)
     assert np.sum(found.residual**2) * step <= energy * (1 + 1e-9)
+
+
+def test_a_motion_sampled_far_too_finely_has_the_pulses_of_the_motion():
+    step = 0.0002
+    times = np.arange(100_001) * step
+    waves = Pulse(3.0, 5.0, start_time=6.0).acceleration(times) + 0.4 * np.sin(31.0 * times) * np.exp(
+        -times / 5
+    )
+    fine = extract_pulses(Accelerogram(waves, step))
+    plain = extract_pulses(Accelerogram(waves[::10], 10 * step))
+    assert fine.dominant.period == pytest.approx(plain.dominant.period, rel=1e-3)
+    assert fine.dominant.amplitude == pytest.approx(plain.dominant.amplitude, rel=1e-3)
+    assert fine.residual.size == waves.size
+    assert np.abs(fine.residual - (waves - fine.dominant.acceleration(times))).max() == 0
