@@ -45,15 +45,29 @@ ACCELERATION_UNITS = {
     "mg": GRAVITY / 1000,
     "%g": GRAVITY / 100,
     "g/10": GRAVITY / 10,
+    "ft/s2": 0.3048,
+    "in/s2": 0.0254,
 }
 """Factor from each unit of acceleration to m/s²; one g = 9.80665 m/s² for units and gravity alike."""
+
+
+_SPELLINGS = (
+    ("sec", "s"), ("²", "2"), ("^2", "2"), ("**2", "2"), ("/s/s", "/s2"), ("/s*s", "/s2"), ("/(s*s)", "/s2"),
+    ("_s_2", "/s2"), ("_s2", "/s2"), ("µ", "u"),
+)  # fmt: skip
+_NEGATIVE_POWER = re.compile(r"((?:[cmun]?m)|ft|in)[ .·*]?s(?:\*\*|\^)?[-−]2")
+"""A unit like "m s-2", "cm.s^-2"."""
+_WORDS = {"gals": "gal", "gs": "g", "milli-g": "mg", "milli g": "mg", "millig": "mg"}
 
 
 def acceleration_unit(text: str) -> str | None:
     """Return the unit that `text` spells ("cm/sec/sec", "M/S²") as ACCELERATION_UNITS calls it; None for another."""
     name = str(text).strip().lower()
-    for spelt, short in (("sec", "s"), ("²", "2"), ("^2", "2"), ("**2", "2"), ("/s/s", "/s2")):
+    for spelt, short in _SPELLINGS:
         name = name.replace(spelt, short)
+    if power := _NEGATIVE_POWER.fullmatch(name):
+        name = f"{power[1]}/s2"
+    name = _WORDS.get(name, name)
     return name if name in ACCELERATION_UNITS else None
 
 

@@ -1,6 +1,7 @@
 """The instrument: where a component points, where it stood and what it measured, as far as names and headers say it."""
 
 import re
+from collections.abc import Sequence
 from typing import Any
 
 from rocking.errors import RecordError
@@ -14,6 +15,7 @@ _NAMED = {
     "WE": 90.0, "EAST": 90.0, "S": 180.0, "SOUTH": 180.0, "W": 270.0, "WEST": 270.0,
 }  # fmt: skip
 _QUADRANT = re.compile(r"([NS])\s*(\d{1,2})\s*([EW])")
+_DEGREES = re.compile(r"(\d{1,3}(?:\.\d*)?)(?:[ _]?(?:DEG(?:REES?)?\.?|°))?")
 _BAND = re.compile(r"([A-Z][HNGL][ENZ123])(?:[._ -]?(?:\d\d|--))?")
 """A channel code of three letters, and what may follow it of a code of location."""
 _NUMBERED_VERTICAL = re.compile(r"(V|Z|UP|DN|DWN|DOWN|VERT|VERTICAL)[ _.-]?(\d|00|-{1,2})")
@@ -47,8 +49,8 @@ def azimuth(component: str) -> float | None:
     334.0
     """
     name = component.strip().upper()
-    if re.fullmatch(r"\d{1,3}(\.\d*)?", name):
-        return float(name) % 360 if float(name) <= 360 else None
+    if angle := _DEGREES.fullmatch(name):
+        return float(angle[1]) % 360 if float(angle[1]) <= 360 else None
     if band := _BAND.fullmatch(name):
         name = band[1][2]
     if quadrant := _QUADRANT.fullmatch(name):
@@ -86,12 +88,26 @@ def direction_warnings(component: str, along: float | None, vertical: bool) -> t
     )
 
 
+def vertical_doubt(components: Sequence[str], along: Sequence[float | None], vertical: Sequence[bool]) -> str:
+    """Return a sentence where three channels or more stand together and nothing says which of them is vertical."""
+    of_unknown = [name for name, azimuth in zip(components, along, strict=True) if azimuth is None]
+    if len(components) < _OF_A_STATION or any(vertical) or not of_unknown:
+        return ""
+    return (
+        f"Of the {len(components)} channels {', '.join(of_unknown[:_OF_A_STATION])} may be vertical, for nothing says "
+        "which one is: name the horizontal ones in the column component of the catalogue."
+    )
+
+
+_OF_A_STATION = 3
+"""Channels of a station that recorded every direction."""
 _STRUCTURE = re.compile(
     r"\b(roof|floor|fl|flr|storey|story|penthouse|mezzanine|attic|deck|bent|column|girder|abutment|pier|crest|tower|"
     r"dam|gallery|basement|bsmt|bldg|building|bridge)\b", re.I)  # fmt: skip
 _FREE = re.compile(r"\bfree[- ]?field\b", re.I)
 _DOWN_HOLE = re.compile(r"(?i)\b(down-?hole|bore-?hole|depth|below (ground|surface))\b|-\s*\d+(\.\d+)?\s*m\b")
-_CODE = re.compile(r"[A-Z]([HLMP])[ENZ123](\d\d)?")
+_CODE = re.compile(r"(?!CH\d)[A-Z]([HLMP])[ENZ123](\d\d)?")
+"""A channel code but for CH1, CH2 and CH3, which count the channels of a logger."""
 
 
 def site_warnings(place: str) -> tuple[str, ...]:

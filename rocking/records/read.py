@@ -6,6 +6,7 @@ import re
 import zlib
 from collections import Counter
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
@@ -19,7 +20,7 @@ from rocking.records.damage import damage_warnings, repeated_rows
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
 from rocking.records.formats.text import numbers_per_line
-from rocking.records.instrument import channel_warnings, direction_warnings, site_warnings
+from rocking.records.instrument import channel_warnings, direction_warnings, site_warnings, vertical_doubt
 from rocking.records.plausibility import pass_limits
 from rocking.tables import read_whole
 
@@ -102,8 +103,12 @@ def checked_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
 def bare_text(content: bytes) -> bytes:
     """Return a text without a byte order mark and the blanks, zeros and ^Z that pad its end; lines end in \\n.
 
-    Content that holds a zero byte among its first is no text and stays as it is.
+    UTF-16, as spreadsheets write it, becomes UTF-8. Other content that holds a zero byte among its first is no text and
+    stays as it is.
     """
+    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
+        with suppress(UnicodeDecodeError):
+            content = content.decode("utf-16").encode()
     text = content.removeprefix(b"\xef\xbb\xbf")
     body = text.rstrip(b"\x1a\0 \t\r\n")
     if b"\0" in body[:512]:
@@ -202,6 +207,9 @@ def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
             name = f"channel {k} ({a.component or 'not named'})"
             raise RecordError(f"{name} repeats channel {i}: the file is appended to itself; fetch it again.")
     shared = Counter(record.component for record in records if record.component)
+    names = [record.component or f"channel {place}" for place, record in enumerate(records, 1)]
+    directions = [record.azimuth for record in records]
+    upwards = vertical_doubt(names, directions, [record.vertical for record in records])
     channels = []
     for place, record in enumerate(records, 1):
         name = record.component or f"channel {place}"
@@ -210,6 +218,8 @@ def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
             *record.warnings,
             *channel_warnings(record.component),
             *site_warnings(record.station),
+            *site_warnings(record.component),
+            *filter(None, [upwards]),
             *direction_warnings(record.component, record.azimuth, record.vertical),
         )
         channels.append(replace(record, component=name, warnings=tuple(dict.fromkeys(doubts))))

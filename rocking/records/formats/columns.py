@@ -1,6 +1,8 @@
 """Bare numbers: columns, or one series wrapped over lines (OpenSees), below names or a title with count and step."""
 
 import re
+from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
@@ -11,54 +13,79 @@ from rocking.quantities import acceleration_unit
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats import text
 from rocking.records.formats.format import Format, Options
-from rocking.records.instrument import other_quantity, refuse_other_quantity
+from rocking.records.formats.labels import ColumnLabel
+from rocking.records.instrument import refuse_other_quantity
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
-_TIME = re.compile(
-    r"(?i)t\d?|(time|zeit|tiempo|temp[os]|zaman|seconds?)(?![a-z]).*|[^()\[\]]*[(\[]\s*s(ec)?\s*[)\]]"
-)
-_UNIT = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
 _EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
 _DECIMALS = re.compile(r"[.]?(\d*)(?:[eE][+-]?\d+)?\s*$")
-_HEAD, _TAIL = 12, 4000  # lines and bytes that are looked at, of the beginning and of the end
+_HEAD, _REMARKS, _TAIL = 12, 80, 4000
+"""Lines of numbers and of remarks that are looked at, at the beginning, and bytes at the end."""
 _BLANK, _LINE_END = 32, 10
 _COMMENTED_FORMAT = re.compile(rb"\s*#(Earthquake Information|StationCode\s*:)")
 """CWB's headers, which look like comments above columns."""
+_MARKS = "#", "%", "$", "!", "//"
+"""With which a line of remarks begins."""
+_EXCEL = re.compile(r"sep=.?", re.I)
+"""The first line by which a spreadsheet is told what parts the cells."""
 
 
-def _table(content: bytes) -> tuple[tuple[str, ...], int, int] | None:
-    """Return names and number of columns, and of the lines above: comments, at most one row of names; or None."""
+@dataclass(frozen=True)
+class _Table:
+    """Columns below remarks and at most one row of names.
+
+    labels: of the columns, none where no line names them. width: number of columns. start: lines above the numbers.
+    remarks: what those lines say, one after another, without their mark.
+    """
+
+    labels: tuple[ColumnLabel, ...]
+    width: int
+    start: int
+    remarks: tuple[str, ...] = ()
+
+
+def _table(content: bytes) -> _Table | None:
+    """Return what stands above and beside the numbers of a table; None of another file."""
     names: tuple[str, ...] = ()
-    commented = ""
+    units: tuple[str, ...] = ()
+    remarks: list[str] = []
     widths: list[int] = []
     start = 0
-    for line in (line for line in text.lines(content, _HEAD) if len(line) < 2000):
+    for line in (line for line in text.lines(content, _REMARKS) if len(line) < 2000):
         bare = line.strip().rstrip(",;").rstrip()
-        if not bare or (bare.startswith(("#", "%")) and not widths):
+        is_remark = bare.startswith(_MARKS) or (not (names or widths) and bool(_EXCEL.fullmatch(bare)))
+        if not bare or (is_remark and not widths):
             start += not widths
-            commented = bare.lstrip("#% ") or commented
+            if is_remark:
+                remarks.append(bare.lstrip("#%$!/ "))
         elif all(map(text.is_number, _SEPARATOR.split(bare))):
             widths.append(len(_SEPARATOR.split(bare)))
-        elif names or widths:
+            if len(widths) == _HEAD:
+                break
+        elif widths or units:
             return None
+        elif names:
+            units = _labels(line)
+            start += 1
         else:
             names = _labels(line)
             start += 1
     uneven = len(set(widths[:-1])) > 1 or widths[-1:] > widths[:1]
     if len(widths) < 2 or uneven or (names and len(names) != widths[0]):
         return None
-    of_comment = _labels(commented)
-    if (
-        not names
-        and len(of_comment) == widths[0]
-        and (_TIME.fullmatch(of_comment[0]) or any(map(_unit, of_comment)))
-    ):
-        names = of_comment
-    return names, widths[0], start
+    if units and not _are_units(units, names):
+        return None
+    labels = tuple(map(ColumnLabel, _with_units(names, units)))
+    if not labels and (labels := _of_remark(remarks, widths[0])):
+        del remarks[-1]
+    return _Table(labels, widths[0], start, tuple(remarks))
 
 
 def _labels(line: str) -> tuple[str, ...]:
     """The names in a line, parted by commas, semicolons or tabs, else by blanks; a unit in brackets stays with its."""
+    if '"' in line:
+        return tuple(re.findall(r'"([^"]*)"', line))
+    line = re.sub(r"[,;]\s*$", "", line)
     if re.search(r"[,;\t]", line):
         parts = re.split(r"[,;\t]", line)
     elif len(_BRACKET_END.findall(line)) > 1 and line.rstrip().endswith((")", "]")):  # names of several words
@@ -68,14 +95,37 @@ def _labels(line: str) -> tuple[str, ...]:
     return tuple(part.strip().strip("\"'") for part in parts)
 
 
+def _are_units(units: tuple[str, ...], names: tuple[str, ...]) -> bool:
+    """Whether a second row of words holds the units of the columns named above it."""
+    given = [ColumnLabel(f"({unit.strip('()[]')})") for unit in units]
+    return len(units) == len(names) and any(each.unit or each.is_time for each in given)
+
+
+def _with_units(names: tuple[str, ...], units: tuple[str, ...]) -> tuple[str, ...]:
+    """Return names, each with the unit below it in brackets."""
+    if not units:
+        return names
+    pairs = zip(names, (unit.strip("()[] ") for unit in units), strict=True)
+    return tuple(f"{name} ({unit})" if unit else name for name, unit in pairs)
+
+
+def _of_remark(remarks: Sequence[str], width: int) -> tuple[ColumnLabel, ...]:
+    """Return the labels in the last of the remarks, if it holds one for each column, of times, units or directions."""
+    labels = tuple(map(ColumnLabel, _labels(remarks[-1]))) if remarks else ()
+    are_directions = len(labels) > 1 and all(label.is_direction for label in labels)
+    are_names = bool(labels) and (labels[0].is_time or any(label.unit for label in labels) or are_directions)
+    return labels if are_names and len(labels) == width else ()
+
+
 _BRACKET_END = re.compile(r"[)\]]")
 _WITH_UNIT = re.compile(r"[^)\]]+[)\]]")
 _ABSCISSA = re.compile(r"(?i)\s*(period|freq(uency)?)\b.*")
 _ORDINATE = re.compile(r"(?i)\s*(p?s[av]|sd|fas|fourier|spectr\w*)\b.*")
 
 
-def _refuse_spectrum(names: tuple[str, ...]) -> None:
+def _refuse_spectrum(labels: tuple[ColumnLabel, ...]) -> None:
     """Refuse a table over period or frequency: its numbers are ordinates of a spectrum, and no motion."""
+    names = [label.text for label in labels]
     if names and (_ABSCISSA.fullmatch(names[0]) or any(map(_ORDINATE.fullmatch, names[1:]))):
         heads = ", ".join(names[:4])
         raise RecordError(f"this is a spectrum ({heads}); use the record of acceleration against time.")
@@ -107,56 +157,153 @@ def _are_columns(content: bytes) -> bool:
     is_other = (
         bool(_COMMENTED_FORMAT.match(content)) or b"\0" in content[:4096] or _heading(content) is not None
     )
-    return not is_other and _table(_points_for_commas(content) or content) is not None
+    return not is_other and _table(_plain_numbers(content) or content) is not None
 
 
 def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
-    pointed = _points_for_commas(content)
+    pointed = _plain_numbers(content)
     if pointed is None:
         raise RecordError("the commas are decimal signs or part columns; write points, or semicolons.")
-    names, width, start = _table(pointed) or ((), 1, 0)  # it was recognised by that
-    _refuse_spectrum(names)
-    refuse_other_quantity(options.file, "\n".join(text.lines(pointed, _HEAD)[:start]))
-    body = text.after_lines(pointed, start)
+    table = _table(pointed) or _Table((), 1, 0)  # it was recognised by that
+    _refuse_spectrum(table.labels)
+    refuse_other_quantity(options.file, "\n".join(table.remarks))
+    body = text.after_lines(pointed, table.start)
     if _EMPTY_CELL.search(body):
         raise RecordError("a cell is empty; every column needs a number on every line.")
     spaced = body.replace(b",", b" ").replace(b";", b" ")
     values = text.numbers(spaced)
-    wrapped = False
-    if width > 2 and not names and not _time_first(values, width):
-        parted = b"," in body[:_TAIL] or b";" in body[:_TAIL]
-        wrapped = _runs_along_rows(values, width, parted)
+    unit, step = _declared(table.remarks)
+    width = 2 if _are_wrapped_pairs(values, table) else table.width
+    wrapped = _is_wrapped(values, table, body)
+    _check_rows(spaced, table.width, wrapped or width != table.width)
+    if width == 1 or wrapped:
+        label = table.labels[0] if table.labels else ColumnLabel("")
+        if label.other:
+            _refuse_others([label], {0: label.other})
+        values, above, notes = _without_count(values, options.time_step)
+        facts: dict[str, Any] = {
+            "component": "" if label.unit else label.text,
+            "warnings": (*notes, *_repeats(values)),
+        }
+        records = [options.accelerogram(label.unit or unit, values, above or step, processed=None, **facts)]
+    else:
+        rows = values.reshape(-1, width)
+        records = _timed_columns(_below_count(rows, table.labels), table.labels, options, unit, step)
+    return [record.warned(*_cut_number(body), *_never_negative(record)) for record in records]
+
+
+def _is_wrapped(values: np.ndarray, table: _Table, body: bytes) -> bool:
+    """Whether the numbers are one series that runs along the rows."""
+    if table.width <= 2 or table.labels or _time_first(values, table.width):
+        return False
+    parted = b"," in body[:_TAIL] or b";" in body[:_TAIL]
+    return _runs_along_rows(values, table.width, parted)
+
+
+def _are_wrapped_pairs(values: np.ndarray, table: _Table) -> bool:
+    """Whether several pairs of time and acceleration stand on a row: each time follows from that of the pair before."""
+    if table.width < 4 or table.width % 2 or table.labels or values.size < 2 * _FEWEST_ROWS:
+        return False
+    times = values[: values.size - values.size % 2 : 2]
+    steps = np.diff(times)
+    return bool(steps.min() > 0) and float(np.ptp(steps)) < 0.5 * float(np.median(steps))
+
+
+def _check_rows(spaced: bytes, width: int, may_end_short: bool) -> None:
+    """Raise RecordError unless every row of numbers has `width` of them; the last row of a series may be short."""
     octets = np.frombuffer(b"\n" + spaced + b"\n", dtype=np.uint8)
     begun = np.cumsum((octets[1:] > _BLANK) & (octets[:-1] <= _BLANK))  # numbers, up to each octet
     counts = np.diff(begun[octets[1:] == _LINE_END], prepend=0)
     counts = counts[counts > 0]
-    if wrapped and counts[-1] < width:  # the last row of a series may be short
+    if may_end_short and counts[-1] < width:
         counts = counts[:-1]
     if (counts != width).any():
         at = int(np.argmax(counts != width))
         raise RecordError(f"row {at + 1} of the samples has {counts[at]} columns, but the first has {width}.")
-    if width == 1 or wrapped:
-        label = names[0] if names else ""
-        values, step, notes = _without_count(values)
-        facts: dict[str, Any] = {
-            "component": "" if _unit(label) else label,
-            "warnings": (*notes, *_repeats(values)),
-        }
-        records = [options.accelerogram(_unit(label), values, step, processed=None, **facts)]
-    else:
-        records = _timed_columns(values.reshape(-1, width), names, options)
-    return [record.warned(*_cut_number(body)) for record in records]
 
 
-def _without_count(values: np.ndarray) -> tuple[np.ndarray, float | None, tuple[str, ...]]:
-    """Return the samples without a number of samples, and a time step [s], that stand above them as first numbers."""
+def _below_count(rows: np.ndarray, labels: tuple[ColumnLabel, ...]) -> np.ndarray:
+    """Return the rows without a first one of number of rows and time step, as programs of analysis write it."""
+    if labels or rows.shape[1] != 2 or len(rows) < _FEWEST_ROWS:
+        return rows
+    is_count = rows[0, 0] == len(rows) - 1
+    is_step = abs(rows[0, 1] - (rows[2, 0] - rows[1, 0])) <= 1e-3 * abs(rows[0, 1])
+    return rows[1:] if is_count and is_step else rows
+
+
+_UNIT_OF_REMARK = re.compile(
+    r"\b(?:units?|unidad(?:es)?|unit[aà])\b[^:=]*[:=]\s*[(\[]?\s*([^\s,;()\[\]]+)|"
+    r"(?:\b(?:in|units? (?:of|are))\s+|[(\[]\s*)([A-Za-z][\w/^*²]*)",
+    re.I,
+)
+_OF_PEAK = re.compile(r"(?i)\b(pga|peak|max\w*|scale\w*|factor|picco|pico)\b")
+"""What a remark speaks of whose unit need not be that of the numbers."""
+_STEP_OF_REMARK = re.compile(
+    r"\b(?:dt|delta|time[ _-]?step|(?:sampling|sample)[ _-]?(?:interval|period|step)|intervalo(?: de muestreo)?)\b"
+    r"\s*(?:[(\[]\s*s(?:ec)?\s*[)\]])?\s*[:=]\s*(\d*\.?\d+(?:e[-+]?\d+)?)\s*(?:s|sec|seconds?)?\s*(?:$|[,;])",
+    re.I,
+)
+_RATE_OF_REMARK = re.compile(
+    r"\b(?:fs|(?:sampling|sample)[ _-]?(?:rate|frequency)|tasa de muestreo|frecuencia de muestreo)\b"
+    r"\s*(?:[(\[]\s*hz\s*[)\]])?\s*[:=]\s*(\d*\.?\d+)\s*(?:hz|sps)?\s*(?:$|[,;])",
+    re.I,
+)
+
+
+def _declared(remarks: Sequence[str]) -> tuple[str | None, float | None]:
+    """Return the unit and the time step [s] that remarks above a table declare, None where none or several do."""
+    units: set[str] = set()
+    steps: set[float] = set()
+    for remark in (remark for remark in remarks if not _OF_PEAK.search(remark)):
+        words = (match[1] or match[2] for match in _UNIT_OF_REMARK.finditer(remark))
+        units |= set(filter(None, map(acceleration_unit, words)))
+        steps |= {float(match[1]) for match in _STEP_OF_REMARK.finditer(remark)}
+        steps |= {1 / float(match[1]) for match in _RATE_OF_REMARK.finditer(remark) if float(match[1])}
+    unit = units.pop() if len(units) == 1 else None
+    step = steps.pop() if len(steps) == 1 else None
+    return unit, step or None
+
+
+_FEWEST_OF_BOTH_SIGNS = 100
+"""Samples from which on a motion has some of either sign."""
+
+
+def _never_negative(record: Accelerogram) -> tuple[str, ...]:
+    """Return a warning where no number is below zero: the ground moves both ways."""
+    if record.acceleration.size < _FEWEST_OF_BOTH_SIGNS or record.acceleration.min() < 0:
+        return ()
+    if record.peak_acceleration == 0:
+        return ()
+    return (
+        f"No number of {record.component or 'the column'} is below zero: it is a spectrum, a series of magnitudes, or "
+        "a record whose offset was not removed.",
+    )
+
+
+def _without_count(
+    values: np.ndarray, declared: float | None
+) -> tuple[np.ndarray, float | None, tuple[str, ...]]:
+    """Return the samples without what stands above them as first numbers, and the time step [s] among that.
+
+    That is their number, their number and the time step or the rate, or the time step that the caller declares.
+    """
     for above in (1, 2):
         if values.size > above + 2 and values[0] == values.size - above:
-            step = float(values[1]) if above == 2 else None
-            if step is None or 0 < step <= _LONGEST_STEP:
-                words = "number of samples" if above == 1 else "number of samples and the time step"
-                return values[above:], step, (f"The first of the numbers is the {words}, and no sample.",)
+            second = float(values[1])
+            if above == 1:
+                return values[1:], None, (_FIRST_IS.format("number of samples"),)
+            if 0 < second <= _LONGEST_STEP:
+                return values[2:], second, (_FIRST_IS.format("number of samples and the time step"),)
+            if _RATES[0] <= second <= _RATES[1] and second == round(second):
+                return values[2:], 1 / second, (_FIRST_IS.format("number of samples and the rate"),)
+    if declared is not None and values.size > _FEWEST_ROWS and values[0] == declared:
+        return values[1:], None, (_FIRST_IS.format("time step"),)
     return values, None, ()
+
+
+_FIRST_IS = "The first of the numbers is the {}, and no sample."
+_RATES = 20.0, 2000.0
+"""Hz; of recorders."""
 
 
 def _cut_number(body: bytes) -> tuple[str, ...]:
@@ -183,49 +330,113 @@ def _repeats(values: np.ndarray) -> tuple[str, ...]:
     return (sentence,) if is_twice else ()
 
 
-def _timed_columns(rows: np.ndarray, names: tuple[str, ...], options: Options) -> list[Accelerogram]:
-    """Return the channels of a table: each column that is neither a time nor a count, with the times left of it."""
-    timed_unnamed = rows.shape[1] == 2 or _time_first(rows.ravel(), rows.shape[1])
-    labels = names or ("time" if timed_unnamed else "", *[""] * (rows.shape[1] - 1))
+def _timed_columns(
+    rows: np.ndarray,
+    labels: tuple[ColumnLabel, ...],
+    options: Options,
+    unit: str | None = None,
+    step: float | None = None,
+) -> list[Accelerogram]:
+    """Return the channels of a table: each column of acceleration, with the times left of it, else the first there are.
+
+    unit, step [s]: that the remarks above the table declare, None where they do not.
+    """
+    if not labels:
+        timed = rows.shape[1] == 2 or _time_first(rows.ravel(), rows.shape[1])
+        labels = (ColumnLabel("time" if timed else ""), *[ColumnLabel("")] * (rows.shape[1] - 1))
     kinds = [_kind(label, column) for label, column in zip(labels, rows.T, strict=True)]
     if "channel" not in kinds:  # a motion that rises evenly
         kinds[1:] = ["channel"] * (len(kinds) - 1)
     repeats = () if "time" in kinds else _repeats(rows.ravel())
-    times: np.ndarray | None = None
+    every = {
+        place: rows[:, place] * labels[place].seconds for place, kind in enumerate(kinds) if kind == "time"
+    }
+    others = _others(rows, labels, kinds)
     records = []
-    for label, kind, column in zip(labels, kinds, rows.T, strict=True):
-        if kind == "time":
-            times = column * _seconds(label)
-        elif kind == "channel" and other_quantity(label) is None:
-            records.append(_column(label, times, column, options, repeats))
-    return records
+    for place, (label, kind, column) in enumerate(zip(labels, kinds, rows.T, strict=True)):
+        if kind != "channel" or place in others:
+            continue
+        left = max((at for at in every if at < place), default=min(every, default=-1))
+        records.append(_column(label, every.get(left), column, options, repeats, (unit, step)))
+    if not records:
+        _refuse_others(labels, others)
+    integrals = [place + 1 for place, what in others.items() if what == _INTEGRAL]
+    note = "Left out, for it is the integral of another column, a velocity or a displacement: column {}."
+    return [record.warned(*(note.format(place) for place in integrals)) for record in records]
 
 
-_COUNT = re.compile(
-    r"(?i)(no|nr|n|i|id|#|index|count|counter|sample|samples|point|points|step|row|line)\b\.?.*"
-)
+_INTEGRAL = "the integral of another column"
+_ALIKE = 0.95
+"""Correlation of the differences of one column with another column from which on it is its integral."""
 
 
-def _kind(label: str, column: np.ndarray) -> str:
+def _others(rows: np.ndarray, labels: Sequence[ColumnLabel], kinds: Sequence[str]) -> dict[int, str]:
+    """Return what each column that holds something else than acceleration is of, by its place."""
+    others: dict[int, str] = {}
+    places = [place for place, kind in enumerate(kinds) if kind == "channel"]
+    has_acceleration = any(label.is_plain_acceleration for label in labels)
+    for place in places:
+        meant = labels[place].beside_acceleration() if has_acceleration else ""
+        if what := labels[place].other or meant:
+            others[place] = what
+        elif not labels[place].text and any(
+            _is_integral(rows[:, place], rows[:, earlier]) for earlier in places if earlier < place
+        ):
+            others[place] = _INTEGRAL
+    return others
+
+
+def _is_integral(column: np.ndarray, other: np.ndarray) -> bool:
+    """Whether the differences of `column` go as `other` does, as those of a velocity go as the acceleration."""
+    if column.size < _FEWEST_OF_BOTH_SIGNS:
+        return False
+    differences = np.diff(column)
+    between = (other[1:] + other[:-1]) / 2
+    if not differences.std() or not between.std():
+        return False
+    return abs(float(np.corrcoef(differences, between)[0, 1])) > _ALIKE
+
+
+def _refuse_others(labels: Sequence[ColumnLabel], others: dict[int, str]) -> None:
+    """Raise RecordError where every column of a table is of something else than acceleration."""
+    quantities = {what for what in others.values() if what in ("velocity", "displacement")}
+    if len(quantities) == 1 == len(set(others.values())):
+        raise RecordError(f"this is a file of {quantities.pop()}; use the acceleration of the same record.")
+    held = "; ".join(f"{labels[place].text[:40]!r} is {what}" for place, what in others.items())
+    raise RecordError(
+        f"no column is of acceleration in a unit that is known: {held}; convert the column, or use another file."
+    )
+
+
+def _kind(label: ColumnLabel, column: np.ndarray) -> str:
     """Return "time", "count" or "channel" of a column: by its name, else by numbers that rise evenly all the way."""
-    if _TIME.fullmatch(label):
+    if label.is_time:
         return "time"
     steps = np.diff(column)
     if (
-        _unit(label)
+        label.unit
+        or label.other
         or column.size < _FEWEST_ROWS
         or steps.min() <= 0
         or float(np.ptp(steps)) > 0.01 * float(steps[0])
     ):
         return "channel"
-    return "count" if steps[0] == 1 or _COUNT.fullmatch(label) else "time"
+    return "count" if steps[0] == 1 or label.is_count else "time"
 
 
 def _column(
-    label: str, times: np.ndarray | None, values: np.ndarray, options: Options, repeats: tuple[str, ...]
+    label: ColumnLabel,
+    times: np.ndarray | None,
+    values: np.ndarray,
+    options: Options,
+    repeats: tuple[str, ...],
+    declared: tuple[str | None, float | None],
 ) -> Accelerogram:
-    """The accelerogram of one column of a table; times: s, None where no column is of times."""
-    step = options.time_step
+    """The accelerogram of one column of a table.
+
+    times: s, None where no column is of times. declared: unit and time step [s] in the remarks above the table.
+    """
+    unit, step = declared
     processing: tuple[str, ...] = ()
     if times is not None:
         step = text.even_step(times)
@@ -233,36 +444,27 @@ def _column(
             step, even, sentence = text.resampled(times)
             values = np.interp(even, times, values)
             processing = repeats = (sentence,)
-    name = re.sub(r"^(acc|acceleration|a)[_\s-]+", "", _UNIT.sub("", label).strip(), flags=re.I)
-    facts: dict[str, Any] = {"component": name, "processing": processing, "warnings": repeats}
-    return options.accelerogram(_unit(label), values, step, processed=None, **facts)
-
-
-_TIMES = {
-    "s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0, "ms": 1e-3, "msec": 1e-3, "millisecond": 1e-3,
-    "milliseconds": 1e-3, "us": 1e-6, "µs": 1e-6, "microseconds": 1e-6, "min": 60.0, "minute": 60.0, "minutes": 60.0,
-    "h": 3600.0, "hour": 3600.0, "hours": 3600.0,
-}  # fmt: skip
-_TIME_UNIT = re.compile(r"[(\[]\s*([^)\]]*?)\s*[)\]]\s*$|[\s,_]([A-Za-z]+)\s*$")
-"""The unit of times, in brackets or as the last word."""
-
-
-def _seconds(label: str) -> float:
-    """Return the unit of a column of times, s. Raises RecordError where it is in brackets and unknown."""
-    match = _TIME_UNIT.search(label)
-    if match is None:
-        return 1.0
-    if match[1] and match[1].lower() not in _TIMES:
-        raise RecordError(f"the times are in {match[1][:20]!r}, but must be in s, ms or min; convert them.")
-    return _TIMES.get((match[1] or match[2] or "s").lower(), 1.0)
-
-
-def _unit(label: str) -> str | None:
-    match = _UNIT.search(label)
-    return acceleration_unit(match[1]) if match else None
+    facts: dict[str, Any] = {"component": label.component, "processing": processing, "warnings": repeats}
+    return options.accelerogram(label.unit or unit, values, step, processed=None, **facts)
 
 
 _WITH_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
+_QUOTED = re.compile(rb'"\s*([+-]?[\d.,]+(?:[eE][+-]?\d+)?)\s*"')
+_FORTRAN = re.compile(rb"(?<=[\d.])[dD](?=[+-]?\d)")
+
+
+def _plain_numbers(content: bytes) -> bytes | None:
+    """Return `content` with its numbers as Python writes them, None where a comma may be either of two things.
+
+    Without the quotes of a spreadsheet, with points for decimal commas, and with E for Fortran's D.
+    """
+    if b'"' in content:
+        content = _QUOTED.sub(rb"\1", content)
+    if b"D+" in content or b"D-" in content:
+        content = _FORTRAN.sub(b"E", content)
+    return _points_for_commas(content)
+
+
 _NUMERIC = re.compile(r"[\d+\-.,;eE \t]+")
 _SAMPLE = 40
 """Lines that are looked at: the rest of a table is like them, or its numbers are refused one by one."""

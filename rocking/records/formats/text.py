@@ -15,9 +15,18 @@ _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 
 
 def lines(content: bytes, limit: int | None = None) -> list[str]:
-    """Return the first `limit` lines (all by default) as text; bytes beyond ASCII are taken as Latin-1."""
+    """Return the first `limit` lines (all by default) as text: bytes beyond ASCII as UTF-8, else as Latin-1."""
     head = content if limit is None else content[: 400 * limit]
-    return head.decode("latin-1").split("\n", -1 if limit is None else limit)[:limit]
+    return _decoded(head).split("\n", -1 if limit is None else limit)[:limit]
+
+
+def _decoded(head: bytes) -> str:
+    """Return the text of bytes, whose last character may be cut, in UTF-8 if they are that, else in Latin-1."""
+    try:
+        return head.decode("utf-8")
+    except UnicodeDecodeError as error:
+        is_cut = error.start >= len(head) - 3 and error.reason == "unexpected end of data"
+        return head[: error.start].decode("utf-8") if is_cut else head.decode("latin-1")
 
 
 def after_lines(content: bytes, number: int) -> bytes:

@@ -1,0 +1,141 @@
+"""The label of a column in a table: what it says of the quantity, the unit and the direction of its numbers."""
+
+import re
+from dataclasses import dataclass
+from functools import cached_property
+
+from rocking.errors import RecordError
+from rocking.quantities import acceleration_unit
+from rocking.records.instrument import azimuth, is_vertical, other_quantity
+
+_TIME = re.compile(
+    r"(?i)t\d?|(time|zeit|tiempo|temp[os]|zaman|seconds?)(?![a-z]).*|[^()\[\]]*[(\[]\s*s(ec)?\s*[)\]]"
+)
+_COUNT = re.compile(
+    r"(?i)(no|nr|n|i|id|#|index|count|counter|sample|samples|point|points|step|row|line)\b\.?.*"
+)
+_TIMES = {
+    "s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0, "ms": 1e-3, "msec": 1e-3, "millisecond": 1e-3,
+    "milliseconds": 1e-3, "us": 1e-6, "µs": 1e-6, "microseconds": 1e-6, "min": 60.0, "minute": 60.0, "minutes": 60.0,
+    "h": 3600.0, "hour": 3600.0, "hours": 3600.0,
+}  # fmt: skip
+_TIME_UNIT = re.compile(r"[(\[]\s*([^)\]]*?)\s*[)\]]\s*$|[\s,_/]([A-Za-zµ]+)\s*$")
+"""The unit of times, in brackets or as the last word."""
+_BRACKETS = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
+_BARE_UNIT = (
+    re.compile(r"(?i)\s*[/,]\s*(m?g|gals?|[mc]?m/s\S+)\s*$"),
+    re.compile(r"(?i)[\s_]+((?:[munc]?m|ft|in)\s?[/_ ]?s(?:ec)?(?:/s(?:ec)?|[_^]?2|\*\*2|²))\s*$"),
+    re.compile(r"(?i)[\s_]+(gals?)\s*$"),
+)
+"""A unit that ends a label without brackets: "Acc/g", "NS, cm/s2", "ns_m_s2". A "g" after a blank is of ground."""
+_ACCELERATION = re.compile(r"(?i)^(acc(el(eration)?)?|a)([_\s.-]+(?!g$)|(?=(ns|ew|ud|up|[xyznev])$))")
+_GROUND = re.compile(r"(?i)[_\s]g$")
+_SEED_ID = re.compile(r"[\w-]+([._ -][\w-]*)*[._ -]([A-Z][HNGL][A-Z\d])")
+"""A channel code at the end of what names network and station: "IV.AMT..HNZ"."""
+
+_OTHER_UNIT = re.compile(
+    r"(?i)([cmuµk]?m|in(ch(es)?)?|ft|feet)(/s(ec)?)?|kines?|"
+    r"[mk]?n|kips?|lbf?|kn[.*-]?m|[km]?pa|psi|[muµ]?v|volts?|count|cou?nts?|cts|adc|digits?|"
+    r"(m?rad|deg(ree)?s?|°)(/s(ec)?[\^]?[2²]?)?|hz|°?c|[uµ]?strain|µε|-|db|k?j|c?m2/s3"
+)
+"""Units in brackets that are of no acceleration."""
+_LIKE_A_UNIT = re.compile(r"(?i).*(/\s*s|s\s*\^?-\d|\*\*|\^\s*-?\d|gal\b|²)|[kmuµn]?g|\S*counts?\S*")
+_OTHER_WORDS = re.compile(
+    r"(?i)(?<![a-z])(strain|force|shear|moment|tilt|rot(ation)?|angle|temp(erature)?|pressure|volt(age)?|counts?|drift|"
+    r"load|error|residual|intensity|arias|husid|energy|power|stress|slip|uplift)(?![a-z])"
+)
+_MEANT = {"v": "velocity", "vel": "velocity", "d": "displacement", "u": "displacement", "x": "displacement",
+          "dis": "displacement", "disp": "displacement", "displ": "displacement"}  # fmt: skip
+"""What a letter beside a column "a" means."""
+
+
+@dataclass(frozen=True)
+class ColumnLabel:
+    """The name of a column as its file writes it, "" where it writes none."""
+
+    text: str
+
+    @property
+    def is_time(self) -> bool:
+        """Whether the column is called one of times."""
+        return bool(_TIME.fullmatch(self.text))
+
+    @property
+    def is_count(self) -> bool:
+        """Whether the column is called one of a count of the rows."""
+        return bool(_COUNT.fullmatch(self.text))
+
+    @property
+    def seconds(self) -> float:
+        """The unit of a column of times, s. Raises RecordError where it is in brackets and unknown."""
+        match = _TIME_UNIT.search(self.text)
+        if match is None:
+            return 1.0
+        if match[1] and match[1].lower() not in _TIMES:
+            raise RecordError(
+                f"the times are in {match[1][:20]!r}, but must be in s, ms or min; convert them."
+            )
+        return _TIMES.get((match[1] or match[2] or "s").lower(), 1.0)
+
+    @cached_property
+    def unit(self) -> str | None:
+        """The unit of acceleration that it names, None where it names none."""
+        if match := _BRACKETS.search(self.text):
+            return acceleration_unit(match[1])
+        found = (match[1] for pattern in _BARE_UNIT if (match := pattern.search(self.text)))
+        return next((unit for each in found if (unit := acceleration_unit(each))), None)
+
+    @property
+    def other(self) -> str:
+        """What it says that its numbers are, where that is no acceleration, "" else."""
+        if quantity := other_quantity(self.text):
+            return quantity
+        if self.unit:
+            return ""
+        if word := _OTHER_WORDS.search(self.text):
+            return word[1].lower()
+        match = _BRACKETS.search(self.text)
+        if match is None or self._is_direction(match):
+            return ""
+        unit = match[1]
+        if _OTHER_UNIT.fullmatch(unit) or _LIKE_A_UNIT.fullmatch(unit):
+            return f"in {unit[:20]!r}"
+        return ""
+
+    def beside_acceleration(self) -> str:
+        """What a label like "v" or "disp" means beside a column called "a", "" of another label."""
+        return _MEANT.get(self.text.strip().lower(), "")
+
+    @property
+    def is_plain_acceleration(self) -> bool:
+        """Whether it names the quantity and no direction: "a", "Acc", "acceleration"."""
+        return bool(re.fullmatch(r"(?i)a|acc(el(eration)?)?", self.text.strip()))
+
+    @property
+    def is_direction(self) -> bool:
+        """Whether it says where the component points."""
+        return azimuth(self.component) is not None or is_vertical(self.component)
+
+    @property
+    def component(self) -> str:
+        """The name of the component: without unit, word for acceleration, network and station."""
+        name = _BRACKETS.sub("", self.text)
+        match = _BRACKETS.search(self.text)
+        if match and self.unit is None and self._is_direction(match):
+            return match[1].strip()
+        if self.unit and not match:
+            for pattern in _BARE_UNIT:
+                name = pattern.sub("", name)
+        name = _ACCELERATION.sub("", name.strip())
+        directed = _GROUND.sub("", name)
+        if directed != name and (azimuth(directed) is not None or is_vertical(directed)):
+            name = directed
+        if code := _SEED_ID.fullmatch(name.strip()):
+            name = code[2]
+        return name.strip()
+
+    def _is_direction(self, brackets: re.Match[str]) -> bool:
+        """Whether what stands in brackets is a direction, as in "Acc (N)": no other name stands before it."""
+        before = self.text[: brackets.start()].strip()
+        is_named = before and not ColumnLabel(before).is_plain_acceleration
+        return not is_named and (azimuth(brackets[1]) is not None or is_vertical(brackets[1]))

@@ -1,0 +1,180 @@
+"""What the names of columns, and the remarks above them, say of quantity, unit, direction and time step."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rocking.errors import RecordError
+from rocking.quantities import acceleration_factor
+from rocking.records import Accelerogram, read
+from rocking.records.formats.labels import ColumnLabel
+
+TIMES = np.arange(600) * 0.01
+WAVES = [
+    np.sin(4 * TIMES + phase) * np.exp(-((TIMES - 3) ** 2)) * size
+    for phase, size in ((0, 2), (1, 1.5), (2, 0.7))
+]
+FIRST = WAVES[0]
+VELOCITY = np.concatenate([[0], np.cumsum((FIRST[1:] + FIRST[:-1]) / 2)]) * 0.01
+
+
+def table(head: str, *columns: np.ndarray, parted: str = ",") -> str:
+    rows = (parted.join(f"{value:.6f}" for value in row) for row in np.transpose(columns))
+    return head + "\n".join(rows) + "\n"
+
+
+def opened(folder: Path, content: str | bytes, **options) -> list[Accelerogram]:
+    path = folder / "made.txt"
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return read(path, **options)
+
+
+@pytest.mark.parametrize(
+    ("label", "unit", "component"),
+    [
+        ("NS (cm/s²)", "cm/s2", "NS"),
+        ("ew_m_s2", "m/s2", "ew"),
+        ("Acc/g", "g", "Acc"),
+        ("acc, cm/s2", "cm/s2", "acc"),
+        ("Acc (N)", None, "N"),
+        ("AccUD", None, "UD"),
+        ("az", None, "z"),
+        ("acc_v", None, "v"),
+        ("IV.AMT..HNZ (gal)", "gal", "HNZ"),
+        ("acc N-S m/s/s", "m/s2", "N-S"),
+        ("a_g", None, "a_g"),
+        ("z_g", None, "z"),
+    ],
+)
+def test_a_label_names_unit_and_component(label, unit, component):
+    read_as = ColumnLabel(label)
+    assert (read_as.unit, read_as.component, read_as.other) == (unit, component, "")
+
+
+@pytest.mark.parametrize(
+    "label",
+    ["CH1 (V)", "CH1 (mV)", "acc (counts)", "counts", "shear (kN)", "NS (mm)", "NS (kine)", "NS (cm/s)", "rot (rad/s2)",
+     "tilt (deg)", "strain", "acc (mGal)", "Arias intensity (m/s)", "roof drift"],
+)  # fmt: skip
+def test_a_column_of_something_else_is_no_acceleration_whatever_unit_is_declared(tmp_path, label):
+    with pytest.raises(RecordError, match=r"of acceleration|of velocity"):
+        opened(tmp_path, table(f"time (s);{label}\n", TIMES, FIRST, parted=";"), unit="m/s2")
+
+
+@pytest.mark.parametrize(
+    ("unit", "factor"),
+    [("ft/s2", 0.3048), ("in/s2", 0.0254), ("m s-2", 1.0), ("cm.s^-2", 0.01), ("m s**-2", 1.0), ("m/s*s", 1.0),
+     ("milli-g", 9.80665e-3), ("µm/s²", 1e-6), ("gals", 0.01)],
+)  # fmt: skip
+def test_more_spellings_of_units(unit, factor):
+    assert acceleration_factor(unit) == pytest.approx(factor, rel=1e-12)
+
+
+@pytest.mark.parametrize("head", ["t a v d\n", "Time,Acc,Vel,Disp\n", "t,a (m/s2),v (m/s),u (m)\n"])
+def test_velocity_and_displacement_beside_acceleration_are_left_out(tmp_path, head):
+    parted = "," if "," in head else " "
+    (record,) = opened(tmp_path, table(head, TIMES, FIRST, VELOCITY, VELOCITY, parted=parted), unit="m/s2")
+    assert np.allclose(record.acceleration, FIRST, atol=1e-6)
+
+
+def test_an_unnamed_column_that_is_the_integral_of_another_is_left_out_and_told(tmp_path):
+    (record,) = opened(tmp_path, table("", TIMES, FIRST, VELOCITY), unit="m/s2")
+    assert np.allclose(record.acceleration, FIRST, atol=1e-6)
+    assert any("integral of another column" in sentence for sentence in record.warnings)
+    assert len(opened(tmp_path, table("", TIMES, *WAVES), unit="m/s2")) == 3
+
+
+@pytest.mark.parametrize("units", ["s,g,g,g\n", "(s),(g),(g),(g)\n"])
+def test_units_may_stand_below_the_names(tmp_path, units):
+    records = opened(tmp_path, table(f"Time,NS,EW,UD\n{units}", TIMES, *WAVES))
+    assert [(record.component, record.source.unit) for record in records] == [
+        ("NS", "g"),
+        ("EW", "g"),
+        ("UD", "g"),
+    ]
+
+
+def test_pairs_of_time_and_acceleration_on_a_row_are_one_series(tmp_path):
+    pairs = np.transpose([TIMES, FIRST]).reshape(-1, 4)
+    (record,) = opened(tmp_path, table("", *pairs.T, parted=" "), unit="m/s2")
+    assert record.time_step == 0.01 and np.allclose(record.acceleration, FIRST, atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("remarks", "step"),
+    [("# units: cm/s2\n# dt = 0.005 s\n", 0.005), ("% Unidades: cm/s2\n% Tasa de muestreo: 200 Hz\n", 0.005),
+     ("$ acceleration in cm/s2\n$ sampling interval (s): 0.02\n", 0.02)],
+)  # fmt: skip
+def test_remarks_declare_unit_and_step(tmp_path, remarks, step):
+    (record,) = opened(tmp_path, table(remarks, 100 * FIRST))
+    assert record.time_step == pytest.approx(step) and np.allclose(record.acceleration, FIRST, atol=1e-7)
+    with pytest.raises(RecordError, match=r"but 0\.01 s was declared"):
+        opened(tmp_path, table(remarks, 100 * FIRST), time_step=0.01)
+
+
+@pytest.mark.parametrize("remarks", ["# PGA: 0.35 (g)\n", "# scale factor in g\n", "# in g\n# units: gal\n"])
+def test_a_remark_on_the_peak_or_two_that_differ_declare_no_unit(tmp_path, remarks):
+    with pytest.raises(RecordError, match="unit is not declared"):
+        opened(tmp_path, table(remarks, FIRST), time_step=0.01)
+
+
+def test_directions_in_the_last_remark_name_the_columns(tmp_path):
+    records = opened(tmp_path, table("# made\n# EW NS UD\n", *WAVES), unit="m/s2", time_step=0.01)
+    assert [(record.azimuth, record.vertical) for record in records] == [
+        (90, False),
+        (0, False),
+        (None, True),
+    ]
+
+
+def test_times_may_stand_in_the_last_column(tmp_path):
+    (record,) = opened(tmp_path, table("NS (m/s2),time (s)\n", FIRST, TIMES))
+    assert record.time_step == 0.01 and np.allclose(record.acceleration, FIRST, atol=1e-6)
+
+
+@pytest.mark.parametrize("above", ["600\n100\n", "0.01\n"])
+def test_a_rate_or_a_step_above_the_samples_is_no_sample(tmp_path, above):
+    step = None if "600" in above else 0.01
+    (record,) = opened(tmp_path, table(above, FIRST), unit="m/s2", time_step=step)
+    assert record.time_step == 0.01 and np.allclose(record.acceleration, FIRST, atol=1e-6)
+
+
+def test_a_spreadsheet_in_utf_16_with_quotes_and_a_line_for_itself(tmp_path):
+    content = table("Time (s);Acc (g)\n", TIMES, FIRST, parted=";")
+    quoted = (
+        "sep=;\n" + "\n".join('"' + line.replace(";", '";"') + '"' for line in content.splitlines()) + "\n"
+    )
+    for text in (content.encode("utf-16"), quoted.encode(), content.replace(".", ",").encode("utf-16")):
+        (record,) = opened(tmp_path, text)
+        assert record.source.unit == "g" and np.allclose(record.acceleration, 9.80665 * FIRST, atol=1e-5)
+
+
+def test_the_exponents_of_fortran(tmp_path):
+    content = "".join(f"{value:15.7E}\n" for value in FIRST).replace("E", "D")
+    (record,) = opened(tmp_path, content, unit="m/s2", time_step=0.01)
+    assert np.allclose(record.acceleration, FIRST, atol=1e-7)
+
+
+def test_a_count_and_a_step_above_two_columns(tmp_path):
+    (record,) = opened(tmp_path, "600 0.01\n" + table("", TIMES, FIRST, parted=" "), unit="m/s2")
+    assert record.acceleration.size == 600 and record.time_step == 0.01
+
+
+def test_three_channels_of_which_none_is_called_vertical_are_told(tmp_path):
+    content = table("time (s),Ch1 (m/s2),Ch2 (m/s2),Ch3 (m/s2)\n", TIMES, *WAVES)
+    for record in opened(tmp_path, content):
+        assert any("nothing says which one is" in sentence for sentence in record.warnings)
+        assert not any("seismometer" in sentence for sentence in record.warnings)
+    named = table("time (s),X (m/s2),Y (m/s2),Z (m/s2)\n", TIMES, *WAVES)
+    assert not any("which one is" in sentence for sentence in opened(tmp_path, named)[0].warnings)
+
+
+def test_numbers_none_of_which_is_negative_are_told(tmp_path):
+    (record,) = opened(tmp_path, table("", TIMES, np.abs(FIRST) + 0.01), unit="m/s2")
+    assert any("is below zero" in sentence for sentence in record.warnings)
+
+
+def test_a_column_of_a_floor_is_told(tmp_path):
+    _, roof = opened(tmp_path, table("time (s),ground (g),roof (g)\n", TIMES, FIRST, WAVES[1]))
+    assert any("stood in a structure (roof)" in sentence for sentence in roof.warnings)
