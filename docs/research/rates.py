@@ -27,7 +27,7 @@ TRIALS = 2000
 """Intervals of each population, slope and number of stations."""
 MANY = 4_000_000
 """Stations whose mean is the truth of a population."""
-DISPERSIONS = (0.3, 0.5, 0.7)
+DISPERSIONS = (0.3, 0.4, 0.5, 0.7)
 """Of the lognormals for which the least reach is told."""
 Draw = Callable[[np.random.Generator, int, float], np.ndarray]
 """Rates (n,) of so many stations under a hazard of a slope that is 1 at the level 1."""
@@ -119,49 +119,58 @@ def rates_of_sites(curve: Fragility, pool: np.ndarray, slope: float) -> np.ndarr
     return np.array([annual_rate(each, points)["annual_rate"] for each in of_each])
 
 
-def _lognormal(
-    rng: np.random.Generator, count: int, slope: float, *, median: float, dispersion: float
-) -> np.ndarray:
-    return (median * np.exp(dispersion * rng.standard_normal(count))) ** -slope
+def _lognormal(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
+    return (3.0 * np.exp(0.4 * rng.standard_normal(count))) ** -slope
 
 
-def _weibull(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
+def _gamma(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
     """Levels with a tail to the weak side: some stations overturn far below the median."""
-    return rng.weibull(6.0, count) ** -slope
+    return rng.gamma(9.0, size=count) ** -slope
 
 
-def _frechet(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
-    """Levels with a tail to the strong side."""
-    return rng.weibull(2.5, count) ** slope
+def _log_logistic(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
+    """Levels with heavy tails to both sides."""
+    return np.exp(-0.2 * slope * rng.logistic(size=count))
 
 
-def _one_in_five_weaker(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
-    weaker = rng.random(count) < 0.2
-    return (np.where(weaker, 0.5, 1.0) * np.exp(0.3 * rng.standard_normal(count))) ** -slope
+def _one_in_three_stronger(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
+    stronger = rng.random(count) < 1 / 3
+    return (np.where(stronger, 2.0, 1.0) * np.exp(0.25 * rng.standard_normal(count))) ** -slope
+
+
+def _one_in_ten_weaker(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
+    weaker = rng.random(count) < 0.1
+    return (np.where(weaker, 0.6, 1.0) * np.exp(0.4 * rng.standard_normal(count))) ** -slope
 
 
 def _plateau(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
-    """Two in five stations never overturn."""
-    ever = rng.random(count) < 0.6
-    return ever * np.exp(0.4 * rng.standard_normal(count)) ** -slope
+    """Three in five stations never overturn."""
+    ever = rng.random(count) < 0.4
+    return ever * np.exp(0.5 * rng.standard_normal(count)) ** -slope
+
+
+def _log_uniform(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
+    """Levels from one half to two, and none beyond."""
+    return np.exp(-slope * np.log(2.0) * rng.uniform(-1.0, 1.0, count))
 
 
 def _dip(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
-    """A third of the stations let stand again, over a range of levels, what they had overturned."""
-    first = 1.5 * np.exp(0.6 * rng.standard_normal(count))
+    """Every second station lets stand again, over a range of levels, what it had overturned."""
+    first = 1.5 * np.exp(0.4 * rng.standard_normal(count))
     stands = first * np.exp(rng.uniform(0.05, 0.3, count))
     again = stands * np.exp(rng.uniform(0.2, 0.9, count))
-    back = rng.random(count) < 1 / 3
+    back = rng.random(count) < 0.5
     return first**-slope - back * (stands**-slope - again**-slope)
 
 
 POPULATIONS: Mapping[str, Draw] = {
-    "lognormal, β 0.3": partial(_lognormal, median=0.5, dispersion=0.3),
-    "lognormal, β 0.7": partial(_lognormal, median=2.0, dispersion=0.7),
-    "tail to the weak side": _weibull,
-    "tail to the strong side": _frechet,
-    "one in five weaker by half": _one_in_five_weaker,
-    "a plateau of 0.6": _plateau,
-    "a dip in one of three": _dip,
+    "lognormal, β 0.4": _lognormal,
+    "tail to the weak side": _gamma,
+    "heavy tails": _log_logistic,
+    "one in three stronger": _one_in_three_stronger,
+    "one in ten weaker": _one_in_ten_weaker,
+    "a plateau of 0.4": _plateau,
+    "none beyond a range": _log_uniform,
+    "a dip in every second": _dip,
 }
 """None of them was looked at when the interval was chosen."""

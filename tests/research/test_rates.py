@@ -12,12 +12,13 @@ from rocking.assessment.fragility import fragility_of
 
 SLOPE = 1.5
 CLOSED_FORM = {
-    "lognormal, β 0.3": 0.5**-SLOPE * math.exp((SLOPE * 0.3) ** 2 / 2),
-    "lognormal, β 0.7": 2.0**-SLOPE * math.exp((SLOPE * 0.7) ** 2 / 2),
-    "tail to the weak side": gamma(1 - SLOPE / 6),
-    "tail to the strong side": gamma(1 + SLOPE / 2.5),
-    "one in five weaker by half": (0.8 + 0.2 * 2**SLOPE) * math.exp((SLOPE * 0.3) ** 2 / 2),
-    "a plateau of 0.6": 0.6 * math.exp((SLOPE * 0.4) ** 2 / 2),
+    "lognormal, β 0.4": 3.0**-SLOPE * math.exp((SLOPE * 0.4) ** 2 / 2),
+    "tail to the weak side": gamma(9 - SLOPE) / gamma(9),
+    "heavy tails": math.pi * 0.2 * SLOPE / math.sin(math.pi * 0.2 * SLOPE),
+    "one in three stronger": (2 / 3 + 2**-SLOPE / 3) * math.exp((SLOPE * 0.25) ** 2 / 2),
+    "one in ten weaker": (0.9 + 0.1 * 0.6**-SLOPE) * math.exp((SLOPE * 0.4) ** 2 / 2),
+    "a plateau of 0.4": 0.4 * math.exp((SLOPE * 0.5) ** 2 / 2),
+    "none beyond a range": (2**SLOPE - 2**-SLOPE) / (2 * SLOPE * math.log(2)),
 }
 
 
@@ -29,9 +30,9 @@ def test_a_population_has_the_mean_rate_of_its_closed_form(name):
 
 
 def test_a_dip_takes_away_from_a_rate_and_never_all_of_it():
-    drawn = POPULATIONS["a dip in one of three"](np.random.default_rng(1), 100_000, SLOPE)
-    whole = 1.5**-SLOPE * math.exp((SLOPE * 0.6) ** 2 / 2)
-    assert drawn.min() > 0 and 0.8 * whole < drawn.mean() < whole
+    drawn = POPULATIONS["a dip in every second"](np.random.default_rng(1), 100_000, SLOPE)
+    whole = 1.5**-SLOPE * math.exp((SLOPE * 0.4) ** 2 / 2)
+    assert drawn.min() > 0 and 0.7 * whole < drawn.mean() < whole
 
 
 @pytest.mark.parametrize("known", [False, True])

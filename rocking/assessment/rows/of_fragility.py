@@ -119,7 +119,8 @@ def rate_interval(of_stations: np.ndarray) -> tuple[float, float]:
     stations seldom meets the few that make up the mean, and its interval holds the truth in 56 to 92 % only
     (docs/pages/fragility.md). The interval is therefore that of the mean of a lognormal, by Student's law for few
     stations (Cox's method: Zhou & Gao 1997, Confidence intervals for the log-normal mean, Stat. Med. 16, 783-790),
-    times the share of the stations that have a rate at all.
+    times the share of the stations that have a rate at all. Where rates are no lognormal, that mean is not theirs; the
+    interval therefore also holds that of the mean itself, by Student's law for its logarithm.
     """
     positive = np.log(of_stations[of_stations > 0])
     count = positive.size
@@ -130,7 +131,14 @@ def rate_interval(of_stations: np.ndarray) -> tuple[float, float]:
     middle = math.log(share) + float(positive.mean()) + variance / 2
     error = math.sqrt((1 - share) / count + variance / count + variance**2 / (2 * (count - 1)))
     reach = float(stdtrit(count - 1, 0.95)) * error
-    return math.exp(middle - reach), math.exp(min(middle + reach, 700.0))
+
+    mean = float(of_stations.mean())
+    relative_error = float(of_stations.std(ddof=1)) / mean / math.sqrt(of_stations.size)
+    own_reach = float(stdtrit(of_stations.size - 1, 0.95)) * relative_error
+
+    low = min(middle - reach, math.log(mean) - own_reach)
+    high = max(middle + reach, math.log(mean) + own_reach)
+    return math.exp(low), math.exp(min(high, 700.0))
 
 
 @row("ida")

@@ -292,6 +292,15 @@ def test_the_interval_of_a_rate_holds_the_truth_of_a_made_population(slope, coun
     assert 0.85 <= np.mean([low <= truth <= high for low, high in ends]) <= 0.95
 
 
+def test_the_interval_of_a_rate_holds_the_truth_where_rates_are_no_lognormal():
+    """Rates that are a power of Weibull's have a gamma function as their mean. Of 400 intervals 90 % are asked, and the
+    0.1 % quantile of the binomial lies 4.9 % below; the method for lognormals alone holds it in 81 %."""
+    draws = np.random.default_rng(7).weibull(2.5, (400, 35)) ** 3.5
+    truth = math.gamma(1 + 3.5 / 2.5)
+    ends = [rate_interval(each) for each in draws]
+    assert np.mean([low <= truth <= high for low, high in ends]) >= 0.85
+
+
 def test_no_record_is_scaled_beyond_the_largest_factor_and_the_weak_are_counted_out():
     weak, *strong = (_record(0.9, "").scaled(each) for each in (0.02, 2.0, 3.0))
     curve = fragility([weak, *strong], BLOCK, stations=list("abc"), intensity_measure="pga")
