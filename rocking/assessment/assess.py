@@ -290,8 +290,9 @@ def _component_cases(
         kept = store.find(CaseResult, fingerprint) if store is not None else None
         if kept is not None:
             prediction = None
-            if component.candidates and kept.answer is not None:
-                prediction = predict(_mechanism(structures[name]), component.candidates, extent.settings)
+            mechanism = _mechanism(structures[name])
+            if component.candidates and kept.answer is not None and mechanism.can_overturn:
+                prediction = predict(mechanism, component.candidates, extent.settings)
             results[name] = replace(kept, structure=name, prediction=prediction)
     missing = {name: structure for name, structure in structures.items() if name not in results}
     computed = {}
@@ -445,7 +446,7 @@ def with_ensembles(
 ) -> CaseResult:
     """Return the case with the ensembles of its cracks, and with the reserve of the one that governs.
 
-    With fidelity: auto, which asks for the verdict alone, no reserve is sought.
+    With fidelity: auto, which asks for the verdict alone, no reserve is sought, nor where nothing can overturn it.
     """
     auto = settings.fidelity == "auto"
     ensembles = ensemble_over_cracks(structure, motions, settings, verdict_only=auto)
@@ -455,6 +456,8 @@ def with_ensembles(
     several = cracks(structure)
     description = ensembles.governing.description
     governing = next((each for each in several if each.description == description), several[0])
+    if not governing.mechanism.can_overturn:
+        return case
     return replace(case, reserve=reserve(governing.mechanism, motions, settings.ensemble))
 
 
@@ -486,7 +489,8 @@ def _compared_methods(
     block = mechanism.equivalent_block(settings.acceleration_scale)
     durations: dict[Method, float] = {}
     prediction = None
-    if component.candidates:
+    # The block of what cannot overturn would: it says nothing of it.
+    if component.candidates and mechanism.can_overturn:
         started = process_time()
         prediction = predict(mechanism, component.candidates, settings)
         durations[Method.CLOSED_FORM] = process_time() - started
@@ -496,10 +500,9 @@ def _compared_methods(
     record = component.accelerogram
     vertical = component.vertical
     follow = partial(integrate, tolerance=settings.tolerance)
-    runs = {
-        Method.MECHANISM_ON_RECORD: partial(follow, mechanism, record, history=True, vertical=vertical),
-        Method.BLOCK_ON_RECORD: partial(follow, block, record, vertical=vertical),
-    }
+    runs = {Method.MECHANISM_ON_RECORD: partial(follow, mechanism, record, history=True, vertical=vertical)}
+    if mechanism.can_overturn:
+        runs[Method.BLOCK_ON_RECORD] = partial(follow, block, record, vertical=vertical)
     if prediction is not None:
         runs[Method.MECHANISM_ON_PULSE] = partial(follow, mechanism, prediction.pulse)
     for method, run in runs.items():

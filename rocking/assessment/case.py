@@ -12,7 +12,7 @@ from functools import cached_property
 
 from rocking.assessment.component import Component, component_names
 from rocking.assessment.contacts import ContactShare
-from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
+from rocking.assessment.cracks import CrackEnsembles, FollowedCrack, cracks
 from rocking.assessment.deciding import decided_by
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer, Estimate
@@ -295,7 +295,15 @@ class StationResult(Judgement):
         if self._failed and decided is not Verdict.OVERTURNS and not over_all:
             missing = ", ".join(each.component or "not named" for each in self._failed)
             return Verdict.UNKNOWN, f"the component {missing} gave no result"
+        if decided is Verdict.STANDS and self.never_lets_go:
+            return Verdict.CANNOT_OVERTURN, self.never_lets_go
         return decided, why
+
+    @cached_property
+    def never_lets_go(self) -> str:
+        """Why no motion can overturn it, whatever opens, in words; "" where one can."""
+        reasons = [each.mechanism.never_lets_go for each in cracks(self.body)]
+        return reasons[0] if all(reasons) else ""
 
     def _of_members_or_run(self) -> tuple[Verdict, str]:
         assert self.worst is not None

@@ -150,7 +150,9 @@ class LocalMechanism:
 
     @cached_property
     def ultimate_displacement(self) -> float:
-        """d_0 [m], where a vanishes with only such actions as hold on until then."""
+        """d_0 [m], where a vanishes with only such actions as hold on until then; inf where it vanishes nowhere."""
+        if not self.static.side.can_overturn:
+            return math.inf
         return self.displacement(self.static.collapse_rotation)
 
     @cached_property
@@ -171,7 +173,10 @@ class LocalMechanism:
         return math.inf
 
     def limit(self, state: LimitState) -> LimitPoint:
-        """Return where `state` lies on the capacity curve; the period is nan where there is no displacement."""
+        """Return where `state` lies on the capacity curve; the period is nan where there is no displacement.
+
+        Where a vanishes nowhere and nothing else limits it, the displacement is inf, and the others are nan.
+        """
         share = state.displacement_share
         limits = {share * self.ultimate_displacement: f"{share:g} d₀"}
         if state.ends_with_ties and self._limiting_rupture < math.inf:
@@ -179,6 +184,8 @@ class LocalMechanism:
         if self.support_loss < math.inf:
             limits[self.support_loss * self.static.displacement_factor] = "what it carries falls"
         displacement = min(limits)
+        if math.isinf(displacement):
+            return LimitPoint(displacement, math.nan, math.nan, "a vanishes nowhere")
         rotation = self.static.rotation_at(displacement / self.static.displacement_factor)
         acceleration = self.acceleration(rotation)
         period = math.nan
@@ -221,8 +228,9 @@ def elastic_period(
 class CodeCheck:
     """The kinematic checks of one structure at one limit state.
 
-    linear: None for SLC, of which the code has none. nonlinear: None for SLD. mechanisms: all that were checked.
-    damage_level: the least a_g [m/s²] at which a mechanism starts, that of SLD.
+    linear: None for SLC, of which the code has none. nonlinear: None for SLD, and where nothing can overturn, which
+    `remark` then says. mechanisms: all that were checked. damage_level: the least a_g [m/s²] at which a mechanism
+    starts, that of SLD.
     """
 
     limit_state: str
@@ -231,6 +239,7 @@ class CodeCheck:
     damage_level: float
     mechanisms: tuple[LocalMechanism, ...] = field(repr=False)
     governing: LocalMechanism = field(repr=False)
+    remark: str = ""
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -284,6 +293,7 @@ def kinematic_check(
     damage = [_damage_level(each, floor) for each in mechanisms]
     first = int(np.argmin(damage))
     linear = nonlinear = None
+    remark = ""
     governing = mechanisms[first]
     if limit_state != "SLC":
         clause = "C8.7.1.2.1.7"
@@ -302,14 +312,17 @@ def kinematic_check(
         levels = [_collapse_level(each, floor, state) for each in mechanisms]
         reached = np.maximum(levels, damage)  # a_g,SLV is never below a_g,SLD
         governed_by = int(np.argmin(reached))
-        governing = mechanisms[governed_by]
-        nonlinear = Check(
-            clause="C8.7.1.2.1.8",
-            limit_state=limit_state,
-            capacity=float(reached[governed_by]),
-            demand=spectrum.level,
-            mechanism=governing.description,
-        )
+        if math.isinf(reached[governed_by]):
+            remark = _not_made(mechanisms[first])
+        else:
+            governing = mechanisms[governed_by]
+            nonlinear = Check(
+                clause="C8.7.1.2.1.8",
+                limit_state=limit_state,
+                capacity=float(reached[governed_by]),
+                demand=spectrum.level,
+                mechanism=governing.description,
+            )
     return CodeCheck(
         limit_state=limit_state,
         linear=linear,
@@ -317,6 +330,15 @@ def kinematic_check(
         damage_level=damage[first],
         mechanisms=mechanisms,
         governing=governing,
+        remark=remark,
+    )
+
+
+def _not_made(mechanism: LocalMechanism) -> str:
+    """Why checks that need d_0 were not made."""
+    return (
+        f"It cannot overturn: it {mechanism.body.mechanism().never_lets_go}. The displacement d₀ that the nonlinear "
+        "and the dynamic check ask for does not exist, so that neither was made; the force in the ties is not checked."
     )
 
 
@@ -362,6 +384,8 @@ def _collapse_level(mechanism: LocalMechanism, floor: FloorDemand, state: LimitS
     point = mechanism.limit(state)
     if not point.displacement > 0:
         return 0.0
+    if math.isinf(point.displacement):
+        return math.inf
 
     def asked(level: np.ndarray) -> np.ndarray:
         return floor.displacement(mechanism.elastic_period, point.period, level, state.damping)

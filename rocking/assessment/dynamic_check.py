@@ -124,7 +124,7 @@ def check(
         support_loss=support_loss,
     )
     dynamic = None
-    if records is not None and limit_state in LIMIT_STATES:
+    if records is not None and by_formula.nonlinear is not None:
         dynamic = _dynamic_check(by_formula, records, support)
     return StructureCheck(
         limit_state=by_formula.limit_state,
@@ -133,13 +133,15 @@ def check(
         damage_level=by_formula.damage_level,
         mechanisms=by_formula.mechanisms,
         governing=by_formula.governing,
+        remark=by_formula.remark,
         dynamic=dynamic,
     )
 
 
 def _dynamic_check(by_formula: CodeCheck, records: Selection, support: Support | None) -> DynamicCheck:
     state = LIMIT_STATES[by_formula.limit_state]
-    bodies = [_Body.of(sides, state) for sides in _sides_together(by_formula.mechanisms)]
+    together = [_Body.of(sides, state) for sides in _sides_together(by_formula.mechanisms)]
+    bodies = [each for each in together if any(map(math.isfinite, each.limits))]
     places = np.unique(np.concatenate([records.chosen, records.sets.ravel()]).astype(int))
     # by body and record of the pool: the mean of d over its limit, and motions under which d_0 is exceeded
     use = np.full((len(bodies), len(records.names)), np.nan)
@@ -154,7 +156,7 @@ def _dynamic_check(by_formula: CodeCheck, records: Selection, support: Support |
     chosen_use = use[:, records.chosen].mean(axis=1)
     worst = int(np.argmax(np.nan_to_num(chosen_use, nan=np.inf)))
     exceeding = int(falls[:, records.chosen].sum(axis=1).max())
-    limit = bodies[worst].limits[0]
+    limit = next(each for each in bodies[worst].limits if math.isfinite(each))
     share = float(met.mean()) if met.size else float("nan")
     found = DynamicCheck(
         clause="C8.7.1.2.1.9",
@@ -258,8 +260,9 @@ class _Body:
                 moved = float(ratio)
                 if math.isfinite(moved):
                     moved = side.displacement(moved * side.static.side.critical_rotation)
-                uses.append(moved / self.limits[place] if self.limits[place] else math.inf)
-                exceeded += not moved <= side.ultimate_displacement
+                ends = math.isinf(moved) or not self.limits[place]
+                uses.append(math.inf if ends else moved / self.limits[place])
+                exceeded += not moved <= side.ultimate_displacement or math.isinf(moved)
         return float(np.mean(uses)), exceeded
 
 

@@ -219,6 +219,8 @@ def estimated(
     tier: Tier, mechanism: Mechanism, record: Accelerogram, fits: Mapping[Tier, TierFit] | None = None
 ) -> Estimate | None:
     """Return the share that overturns, as `tier` has it; None of a structure unlike those of the calibration."""
+    if not all(side.can_overturn for side in mechanism.sides):
+        return None
     fit = (fits or read_tiers())[tier]
     try:
         own = of_structure(mechanism)

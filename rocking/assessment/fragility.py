@@ -23,7 +23,7 @@ from rocking.assessment.intensity import IntensityMeasure, peak_velocity, per_ve
 from rocking.assessment.intensity import intensity_measure as measure_named
 from rocking.assessment.settings import EnsembleSettings
 from rocking.drawn import Drawn
-from rocking.errors import ConfigurationError
+from rocking.errors import ConfigurationError, StructureError
 from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import Rocking, reduce
 from rocking.quantities import GRAVITY
@@ -330,7 +330,8 @@ def fragility(
     uncertain inputs; each case then has MEMBERS members. The intensity is that of the ground, also of a structure that
     stands on a support of its list and meets the motion there. largest_factor: on a record; one that would need more to
     reach a level is left out of that level. What cannot be followed counts as overturning. Raises ConfigurationError
-    for fewer than two stations, levels out of order or out of reach, or a measure that a record lacks.
+    for fewer than two stations, levels out of order or out of reach, or a measure that a record lacks, and
+    StructureError for a structure that cannot overturn.
 
     >>> pulses = [rocking.Pulse(1.0, frequency, 0.5) for frequency in (4.0, 6.0, 9.0)]
     >>> times = np.arange(400) * 0.01
@@ -349,6 +350,10 @@ def fragility(
     if isinstance(structure, Structure) and structure.crack_is_given:
         others = []  # what is given decides
     mechanism = first.mechanism
+    if mechanism.never_lets_go:
+        raise StructureError(
+            f"the structure cannot overturn, and has no fragility: it {mechanism.never_lets_go}."
+        )
     intensities = np.array([measure.of(record, mechanism) for record in records])
     carried = _carried(records, structure)
     follow = partial(_rotation_ratios, carried, ensemble, tolerance)

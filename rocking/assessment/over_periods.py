@@ -16,6 +16,7 @@ _DOES = {
     Verdict.OVERTURNS: "overturns",
     Verdict.UNDECIDED: "is undecided",
     Verdict.UNKNOWN: "is unknown",
+    Verdict.CANNOT_OVERTURN: "cannot overturn",
 }
 
 

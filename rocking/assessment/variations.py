@@ -50,8 +50,11 @@ def candidates(
     for each, ratio in zip(others, integrated, strict=True):
         if math.isnan(ratio):
             integrate(each.structure, accelerogram, settings.tolerance)  # raises the reason
-        block = each.structure.mechanism().equivalent_block(settings.acceleration_scale)
-        predicted = predict_maximum(block, pulse).rotation_ratio if pulse else math.nan
+        mechanism = each.structure.mechanism()
+        predicted = math.nan
+        if pulse and mechanism.can_overturn:
+            block = mechanism.equivalent_block(settings.acceleration_scale)
+            predicted = predict_maximum(block, pulse).rotation_ratio
         variations.append(Variation(ratio, predicted, each.description, each.position))
     return variations
 

@@ -22,7 +22,7 @@ class Verdict(StrEnum):
     """The verdict on a structure under a ground motion, with all uncertain inputs considered.
 
     >>> [str(verdict) for verdict in rocking.Verdict]
-    ['stands', 'overturns', 'undecided', 'unknown']
+    ['stands', 'overturns', 'undecided', 'unknown', 'cannot overturn']
     """
 
     STANDS = "stands"
@@ -30,9 +30,22 @@ class Verdict(StrEnum):
     UNDECIDED = "undecided"
     UNKNOWN = "unknown"
     """Nothing could be computed."""
+    CANNOT_OVERTURN = "cannot overturn"
+    """It stands under this motion, and what holds it lets go under no other."""
+
+    @property
+    def stays_up(self) -> bool:
+        """Whether the structure stays up, because this motion does not overturn it or because none can."""
+        return self in (Verdict.STANDS, Verdict.CANNOT_OVERTURN)
 
 
-ORDER = (Verdict.OVERTURNS, Verdict.UNDECIDED, Verdict.UNKNOWN, Verdict.STANDS)
+ORDER = (
+    Verdict.OVERTURNS,
+    Verdict.UNDECIDED,
+    Verdict.UNKNOWN,
+    Verdict.STANDS,
+    Verdict.CANNOT_OVERTURN,
+)
 """The worst verdict first; what could not be computed may overturn."""
 BOTH_COMPONENTS = "both"
 """In place of a component: all directions of a record."""

@@ -81,7 +81,7 @@
         const { verdict, cell, text } = caseOf(record, structure);
         const title = `${structure.name} under ${record.id}: ${text}`;
         const names = { title, "aria-label": title, "data-record": r, "data-structure": s, "data-verdict": verdict };
-        add(add(row, "td"), "button", { type: "button", class: `cell ${verdict}`, tabindex: -1, "aria-pressed": false, ...names }, cell);
+        add(add(row, "td"), "button", { type: "button", class: `cell ${verdict.replace(" ", "-")}`, tabindex: -1, "aria-pressed": false, ...names }, cell);
       });
     });
     order("worst");

@@ -82,7 +82,7 @@ def explore_page(records: Iterable[Content], structures: Mapping[str, Structure]
     both = {"records": of_records, "structures": of_structures}
     content = json.dumps(both, allow_nan=False, separators=(",", ":"))
     colours = "".join(
-        f".{verdict} {{ background: {fill}; color: {ink}; }}\n"
+        f".{verdict.replace(' ', '-')} {{ background: {fill}; color: {ink}; }}\n"
         for verdict, (_, fill, ink, _) in LOOKS.items()
     )
     pieces = {

@@ -25,6 +25,7 @@ LOOKS: dict[Verdict, tuple[str, str, str, str]] = {
     Verdict.UNDECIDED: ("?", "#f0a030", "#000000", "///"),
     Verdict.UNKNOWN: (NOTHING, "#ffffff", "#000000", ""),
     Verdict.STANDS: ("●", "#dceaf7", "#000000", ""),
+    Verdict.CANNOT_OVERTURN: ("■", "#c5d9ec", "#000000", ""),
 }
 """Sign, colour, colour of letters on it, and pattern of each verdict: in print without colour the others tell it."""
 METHODS = {

@@ -209,7 +209,7 @@ def headlines(stations: Sequence[StationResult]) -> list[dict[str, str]]:
         if standing_of(station) is not None:
             continue
         remark = station.count if station.verdict is Verdict.OVERTURNS else ""
-        if station.verdict in (Verdict.UNDECIDED, Verdict.UNKNOWN):
+        if station.verdict in (Verdict.UNDECIDED, Verdict.UNKNOWN, Verdict.CANNOT_OVERTURN):
             remark = station.why
         groups.setdefault(station.verdict, []).append(station.structure + (f" ({remark})" if remark else ""))
     lines = []
@@ -537,7 +537,7 @@ VERDICT_COLUMNS: list[Column] = [
         "Verdict",
         "0.7",
         "l",
-        lambda station: strong(str(station.verdict), station.verdict is not Verdict.STANDS),
+        lambda station: strong(str(station.verdict), not station.verdict.stays_up),
     ),
     ("Members that overturn", "0.8", "l", lambda station: words(station.count)),
     ("As given", "0.7", "l", lambda station: printing.to_spread(station.rotation_ratio, station)),

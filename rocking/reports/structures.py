@@ -140,6 +140,8 @@ def _sentences(checked: StructureCheck) -> list[str]:
     ]
     for state in LIMIT_STATES.values():
         point = mechanism.limit(state)
+        if math.isinf(point.displacement):
+            continue
         lines.append(
             f"d_{state.name} = {number(point.displacement)} m ({point.reason}), a = {number(point.acceleration)} m/s², "
             f"T_{state.name} = {number(point.period)} s."
@@ -148,6 +150,8 @@ def _sentences(checked: StructureCheck) -> list[str]:
     if dynamic is not None:
         said = f"Dynamic check under {counted(dynamic.motions, 'motion')}: {dynamic.sentence}"
         lines.append(f"{said}; {dynamic.refusal}." if dynamic.refusal else f"{said}.")
+    elif checked.remark:
+        lines.append(checked.remark)
     else:
         lines.append("The dynamic check was not made: there are no sets of records for it.")
     return lines
@@ -204,6 +208,8 @@ def _draw_capacity(axes: Axes, mechanism: LocalMechanism) -> None:
     axes.plot(displacements, accelerations, color="black")
     for (name, state), colour in zip(LIMIT_STATES.items(), (PREDICTED, PULSE), strict=True):
         point = mechanism.limit(state)
+        if math.isinf(point.displacement):
+            continue
         label = f"d {name} = {number(point.displacement)} m, T {name} = {number(point.period)} s"
         axes.plot([0, point.displacement], [0, point.acceleration], "--", color=colour, linewidth=0.8)
         axes.plot(point.displacement, point.acceleration, "o", color=colour, markersize=4, label=label)
@@ -211,7 +217,8 @@ def _draw_capacity(axes: Axes, mechanism: LocalMechanism) -> None:
     axes.margins(x=0)
     axes.set_ylim(0, 1.35 * max(accelerations))
     axes.set(xlabel="displacement d [m]", ylabel="acceleration a [m/s²]", title="capacity curve")
-    axes.legend(loc="upper right")
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(loc="upper right")
 
 
 @styled

@@ -197,7 +197,8 @@ def structure_table(verdicts: Sequence[VerdictRow]) -> dict[str, object]:
     for row in verdicts:
         counts.setdefault(row.structure, Counter())[row.verdict] += 1
     present = {row.verdict for row in verdicts}
-    kinds = [verdict for verdict in ORDER if verdict in present or verdict is not Verdict.UNKNOWN]
+    rare = (Verdict.UNKNOWN, Verdict.CANNOT_OVERTURN)
+    kinds = [verdict for verdict in ORDER if verdict in present or verdict not in rare]
     heads = [printing.sentence(verdict) for verdict in kinds]
     return table_of(
         [(name, *[counts[name][verdict] for verdict in kinds], worst[name]) for name in counts],

@@ -52,6 +52,9 @@ class PointMotion(NamedTuple):
     acceleration: np.ndarray
 
 
+_FOLLOWED = 0.99
+"""Share of the rotation where the geometry ends by which rotations are measured that can overturn nothing."""
+
 STILL = -1
 """The number of a part that does not move."""
 
@@ -218,12 +221,20 @@ class Linkage(ABC):
         """Return the side of rocking."""
         critical = self._first_zero() if self.critical is None else self.critical
         functions = self.inertia, self.inertia_slope, self.gravity, self.gravity_slope, self.ground
-        return Side(*functions, critical, self.end_rotation, restitution, self.ties, self.untied_gravity)
+        return Side(
+            *functions,
+            self.end_rotation * _FOLLOWED if critical is None else critical,
+            self.end_rotation,
+            restitution,
+            self.ties,
+            self.untied_gravity,
+            can_overturn=critical is not None,
+        )
 
-    def _first_zero(self) -> float:
+    def _first_zero(self) -> float | None:
         """Where G first vanishes on (0, end_rotation), or falls below zero where a tie yields or breaks, rad.
 
-        Raises StructureError when G does not restore at rest, or does not vanish.
+        None where it does not vanish. Raises StructureError when G does not restore at rest.
         """
         from scipy.optimize import brentq  # slow to import, and not needed by what has a formula
 
@@ -232,12 +243,7 @@ class Linkage(ABC):
         places = np.unique(np.concatenate([steps, bends, np.nextafter(bends, np.inf)]))
         falls = np.flatnonzero(self.gravity(places) <= 0)
         if not falls.size:
-            lifts = float(self.gravity(0.0) / self.ground(0.0))
-            raise StructureError(
-                f"the structure lifts at {lifts:.4g} g but cannot overturn: up to {self.end_rotation:.4g} rad, where "
-                "its geometry ends, what holds it never lets go; give elastic ties the tie_strength at which they "
-                "yield or break, or make what holds it weaker."
-            )
+            return None
         if falls[0] == 0:
             raise StructureError("the structure does not stand: what acts on it at rest turns it over.")
         before, after = places[falls[0] - 1], places[falls[0]]

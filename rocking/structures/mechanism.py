@@ -138,6 +138,8 @@ class Side:
     and fall with g + ü_v, the ties do not, and they remember the largest rotation.
     critical_rotation: φ_cr, where G vanishes, rad. end_rotation: where the geometry of the mechanism ends, rad,
     > φ_cr. restitution: η of the impact that ends rocking on this side, in [0, 1].
+    can_overturn: False where G vanishes nowhere, as what holds it never lets go; critical_rotation is then the rotation
+    just below the end, and whatever reaches the end counts as overturned all the same.
     Raises StructureError when G(0) ≤ 0, B ≤ 0 or I ≤ 0 where it matters, or a rotation is out of order.
 
     >>> round(rocking.Block(2.0, 0.2).mechanism().positive.uplift_multiplier, 4)
@@ -154,6 +156,7 @@ class Side:
     restitution: float
     ties: tuple[SideTie, ...] = ()
     untied_gravity: Function | None = None
+    can_overturn: bool = True
 
     def __post_init__(self) -> None:
         if self.ties and self.untied_gravity is None:
@@ -180,8 +183,11 @@ class Side:
     @property
     def described(self) -> str:
         """Its four numbers, for a reader."""
+        restitution = four_digits(self.restitution)
+        if not self.can_overturn:
+            return f"λ = {four_digits(self.uplift_multiplier)}, cannot overturn, η = {restitution}"
         frequency = four_digits(self.frequency_parameter, "rad/s")
-        rotation, restitution = four_digits(self.critical_rotation, "rad"), four_digits(self.restitution)
+        rotation = four_digits(self.critical_rotation, "rad")
         return f"λ = {four_digits(self.uplift_multiplier)}, φ_cr = {rotation}, p = {frequency}, η = {restitution}"
 
     def at(self, name: str, rotation: float) -> float:
@@ -208,14 +214,19 @@ class Side:
 
     @cached_property
     def frequency_parameter(self) -> float:
-        """p = sqrt(−g G'(φ_cr)/I(φ_cr)), rad/s (Eq. 11)."""
+        """p = sqrt(−g G'(φ_cr)/I(φ_cr)), rad/s (Eq. 11); that of the block exact at rest where it cannot overturn."""
         critical = self.critical_rotation
+        if not self.can_overturn:
+            stiffness = GRAVITY * self.at("gravity", 0.0) / self.at("inertia", 0.0)
+            return float(np.sqrt(stiffness / critical))
         return float(np.sqrt(-GRAVITY * self.at("gravity_slope", critical) / self.at("inertia", critical)))
 
     @cached_property
     def acceleration_scale(self) -> float:
-        """a_sc = −B(φ_cr)/G'(φ_cr) (Eq. 11)."""
+        """a_sc = −B(φ_cr)/G'(φ_cr) (Eq. 11); φ_cr/λ (Eq. 13) where it cannot overturn."""
         critical = self.critical_rotation
+        if not self.can_overturn:
+            return critical / self.uplift_multiplier
         return -self.at("ground", critical) / self.at("gravity_slope", critical)
 
     @cached_property
@@ -321,6 +332,22 @@ class Mechanism(Drawn):
     def sides(self) -> tuple[Side, ...]:
         """The distinct sides, positive first."""
         return (self.positive,) if self.negative is None else (self.positive, self.negative)
+
+    @property
+    def can_overturn(self) -> bool:
+        """Whether it can overturn to any side; where ties never let go it may not."""
+        return any(side.can_overturn for side in self.sides)
+
+    @property
+    def never_lets_go(self) -> str:
+        """Why it cannot overturn, in words; "" where it can."""
+        if self.can_overturn:
+            return ""
+        end = max(side.end_rotation for side in self.sides)
+        return (
+            f"lifts at {self.uplift_multiplier:.3g} g, and what holds it never lets go up to {end:.3g} rad, where its "
+            "geometry ends (ties without a tie_strength count as unbreakable)"
+        )
 
     @property
     def critical_rotation(self) -> float:

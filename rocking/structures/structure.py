@@ -567,10 +567,12 @@ class CrackedAtHeight(Crackable):
         """Each has its own momentum balance where no restitution is given.
 
         Where λ has its least value between two of the heights, the height of that is one more. A crack at which what
-        holds the structure leaves no mechanism is left out.
+        holds the structure leaves no mechanism is left out, and one with which it cannot overturn where with another
+        one it can.
         """
         heights = sorted({*self._places(count), float(self.crack_position)})
-        cracked = [each for each in map(self._candidate, heights) if each]
+        formed = [each for each in map(self._candidate, heights) if each]
+        cracked = [each for each in formed if each.structure.mechanism().can_overturn] or formed
         # of equal multipliers, as all along a solid spire, the lowest crack
         order = np.argsort([float(f"{each.multiplier:.9g}") for each in cracked], kind="stable")
         ranked = [cracked[place] for place in order]

@@ -69,9 +69,10 @@ def write_checks(study: Study, folder: Path, tell: Callable[[str], None] = lambd
 def _told(checked: StructureCheck | None) -> str:
     """The checks in a line."""
     checks = checked.checks if checked else ()
-    return ", ".join(
+    words = ", ".join(
         f"{KINDS[each.clause]} {'met' if each.passed else 'not met'} ({each.ratio:.3g})" for each in checks
     )
+    return f"{words}. {checked.remark}" if checked and checked.remark else words
 
 
 def _sets(study: Study) -> tuple[Selection | None, list[str]]:

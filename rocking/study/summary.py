@@ -8,6 +8,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+from rocking.assessment.cracks import cracks
 from rocking.assessment.rows.of_record import RECORD_TABLES, ComparisonRow, TimingRow
 from rocking.assessment.rows.of_study import (
     AGREEMENT_COLUMNS,
@@ -154,6 +155,9 @@ def write_fragility(
         )
     tables: dict[type[Row], list[Row]] = {each: [] for each in rows.FRAGILITY_TABLES.values()}
     for count, (name, structure) in enumerate(study.structures.items(), start=1):
+        if never := cracks(structure)[0].mechanism.never_lets_go:
+            reasons.append(f"{name}: it cannot overturn, and has no fragility: it {never}.")
+            continue
         analysis = fragility(
             accelerograms,
             structure,

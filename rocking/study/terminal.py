@@ -66,7 +66,7 @@ def closing_lines(verdicts: Sequence[VerdictRow], failures: Iterable[FailureRow]
     Below it stand the records that failed.
     """
     worst = sorted(verdicts, key=lambda each: each.severity, reverse=True)
-    doubtful = [each for each in worst if each.verdict is not Verdict.STANDS]
+    doubtful = [each for each in worst if not each.verdict.stays_up]
     of_all = Counter(each.structure for each in doubtful)
     counts = Counter((each.structure, each.verdict) for each in doubtful)
     ordered = sorted(of_all, key=lambda name: (-counts[name, Verdict.OVERTURNS], -of_all[name]))

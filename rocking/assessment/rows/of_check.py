@@ -47,11 +47,11 @@ class CodeCheckRow(Row):
     sets_share_high: float = column("Upper end of that interval")
     onset_multiplier: float = column("α_0 of the mechanism that governs", equation="C8.7.1.1")
     participating_mass_ratio: float = column("e* of that mechanism", equation="C8.7.1.5")
-    ultimate_displacement_m: float = column("d_0 of that mechanism", equation="C8.7.1.4")
+    ultimate_displacement_m: float = column("d_0 of that mechanism; empty: none", equation="C8.7.1.4")
     limit_displacement_m: float = column("Displacement of the limit state of that mechanism")
     secant_period_s: float = column("Secant period at that displacement")
     confidence_factor: float = column("Confidence factor FC")
-    why: str = column("Why a check is not called met, where the numbers do not say it")
+    why: str = column("Why a check is not called met, or others were not made")
 
 
 def code_check_rows(structure: str, checked: StructureCheck) -> Iterator[CodeCheckRow]:
@@ -81,16 +81,21 @@ def code_check_rows(structure: str, checked: StructureCheck) -> Iterator[CodeChe
             sets_share_high=high,
             onset_multiplier=governing.onset_multiplier,
             participating_mass_ratio=governing.participating_mass_ratio,
-            ultimate_displacement_m=governing.ultimate_displacement,
-            limit_displacement_m=point.displacement if point else math.nan,
+            ultimate_displacement_m=_where_it_is(governing.ultimate_displacement),
+            limit_displacement_m=_where_it_is(point.displacement) if point else math.nan,
             secant_period_s=point.period if point else math.nan,
             confidence_factor=governing.confidence_factor,
-            why=each.refusal,
+            why=each.refusal or checked.remark,
         )
 
 
 def _of(check: Check, unit: str, value: float) -> float:
     return value if check.unit == unit else math.nan
+
+
+def _where_it_is(displacement: float) -> float:
+    """A displacement of the capacity curve; nan, an empty cell, where the curve has no such point."""
+    return displacement if math.isfinite(displacement) else math.nan
 
 
 def disagreement(checked: StructureCheck, overturning_share: float, stations: int) -> str:

@@ -82,7 +82,9 @@ class CaseRow(ComponentRow):
 class MembersRow(CaseRow):
     """A row about the members of the ensemble that speaks for a case."""
 
-    verdict: Verdict = column("stands, overturns, undecided, or unknown: a component failed")
+    verdict: Verdict = column(
+        "stands, overturns, undecided, unknown (a component failed), or cannot overturn"
+    )
     overturning_members: int = column("Number of members that overturn")
     members: int = column("Number of members; 0 without an ensemble")
     overturning_share: float = column("Share of the members that overturn; of a single run 0 or 1")
@@ -270,7 +272,9 @@ class SupportRow(CaseRow):
     )
     floor_pulse_amplitude_m_s2: float = column("Signed amplitude of the dominant sine on the support")
     floor_pulse_period_s: float = column("Period of the dominant sine on the support")
-    verdict: Verdict = column("stands, overturns, undecided, or unknown: a component failed")
+    verdict: Verdict = column(
+        "stands, overturns, undecided, unknown (a component failed), or cannot overturn"
+    )
     overturning_share: float = column("Share of the members that overturn; of a single run 0 or 1")
 
 

@@ -1,5 +1,6 @@
 """Rows about a whole study: its structures, their blocks, its counts, its spectrum and what accuracy costs."""
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from enum import StrEnum
 from itertools import product
@@ -30,7 +31,7 @@ class StructureRow(Row):
     geometry: str = column("Sizes of the structure with their units")
     crack: str = column("Hinge or crack, whose place is open; empty where none is")
     frequency_parameter_rad_s: float = column(_P, equation="Eq. 11")
-    critical_rotation_rad: float = column("Critical rotation")
+    critical_rotation_rad: float = column("Critical rotation; empty to a side it cannot overturn to")
     uplift_multiplier: float = column("Uplift acceleration in g", equation="Eq. 7")
     static_multiplier: float = column("Least uplift acceleration in g over all cracks")
     acceleration_scale_linearised: float = column("Scale a_sc of the linearised block", equation="Eq. 11")
@@ -88,6 +89,9 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow
     for name, structure in structures.items():
         mechanism = structure.mechanism()
         side = mechanism.positive
+        if not side.can_overturn:
+            yield _held_row(name, structure)
+            continue
         linearised, uplift = mechanism.equivalent_block("linearised"), mechanism.equivalent_block("uplift")
         yield StructureRow(
             structure=name,
@@ -105,6 +109,27 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow
             restoring_defect=mechanism.block_defects.restoring,
             forcing_defect=mechanism.block_defects.forcing,
         )
+
+
+def _held_row(name: str, structure: Structure) -> StructureRow:
+    """The row of a structure that cannot overturn to the positive side, and so is no block there."""
+    mechanism = structure.mechanism()
+    return StructureRow(
+        structure=name,
+        type=structure.type_name,
+        geometry=structure.description,
+        crack=structure.crack_name,
+        frequency_parameter_rad_s=math.nan,
+        critical_rotation_rad=math.nan,
+        uplift_multiplier=mechanism.uplift_multiplier,
+        static_multiplier=structure.static_multiplier,
+        acceleration_scale_linearised=math.nan,
+        acceleration_scale_uplift=math.nan,
+        linearised_over_true_uplift=math.nan,
+        restitution=mechanism.positive.restitution,
+        restoring_defect=math.nan,
+        forcing_defect=math.nan,
+    )
 
 
 def capacity_rows(structures: Mapping[str, Structure]) -> Iterator[CapacityRow]:

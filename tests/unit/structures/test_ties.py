@@ -51,6 +51,7 @@ def oracle(structure):
     )  # fmt: skip
 
 
+NEVER_LETS_GO = {"tie_strength": None, "tie_plastic_elongation": 0.0, "tie_stiffness": 2e5}
 MOTIONS = {
     "façade": (FACADE, 3.2, 5.0),
     "façade, brittle": (replace(FACADE, tie_plastic_elongation=0.0), 3.0, 6.0),
@@ -87,6 +88,35 @@ def test_every_flight_is_that_of_scipys_own_events(case):
     for n, height in enumerate(structure.tie_heights):
         assert (f"tie at {height:g} m breaks" in said) == (body.mode[n] == "broken")
         assert (f"tie at {height:g} m yields" in said) == (body.plastic[n] > 0 and body.mode[n] != "broken")
+
+
+def test_a_side_that_cannot_overturn_moves_as_any_other():
+    """Flights of a wall on unbreakable ties against scipy's; inwards, where no tie holds it, it is the free wall."""
+    both_ways = replace(WALL, **NEVER_LETS_GO)
+    structure = replace(both_ways, one_sided=True)
+    mechanism = structure.mechanism()
+    assert not mechanism.can_overturn
+    assert "cannot overturn" in repr(mechanism)
+    assert both_ways.mechanism().can_overturn
+    free = replace(WALL, **UNTIED).mechanism().sides[-1].critical_rotation
+    assert both_ways.mechanism().negative.critical_rotation == pytest.approx(free, rel=1e-12)
+    rotations = np.linspace(0, mechanism.positive.end_rotation, 2001)
+    assert mechanism.positive.gravity(rotations).min() > 0
+    pulse = Pulse(-12.0, 8.0)
+    found = integrate(structure, pulse, 1e-11, history=True)
+    assert found.outcome == "rocks"
+    start = np.arcsin(GRAVITY * mechanism.positive.uplift_multiplier / 12.0) / 8.0
+    end = min(found.times[-1], start + 1.5)
+    body = oracle(structure)
+    body.follow(
+        lambda time: -12.0 * np.sin(8.0 * time) if time < pulse.period else 0.0,
+        lambda time: 0.0,
+        [start, pulse.period, end],
+    )
+    inside = (found.times > start) & (found.times <= end)
+    assert found.rotation[inside].max() > 0.01
+    # scipy at 1e-11 over some tens of steps
+    np.testing.assert_allclose(found.rotation[inside], body.at(found.times[inside]), rtol=0, atol=1e-9)
 
 
 @pytest.mark.parametrize("case", ["façade", "façade, tightened"])

@@ -1,0 +1,109 @@
+"""What cannot overturn: a verdict of its own, what it says, and what is left out of it, in words."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rocking
+from rocking.assessment.rows.of_study import structure_rows
+from rocking.assessment.verdict import ORDER, Verdict
+from rocking.errors import StructureError
+from rocking.pulses import Pulse
+from rocking.records import Accelerogram
+from rocking.structures import LoadedWall
+
+HELD = LoadedWall.hinged_at(
+    3.2,
+    1.9,
+    0.25,
+    20e3,
+    tie_heights=(1.6,),
+    tie_stiffness=5e7,
+    one_sided=True,
+    restitution=0.7,
+    crack="known",
+)
+FREE_INWARDS = replace(HELD, one_sided=False)
+SPECTRUM = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
+
+
+def record(amplitude: float) -> Accelerogram:
+    return Accelerogram(Pulse(amplitude, 6.0, 0.2).acceleration(np.arange(600) * 0.01), 0.01, station="made")
+
+
+def test_it_is_the_verdict_where_the_structure_stands_and_nothing_can_let_it_fall():
+    assessed = rocking.assess(record(8.0), HELD)
+    untied = replace(HELD, tie_heights=(), tie_stiffness=0.0)
+    assert assessed.verdict is Verdict.CANNOT_OVERTURN
+    # uplift does not feel an elastic tie without pretension
+    assert f"lifts at {untied.mechanism().uplift_multiplier:.3g} g" in assessed.why
+    assert "without a tie_strength" in assessed.why
+    assert assessed.overturning_members == 0
+    assert assessed.rotation_ratio > 0
+    assert assessed.reserve is None
+
+
+def test_a_side_without_ties_still_falls():
+    assessed = rocking.assess(record(8.0), FREE_INWARDS)
+    assert assessed.verdict is Verdict.OVERTURNS
+    assert assessed.falls_to == -1
+
+
+def test_a_tie_that_may_break_lets_it_fall():
+    """The same wall whose tie breaks below what holds it is no case of it."""
+    weak = replace(HELD, tie_strength=1e3)
+    assert weak.mechanism().can_overturn
+    assert rocking.assess(record(8.0), weak).verdict is Verdict.OVERTURNS
+
+
+def test_a_crack_that_can_fall_is_followed_instead_of_those_that_cannot():
+    """A tie of 100 kN/m² holds this wall for good above mid-height, and not where the hinge opens far below it."""
+    softer = replace(HELD, tie_stiffness=1e5)
+    assert not softer.cracked_at(1.9).mechanism().can_overturn
+    assert softer.cracked_at(0.5).mechanism().can_overturn
+    followed = replace(softer, crack="unknown").candidates()
+    assert followed
+    assert all(each.structure.mechanism().can_overturn for each in followed)
+    stronger = replace(HELD, tie_stiffness=2e5, crack="unknown")
+    assert not any(each.structure.mechanism().can_overturn for each in stronger.candidates())
+
+
+def test_it_is_the_mildest_verdict():
+    assert ORDER[-1] is Verdict.CANNOT_OVERTURN
+    assert Verdict.CANNOT_OVERTURN.stays_up
+
+
+def test_the_linear_check_is_made_and_the_others_say_why_not():
+    checked = rocking.check(HELD, SPECTRUM)
+    untied = rocking.check(replace(HELD, tie_heights=(), tie_stiffness=0.0), SPECTRUM)
+    assert checked.linear.capacity == pytest.approx(untied.linear.capacity, rel=1e-9)
+    assert checked.nonlinear is None
+    assert checked.dynamic is None
+    assert "d₀ that the nonlinear and the dynamic check ask for does not exist" in checked.remark
+
+
+def test_what_it_carries_may_fall_though_it_cannot():
+    """The limit displacement is then where the support is lost, whatever d₀."""
+    checked = rocking.check(HELD, SPECTRUM, support_loss=0.05)
+    point = checked.limit
+    assert checked.nonlinear is not None
+    assert point.reason == "what it carries falls"
+    assert point.displacement == pytest.approx(0.05 * checked.governing.static.displacement_factor)
+
+
+def test_of_two_sides_the_one_that_falls_is_checked():
+    checked = rocking.check(FREE_INWARDS, SPECTRUM)
+    assert checked.nonlinear.mechanism.endswith("inwards")
+    assert checked.remark == ""
+
+
+def test_it_has_no_fragility():
+    with pytest.raises(StructureError, match=r"cannot overturn, and has no fragility: it lifts at 0.263 g"):
+        rocking.fragility([record(4.0), record(5.0)], HELD, stations=["a", "b"], levels=[0.2, 0.6])
+
+
+def test_its_row_has_no_block():
+    (row,) = structure_rows({"held": HELD})
+    assert np.isnan([row.critical_rotation_rad, row.frequency_parameter_rad_s]).all()
+    assert row.uplift_multiplier == pytest.approx(HELD.mechanism().uplift_multiplier)
