@@ -500,7 +500,8 @@ def _compared_methods(
     record = component.accelerogram
     vertical = component.vertical
     follow = partial(integrate, tolerance=settings.tolerance)
-    runs = {Method.MECHANISM_ON_RECORD: partial(follow, mechanism, record, history=True, vertical=vertical)}
+    follow_as_given = partial(follow, mechanism, record, history=True, vertical=vertical, fragility=True)
+    runs = {Method.MECHANISM_ON_RECORD: follow_as_given}
     if mechanism.can_overturn:
         runs[Method.BLOCK_ON_RECORD] = partial(follow, block, record, vertical=vertical)
     if prediction is not None:
@@ -553,7 +554,14 @@ def _cheapest(
     )
     if answer.method is not Method.MECHANISM_ON_RECORD or of_statics is mechanism:
         return answer
-    whole = integrate(mechanism, record, tolerance=settings.tolerance, vertical=vertical, history=True)
+    whole = integrate(
+        mechanism,
+        record,
+        tolerance=settings.tolerance,
+        vertical=vertical,
+        history=True,
+        fragility=True,
+    )
     return replace(answer, outcome=whole.outcome, response=whole)
 
 
@@ -652,9 +660,15 @@ def _with_history(
     response = case.response
     if response is None or response.times is not None:
         return case
+    # A fragile run was repeated at a smaller tolerance than that of the settings, which it states.
     whole = integrate(
-        body, component.accelerogram, tolerance=tolerance, vertical=component.vertical, history=True
+        body,
+        component.accelerogram,
+        tolerance=min(tolerance, response.tolerance or tolerance),
+        vertical=component.vertical,
+        history=True,
     )
+    whole = replace(whole, fragile=response.fragile)
     return replace(case, responses={**case.responses, Method.MECHANISM_ON_RECORD: whole})
 
 

@@ -210,7 +210,7 @@ def cheapest_answer(
                 return Answer(method, Outcome.ROCKS, reason)
             if estimate.low >= 1 - risk and tier is Tier.BLOCK_AT_FIVE_SCALES:
                 return Answer(method, Outcome.OVERTURNS, reason)
-    whole = integrate(mechanism, record, tolerance, history=history, vertical=vertical)
+    whole = integrate(mechanism, record, tolerance, history=history, vertical=vertical, fragility=True)
     reason = f"{'the block' if ensemble_follows else 'the peak velocity'} does not settle it"
     return Answer(Method.MECHANISM_ON_RECORD, whole.outcome, reason, whole)
 

@@ -59,6 +59,7 @@ def integrate(
     history: bool = False,
     vertical: Accelerogram | None = None,
     sensitivity: bool = False,
+    fragility: bool = False,
     fragility_change: float = 0.01,
     initial_rotation: float = 0.0,
     initial_velocity: float = 0.0,
@@ -68,9 +69,9 @@ def integrate(
     structure: a Mechanism, an EquivalentBlock, or anything with `.mechanism()`. motion: an Accelerogram, linear between
     its samples, or a Pulse, exact. An EquivalentBlock under a record is solved exactly and ignores `tolerance`.
     tolerance: of the largest rotation, relative, in [1e-13, 0.1]. history: keep times, rotation and angular velocity.
-    vertical: ü_v, sample by sample as `motion`; gravity becomes g + ü_v. sensitivity: also compute d ln φ_max / d ln a
-    and whether the verdict is `fragile`; a run that is repeats itself at a tolerance of 1e-9. initial_rotation [rad]
-    and initial_velocity [rad/s], signed: the state when the motion begins, instead of rest.
+    vertical: ü_v, sample by sample as `motion`; gravity becomes g + ü_v. fragility: also find whether the verdict is
+    `fragile`; a run that is repeats itself at 1e-9, the tolerance that the response then states. sensitivity: that, and
+    d ln φ_max / d ln a. initial_rotation [rad], initial_velocity [rad/s], signed: the state when the motion begins.
 
     Overturning is a rotation past the mechanism's end, or outward motion that the largest acceleration still to come
     cannot turn back. Rocking ends at an impact that leaves less than 1e-14 of the energy that reaches φ_cr.
@@ -85,19 +86,18 @@ def integrate(
     forcing = forcing_of(motion, vertical)
     reduced = reduce(structure)
     response = _response(reduced, forcing, tolerance, start, history)
-    if not sensitivity:
+    if not (sensitivity or fragility):
         return response
+
     change = within(MotionError, "fragility_change", fragility_change, 0, 0.5)
-    again = _response(reduced, forcing, min(tolerance, _AGAIN), start, factor=1 + _AGAIN)
-    close = math.isclose(again.rotation_ratio, response.rotation_ratio, rel_tol=_REPRODUCIBLE)
-    fragile = not close or any(
-        _response(reduced, forcing, tolerance, start, factor=factor).outcome is not response.outcome
-        for factor in (1 - change, 1 + change)
-    )
-    if fragile and tolerance > _AGAIN:
+    fragile = _is_fragile(response, reduced, forcing, tolerance, start, change)
+    if fragile and response.tolerance > _AGAIN:
         response = _response(reduced, forcing, _AGAIN, start, history)
-    slope = _sensitivity(reduced, forcing, start) if response.outcome is Outcome.ROCKS else math.nan
-    return replace(response, sensitivity=slope, fragile=fragile)
+    response = replace(response, fragile=fragile)
+
+    if sensitivity and response.outcome is Outcome.ROCKS:
+        return replace(response, sensitivity=_sensitivity(reduced, forcing, start))
+    return response
 
 
 def reduce(structure: Rocking) -> Mechanism | EquivalentBlock:
@@ -271,6 +271,24 @@ def _response(
         warning=WEIGHTLESS if forcing.weightless else "",
         **states,
     )
+
+
+def _is_fragile(
+    response: Response,
+    reduced: Mechanism | EquivalentBlock,
+    forcing: Forcing,
+    tolerance: float,
+    start: Start,
+    change: float,
+) -> bool:
+    """Whether a tighter run differs, or one whose motion is weaker or stronger by the share `change` ends otherwise."""
+    again = _response(reduced, forcing, min(tolerance, _AGAIN), start, factor=1 + _AGAIN)
+    if not math.isclose(again.rotation_ratio, response.rotation_ratio, rel_tol=_REPRODUCIBLE):
+        return True
+    neighbours = (
+        _response(reduced, forcing, tolerance, start, factor=factor) for factor in (1 - change, 1 + change)
+    )
+    return any(each.outcome is not response.outcome for each in neighbours)
 
 
 def _states(table: Table, log: np.ndarray, begin: float) -> dict[str, Any]:

@@ -31,11 +31,11 @@ class Response(Drawn):
     motion is scaled by one percent (nan unless it rocks, or if it was not asked for). Of a chaotic response, which
     `fragile` tells, it is the slope between two neighbours and no measure of what may come.
     fragile: whether ± `fragility_change` of the ground motion flips the verdict, or the run is not reproducible: a
-    second one, at a tolerance of 1e-9 and with the motion scaled by 1 + 1e-9, differs by more than 1e-5. The number
-    is then one of many. None if not asked for.
+    second one, at a tolerance of 1e-9 and with the motion scaled by 1 + 1e-9, differs by more than 1e-5. The run
+    is then repeated at 1e-9, and its number is one of many. None if not asked for.
     warning: one sentence where the vertical motion takes away all of gravity, else "".
-    steps: integration steps taken. tolerance: the one asked for, which a response of many impacts may miss that is
-    fragile; 0.0: exact.
+    steps: integration steps taken. tolerance: the one asked for, or 1e-9 where a fragile run was repeated; a fragile
+    response of many impacts may miss it. 0.0: exact.
     With history: times (k,) s, rotation (k,) rad signed, angular_velocity (k,) rad/s signed, and `plot`, which draws
     the rotation against time and raises MotionError without.
 

@@ -197,6 +197,10 @@ class ComparisonRow(CaseRow):
     impacts: int | None = column("Number of impacts in the integration")
     peak_side: int | None = column(PEAK_SIDE)
     peak_time_s: float = column("Time of the largest rotation after the first sample")
+    fragile: bool | None = column(
+        "Whether a change of the ground motion by 1 % decides the outcome, or chaos does"
+    )
+    tolerance: float = column("Tolerance of the integration: a fragile run is repeated at 1e-9; 0: exact")
     required_friction: float = column("Largest friction that a contact needs; INF without pressure")
     slides: bool | None = column("Whether a contact slides, so that the model fails")
     bounces: bool | None = column("Whether a contact lifts off, so that the model fails")
@@ -451,6 +455,8 @@ def comparison_row(identity: ComponentRow, case: "CaseResult", friction_coeffici
         impacts=response.impacts if response else None,
         peak_side=response.peak_side if response else None,
         peak_time_s=response.peak_time if response else math.nan,
+        fragile=response.fragile if response else None,
+        tolerance=response.tolerance if response else math.nan,
         required_friction=case.check.required_friction,
         slides=case.check.slides(friction_coefficient),
         bounces=case.check.bounces,

@@ -92,6 +92,37 @@ def test_a_pulse_equals_the_limit_of_its_samples():
     assert orders == pytest.approx([2, 2], abs=0.1)
 
 
+NEAR_THE_LIMIT = [
+    ("two sides", 51, (30, 0.1, 3), 1.56870584646, 1.19438566421, "stands, and falls at 1e-6"),
+    ("block", 11, (60, 0.05, 6), 1.87260126893, 1.11640268442, "stands, and falls at 1e-6"),
+    ("two sides", 43, (30, 0.1, 3), 1.2436271428, np.inf, "falls, and stands at 1e-6"),
+]
+"""Mechanism, seed, count with step and width, factor, and the rotation ratio: within 2e-9 of a limit of overturning."""
+
+
+@pytest.mark.parametrize("name, seed, sampling, factor, expected, _", NEAR_THE_LIMIT)
+def test_a_fragile_run_is_repeated_where_the_tolerance_decides_wrongly(
+    name, seed, sampling, factor, expected, _
+):
+    """Close to the limit the structure lingers about its critical rotation, so the oracle follows it for 40/p."""
+    mechanism = MECHANISMS[name]
+    count, step, width = sampling
+    record = noise(seed, count, step, lifting(mechanism, factor), width)
+    after = 40 / mechanism.positive.frequency_parameter
+    ratio, _ = Oracle(mechanism).run(record.acceleration, step, after=after)
+    assert ratio == pytest.approx(expected, rel=1e-9)
+
+    as_asked = integrate(mechanism, record)
+    assert np.isinf(as_asked.rotation_ratio) != np.isinf(ratio)
+    assert as_asked.fragile is None
+
+    repeated = integrate(mechanism, record, fragility=True, history=True)
+    assert repeated.fragile is True
+    assert repeated.tolerance == 1e-9
+    assert repeated.rotation_ratio == pytest.approx(ratio, rel=1e-8)  # ten times the tolerance it states
+    assert repeated.times is not None
+
+
 def errors_of(count, seed, tolerance):
     """|error|/tolerance of the cases that rock, and how many verdicts differ without being fragile."""
     rng = np.random.default_rng(seed)
