@@ -25,7 +25,7 @@ _BOUNDS = ("gt", "ge", "lt", "le", "pattern", "examples")
 
 @dataclass(frozen=True)
 class Described:
-    """What there is to say of one value.
+    """The declaration of one value.
 
     name: of the attribute. kind: its type. unit: of the value in a file, in which its key ends. one_of: gives the names
     that are allowed, where a registry holds them. bounds: any of gt, ge, lt, le, of a text the pattern that it matches
@@ -84,7 +84,7 @@ class Described:
 
     @property
     def must(self) -> str:
-        """What the value must be, in words: "a number above 0 and up to 0.5 or null"."""
+        """The values that are allowed, in words: "a number above 0 and up to 0.5 or null"."""
         return _words(self.schema)
 
     def checked(self, value: Any) -> Any:
@@ -227,7 +227,7 @@ _LONGEST_NAME = 80
 
 
 def _words(schema: Mapping[str, Any]) -> str:
-    """What a JSON schema allows."""
+    """The values that a JSON schema allows, in words."""
     if examples := schema.get("examples"):
         bare = {key: value for key, value in schema.items() if key != "examples"}
         return _words(bare).replace("a text that is not empty", f"a text like {' or '.join(examples)}", 1)

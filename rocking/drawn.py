@@ -1,4 +1,4 @@
-"""What has a picture: the method `plot`, by which it is drawn."""
+"""The objects that have a picture: the method `plot`, by which they are drawn."""
 
 from html import escape
 from typing import TYPE_CHECKING

@@ -160,7 +160,7 @@ def assess_record(
 
 
 def _support(structure: Structure | Mechanism) -> Support | None:
-    """What carries a structure; None where it meets each motion as it is."""
+    """The support of a structure; None where it meets each motion as it is."""
     standing = structure.standing if isinstance(structure, Structure) else None
     return standing.support if standing else None
 
@@ -206,7 +206,7 @@ def _assess_carried(
     store: Store | None,
     clock: Clock,
 ) -> tuple[dict[str, StationResult], list[tuple[str, Failure]]]:
-    """What comes of the structures that one support, or the ground, carries, and what concerns none of them alone.
+    """The results of the structures that one support, or the ground, carries, and the failures of no single one.
 
     components: as they arrive there. vertical: of the record.
     """
@@ -677,7 +677,7 @@ def _with_history(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StructureAssessment(StationResult, Drawn):
-    """What came of one structure: the verdict with the ensemble over all uncertain inputs, directions included.
+    """The result of one structure: the verdict with the ensemble over all uncertain inputs, directions included.
 
     cases: by component. rotation_ratio: largest rotation over critical rotation of the case as given, the worse
     component; inf if it overturns. `plot` draws the rotation as given, with the members' 5–95 % beside it.

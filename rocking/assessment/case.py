@@ -105,7 +105,7 @@ class Prediction:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CaseResult:
-    """What came of one structure under one motion.
+    """The result of one structure under one motion.
 
     component: name of the motion. prediction: None without a pulse. responses: by method. check: whether the model held
     along the response of the mechanism to the record. answer: of the mechanism on the record, or of the cheapest method
@@ -134,7 +134,7 @@ class CaseResult:
 
     @property
     def kept(self) -> "CaseResult":
-        """What a store keeps of it: the same for the same input, whenever and wherever it is computed.
+        """The part of it that a store keeps: the same for the same input, whenever and wherever it is computed.
 
         Without the histories, without the prediction, which a pulse gives at once, and without the times it took.
         """
@@ -177,7 +177,7 @@ class CaseResult:
 
     @property
     def verdict(self) -> Verdict:
-        """What its mechanisms say, whatever its contacts do."""
+        """The verdict of its mechanisms, whatever its contacts do."""
         if self.ensembles is not None:
             return self.ensembles.verdict
         if self.answer is None:
@@ -211,7 +211,7 @@ class Governing:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StationResult(Judgement):
-    """What became of one structure under one record, all components and directions considered.
+    """The result of one structure under one record, all components and directions considered.
 
     The ensemble over all directions decides, or where there is none that of the component that overturns, then rotates,
     most; without any ensemble the single run of the worst component. A component that gave no result makes the verdict
@@ -327,7 +327,7 @@ class StationResult(Judgement):
         return decided_by(self.ensembles)
 
     def _with_contacts(self, decided: Verdict, why: str) -> tuple[Verdict, str]:
-        """What becomes of a verdict where contacts open or courses are thrown, and where contact dynamics was asked."""
+        """The verdict and its reason where contacts open, courses are thrown or contact dynamics was asked."""
         over_all = self.decisive is not None and self.decisive is self.directions
         concerned = [self.directions] if over_all and self.directions else list(self.cases.values())
         doubts = [each.doubt for each in concerned if each.doubt is not None]
@@ -354,7 +354,7 @@ class StationResult(Judgement):
 
     @property
     def stacks(self) -> ContactShare | None:
-        """What contact dynamics says of all components together; None where it was not asked."""
+        """The share of contact dynamics over all components together; None where it was not asked."""
         both = [*self.cases.values(), *([self.directions] if self.directions else [])]
         shares = [each.contact for each in both if each.contact is not None]
         if not shares:
@@ -476,7 +476,7 @@ class StationResult(Judgement):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class RecordResult:
-    """What came of all structures under one record.
+    """The results of all structures under one record.
 
     components: those that could be opened, as they acted. stations: by the name of the structure. failures: of what
     concerns no single structure, by component ("" for all). durations: CPU time of each stage, s. floors: the
@@ -500,12 +500,12 @@ class RecordResult:
 
     @cached_property
     def swept(self) -> list[OverPeriods]:
-        """What became of each structure on a support over the periods of that support."""
+        """The verdicts of each structure on a support over the periods of that support."""
         return swept_over(self.stations.values())
 
     @cached_property
     def worst_first(self) -> list[StationResult]:
-        """What became of each structure, the worst first."""
+        """The results of all structures, the worst first."""
         return sorted(self.stations.values(), key=lambda station: station.severity, reverse=True)
 
     @property

@@ -66,7 +66,7 @@ class Options:
 
 @dataclass(frozen=True, eq=False)
 class Situation:
-    """What the ranges of the causes depend on."""
+    """The case on which the ranges of the causes depend."""
 
     structure: Mechanism | EquivalentBlock
     motions: GroundMotions
@@ -148,8 +148,8 @@ direction, processing and vertical, follow from the same criterion for SIZES: of
 one whose pairs with those before it have the least worst-case error (unanchored Sobolev space, order 2), relative to
 the best at each size, at the worst size. No record takes part in it, so every site is left out of the choice."""
 _SHIFT = 0.5 / 64 + 0.5 / SIZES[-1]
-"""Of all points: the first coordinate of the 64 that are usual stands in the middle of its strata, but for half a step
-of the largest lattice, which leaves no point of it on a border."""
+"""Shift of all points: the first coordinate of the 64 that are usual stands in the middle of its strata, but for half a
+step of the largest lattice, which leaves no point of it on a border."""
 
 
 @lru_cache(maxsize=16)

@@ -21,7 +21,7 @@ from rocking.structures import Structure
 from rocking.structures.capacity import StaticCapacity
 
 CONFIDENCE_FACTOR = 1.35
-"""Of the level of knowledge LC1, which C8.7.1.2.1 asks for unless crushing enters α; here it does not."""
+"""The factor of the level of knowledge LC1, which C8.7.1.2.1 asks for unless crushing enters α; here it does not."""
 
 BEHAVIOUR_FACTOR = 2.0
 """q of the linear check where no better one is known (C8.7.1.2.1.7)."""
@@ -93,7 +93,7 @@ class Check:
 
 @dataclass(frozen=True)
 class LimitPoint:
-    """Where a limit state lies on the capacity curve: d [m], a [m/s²], the secant period [s], and why there."""
+    """The place of a limit state on the capacity curve: d [m], a [m/s²], the secant period [s], and the reason."""
 
     displacement: float
     acceleration: float
@@ -248,7 +248,7 @@ class CodeCheck:
 
     @property
     def limit(self) -> LimitPoint | None:
-        """Where the limit state lies on the curve of the mechanism that governs; None for SLD."""
+        """The place of the limit state on the curve of the mechanism that governs; None for SLD."""
         state = LIMIT_STATES.get(self.limit_state)
         return self.governing.limit(state) if state else None
 
@@ -350,7 +350,7 @@ def _at_least_one(name: str, value: float) -> float:
 
 
 def _opening(structure: Structure) -> Iterator[tuple[str, int, Structure]]:
-    """What opens and to which side it falls, the sign of that side, and the structure with that crack.
+    """The mechanisms that may open: crack and side of the fall, sign of that side, and the structure with the crack.
 
     Of hinges between supports those that limit analysis finds, of other cracks all that may open.
     """

@@ -1,4 +1,4 @@
-"""What is compiled when the package is first used on a machine: everything an assessment needs, in two processes."""
+"""The compilation at the first use on a machine: everything that an assessment needs, in two processes."""
 
 import contextlib
 import fcntl

@@ -92,7 +92,7 @@ MANY_COURSES = 12
 
 @dataclass(frozen=True)
 class ContactShare:
-    """How many stacks of rigid courses fall, of those that contact dynamics followed.
+    """The number of stacks of rigid courses that fall, of those that contact dynamics followed.
 
     falls, runs: over amplitudes, time steps, directions and signs. reason: why none was followed; "" where they were.
     """
@@ -103,7 +103,7 @@ class ContactShare:
 
     @property
     def verdict(self) -> Verdict:
-        """What all of them say; undecided where they disagree, and unknown where none was followed."""
+        """The verdict of them all; undecided where they disagree, and unknown where none was followed."""
         if not self.runs:
             return Verdict.UNKNOWN
         if self.falls == 0:

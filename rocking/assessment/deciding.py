@@ -1,4 +1,4 @@
-"""What decides an undecided case: the share of the variance of overturning that each cause explains.
+"""The causes that decide an undecided case: the share of the variance of overturning that each cause explains.
 
 Overturning is 1 or 0 of each member. What explains a share of its variance decides so much of the outcome: who knew it
 would know by so much more whether the structure falls. A share is that of an analysis of variance with one factor, less

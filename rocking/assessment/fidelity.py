@@ -1,4 +1,4 @@
-"""Which method settles, with the least work, whether a structure overturns under a record: the first of these.
+"""The method that settles with the least work whether a structure overturns under a record: the first of these.
 
 1. Nothing: |ü_g| / (g + ü_v) never exceeds λ, so it stays at rest. Exact.
 2. Peak velocity: from p PGV/(gλ) the structure stands, where the estimate's 90 % interval lies within the risk. Of a

@@ -106,7 +106,7 @@ class Fragility(Drawn):
 
     @property
     def reversals(self) -> np.ndarray:
-        """How often each record, scaled up, lets stand again what it had overturned, (r,)."""
+        """The times that each record, scaled up, lets stand again what it had overturned, (r,)."""
         falls = [each[np.isfinite(each)] > 0.5 for each in self.exceedance]
         return np.array([int((np.diff(each.astype(int)) < 0).sum()) for each in falls])
 
@@ -438,7 +438,7 @@ def _rotation_ratios(
 
 @dataclass(frozen=True, eq=False)
 class _Scaling:
-    """How records are taken to levels. intensities: (r,) of the records as they are. stations: (r,)."""
+    """The scaling that takes records to levels. intensities: (r,) of the records as they are. stations: (r,)."""
 
     intensities: np.ndarray
     stations: tuple[str, ...]

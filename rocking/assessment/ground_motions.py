@@ -1,4 +1,4 @@
-"""What the ground may have done where one record was written: its directions, its processings, the vertical motion."""
+"""The possible motions of the ground under one record: its directions, its processings, the vertical motion."""
 
 from collections.abc import Mapping
 from contextlib import suppress
@@ -36,7 +36,7 @@ def processed(accelerogram: Accelerogram) -> Mapping[str, Accelerogram]:
 
 @dataclass(frozen=True, eq=False)
 class GroundMotions:
-    """What the ground may have done: at least one horizontal motion by direction and processing, and the vertical one.
+    """The possible motions of the ground: at least one horizontal by direction and processing, and the vertical one.
 
     All have the same samples.
     """

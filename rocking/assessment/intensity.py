@@ -94,7 +94,7 @@ INTENSITY_MEASURES: dict[str, IntensityMeasure] = {
         IntensityMeasure("sa1", "g", "spectral acceleration at 1 s, 5 % damping", _spectral),
     )
 }
-"""By name; the first is the default."""
+"""The intensity measures by name; the first is the default."""
 MEASURES_IN_WORDS = ", ".join(f"{each.name} [{each.unit or '-'}]" for each in INTENSITY_MEASURES.values())
 """Names with units, for the meanings of settings and columns."""
 

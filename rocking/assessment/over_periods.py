@@ -52,7 +52,7 @@ class OverPeriods:
 
     @property
     def sentence(self) -> str:
-        """What becomes of it over the periods, in intervals: a verdict need not change once only.
+        """The verdicts over the periods, in intervals: a verdict need not change once only.
 
         "parapet on roof stands on a building of T_b ≤ 0.25 s, is undecided at T_b 0.3 s, overturns from 0.36 s on
         (tried to 0.6 s)".
@@ -72,7 +72,7 @@ class OverPeriods:
 
 
 def _interval(periods: Sequence[float], is_last: bool) -> str:
-    """Where one verdict holds; periods: ascending, 0 of the ground."""
+    """The interval in which one verdict holds; periods: ascending, 0 of the ground."""
     first, end = periods[0], periods[-1]
     if end == 0:
         return "on the ground"

@@ -91,7 +91,7 @@ def reserve(
 
 
 class _Search:
-    """What is known of a reserve while it is sought.
+    """The state of the search for a reserve.
 
     levels: (k,) ascending factors. falls: (k, m) whether a member overturns at a level; nan where that was not tried.
     """

@@ -64,7 +64,7 @@ class EnsembleSettings:
 
 @dataclass(frozen=True)
 class PredictingPulse(PulseSettings):
-    """Which pulses are sought, and which of them predicts."""
+    """The search for pulses, and the choice of the one that predicts."""
 
     choice: str = described(
         next(iter(PULSE_METHODS)),

@@ -75,7 +75,7 @@ def trade(
 def _runs(
     mechanism: Mechanism, record: Accelerogram, sines: Sequence[Pulse], settings: AssessmentSettings
 ) -> dict[TradeMethod, Callable[[], float]]:
-    """What each method computes of one case; no closed form for a record without pulses."""
+    """The computation of the largest rotation by each method; no closed form for a record without pulses."""
     block = mechanism.equivalent_block("rest")
 
     def worst(some: Sequence[Pulse]) -> float:

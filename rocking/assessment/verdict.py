@@ -161,7 +161,7 @@ def worst_first(judgements: Iterable[tuple[str, Judgement]]) -> list[str]:
 
 
 class Method(StrEnum):
-    """How a largest rotation was computed."""
+    """The method by which a largest rotation was computed."""
 
     PRINTED = "printed"
     CLOSED_FORM = "closed form"
@@ -175,7 +175,7 @@ class Method(StrEnum):
 
 
 class Agreement(StrEnum):
-    """How a prediction stands to the integration."""
+    """The agreement of a prediction with the integration."""
 
     SAME = "same outcome"
     """Both rest, both rock or both overturn."""
@@ -249,7 +249,7 @@ _WORDS = {
     (2, 1): "overturns instead of rocking",
     (2, 2): "both overturn",
 }
-"""By predicted and integrated severity: rests, rocks, overturns."""
+"""The agreement by predicted and integrated severity: rests, rocks, overturns."""
 
 
 def within_factor_two(predicted: float, integrated: float) -> bool | None:

@@ -17,7 +17,7 @@ GroundMotion = Accelerogram | Pulse
 
 @dataclass(frozen=True, eq=False)
 class Forcing:
-    """What the kernel takes of a ground motion.
+    """The ground motion as the kernel takes it.
 
     start_time: s, added to every time of the response. vertical: whether it has a vertical component.
     """

@@ -186,7 +186,7 @@ def follow_blocks(
 
 @lru_cache(maxsize=256)
 def _rows(blocks: tuple[EquivalentBlock, ...]) -> tuple[linear_kernel.Blocks, np.ndarray]:
-    """What the kernel takes of b blocks, alike in their sides, and their restitution (b, 1, 2)."""
+    """The rows that the kernel takes of b blocks, alike in their sides, and their restitution (b, 1, 2)."""
     numbers = [
         [(s.frequency_parameter, 1 / (GRAVITY * s.uplift_multiplier), s.critical_arc) for s in block.sides]
         for block in blocks

@@ -47,7 +47,7 @@ class Samples(NamedTuple):
 
 
 class Motion(NamedTuple):
-    """Where a motion is: sample, time into it [s], x, x'/p, and side; side 0 is rest."""
+    """The state of a motion: sample, time into it [s], x, x'/p, and side; side 0 is rest."""
 
     interval: int
     offset: float
@@ -67,7 +67,7 @@ class Sample(NamedTuple):
 
 @compiled
 def _margins(blocks, ground):
-    """By how much the push to the positive and to the negative side exceeds the uplift acceleration, over it."""
+    """The excess of the push to the positive and to the negative side over the uplift acceleration, over it."""
     last = blocks.push.shape[0] - 1
     return -ground * blocks.push[0] - 1, -np.inf if blocks.one_sided else ground * blocks.push[last] - 1
 

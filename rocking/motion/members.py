@@ -20,7 +20,7 @@ Values = float | Sequence[float] | np.ndarray
 
 @dataclass(frozen=True, eq=False, init=False, repr=False)
 class Members:
-    """What varies between the members of an ensemble; each argument one value for all, or one per member (m,).
+    """The inputs that vary between the members of an ensemble; each argument one value for all, or one per member (m,).
 
     scale_factor: of the ground motion, vertical component included, > 0. polarity: +1, or −1 for the horizontal motion
     reversed. vertical: whether the vertical component acts. restitution: η, (m,) or one per side (m, 2), positive side
@@ -77,7 +77,7 @@ class Members:
 
     @property
     def count(self) -> int:
-        """How many members."""
+        """The number of members."""
         return self.scale_factor.size
 
 

@@ -81,7 +81,7 @@ class Ground(NamedTuple):
 
 
 class Member(NamedTuple):
-    """What varies between the members of an ensemble.
+    """The inputs that vary between the members of an ensemble.
 
     horizontal, vertical: factors of ü_g and of ü_v. restitution: η of the positive and of the negative side.
     """
@@ -92,7 +92,7 @@ class Member(NamedTuple):
 
 
 class Motion(NamedTuple):
-    """Where a motion is.
+    """The state of a motion.
 
     interval, offset: of the ground motion, and s into it. arc, speed: outward. side: 0 is rest. farthest, fastest: the
     largest arc and speed of the present flight.
@@ -243,8 +243,8 @@ LARGEST, LOW, HIGH, YIELDING, LEFT, TAUT, STIFF, HELD = range(8)
 a tie yields, how many are not broken and taut, the square of their frequency, and what they hold with at rest."""
 
 FIRST, EACH = 8, 6
-"""Where the places of the first tie begin, and how many each has: c and s of its tension c + s u in this phase, whether
-it is broken, its plastic elongation, the arc below which that leaves it slack, and the largest arc they go with."""
+"""The first place of the first tie, and the number of places of each: c and s of its tension c + s u in this phase,
+whether it is broken, its plastic elongation, the arc below which that leaves it slack, and the largest arc of both."""
 
 
 def memory(ties: Ties | None) -> np.ndarray:
@@ -385,7 +385,7 @@ def _longest_step(ties, phase, slot, longest):
 
 @part
 def _sine_terms(pieces, k, j, u, s0, s1, square):
-    """What bends a sine that starts as s0 + s1 t: coefficients of B̃ about u, then those of t² to t⁶ of the sine."""
+    """The terms that bend a sine which starts as s0 + s1 t: coefficients of B̃ about u, then t² to t⁶ of the sine."""
     if square == 0.0:
         return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     b0, b1, b2, b3, b4, _, _ = _shift(_polynomial(pieces, k, j, 0.0, 1.0), u)
@@ -700,7 +700,7 @@ def _lost(sides, phase, ground, member, k, motion):
 
 @part
 def _row(sides, side):
-    """Which side of the table it is."""
+    """The row of a side in the table."""
     return 0 if side > 0 else sides.pieces.shape[0] - 1
 
 

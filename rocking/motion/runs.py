@@ -1,4 +1,4 @@
-"""What both kernels share: how they are compiled, how a run ends, and what is written down of it.
+"""The parts that both kernels share: their compilation, the endings of a run, and the history that is written down.
 
 numba compiles a kernel anew when the kernel's own file changes: after a change here both must be touched.
 """
@@ -10,7 +10,7 @@ import numpy as np
 from numba import njit
 
 ROCKS, OVERTURNS, TOO_MANY_IMPACTS, NOT_FINITE = 1, 2, 3, 4
-"""How a run ends; 0 is no uplift."""
+"""The endings of a run; 0 is no uplift."""
 
 REST_ENERGY = 1e-14
 """Rocking ends at an impact that leaves less than this share of the energy that reaches φ_cr.
@@ -48,7 +48,7 @@ _INNER: dict[str, Any] = {**_OPTIONS, "no_cpython_wrapper": True}
 entry = njit(**_OPTIONS)
 compiled = njit(**_INNER)
 part = njit(forceinline=True, **_INNER)
-"""Of what is called from one place: inlined there, so that nothing is handed over by way of memory."""
+"""The compiler of functions called from one place: inlined there, so that nothing is handed over by way of memory."""
 
 
 @compiled

@@ -27,15 +27,15 @@ SWEEPS = 1000
 ROUNDING = 1e-9
 """Impulse over that of the weight in a step, and velocity over g times the step, that count as none."""
 EDGE = 1e-6
-"""How far a corner may lie beyond the face that bears it, over the length of the face."""
+"""The distance of a corner beyond the face that still bears it, over the length of the face."""
 REST = 1.0
-"""How long the courses must have been nearly upright on still ground to stay up, s."""
+"""The time that courses must be nearly upright on still ground to count as standing, s."""
 PRECISION = 1e4
 """Change of an impulse in the last sweep that counts as none, in ROUNDING: a hundred-thousandth of the weight."""
 OPEN, LEFT, RIGHT, CLOSED = 0, 1, 2, 3
-"""What touches at a joint: the ends in a set of bits."""
+"""The ends that touch at a joint, in a set of bits."""
 FALLS, STAYS, MOVES = 1, 0, 2
-"""How a run ends: a course fell, all rest, or the samples ended first."""
+"""The endings of a run: a course fell, all rest, or the samples ended first."""
 
 
 class Bodies(NamedTuple):
@@ -76,7 +76,7 @@ class Limits(NamedTuple):
 
 
 class Joints(NamedTuple):
-    """What the equations of the impulses need, by joint: the last is that of the pin.
+    """The terms of the equations of the impulses, by joint: the last is that of the pin.
 
     gap: (j, 2) at the left and right end, inf where nothing faces. rows: (j, 3, 6) velocity of the upper body from the
     lower one at each impulse, per velocity of both bodies. pushes: (j, 3, 6) what each impulse does to both bodies.
@@ -92,7 +92,7 @@ class Joints(NamedTuple):
 
 
 class State(NamedTuple):
-    """Where a stack is and what it has done, and room to work in; n + 1 bodies, m ties.
+    """The state of a stack and its extremes so far, with room to work in; n + 1 bodies, m ties.
 
     place: (n + 1, 3) of the centres and turns. velocity: (n + 1, 3). turns: (n + 1,) where their largest was reached,
     rad. most: (n + 1,) the largest turn of each, rad. stretched: (m,) largest elongation so far, m. faces:

@@ -18,14 +18,14 @@ from rocking.structures.stack import Stack
 STEP = 5e-4
 """Time step, s: the target `stack` of docs/research says how far a rotation is then from its limit."""
 AFTERWARDS = 20.0
-"""How long a stack is followed on still ground at most, s: it then rocks by what no longer overturns it."""
+"""The longest time that a stack is followed on still ground, s: it then rocks by what no longer overturns it."""
 SHORTEST = 1e-6
 """Shortest time step, s."""
 
 
 @dataclass(frozen=True, eq=False)
 class StackResponse:
-    """What became of a stack: whether a course falls, and how far each turns.
+    """The response of a stack: whether a course falls, and the largest turn of each.
 
     falls: whether a course turned further than it comes back from. turns: (n,) of the courses where the largest of
     them was reached, clockwise positive, rad. largest_turns: (n,) the largest of each, rad. steps: that were followed.

@@ -332,7 +332,7 @@ class Table:
     kernel: Sides
 
     def kernel_of(self, forcing: Forcing) -> Sides:
-        """What the kernel takes under `forcing`: its steps resolve a sine as well."""
+        """The sides that the kernel takes under `forcing`: its steps resolve a sine as well."""
         frequency = forcing.ground.circular_frequency
         if frequency == 0:
             return self.kernel

@@ -23,7 +23,7 @@ MOST = 200
 
 @dataclass(frozen=True)
 class PulseSettings:
-    """What is searched in a record, and how much of it is reported.
+    """The range of the search for pulses in a record, and the number that is reported.
 
     Frequencies in Hz are those of the band of 1/T. Raises PulseError when a value is outside what is allowed.
 
@@ -69,7 +69,7 @@ class Flag(StrEnum):
 
 
 WORTH = ((0.1, 0.56), (0.2, 0.64), (0.3, 0.72), (0.5, 0.77), (1.0, 0.85))
-"""What a pulse is worth as a prediction: up to each explained energy, the share of cases in which the closed form under
+"""The worth of a pulse as a prediction: up to each explained energy, the share of cases in which the closed form under
 the pulse ends as the integration under the record does. Measured on 167 stations that took no part in anything here."""
 
 
@@ -191,7 +191,7 @@ class PulseAnalysis(Drawn):
 
 @dataclass(frozen=True)
 class PulseMethod:
-    """Which pulses may stand for a record; of several, each structure meets the one of largest demand.
+    """The choice of pulses that may stand for a record; of several, each structure meets the one of largest demand.
 
     name: its value of the setting pulse.choice. description: one clause for the reader.
     candidates: the pulses that may stand for a record, the best first; raises PulseError where there is none.

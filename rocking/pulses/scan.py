@@ -31,7 +31,7 @@ HIGHEST_DAMPING = 1e10
 _OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy", "no_cfunc_wrapper": True}
 entry = partial(njit, **_OPTIONS)
 compiled = partial(njit, **{**_OPTIONS, "no_cpython_wrapper": True})
-"""Of what Python does not call: a wrapper for it takes long to compile."""
+"""The compiler of functions that Python does not call: a wrapper for them takes long to compile."""
 
 _VECTOR, _MATRIX, _CUBE = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 _COUNTS, _MASK = types.int64[::1], types.uint8[::1]

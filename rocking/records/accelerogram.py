@@ -28,7 +28,7 @@ SHORTEST_STEP, LONGEST_STEP = 1e-4, 0.1
 
 @dataclass(frozen=True)
 class Source:
-    """Where the numbers of an accelerogram came from; unit: theirs, as declared or as the format defines it."""
+    """The origin of the numbers of an accelerogram; unit: theirs, as declared or as the format defines it."""
 
     path: str = ""
     format: str = ""

@@ -13,7 +13,7 @@ from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 
 _ODDS = 100.0
-"""How much likelier damage must be than chance, over all places of a record at which it could stand."""
+"""The odds of damage against chance that a warning asks, over all places of a record at which it could stand."""
 
 
 def damage_warnings(record: Accelerogram, per_line: int) -> tuple[str, ...]:
@@ -199,7 +199,7 @@ _LEAST_COPY = 8
 _LOUD = 0.005
 """Share of the peak that a stretch must span: in noise of few digits the same numbers come again and again."""
 _RIVALS = 3.0
-"""How many times longer a copy must be than the next longest: what repeats often is coarse, or made by a formula."""
+"""The least length of a copy over that of the next longest: what repeats often is coarse, or made by a formula."""
 _LARGEST_SHARE = 0.3
 
 

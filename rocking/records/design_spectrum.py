@@ -27,7 +27,10 @@ SOILS = {
     "D": (2.40, 1.50, 0.90, 1.80, 1.25, -0.50),
     "E": (2.00, 1.10, 1.00, 1.60, 1.15, -0.40),
 }
-"""By soil: S_S = first − second · F0 a_g/g within the next two; C_C = fifth · T_C*^sixth (NTC 2018, Tab. 3.2.IV)."""
+"""The coefficients by soil (NTC 2018, Tab. 3.2.IV).
+
+S_S = first − second · F0 a_g/g within the next two; C_C = fifth · T_C*^sixth.
+"""
 
 TOPOGRAPHIES = (1.0, 1.4)
 """Least and largest topographic factor S_T (NTC 2018, Tab. 3.2.V)."""
@@ -116,7 +119,7 @@ class DesignSpectrum(ABC):
     @property
     @abstractmethod
     def words(self) -> str:
-        """What it is, for a reader."""
+        """The name of the spectrum, for a reader."""
 
     def acceleration(self, period: ArrayLike, damping: float | None = None) -> np.ndarray:
         """Return S_e(T, ξ), m/s², at `period` ≥ 0 [s], of any shape; damping: a share, None for its own.
@@ -280,7 +283,7 @@ class PointSpectrum(DesignSpectrum):
 
     @property
     def longest_period(self) -> float:
-        """Of the last point, s."""
+        """The period of the last point, s."""
         return self.periods[-1]
 
     @property

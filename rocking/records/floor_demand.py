@@ -1,4 +1,4 @@
-"""What a design level asks of a part on the ground or on a support (Circolare 7/2019, C7.2.3 and C8.7.1.12)."""
+"""The demand of a design level on a part on the ground or on a support (Circolare 7/2019, C7.2.3 and C8.7.1.12)."""
 
 import math
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from rocking.records.support import Support
 
 @dataclass(frozen=True, eq=False)
 class FloorDemand:
-    """What a part feels where it stands: on the ground, or on a support by the modes of what carries it.
+    """The motion that a part feels where it stands: on the ground, or on a support by the modes of what carries it.
 
     spectrum: of the ground. support: None on the ground; the participation of its modes is γ_k ψ_k(z), with n storeys
     γ_1 = 3n/(2n + 1) and ψ_1 = z/H (C7.2.10).

@@ -31,7 +31,7 @@ _FORMULA = "=+-@"  # signs that make a spreadsheet compute what comes after them
 
 @dataclass(frozen=True)
 class FolderCatalogue:
-    """What a folder of files gives for its catalogue.
+    """The rows that a folder of files gives for its catalogue.
 
     files: every file, in the order of names. standing: the rows that the catalogue holds already, with the new names of
     files that were renamed, and without the request to fill in what was typed. new: the rows of the other files.

@@ -24,7 +24,7 @@ _OFF_GRID = 0.1  # share of a time step by which the samples of two files may li
 
 
 class Component(Protocol):
-    """What joining asks of a channel, with its samples or without."""
+    """The facts that joining asks of a channel, with its samples or without."""
 
     @property
     def component(self) -> str: ...

@@ -60,7 +60,7 @@ class ListedChannel:
 
 @dataclass(frozen=True)
 class Reading:
-    """What reading the content of a file gives, whatever else lies in its folder.
+    """The findings of reading one file, whatever else lies in its folder.
 
     doubts: what is plausibly wrong, one sentence each. refusal: why it cannot be read, or "". missing: what it does not
     declare, of the keys of CELLS.
@@ -98,7 +98,7 @@ class ListedFile:
 
     @property
     def status(self) -> str:
-        """What there is to say of the file, in one line."""
+        """The state of the file, in one line."""
         if self.refusal:
             return f"not read: {self.refusal}"
         parts = [f"to fill: {', '.join(self.blanks)}"] if self.blanks else list(self.doubts)

@@ -20,7 +20,7 @@ SIGNIFICANT_SHARES = 0.05, 0.95
 
 @dataclass(frozen=True, eq=False)
 class RecordMeasures:
-    """What a record is known by.
+    """The measures of a record.
 
     peak_acceleration, peak_velocity, peak_displacement: largest magnitudes, m/s², m/s, m; velocity and displacement by
     the trapezoidal rule from the record's initial motion. arias_intensity: π/(2g) ∫a² dt, m/s (Arias 1970). husid:

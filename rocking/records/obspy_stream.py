@@ -12,7 +12,7 @@ from rocking.records.read import checked_channels
 from rocking.records.traces import OBSPY_EXTRAS, calibrated, joined, names, quantity_order, site
 
 _DIRECTED = ("component", "azimuth", "vertical")
-"""Of these, what a rotation makes untrue."""
+"""The facts that a rotation makes untrue."""
 
 
 LARGEST_TRACE = 4_000_000

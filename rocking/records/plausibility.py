@@ -129,7 +129,7 @@ A processed file is off by a line at most, which is taken out; real ones agree w
 _REACH = 5
 """Samples before and after a step of velocity by which it is foretold: agencies integrate finer than they print."""
 _STRAY = 100.0
-"""How many times the usual error, from the median, one step may be off; of seven real channels none reaches 53."""
+"""The largest plausible error of one step, in usual errors from the median; of seven real channels none reaches 53."""
 
 
 def agree_with_velocity(record: Accelerogram, stated: np.ndarray) -> Accelerogram:

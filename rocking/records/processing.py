@@ -45,7 +45,7 @@ class Processing:
 
 
 UNPROCESSED_DEFAULT = Processing(pre_event=1.0, baseline="linear", taper=0.02, high_pass=0.1)
-"""What raw records get unless told otherwise."""
+"""The processing of raw records unless the settings say otherwise."""
 
 
 def process(record: Accelerogram, processing: Processing | None = None) -> Accelerogram:

@@ -39,7 +39,7 @@ _MEASURES: dict[str, Callable[[Accelerogram], float]] = {"pga": _peak_accelerati
 
 @dataclass(frozen=True)
 class ScalingTarget:
-    """What the largest peak among the horizontal components of a record is scaled to.
+    """The value to which the largest peak among the horizontal components of a record is scaled.
 
     measure: pga or pgv. value: m/s² or m/s, above 0. text: as it was asked for.
 

@@ -21,13 +21,13 @@ from rocking.records.design_spectrum import DesignSpectrum
 from rocking.records.measures import response_spectrum
 
 STATIONS = 20
-"""Of a set: of 7 records the verdict hangs on the choice for one wall in nine, of 20 for one in thirty-six."""
+"""The stations of a set: with 7 the verdict hangs on the choice for one wall in nine, with 20 for one in thirty-six."""
 
 SETS = 200
 """Drawn beside the chosen one, to say what another would have said."""
 
 BELOW, ABOVE = 0.10, 0.30
-"""How far the mean spectrum may lie below and above the target (NTC 2018, 3.2.3.6)."""
+"""The allowed deviation of the mean spectrum below and above the target (NTC 2018, 3.2.3.6)."""
 
 _CHUNK = 2000
 _PERIODS_PER_DOUBLING = 8
@@ -70,7 +70,7 @@ class Selection(Drawn):
 
     @property
     def deviations(self) -> tuple[float, float]:
-        """How far the mean of the chosen set lies below and above the target, as shares."""
+        """The deviation of the mean of the chosen set below and above the target, as shares."""
         ratio = self.mean / self.target
         return float(ratio.min() - 1), float(ratio.max() - 1)
 
@@ -107,7 +107,7 @@ class Selection(Drawn):
 
     @cached_property
     def words(self) -> str:
-        """How near the chosen set comes, and how far scaling went."""
+        """The deviations and scale factors of the chosen set, in words."""
         low, high = self.deviations
         factors = self.factors[self.chosen]
         return (
@@ -196,7 +196,7 @@ def _mean_spectrum(pair: Sequence[Accelerogram], periods: np.ndarray, damping: f
 
 
 def _station(name: str, pair: Sequence[Accelerogram]) -> str:
-    """What tells stations apart: network and code as the file gives them, else the name of the record."""
+    """The identity of a station: network and code as the file gives them, else the name of the record."""
     first = pair[0]
     return f"{first.network}.{first.station}".strip(".") or name
 

@@ -22,7 +22,7 @@ _SIDEWAYS = "Component {} is vertical, but the catalogue takes it as horizontal.
 
 @dataclass(frozen=True)
 class Station:
-    """What a station recorded of one earthquake: its horizontal components, and the vertical one, None if unknown."""
+    """The record of one earthquake at one station: its horizontal components, and the vertical one, None if unknown."""
 
     horizontal: tuple[Accelerogram, ...]
     vertical: Accelerogram | None = None

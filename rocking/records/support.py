@@ -27,7 +27,7 @@ LONGEST_RINGING = 120.0
 """s; a support of less damping than this can spend is cut off here, and a warning says at what level."""
 
 MOST_SAMPLES = 5_000_000
-"""Of a floor's motion; the longest record there is, of the stiffest support that is allowed, needs fewer."""
+"""The largest number of samples of a floor's motion; the longest record on the stiffest allowed support needs fewer."""
 
 _LARGEST_DAMPING = 0.999
 """Above it the two exponentials of a mode are no longer told apart; critical damping itself is refused."""
@@ -77,7 +77,7 @@ class Mode:
 
 @dataclass(frozen=True)
 class Support:
-    """What carries a structure: the modes of a building, a tower or a façade where the structure stands.
+    """The support of a structure: the modes of a building, a tower or a façade where the structure stands.
 
     What is left of the ground's motion, 1 − Σ Γψ, is felt as it is, as if by modes that are rigid. Raises RecordError
     without a mode.

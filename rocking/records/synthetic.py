@@ -19,7 +19,7 @@ _EPSILON, _ETA = 0.2, 0.05
 
 @dataclass(frozen=True)
 class SyntheticRecord:
-    """What a synthetic record is made of; raises RecordError when a value is out of range.
+    """The parameters of a synthetic record; raises RecordError when a value is out of range.
 
     pulse_amplitude: of one sine cycle, m/s², signed; pulse_period, pulse_start, duration, time_step: s; noise_peak:
     largest magnitude of the noise, m/s²; corner_frequency [Hz] and kappa [s] shape its spectrum.

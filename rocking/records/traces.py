@@ -15,7 +15,7 @@ OBSPY_EXTRAS = (
     "magnitude_type", "event_time", "latitude", "longitude", "elevation", "epicentral_distance", "high_pass_frequency",
     "scale_factor", "initial_velocity", "initial_displacement",
 )  # fmt: skip
-"""What a trace of obspy has no place for."""
+"""The facts for which a trace of obspy has no place."""
 _CORNERS = (0.02, 0.05, 0.8, 0.95)
 """Band in which a full response is removed: Hz, Hz, and shares of the Nyquist frequency."""
 
@@ -36,7 +36,7 @@ def joined(result: Any) -> Any:
 
 _PREFIXES = {"N": 1e-9, "NANO": 1e-9, "U": 1e-6, "MICRO": 1e-6, "M": 1e-3, "C": 1e-2, "K": 1e3, "": 1.0}
 _ORDERS = {"M": 2, "M/S": 1, "M/S**2": 0, "M/S^2": 0, "M/S2": 0, "M/S/S": 0}
-"""How often what an instrument measures has to be differentiated to become an acceleration."""
+"""The number of differentiations that turn the unit of an instrument into an acceleration."""
 LARGEST_GAIN = 1e20
 """Counts per m/s² beyond which a sensitivity is damaged; the most sensitive seismometers have 1e10."""
 _STAGES_AGREE = 0.05

@@ -26,7 +26,7 @@ _HINGE: dict[str, Any] = {
     "markeredgewidth": 0.6,
 }
 _SIDES = {"load": ("center", "bottom"), "thrust": ("right", "center")}
-"""Which of its sides the value of an arrow turns to the end of it, horizontally and vertically."""
+"""The side of its value that touches the end of an arrow, horizontally and vertically."""
 _FALLEN, _FARTHEST = 3.0, 1.5
 """Times the critical rotation up to which a mechanism of several bodies is drawn as fallen, at most this, rad."""
 
@@ -93,7 +93,7 @@ def draw_dimensions(axes: Axes, dimensions: Sequence[Dimension]) -> None:
 
 
 def _beside(line: np.ndarray, feet: np.ndarray) -> tuple[np.ndarray, str, str]:
-    """Where the letter of a line stands, and which of its sides touches that place: outside, or left of a short one."""
+    """The place of the letter of a line, and its side that touches the place: outside, or left of a short one."""
     if line.shape[1] > 2:
         return line[:, line.shape[1] // 2], "center", "center"
     across, up = (line - feet).mean(axis=1)

@@ -26,7 +26,7 @@ from rocking.reports.record import warnings_of, worst_cases
 from rocking.structures import Mechanism, Structure
 
 Content = dict[str, Any]
-"""What JSON can hold."""
+"""The content that JSON can hold."""
 
 BINS, GROUND_BINS, PULSE_BINS = 600, 2400, 60
 """Points on the page of a trace, of an acceleration, of which a case may show a short piece, and of a pulse."""

@@ -331,7 +331,7 @@ _PLOTS: dict[str, Callable[..., None]] = {
     "Selection": _plot_selection,
     "Structure": _plot_structure,
 }
-"""By the name of the class: to import the classes would cost whoever draws a record the kernels of the motion."""
+"""The drawings by the name of the class: importing the classes costs whoever draws a record the kernels of motion."""
 
 
 def _history(response: "Response", otherwise: str) -> tuple[np.ndarray, np.ndarray]:

@@ -1,4 +1,4 @@
-"""How a value of a row is printed: rounded, with a real minus, never changed otherwise; and how a verdict looks."""
+"""The printed form of a value of a row: rounded, with a real minus, never changed otherwise; and that of a verdict."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -52,7 +52,7 @@ class Notice:
 
     @property
     def data(self) -> dict[str, object]:
-        """What a template is given."""
+        """The values that a template receives."""
         return {"strong": self.strong, "text": self.text}
 
 

@@ -107,7 +107,7 @@ class RecordReport:
 
     @property
     def stations(self) -> list[StationResult]:
-        """What became of each structure, the worst first."""
+        """The results of all structures, the worst first."""
         return self.result.worst_first
 
     @cached_property
@@ -265,7 +265,7 @@ _MEASURES = {
     "processing": "take a processed record of the network instead of the raw one",
     CRACK: "find out where it cracks, and give it (crack: known)",
 }
-"""What to do about an input that is not known."""
+"""The advice for an input that is not known."""
 
 
 def _advice(report: RecordReport) -> list[str]:
@@ -414,7 +414,7 @@ _BLAME: dict[tuple[bool, ...], str] = {
     (False, True): "the mechanism under the pulse has it, so the equivalent block is the reason",
     (False, False): "neither the block under the whole record nor the mechanism under the pulse has it",
 }
-"""By whether the block under the record, and the mechanism under the pulse, have the outcome of the integration."""
+"""The cause by whether the block under the record, and the mechanism under the pulse, end as the integration does."""
 
 
 # Pictures and tables ---------------------------------------------------------------------------------------

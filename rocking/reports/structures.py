@@ -27,12 +27,12 @@ _TURNED = 0.5
 """Share of the critical rotation at which a mechanism is drawn."""
 _POINTS = 200
 _QUANTILE = 1.645
-"""Of the normal distribution: nine tenths lie within."""
+"""The deviation of the normal distribution within which nine tenths lie."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CheckedStructure:
-    """What the page of one structure shows.
+    """The content of the page of one structure.
 
     checked: None where it could not be checked, and `refusal` then says why. overturning_share: mean over the records
     of the study, nan without any; stations: how many records.
@@ -130,7 +130,7 @@ def _valued(check: Check, value: float) -> str:
 
 
 def _sentences(checked: StructureCheck) -> list[str]:
-    """What the checks rest on."""
+    """The basis of the checks, in sentences."""
     mechanism = checked.governing
     lines = [
         f"Mechanism that governs: {mechanism.description}; α₀ = {number(mechanism.onset_multiplier)}, "

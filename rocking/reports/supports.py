@@ -1,4 +1,4 @@
-"""What stands on a support in a report: share against the period of the support, and the spectra of its motion."""
+"""The structures on a support in a report: share against the period of the support, and the spectra of its motion."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

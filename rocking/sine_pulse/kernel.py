@@ -37,7 +37,7 @@ _CONVERGED = 1e-10
 """A Newton step of this relative size is the last: the error after it is its square."""
 
 _EQUAL = 1 + 1e-12
-"""Of peaks that are equal to within this the first counts."""
+"""The ratio of two peaks up to which they count as equal, and the first is taken."""
 
 # Of floats, because numba compiles what is called with an integer constant once for each.
 _POSITION, _VELOCITY, _MONOTONY, _FALLING, _RISING = 0.0, 1.0, 2.0, 1.0, -1.0
@@ -45,7 +45,7 @@ _POSITION, _VELOCITY, _MONOTONY, _FALLING, _RISING = 0.0, 1.0, 2.0, 1.0, -1.0
 _OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
 entry = njit(**_OPTIONS)
 compiled = njit(**{**_OPTIONS, "no_cpython_wrapper": True})
-"""Of what Python does not call: a wrapper for it takes long to compile."""
+"""The compiler of functions that Python does not call: a wrapper for them takes long to compile."""
 
 
 class Side(NamedTuple):
@@ -63,7 +63,7 @@ class Side(NamedTuple):
 
 
 class Course(NamedTuple):
-    """What came of it, by side: 0 the one that the pulse's first half lifts, 1 the other.
+    """The course of the motion, by side: 0 the one that the pulse's first half lifts, 1 the other.
 
     peaks: largest x, inf overturns. peak_impacts: impacts before it, −1 where the side never rocks. contacts: impacts
     during the pulse. impacts: all that were followed. margin: smallest 1 − x − x' at the start of a flight after the
@@ -148,7 +148,7 @@ def _monotony(f, t):
 
 @compiled
 def root(f, kind, way, low, high, guess):
-    """Where a value passes through zero between low and high: _FALLING below it, or _RISING above.
+    """The time at which a value passes through zero between low and high: _FALLING below it, or _RISING above.
 
     Newton's iteration, kept inside the bracket and replaced by bisection where it does not halve the value.
     """

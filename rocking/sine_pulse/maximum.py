@@ -23,11 +23,11 @@ from rocking.structures.mechanism import EquivalentBlock
 LARGEST_RATIO = 1e12
 """Beyond this a frequency or amplitude ratio is a mistake of units, and its square leaves no digits for the block."""
 _EQUAL = 1 + 1e-12
-"""Of rotations that are equal to within this the first counts."""
+"""The ratio of two rotations up to which they count as equal, and the first is taken."""
 
 
 class Regime(StrEnum):
-    """How the block reaches its largest rotation.
+    """The way in which the block reaches its largest rotation.
 
     >>> from rocking import Regime
     >>> Regime.BEFORE_FIRST_IMPACT.sentence

@@ -209,7 +209,7 @@ class Arch(Crackable):
         return linkage
 
     def _bars(self, sections: np.ndarray) -> Bars:
-        """What lies between successive sections, in m."""
+        """The bars between successive sections, in m."""
         bars = self.ring.bars(sections)
         return Bars(bars.masses, self.radius * bars.centroids, self.radius**2 * bars.inertias)
 
@@ -250,7 +250,7 @@ class Arch(Crackable):
         return edges[np.append(True, np.diff(edges) > 1e-9)]  # type: ignore[no-any-return]
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
-        """What stays at the springings, the bars, or the voussoirs of both; about the centre of the arch."""
+        """The parts that stay at the springings, the bars, or the voussoirs of both; about the centre of the arch."""
         parts = []
         for ends in pairwise(self._split(self.ring.sections() if self.voussoirs else np.empty(0))):
             bar = int(np.searchsorted(self._hinge_sections, sum(ends) / 2)) - 1

@@ -1,4 +1,4 @@
-"""Where an arch hinges, at which horizontal multiplier, and how it moves then (theory: section 5).
+"""The hinges of an arch, the horizontal multiplier at which they open, and its motion then (theory: section 5).
 
 Inertia forces act to the right. The loads are 1 downwards and λ to the right on each radian of the ring, at
 the radius of an element's centroid. λ is the largest multiplier whose thrust line stays inside the ring. With the
@@ -107,7 +107,7 @@ _DOWN = np.array([0.0, 0.0, 0.0, -1.0])
 _ROUNDS = 100
 _ACCURATELY = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
 _INFEASIBLE = 2
-"""What scipy's linear programme says of constraints that contradict each other."""
+"""The status of scipy's linear programme for constraints that contradict each other."""
 _CLEARANCE = 1e-12
 """A gap (of order t/r) that is zero to rounding."""
 _ASIDE = 1e-5

@@ -86,7 +86,7 @@ class Piers:
 
     @property
     def corners(self) -> np.ndarray:
-        """Of the right one, (4,) complex: inner and outer foot, outer and inner head."""
+        """The corners of the right pier, (4,) complex: inner and outer foot, outer and inner head."""
         inner, top = self.springing.real, self.springing.imag
         return rectangle(inner, inner + self.width, top - self.height, top)
 
@@ -122,7 +122,7 @@ class Ring:
 
     @property
     def mass(self) -> float:
-        """Of ring, fill and piers, per t·r."""
+        """The mass of ring, fill and piers, per t·r."""
         return float(self.bars(self.ends).masses.sum())
 
     def sections(self) -> np.ndarray:

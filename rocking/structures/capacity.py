@@ -1,4 +1,4 @@
-"""What a mechanism bears at rest, by virtual work: load multiplier and displacement against rotation on one side.
+"""The load that a mechanism bears at rest, by virtual work: multiplier and displacement by rotation on one side.
 
 The displacement of the equivalent system of one degree of freedom and its participating mass are those of the virtual
 displacements at rest.
@@ -39,7 +39,7 @@ class CapacityCurve(Drawn):
 
 @dataclass(frozen=True, eq=False)
 class StaticCapacity:
-    """What one side of a structure bears.
+    """The static capacity of one side of a structure.
 
     control_part, control_corner: the point whose displacement counts, a corner of the drawing as this side sees it.
     place: where it is at rest, m. displacement_factor: d*/d_k. participating_mass_ratio: as of CapacityCurve.

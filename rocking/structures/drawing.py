@@ -23,7 +23,7 @@ class Dimension:
 
 @dataclass(frozen=True, eq=False)
 class Mark:
-    """What acts on a structure, as a drawing shows it, in m.
+    """A load, thrust or tie that acts on a structure, as a drawing shows it, in m.
 
     kind: "load" or "thrust", an arrow along `line`, or "tie", a line to its anchorage. text: its value with unit.
     line: (2, 2), its second point is where it acts.

@@ -196,7 +196,7 @@ def _evaluated(coefficients: np.ndarray, share: np.ndarray) -> np.ndarray:
 
 
 Scale = Literal["rest", "linearised", "uplift", "mean"]
-"""Which equivalent block: exact at rest, or linearised about φ_cr with a_sc, a_sc,alt = φ_cr/λ, or their mean."""
+"""The kind of equivalent block: exact at rest, or linearised about φ_cr with a_sc, a_sc,alt = φ_cr/λ or their mean."""
 
 
 @dataclass(frozen=True)
@@ -279,7 +279,7 @@ class EquivalentBlock:
 
 @dataclass(frozen=True)
 class BlockDefects:
-    """How far the equation of the block exact at rest is from the mechanism's, known without any ground motion.
+    """The distance of the equation of the block exact at rest from the mechanism's, known without any ground motion.
 
     restoring: the largest difference between the two restoring accelerations up to φ_cr, over the one at rest. forcing:
     by how much the mechanism's response to the ground has grown at φ_cr, over that at rest; the block's stays as it is,

@@ -147,7 +147,7 @@ class Facade(Tied):
 
     @property
     def height(self) -> float:
-        """Of all storeys, m."""
+        """The height of all storeys, m."""
         return float(sum(self.storey_heights))
 
     @property
@@ -157,7 +157,7 @@ class Facade(Tied):
 
     @property
     def total_height(self) -> float:
-        """Of all storeys, m."""
+        """The height of all storeys, m."""
         return self.height
 
     @property
@@ -261,7 +261,7 @@ class Facade(Tied):
         return slab(-thickness, 0.0, self.height, load, upright=True)
 
     def _storey_courses(self, courses: int, foot: float = 0.0) -> tuple[Course, ...]:
-        """What stands above `foot` [m], each storey in as many courses as its share of the height asks, or one more."""
+        """The courses above `foot` [m], each storey in as many as its share of the height asks, or one more."""
         made: list[Course] = []
         for (low, high), thickness in zip(pairwise(self.levels), self.thicknesses, strict=True):
             if high <= foot:

@@ -1,4 +1,4 @@
-"""What a structure is described by in a file: the parameters of its constructors, with unit, bounds and meaning.
+"""The description of a structure in a file: the parameters of its constructors, with unit, bounds and meaning.
 
 A class says it in the type of each parameter: `height: Annotated[float, length("Height", 4.0, (0.1, 100), "h")]`. The
 loader, the checks at birth, the JSON schema and the documentation follow from there.
@@ -20,7 +20,7 @@ from rocking.errors import StructureError
 from rocking.quantities import LENGTHS, finite
 
 _SI = {"°": np.pi / 180, "kN": 1e3, "kN/m": 1e3, "kN/m²": 1e3, "kN/m³": 1e3}
-"""What a unit of the file is in SI; units that are not here are SI."""
+"""The value of a unit of the file in SI; units that are not here are SI."""
 _MOST = 1e9
 """The most that a number may be in the unit of the file where nothing less is stated: beyond it the powers of numbers,
 of which inertias are made, are no numbers any more."""
@@ -28,7 +28,7 @@ of which inertias are made, are no numbers any more."""
 
 @dataclass(frozen=True, eq=False)
 class Value:
-    """What is said of a parameter beside its type.
+    """The declaration of a parameter beside its type.
 
     example: of a structure that stands. unit: of the file; lengths m, angles °, forces kN. usual: plausible range in
     that unit; beyond it a remark, not a refusal. letter: in drawings. phrase: how the description says it, of {name}

@@ -60,7 +60,7 @@ STILL = -1
 
 
 class Hung(NamedTuple):
-    """What hangs on a part at a point: a constant force, a tie, or a mass that moves along.
+    """A thing that hangs on a part at a point: a constant force, a tie, or a mass that moves along.
 
     start: the point at rest. part: its number, or STILL. force: towards the side of rocking and upwards, growing and
     falling with g + ü_v. tie: None where it does not act on this side.
@@ -199,7 +199,7 @@ class Linkage(ABC):
         return self.weight_slope(rotation) + sum(slopes, np.zeros(())) / self.unit
 
     def _hanging(self, rotation: ArrayLike) -> Iterator[tuple[Hung, PointMotion]]:
-        """What hangs on it and the motions of their points."""
+        """The things that hang on it, with the motions of their points."""
         for each in self.hung:
             yield each, self.carried(each.part, each.start, self.motion(rotation))
 

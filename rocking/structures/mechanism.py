@@ -266,7 +266,7 @@ class Side:
 
     @cached_property
     def block_defects(self) -> BlockDefects:
-        """What the block exact at rest leaves out."""
+        """The defects of the block exact at rest."""
         arc, _ = self.arc
         steps, bends = np.linspace(0.0, self.critical_rotation, _DEFECT_SAMPLES), np.array(self.bends)
         rotation = np.unique([*steps, *bends * (1 - 1e-12), *bends])  # before a tie breaks, and after
@@ -385,7 +385,7 @@ class Mechanism(Drawn):
 
     @cached_property
     def block_defects(self) -> BlockDefects:
-        """What the block exact at rest leaves out, of the worse side."""
+        """The defects of the block exact at rest, of the worse side."""
         defects = [side.block_defects for side in self.sides]
         return BlockDefects(
             max(each.restoring for each in defects), max((each.forcing for each in defects), key=abs)

@@ -75,7 +75,7 @@ class Course:
 
 @dataclass(frozen=True)
 class Held:
-    """What acts on a course at a point: a constant force, which grows with gravity, or a tie.
+    """A load or tie that acts on a course at a point: a constant force, which grows with gravity, or a tie.
 
     course: its place in the stack from the lowest one, 0. point: at rest, m. force: to the right and upwards. tie:
     pulls to the left once its point has moved to the right.

@@ -19,14 +19,14 @@ from rocking.records.support import Mode, Support
 TYPE_NAME = "support"
 """The `type` of an entry of a structure list that is a support."""
 GROUND = "ground"
-"""What a structure stands on unless the list says otherwise."""
+"""The support of a structure unless the list says otherwise."""
 PERIODS = 9
 """Periods into which a range is divided, at equal steps of the logarithm."""
 ELASTIC_DAMPING, YIELDING_DAMPING = 0.05, 0.10
 """Damping ratio where none is given: of a building that stays elastic, and the lower end, which is the safe one, of the
 10 to 20 % of a masonry building at the ultimate limit state (Circolare 7/2019, C7.2.3)."""
 YIELDING_STRETCH = (1.5, 2.0)
-"""By how much the first period of a masonry building is longer at the ultimate limit state (the same place)."""
+"""The factors on the first period of a masonry building at the ultimate limit state (the same place)."""
 HEAVY = 0.01
 """Mass ratio above which what the structure gives back to its support changes rotations by more than a per cent."""
 
@@ -55,7 +55,7 @@ class Standing:
 
     @property
     def name(self) -> str:
-        """By which tables and reports call the structure with this period."""
+        """The name of the structure with this period in tables and reports."""
         return f"{self.structure}, {self.words}"
 
     @property

@@ -146,7 +146,7 @@ class Structure(metaclass=PlainlyMade):
                 each.in_si(values[each.name])
 
     def __repr__(self) -> str:
-        """What it was described by, and the first of what is unusual about it."""
+        """The description, and the first remark on unusual values."""
         return " ".join([f"{type(self).__name__}({self.description})", *self.remarks[:1]])
 
     def mechanism(self) -> Mechanism:
@@ -365,7 +365,7 @@ class Structure(metaclass=PlainlyMade):
 
     @property
     def description(self) -> str:
-        """What it was described by, in words with units: "breadth 0.6 m, height 6.0 m"."""
+        """The description in words with units: "breadth 0.6 m, height 6.0 m"."""
         return ", ".join(each.phrased(text) for each, value, text in self._values if value is not False)
 
     @property

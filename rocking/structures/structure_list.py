@@ -36,7 +36,7 @@ _CLASSES = (
 
 
 TYPES: dict[str, type[Structure]] = {each.type_name: each for each in map(resolve_name, _CLASSES)}
-"""By the `type` of a structure list."""
+"""The classes by the `type` of a structure list."""
 
 
 def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str] | None = None) -> Structure:

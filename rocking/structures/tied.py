@@ -30,7 +30,7 @@ TopSlab = Annotated[
 
 
 _LEAST_STIFFNESS = 1e-12
-"""Of a tie, N/m²: of less the rotation at which it yields is no number any more."""
+"""The least stiffness of a tie, N/m²: below it the rotation at which it yields is no number any more."""
 
 
 def check_eccentricity(value: float, thickness: float) -> None:
@@ -96,11 +96,11 @@ class Tied(CrackedAtHeight):
     @property
     @abstractmethod
     def height(self) -> float:
-        """Of the wall, m."""
+        """The height of the wall, m."""
 
     @abstractmethod
     def _hung(self, mirrored: bool) -> list[Hung]:
-        """What hangs on it, as seen from one side."""
+        """The loads and ties, as seen from one side."""
 
     @staticmethod
     def _load(start: complex, part: int, load: float, weight_only: bool) -> Hung:

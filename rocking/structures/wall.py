@@ -137,7 +137,7 @@ Crack = Literal["given", "known", "unknown"] | None
 
 
 class LoadedWallOptions(TypedDict, total=False):
-    """What a loaded wall may be given besides its sizes; see `LoadedWall`."""
+    """The options of a loaded wall besides its sizes; see `LoadedWall`."""
 
     top_load: float
     eccentricity: float

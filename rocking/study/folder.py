@@ -15,7 +15,7 @@ from typing import BinaryIO
 from rocking.errors import ConfigurationError
 
 REMEMBERED = Path(".snakemake")
-"""What snakemake and this package remember of a study; it may be removed at any time."""
+"""The folder in which snakemake and this package remember a study; it may be removed at any time."""
 _PLAIN = re.compile(r"\w[\w .,+@=()~-]*(/\w[\w .,+@=()~-]*)*")
 """A path of plain characters on one line; snakemake takes braces for wildcards, and scripts hold paths as text."""
 _LONGEST = 200

@@ -37,7 +37,7 @@ Opened = tuple[list[Accelerogram], Accelerogram | None]
 
 @dataclass(frozen=True)
 class Study:
-    """What every record of a study is put through: structures by name, and settings.
+    """The assessment of every record of a study: structures by name, and settings.
 
     settings_sha256: names the settings, the structure list and the package in every row.
     """
@@ -48,7 +48,7 @@ class Study:
 
     @cached_property
     def assessment(self) -> AssessmentSettings:
-        """What a record is compared with: in full where a report or histories are made, which show every case."""
+        """The settings of the assessment: in full where a report or histories are made, which show every case."""
         whole = self.settings.reports or self.settings.histories
         if whole and self.settings.fidelity == "auto":
             return replace(self.settings, fidelity="full")
@@ -56,7 +56,7 @@ class Study:
 
     @cached_property
     def extent(self) -> Extent:
-        """How far a case is followed."""
+        """The extent to which a case is followed."""
         return Extent(
             self.assessment,
             self.settings.candidates,

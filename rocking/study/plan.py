@@ -35,7 +35,7 @@ _FEW = {True: 12, False: 24}
 
 @dataclass(frozen=True)
 class Plan:
-    """What a study will do. records: by identifier, in catalogue order. jobs: identifiers by job."""
+    """The work of a study before it begins. records: by identifier, in catalogue order. jobs: identifiers by job."""
 
     settings: Settings
     records: Mapping[str, CatalogueRecord]
@@ -47,7 +47,7 @@ class Plan:
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """What to tell the user before the run, one sentence each; folders of records that left the catalogue too."""
+        """The warnings before the run, one sentence each; folders of records that left the catalogue too."""
         names = {*self.records, "summary", "fragility"}
         folders = (report.parent for report in sorted(Path(self.settings.results).glob("*/report.pdf")))
         former = "{} is of a record that is not in the catalogue any more; remove it if you do not need it."
@@ -182,7 +182,7 @@ def settings_sha256(settings: Settings, structures: Mapping[str, Structure]) -> 
 
 
 _SPOKEN = {f"study/{name}.py" for name in ("cli", "run", "terminal", "workspace")}
-"""What starts a study and talks about it: it changes nothing that a job writes."""
+"""The files that start a study and talk about it: they change nothing that a job writes."""
 
 
 def package_sha256(reports: bool = True) -> str:

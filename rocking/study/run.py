@@ -35,12 +35,12 @@ _REFUSED = {
     "--configfiles": "would name settings besides those of config.yaml",
 }
 _RAISED = re.compile(r"Error in file .*\n(?!Command )(.+)")
-"""How snakemake tells what a Snakefile raised."""
+"""The form in which snakemake tells the error of a Snakefile."""
 _EXCEPTION = re.compile(r"(?m)^[\w.]*(?:Error|Exception)\b[^\n]{,200}")
-"""How a traceback ends: the name of the error and what it says."""
+"""The end of a traceback: the name of the error and what it says."""
 _RULE = re.compile(r"(?m)^rule (\w+):")
 _RESEARCH = re.compile(r'(?m)^    "(\w+)": \(')
-"""How a rule, and a target of the research, is declared."""
+"""The declaration of a rule, and of a target of the research."""
 _STOPS: list[int] = []
 """The signals by which somebody asked this process to stop."""
 

@@ -18,7 +18,7 @@ from rocking.tables import read_whole, write_whole
 SEAL = "seal.json"
 """The name of a seal."""
 _UNSEALED = ("timings.csv",)
-"""What a run measures of itself; it differs from run to run."""
+"""The tables of a run about itself; they differ from run to run."""
 _LARGEST = 100_000_000
 """Bytes of a seal that are read; a record with its report takes about two thousand."""
 _HASHES = REMEMBERED / "rocking_results.json"

@@ -28,7 +28,7 @@ from rocking.tables.yaml_file import scalar_value
 
 @dataclass(frozen=True)
 class StudyProcessing(Processing):
-    """Which records are processed, and how."""
+    """The processing of the records, and the choice of those that need it."""
 
     heading: ClassVar[Heading] = Heading.PROCESSING
 
@@ -39,7 +39,7 @@ class StudyProcessing(Processing):
 
 @dataclass(frozen=True)
 class StudyFragility(FragilitySettings):
-    """What fragility is measured with, and when."""
+    """The intensity measure and levels of fragility, and the studies that compute it."""
 
     heading: ClassVar[Heading] = Heading.FRAGILITY
     changes_numbers: ClassVar[bool] = False
@@ -74,7 +74,7 @@ class StudyTrade:
 
 @dataclass(frozen=True)
 class Settings(AssessmentSettings):
-    """What a study is made with; the names and their units are the keys of config.yaml."""
+    """The settings of a study; the names and their units are the keys of config.yaml."""
 
     study: str | None = described(
         "", "title of the study", heading=Heading.ABOUT, told="study", changes_numbers=False
@@ -170,14 +170,14 @@ class Settings(AssessmentSettings):
 
     @property
     def about(self) -> dict[str, str]:
-        """What every report tells of the study, by its label; what was left blank is left out."""
+        """The facts of the study that every report tells, by its label; what was left blank is left out."""
         labels = {name: each.more.get("told", "") for name, each in described_values(Settings).items()}
         told = {label: getattr(self, name) for name, label in labels.items() if label}
         return {label: str(value) for label, value in told.items() if value}
 
 
 def _said_of(name: str, what: str, otherwise: Any) -> Any:
-    """What the declaration of a setting, or of a section of settings, says beside its type and meaning."""
+    """The extra facts that a setting, or a section of settings, declares beside its type and meaning."""
     values = described_values(Settings)
     if name in values:
         return values[name].more.get(what, otherwise)
@@ -264,7 +264,7 @@ def _yaml_lines(section: Any, names: Iterable[str] = (), indent: str = "") -> It
 
 
 def _entries(section: Any) -> dict[str, tuple[Described | None, Any]]:
-    """By each key of a section what is said of it (None: it is a section of its own), and its value."""
+    """The declaration (None: a section of its own) and the value of each key of a section."""
     kind = section.__class__
     values = described_values(kind).items()
     return {name: (None, getattr(section, name)) for name in parts_of(kind)} | {

@@ -1,4 +1,4 @@
-"""What stands over all records of a study: tables, report, figure and page, from its jobs; and their fragility."""
+"""The results over all records of a study: tables, report, figure and page, from its jobs; and their fragility."""
 
 import json
 import platform

@@ -1,4 +1,4 @@
-"""What a run says: its progress, which jobs send as JSON lines, and what came of the records."""
+"""The words of a run: its progress, which jobs send as JSON lines, and the outcome of the records."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""What a row is: a frozen dataclass whose fields carry type, unit, meaning and equation; and the text of each cell."""
+"""The rows of tables: frozen dataclasses whose fields carry type, unit, meaning and equation; and the text of cells."""
 
 import math
 import re

@@ -15,7 +15,7 @@ KINDS = {
     "C8.7.1.2.1.8": "nonlinear",
     "C8.7.1.2.1.9": "dynamic",
 }
-"""What a check is called, by its clause."""
+"""The name of a check, by its clause."""
 
 
 @row("code_checks")

@@ -221,7 +221,7 @@ RATIO_COLUMNS = {
     Method.MECHANISM_ON_PULSE: "mechanism_on_pulse_rotation_ratio",
     Method.MECHANISM_ON_RECORD: "integrated_rotation_ratio",
 }
-"""Where the largest rotation of each method stands in the comparison, over the critical one; INF if it overturns."""
+"""The columns of the comparison with the largest rotation by method, over the critical one; INF if it overturns."""
 
 
 @row("ensemble")

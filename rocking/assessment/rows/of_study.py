@@ -165,7 +165,7 @@ AGREEMENT_COLUMNS = (
     "prediction_over_integration",
     "within_factor_two",
 )
-"""What `agreement_rows` needs of the comparison table."""
+"""The columns that `agreement_rows` needs of the comparison table."""
 
 
 def agreement_rows(comparison: "DataFrame") -> Iterator[AgreementRow]:

@@ -20,7 +20,7 @@ from rocking.records.traces import first_line, joined, names
 from rocking.tables import read_whole
 
 _DAMAGE = re.compile(r"integrity|not a SEED record|unexpected end|will not be read|corrupt|mismatch", re.I)
-"""What libmseed warns of when the numbers are not those that were written."""
+"""The warnings of libmseed when the numbers are not those that were written."""
 
 
 def _stream(content: bytes, form: str, **options: Any) -> Any:

@@ -33,7 +33,7 @@ def keyed(**keys: str) -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Layout:
-    """Where the header of a format says what, and how its numbers stand.
+    """The places of the facts in the header of a format, and the layout of its numbers.
 
     patterns: of each fact, its last group the value. quantity: what the numbers are, which must be acceleration;
     unit: of the numbers; samples: their number; step: s; rate: Hz; duration: s, right within that many steps and that
@@ -250,7 +250,7 @@ def distance(kilometres: float | None) -> float | None:
 
 
 _SCALES = {scale.lower(): scale for scale in ("Mw", "Ms", "M", "ML", "mb")}
-"""Of magnitude, the preferred one first."""
+"""The scales of magnitude, the preferred one first."""
 _TYPED = re.compile(r"(?i)\b(M[wslb]?)(?![a-z])\W{0,3}(\d\d?(?:\.\d+)?)|(\d\d?(?:\.\d+)?)\s*\(?(M[wslb]?)\b")
 
 

@@ -347,7 +347,7 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
 
 
 def _smc_facts(head: str, reals: np.ndarray) -> dict[str, Any]:
-    """What the real header of an SMC file says, as arguments of Layout.channel()."""
+    """The facts of the real header of an SMC file, as arguments of Layout.channel()."""
     extremes = [(abs(reals[i]), reals[i - 1]) for i in (_LARGEST, _SMALLEST) if abs(reals[i]) < _MISSING]
     peak, at = max(extremes, default=(None, 0.0))
     scales = " ".join(header.optional(r"^Moment (Mag.*)", head).replace("Mag", "Mw").split())

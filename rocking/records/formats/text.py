@@ -10,7 +10,7 @@ from rocking.errors import RecordError
 
 _NUMERIC = b"0123456789+-.eE \t\n\r"
 _LARGEST = 1e100
-"""What is larger (or, in a header, smaller than its inverse) is damage, and would overflow on the way."""
+"""The largest plausible number; a larger one (or, in a header, one below its inverse) is damage, and would overflow."""
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 
 
