@@ -232,7 +232,7 @@ class Linkage(ABC):
         )
 
     def _first_zero(self) -> float | None:
-        """Where G first vanishes on (0, end_rotation), or falls below zero where a tie yields or breaks, rad.
+        """The rotation at which G first vanishes within (0, end_rotation), or a tie lets it fall below zero, rad.
 
         None where it does not vanish. Raises StructureError when G does not restore at rest.
         """

@@ -237,7 +237,7 @@ _UNIT_OF_REMARK = re.compile(
     re.I,
 )
 _OF_PEAK = re.compile(r"(?i)\b(pga|peak|max\w*|scale\w*|factor|picco|pico)\b")
-"""What a remark speaks of whose unit need not be that of the numbers."""
+"""The subjects of a remark whose unit need not be that of the numbers."""
 _STEP_OF_REMARK = re.compile(
     r"\b(?:dt|delta|time[ _-]?step|(?:sampling|sample)[ _-]?(?:interval|period|step)|intervalo(?: de muestreo)?)\b"
     r"\s*(?:[(\[]\s*s(?:ec)?\s*[)\]])?\s*[:=]\s*(\d*\.?\d+(?:e[-+]?\d+)?)\s*(?:s|sec|seconds?)?\s*(?:$|[,;])",

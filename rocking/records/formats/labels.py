@@ -46,7 +46,7 @@ _OTHER_WORDS = re.compile(
 )
 _MEANT = {"v": "velocity", "vel": "velocity", "d": "displacement", "u": "displacement", "x": "displacement",
           "dis": "displacement", "disp": "displacement", "displ": "displacement"}  # fmt: skip
-"""What a letter beside a column "a" means."""
+"""The quantity of a letter beside a column "a"."""
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ class ColumnLabel:
 
     @property
     def other(self) -> str:
-        """What it says that its numbers are, where that is no acceleration, "" else."""
+        """The quantity that it states, where that is no acceleration, "" else."""
         if quantity := other_quantity(self.text):
             return quantity
         if self.unit:
@@ -103,7 +103,7 @@ class ColumnLabel:
         return ""
 
     def beside_acceleration(self) -> str:
-        """What a label like "v" or "disp" means beside a column called "a", "" of another label."""
+        """The quantity of a label like "v" or "disp" beside a column called "a", "" of another label."""
         return _MEANT.get(self.text.strip().lower(), "")
 
     @property
