@@ -138,6 +138,7 @@ _OF_THE_GROUND = re.compile(r"shear|wave|vs[ _,]?30", re.I)  # the velocity of a
 _SUFFIXES = {
     ".vt2": "velocity", ".vel": "velocity", ".vtx": "velocity",
     ".dt2": "displacement", ".dis": "displacement", ".disp": "displacement",
+    ".semv": "velocity", ".semd": "displacement",
 }  # fmt: skip
 
 
@@ -153,3 +154,17 @@ def refuse_other_quantity(file: str, text: str) -> None:
     suffix = next((word for end, word in _SUFFIXES.items() if file.lower().endswith(end)), None)
     if quantity := other_quantity(text) or suffix:
         raise RecordError(f"this is a file of {quantity}; use the acceleration of the same record.")
+
+
+_QUANTITY_IN_NAME = re.compile(r"(?<![a-z])(vel(?:ocity|oc)?|disp(?:l|lacement)?)(?![a-z])", re.I)
+
+
+def refuse_by_name(file: str) -> None:
+    """Raise RecordError when the name of a file of bare numbers speaks of velocity or displacement alone."""
+    word = _QUANTITY_IN_NAME.search(file)
+    if word and not _ACCELERATION.search(file):
+        quantity = "velocity" if word[1][0] in "vV" else "displacement"
+        raise RecordError(
+            f"its name speaks of {quantity}, and nothing in it of acceleration; use the acceleration of the same "
+            "record, or rename the file if it is that."
+        )

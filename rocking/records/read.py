@@ -19,7 +19,7 @@ from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.damage import damage_warnings, repeated_rows
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
-from rocking.records.formats.text import numbers_per_line
+from rocking.records.formats.text import is_number, lines, numbers_per_line
 from rocking.records.instrument import channel_warnings, direction_warnings, site_warnings, vertical_doubt
 from rocking.records.plausibility import pass_limits
 from rocking.tables import read_whole
@@ -125,6 +125,11 @@ _DOUBLED = "The line ends are doubled (CR CR LF) by a faulty conversion; the num
 _BY_OBSPY = "which is read by way of obspy: rocking.from_obspy(obspy.read(path), unit=...)"
 _TOLD = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence in (
     (rb"PK\x03\x04", "this is a zip archive; unpack it and read the files in it."),
+    (rb"\x93NUMPY", "this is an array of numpy, which says neither unit nor time step; give it as "
+     "rocking.Accelerogram(numpy.load(path), time_step)."),
+    (rb"MATLAB 5\.0", "this is a file of MATLAB; export time and acceleration as text, with their units as names."),
+    (rb"\xd0\xcf\x11\xe0", "this is a workbook of a spreadsheet; export the sheet as CSV."),
+    (rb"\s*[{\[]\s*[\"{\[]", "this is JSON; export time and acceleration as text, with their units as names."),
     (rb"\s*(raw|uncorrected)\s+(acceleration\s+)?(counts|data)\b.*format v|\s*raw acceleration",
      "this is a COSMOS V0 file of raw counts of a recorder; use the V1 or V2 file of the same record."),
     (rb"(WID2|WID1|XW01|BEGIN (GSE|IMS)|DATA_TYPE WAVEFORM)", f"this is a GSE file, {_BY_OBSPY}."),
@@ -157,9 +162,27 @@ def recognise(content: bytes) -> Format:
     words = head.decode("latin-1").splitlines()[0].strip()
     raise UnknownFormatError(
         f"no reader recognises this file, which begins with {(words if words.isprintable() else head[:8])!r}; "
-        "rocking read --details says why. Or: rocking.from_obspy(obspy.read(path), unit=...).",
+        f"rocking read --details says why. {_advice(content)}",
         details=tuple(f"{form.name}: no {form.signature}" for form in FORMATS),
     )
+
+
+_LOOKED_AT = 400
+"""Lines among which the first numbers of an unknown text are sought."""
+
+
+def _advice(content: bytes) -> str:
+    """Return what to do with a file that no reader takes: a text of numbers may be made a table, obspy reads others."""
+    if b"\0" not in content[:4096]:
+        rows = [re.split(r"\s*[,;]\s*|\s+", line.strip()) for line in lines(content, _LOOKED_AT)]
+        are_numbers = [bool(row[0]) and all(map(is_number, row)) for row in rows]
+        begin = next((at for at in range(len(rows)) if all(are_numbers[at : at + 5])), len(rows))
+        if 0 < begin <= len(rows) - 5:
+            return (
+                f"Its numbers begin on line {begin + 1}, with {len(rows[begin])} on a line: write # before each line "
+                "above them, the last of which names every column with its unit, and it is read as a table."
+            )
+    return "Or: rocking.from_obspy(obspy.read(path), unit=...)."
 
 
 def unpack(raw: bytes, name: str) -> bytes:

@@ -14,7 +14,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats import text
 from rocking.records.formats.format import Format, Options
 from rocking.records.formats.labels import ColumnLabel
-from rocking.records.instrument import refuse_other_quantity
+from rocking.records.instrument import refuse_by_name, refuse_other_quantity
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
 _EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
@@ -46,39 +46,63 @@ class _Table:
 
 def _table(content: bytes) -> _Table | None:
     """Return what stands above and beside the numbers of a table; None of another file."""
-    names: tuple[str, ...] = ()
-    units: tuple[str, ...] = ()
+    above: list[str] = []
     remarks: list[str] = []
     widths: list[int] = []
     start = 0
     for line in (line for line in text.lines(content, _REMARKS) if len(line) < 2000):
         bare = line.strip().rstrip(",;").rstrip()
-        is_remark = bare.startswith(_MARKS) or (not (names or widths) and bool(_EXCEL.fullmatch(bare)))
-        if not bare or (is_remark and not widths):
-            start += not widths
-            if is_remark:
-                remarks.append(bare.lstrip("#%$!/ "))
-        elif all(map(text.is_number, _SEPARATOR.split(bare))):
+        is_remark = bare.startswith(_MARKS) or (not (above or widths) and bool(_EXCEL.fullmatch(bare)))
+        if bare and all(map(text.is_number, _SEPARATOR.split(bare))):
             widths.append(len(_SEPARATOR.split(bare)))
             if len(widths) == _HEAD:
                 break
-        elif widths or units:
+            continue
+        if bare and widths:
             return None
-        elif names:
-            units = _labels(line)
-            start += 1
-        else:
-            names = _labels(line)
-            start += 1
-    uneven = len(set(widths[:-1])) > 1 or widths[-1:] > widths[:1]
-    if len(widths) < 2 or uneven or (names and len(names) != widths[0]):
+        start += not widths
+        if is_remark:
+            remarks.append(bare.lstrip("#%$!/ "))
+        elif bare:
+            above.append(line)
+    if len(widths) < 2 or len(set(widths[:-1])) > 1 or widths[-1] > widths[0]:
         return None
-    if units and not _are_units(units, names):
-        return None
-    labels = tuple(map(ColumnLabel, _with_units(names, units)))
-    if not labels and (labels := _of_remark(remarks, widths[0])):
+    width = widths[0]
+    if above:
+        return _below_text(above, remarks, width, start)
+    if labels := _of_remark(remarks, width):
         del remarks[-1]
-    return _Table(labels, widths[0], start, tuple(remarks))
+    return _Table(labels, width, start, tuple(remarks))
+
+
+def _below_text(above: list[str], remarks: Sequence[str], width: int, start: int) -> _Table | None:
+    """Return a table below lines of text, whose last is that of its names, or the units below them; None of another.
+
+    More text than these is passed over only where nothing is left open: each column is of times, has a unit, or names a
+    direction below text that declares the unit; and the times, or that text, give the step.
+    """
+    names = _labels(above[-1])
+    rest = above[:-1]
+    if len(above) > 1 and len(names) == width and _are_units(names):
+        names, rest = _with_units(_labels(above[-2]), names), above[:-2]
+    if len(names) != width:
+        return None
+    labels = tuple(map(ColumnLabel, names))
+    if rest and (any(map(_SCALED.search, rest)) or not _is_all_said(labels, *_declared((*remarks, *rest)))):
+        return None
+    return _Table(labels, width, start, (*remarks, *rest))
+
+
+_SCALED = re.compile(r"(?i)\b(scal\w*|factor\w*|multipl\w*|gain|sensitivity|counts?)\b")
+"""What text above a table speaks of that the numbers of the table may still lack."""
+
+
+def _is_all_said(labels: Sequence[ColumnLabel], unit: str | None, step: float | None) -> bool:
+    """Whether labels, and the unit and the step [s] above them, leave nothing open of the columns."""
+    open_ones = [label for label in labels if not (label.is_time or label.unit or label.other)]
+    if open_ones and not (unit and all(label.is_direction for label in open_ones)):
+        return False
+    return step is not None or any(label.is_time for label in labels)
 
 
 def _labels(line: str) -> tuple[str, ...]:
@@ -95,16 +119,20 @@ def _labels(line: str) -> tuple[str, ...]:
     return tuple(part.strip().strip("\"'") for part in parts)
 
 
-def _are_units(units: tuple[str, ...], names: tuple[str, ...]) -> bool:
-    """Whether a second row of words holds the units of the columns named above it."""
-    given = [ColumnLabel(f"({unit.strip('()[]')})") for unit in units]
-    return len(units) == len(names) and any(each.unit or each.is_time for each in given)
+def _are_units(units: tuple[str, ...]) -> bool:
+    """Whether a row of words holds units, of which one at least is of acceleration."""
+    bare = [unit.strip("()[] ") for unit in units]
+    given = [ColumnLabel(f"({unit})") for unit in bare]
+    are_all = all(
+        each.unit or each.is_time or each.other or not unit for each, unit in zip(given, bare, strict=True)
+    )
+    return are_all and any(each.unit for each in given)
 
 
 def _with_units(names: tuple[str, ...], units: tuple[str, ...]) -> tuple[str, ...]:
-    """Return names, each with the unit below it in brackets."""
-    if not units:
-        return names
+    """Return names, each with the unit below it in brackets; none where they are not as many."""
+    if len(names) != len(units):
+        return ()
     pairs = zip(names, (unit.strip("()[] ") for unit in units), strict=True)
     return tuple(f"{name} ({unit})" if unit else name for name, unit in pairs)
 
@@ -167,6 +195,8 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     table = _table(pointed) or _Table((), 1, 0)  # it was recognised by that
     _refuse_spectrum(table.labels)
     refuse_other_quantity(options.file, "\n".join(table.remarks))
+    if not any(label.unit for label in table.labels):
+        refuse_by_name(options.file)
     body = text.after_lines(pointed, table.start)
     if _EMPTY_CELL.search(body):
         raise RecordError("a cell is empty; every column needs a number on every line.")
@@ -449,8 +479,14 @@ def _column(
 
 
 _WITH_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
-_QUOTED = re.compile(rb'"\s*([+-]?[\d.,]+(?:[eE][+-]?\d+)?)\s*"')
+_QUOTED = re.compile(rb'"\s*([+-]?[\d.,]*\d[\d.,]*(?:[eE][+-]?\d+)?)\s*"')
 _FORTRAN = re.compile(rb"(?<=[\d.])[dD](?=[+-]?\d)")
+
+
+def _unquoted(cell: re.Match[bytes]) -> bytes:
+    """Return the number of a quoted cell, in which one comma is a decimal sign; the cell where it is no number."""
+    number = cell[1].replace(b",", b".") if cell[1].count(b",") == 1 else cell[1]
+    return number if number.count(b".") <= 1 and b"," not in number else cell[0]
 
 
 def _plain_numbers(content: bytes) -> bytes | None:
@@ -459,7 +495,7 @@ def _plain_numbers(content: bytes) -> bytes | None:
     Without the quotes of a spreadsheet, with points for decimal commas, and with E for Fortran's D.
     """
     if b'"' in content:
-        content = _QUOTED.sub(rb"\1", content)
+        content = _QUOTED.sub(_unquoted, content)
     if b"D+" in content or b"D-" in content:
         content = _FORTRAN.sub(b"E", content)
     return _points_for_commas(content)

@@ -178,3 +178,58 @@ def test_numbers_none_of_which_is_negative_are_told(tmp_path):
 def test_a_column_of_a_floor_is_told(tmp_path):
     _, roof = opened(tmp_path, table("time (s),ground (g),roof (g)\n", TIMES, FIRST, WAVES[1]))
     assert any("stood in a structure (roof)" in sentence for sentence in roof.warnings)
+
+
+def test_text_above_a_table_is_passed_over_where_nothing_is_left_open(tmp_path):
+    above = "Input file: made\nTime step: 0.01 sec\n\nTime   Acceleration  Velocity\n[sec]   [g]   [cm/sec]\n"
+    (record,) = opened(tmp_path, table(above, TIMES, FIRST, 981 * VELOCITY, parted=" "))
+    assert record.source.unit == "g" and np.allclose(record.acceleration, 9.80665 * FIRST, atol=1e-5)
+    above = "INSTITUTO GEOFISICO\nUNIDADES : cm/s2\nAceleracion maxima (g): 0.3\n\n   T  Z  N  E\n"
+    upwards, north, east = opened(tmp_path, table(above, TIMES, *WAVES, parted=" "))
+    assert (upwards.vertical, north.azimuth, east.azimuth) == (True, 0, 90) and north.source.unit == "cm/s2"
+
+
+@pytest.mark.parametrize(
+    "above",
+    [
+        "Scale factor 0.5\nTime (s) Acc (g)\n",
+        "made\nTime Acc\n",
+        "made\nUnits: gal\nNS EW\n",
+        "made\nno names\n",
+    ],
+)
+def test_text_above_a_table_that_leaves_something_open_is_refused_with_what_to_do(tmp_path, above):
+    begin = above.count("\n") + 1
+    with pytest.raises(RecordError, match=f"numbers begin on line {begin}, with 2 on a line: write # before"):
+        opened(tmp_path, table(above, TIMES, FIRST, parted=" "), unit="g")
+
+
+def test_quoted_cells_may_hold_commas(tmp_path):
+    rows = "".join(f'"{a:.2f}","{b:.6f}"\n'.replace(".", ",") for a, b in zip(TIMES, FIRST, strict=True))
+    (record,) = opened(tmp_path, '"Time, s","Acc, g"\n' + rows)
+    assert record.time_step == 0.01 and np.allclose(record.acceleration, 9.80665 * FIRST, atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("name", "word"), [("ELC_vel.txt", "velocity"), ("disp-x.dat", "displacement"), ("S.semv", "velocity")]
+)
+def test_a_name_that_speaks_of_another_quantity_is_asked(tmp_path, name, word):
+    path = tmp_path / name
+    path.write_text(table("", TIMES, FIRST, parted=" "), encoding="utf-8")
+    with pytest.raises(RecordError, match=word):
+        read(path, unit="m/s2")
+    path.rename(tmp_path / "Velletri_NS.txt")
+    assert read(tmp_path / "Velletri_NS.txt", unit="m/s2")
+
+
+@pytest.mark.parametrize(
+    ("content", "word"),
+    [
+        (b"\x93NUMPY\x01\x00v\x00", "numpy"),
+        (b"MATLAB 5.0 MAT-file, made", "MATLAB"),
+        (b'{"dt": 0.01}', "JSON"),
+    ],
+)
+def test_files_of_programs_are_named(tmp_path, content, word):
+    with pytest.raises(RecordError, match=word):
+        opened(tmp_path, content)
