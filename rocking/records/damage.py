@@ -173,10 +173,11 @@ def _surprise(before: np.ndarray, after: np.ndarray, weights: np.ndarray) -> np.
     """Return the squared errors (m,), summed, of the first samples of lines `after` (m, k) foretold from `before`."""
     order = weights.size
     joint = np.concatenate([before[:, -order:], after[:, :order]], axis=1)
-    total = np.zeros(len(joint))
-    for place in range(order, 2 * order):
-        foretold = sum(weights[lag] * joint[:, place - lag - 1] for lag in range(order))
-        total += np.square(joint[:, place] - foretold)
+    off = np.zeros((2 * order, order))  # what each of the first samples is less what was foretold of it
+    for place in range(order):
+        off[place : place + order, place] = -weights[::-1]
+        off[place + order, place] = 1.0
+    total: np.ndarray = np.square(np.einsum("ij,jk", joint, off)).sum(axis=1)
     return total
 
 
@@ -235,7 +236,13 @@ def _same_windows(values: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray
     sums = np.zeros(values.size - size + 1, dtype=np.uint64)
     for place in range(size):
         sums = sums * np.uint64(6364136223846793005) + mixed[place : place + sums.size]
-    order = np.argsort(sums, kind="stable")
+    ascending = np.sort(sums)
+    twice = np.unique(ascending[1:][ascending[1:] == ascending[:-1]])
+    if not twice.size:
+        return np.empty(0, dtype=int), np.empty(0, dtype=int)
+    nearest = np.minimum(np.searchsorted(twice, sums), twice.size - 1)
+    places = np.flatnonzero(twice[nearest] == sums)
+    order = places[np.argsort(sums[places], kind="stable")]
     same = np.flatnonzero(sums[order][1:] == sums[order][:-1])
     return order[same], order[same + 1]
 

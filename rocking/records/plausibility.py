@@ -154,13 +154,17 @@ def agree_with_velocity(record: Accelerogram, stated: np.ndarray) -> Accelerogra
 
 
 def _stray_step(record: Accelerogram, stated: np.ndarray) -> int | None:
-    """Return the place of a step of the velocity `stated`, m/s, that the acceleration around it does not explain."""
+    """Return the place of a step of the velocity `stated`, m/s, that the acceleration around it does not explain.
+
+    The products are summed by einsum, for a library of matrices would set threads on so small a task.
+    """
     if stated.size < 100 * _REACH:
         return None
     around = sliding_window_view(record.acceleration, 2 * _REACH)
     steps = np.diff(stated)[_REACH - 1 :][: len(around)]
-    weights = np.linalg.lstsq(around, steps, rcond=None)[0]
-    errors = np.abs(steps - around @ weights)
+    products = np.einsum("ij,ik->jk", around, around)
+    weights = np.linalg.lstsq(products, np.einsum("ij,i->j", around, steps), rcond=None)[0]
+    errors = np.abs(steps - np.einsum("ij,j->i", around, weights))
     stray = int(errors.argmax())
     is_stray = errors[stray] > _STRAY * max(float(np.median(errors)) * 1.4826, 1e-12)
     return stray + _REACH if is_stray else None

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import islice, pairwise
 from typing import Any
 
 import numpy as np
@@ -494,9 +494,10 @@ def _plain_numbers(content: bytes) -> bytes | None:
 
     Without the quotes of a spreadsheet, with points for decimal commas, and with E for Fortran's D.
     """
-    if b'"' in content:
+    head = content[: 400 * _SAMPLE]
+    if b'"' in head:
         content = _QUOTED.sub(_unquoted, content)
-    if b"D+" in content or b"D-" in content:
+    if b"D+" in head or b"D-" in head:
         content = _FORTRAN.sub(b"E", content)
     return _points_for_commas(content)
 
@@ -511,8 +512,11 @@ def _points_for_commas(content: bytes) -> bytes | None:
 
     A comma is a decimal sign where something else (a semicolon, a tab, blanks) parts the numbers and none has a point.
     """
+    if b"," not in content[: 400 * _SAMPLE]:
+        return content
     head = content[: 400 * _SAMPLE].decode("latin-1").split("\n")[:-1]
-    rows = [line.strip() for line in head if line.strip() and _NUMERIC.fullmatch(line)][:_SAMPLE]
+    of_numbers = (line.strip() for line in head if line.strip() and _NUMERIC.fullmatch(line))
+    rows = list(islice(of_numbers, _SAMPLE))
     if not any("," in row for row in rows):
         return content
     cells = [[cell for cell in re.split(r"[;\t ]+", row) if cell] for row in rows]

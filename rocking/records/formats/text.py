@@ -86,11 +86,24 @@ def fields(rows: list[str], width: int = 0, margin: int = 0) -> np.ndarray:
     except RecordError:
         if not width:
             raise
-        pieces = [row[i : i + width].strip() for row in rows for i in range(margin, len(row.rstrip()), width)]
-        broken = next((piece for piece in pieces if len(piece.split()) != 1), None)
-        if broken is not None:
-            raise RecordError(f"a column of {width} characters holds {broken!r}, not one number.") from None
-        return numbers(" ".join(pieces))
+        return numbers(_parted(rows, width, margin))
+
+
+_BLANK = 32
+"""Character codes up to that of the blank part numbers."""
+
+
+def _parted(rows: list[str], width: int, margin: int) -> bytes:
+    """Return the text of `rows` with a blank after each column. Raises RecordError where one holds not one number."""
+    bare = (row.rstrip()[margin:] for row in rows)
+    filled_up = "".join(row.ljust(-(-len(row) // width) * width) for row in bare)
+    cells = np.frombuffer(filled_up.encode("latin-1", "replace"), dtype=np.uint8).reshape(-1, width)
+    of_number = cells > _BLANK
+    begins = of_number[:, 0].astype(int) + (of_number[:, 1:] & ~of_number[:, :-1]).sum(axis=1)
+    if (begins != 1).any():
+        broken = cells[int(np.argmax(begins != 1))].tobytes().decode("latin-1").strip()
+        raise RecordError(f"a column of {width} characters holds {broken!r}, not one number.") from None
+    return np.pad(cells, ((0, 0), (0, 1)), constant_values=_BLANK).tobytes()
 
 
 def numbers_per_line(content: bytes) -> int:
