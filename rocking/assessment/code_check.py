@@ -262,7 +262,7 @@ def kinematic_check(
     support: Support | None = None,
     behaviour_factor: float = BEHAVIOUR_FACTOR,
     elastic_period: float = 0.0,
-    support_loss: float | None = None,
+    support_loss: float = math.inf,
 ) -> CodeCheck:
     """Return the linear and the nonlinear check of `structure`; see `check`."""
     if limit_state not in ("SLD", *LIMIT_STATES):
@@ -274,7 +274,7 @@ def kinematic_check(
     if finite(ConfigurationError, "elastic_period", elastic_period, "s") < 0:
         raise ConfigurationError(f"elastic_period is {elastic_period!r} s, but must be 0 or more.")
     loss = math.inf
-    if support_loss is not None:
+    if support_loss != math.inf:
         loss = positive(ConfigurationError, "support_loss", support_loss, "m")
     floor = FloorDemand(spectrum, support)
     mechanisms = tuple(

@@ -95,7 +95,7 @@ def check(
     support: Support | None = None,
     behaviour_factor: float = BEHAVIOUR_FACTOR,
     elastic_period: float = 0.0,
-    support_loss: float | None = None,
+    support_loss: float = math.inf,
     records: Selection | None = None,
 ) -> StructureCheck:
     """Return the checks of `structure` at a limit state of the Italian code, each of the mechanism that decides it.
@@ -104,8 +104,8 @@ def check(
     side. spectrum: of the design level, for the limit state. limit_state: SLD, SLV or SLC. confidence_factor: FC ≥ 1.
     support: the modes of what carries the structure above the ground. behaviour_factor:
     q of the linear check. elastic_period: T_0 of a part free to vibrate, s; 0 where it is tied rigidly.
-    support_loss: horizontal displacement of the control point at which what it carries falls, m. records: sets for the
-    dynamic check, as rocking.select gives them. Masses are those of the structure.
+    support_loss: horizontal displacement of the control point at which what it carries falls, m; inf: nothing does.
+    records: sets for the dynamic check, as rocking.select gives them. Masses are those of the structure.
     Raises ConfigurationError for a value out of range, StructureError for a structure without capacity curve.
 
     >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)

@@ -1,16 +1,39 @@
-"""The spectra of a record beside that of the design level."""
+"""The spectra of records beside that of the design level."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from rocking.records.accelerogram import Accelerogram
 from rocking.records.design_spectrum import DesignSpectrum
 from rocking.records.measures import response_spectrum
 from rocking.reports.record_figures import Trace
 from rocking.reports.style import PULSE, new_figure, plain_logarithmic, styled
 
 _PERIODS = np.geomspace(0.04, 4.0, 60)
+MOST_LINES = 60
+"""Spectra that are drawn one by one; of more their quantiles."""
+_QUANTILES = (0.05, 0.5, 0.95)
+
+
+def spectrum_periods(level: DesignSpectrum) -> np.ndarray:
+    """Return the periods at which spectra are compared with that of the design level, (k,) s."""
+    return _PERIODS[level.longest_period >= _PERIODS]
+
+
+def component_spectra(
+    components: Iterable[Accelerogram], level: DesignSpectrum
+) -> Mapping[str, Sequence[float]]:
+    """Return the spectral accelerations [m/s²] of each component, at the periods and the damping of the level."""
+    periods = spectrum_periods(level)
+    spectra = {}
+    for place, component in enumerate(components, start=1):
+        spectrum = response_spectrum(component, periods, level.damping)
+        name = component.component or f"component {place}"
+        spectra[name] = [float(f"{each:.4g}") for each in spectrum.pseudo_acceleration]
+    return spectra
 
 
 @styled
@@ -18,16 +41,44 @@ def design_figure(motions: Sequence[Trace], level: DesignSpectrum) -> Figure:
     """Draw the spectrum of each component, for the damping of the design level, and that of the level."""
     figure = new_figure(52.0)
     axes = figure.subplots()
-    periods = _PERIODS[level.longest_period >= _PERIODS]
+    periods = spectrum_periods(level)
     for place, motion in enumerate(motions):
         spectrum = response_spectrum(motion.accelerogram, periods, level.damping)
         line = ("-", "--", ":")[place % 3]
         name = motion.accelerogram.component or "record"
         axes.plot(periods, spectrum.pseudo_acceleration, line, color="0.35", label=name)
+    _draw_level(axes, level)
+    return figure
+
+
+@styled
+def design_summary_figure(spectra: Sequence[Sequence[float]], level: DesignSpectrum) -> Figure:
+    """Draw the spectra [m/s²] of all components, or the quantiles of many, and their mean beside the design level.
+
+    spectra: at the periods of `spectrum_periods`.
+    """
+    figure = new_figure(70.0)
+    axes = figure.subplots()
+    periods = spectrum_periods(level)
+    values = np.array(spectra)
+    if len(values) <= MOST_LINES:
+        for place, spectrum in enumerate(values):
+            label = "components" if place == 0 else None
+            axes.plot(periods, spectrum, color="0.75", linewidth=0.5, label=label)
+    else:
+        low, middle, high = np.quantile(values, _QUANTILES, axis=0)
+        axes.fill_between(periods, low, high, color="0.85", label="5 to 95 % of the components")
+        axes.plot(periods, middle, "--", color="0.45", label="median")
+    axes.plot(periods, values.mean(axis=0), color="black", label=f"mean of {len(values)}")
+    _draw_level(axes, level)
+    return figure
+
+
+def _draw_level(axes: Axes, level: DesignSpectrum) -> None:
+    periods = spectrum_periods(level)
     axes.plot(periods, level.acceleration(periods), color=PULSE, label="design level")
     plain_logarithmic(axes, "x")
     axes.set_ylim(bottom=0)
     axes.margins(x=0)
     axes.set(xlabel="period [s]", ylabel="spectral acceleration [m/s²]")
     axes.legend()
-    return figure

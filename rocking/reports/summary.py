@@ -28,7 +28,9 @@ from rocking.assessment.verdict import (
     worst_first,
 )
 from rocking.quantities import GRAVITY, counted
+from rocking.records.design_spectrum import DesignSpectrum
 from rocking.reports import printing
+from rocking.reports.design_figure import design_summary_figure
 from rocking.reports.document import compile_document
 from rocking.reports.fragility import fragility_table
 from rocking.reports.printing import (
@@ -64,22 +66,32 @@ _HEAD = 20
 """Letters of a name above a column of the map; the table of the structures holds it whole."""
 
 
+Design = tuple[DesignSpectrum, Sequence[Sequence[float]]]
+"""The design level of a study, and the spectra [m/s²] of the components as `component_spectra` gives them."""
+
+
 def summary_report(
-    tables: Mapping[str, "DataFrame"], settings: Mapping[str, Any], trade: Sequence[Mapping[str, str]] = ()
+    tables: Mapping[str, "DataFrame"],
+    settings: Mapping[str, Any],
+    trade: Sequence[Mapping[str, str]] = (),
+    design: Design | None = None,
 ) -> bytes:
     """Return the PDF over all records. The arguments are those of `summary_data`."""
-    return compile_document("summary.typ", summary_data(tables, settings, trade))
+    return compile_document("summary.typ", summary_data(tables, settings, trade, design))
 
 
 def summary_data(
-    tables: Mapping[str, "DataFrame"], settings: Mapping[str, Any], trade: Sequence[Mapping[str, str]] = ()
+    tables: Mapping[str, "DataFrame"],
+    settings: Mapping[str, Any],
+    trade: Sequence[Mapping[str, str]] = (),
+    design: Design | None = None,
 ) -> dict[str, object]:
     """Return what the template of the summary is given: texts, tables and figures.
 
     tables: the summary tables "record", "pulses", "comparison", "verdicts", "structures", "agreement" and "failures",
     and where they exist "supports", "fragility_summary" and "ida".
     settings: at least tolerance and acceleration_scale; below "about" what is told of the study, where it is given.
-    trade: figure and conclusion, where it was measured.
+    trade: figure and conclusion, where it was measured. design: None where the study has no design level.
     """
     verdicts = sorted(rows_of(VerdictRow, tables["verdicts"]), key=lambda row: row.severity, reverse=True)
     carried = supports_of(tables)
@@ -114,8 +126,19 @@ def summary_data(
         "failures-note": remainder(len(failures) - MOST_LISTED, "failure", "failures.csv"),
         "records": record_table(list(rows_of(RecordRow, records.head(MOST_RECORDS))), tables["pulses"]),
         "records-note": remainder(len(records) - MOST_RECORDS, "component", "record.csv"),
+        "design": _design(design),
         "trade": list(trade),
     }
+
+
+def _design(design: Design | None) -> list[dict[str, object]]:
+    """The figure of the spectra beside the design level, and what that is."""
+    if design is None:
+        return []
+    level, spectra = design
+    alt = "Spectra of all components and their mean beside the design spectrum."
+    drawn: dict[str, object] = {**picture(design_summary_figure(spectra, level), alt), "words": level.words}
+    return [drawn]
 
 
 def supports_of(tables: Mapping[str, "DataFrame"]) -> list[SupportRow]:

@@ -16,6 +16,7 @@ from rocking.errors import StructureError, StructureWarning
 from rocking.quantities import within
 from rocking.structures.capacity import CapacityCurve as CapacityCurve
 from rocking.structures.capacity import StaticCapacity
+from rocking.structures.check_terms import CheckTerms
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.drawing import Dimension, Mark, Path, plane
 from rocking.structures.fields import Field, Form, Value, constructor, plain_signature
@@ -86,8 +87,9 @@ class Structure(metaclass=PlainlyMade):
     tapers: whether its courses grow smaller upwards, so that each rocks by itself and throws what stands on it
     (docs/pages/validation.md). hinges_migrate: whether its hinges would move in flight, while the
     mechanism leaves them. usual_restitution: where none is given. standing: of a structure of a list that names a
-    support; None: it meets each motion as it is given. statics_chooses: whether codes check the mechanism of least λ
-    alone, as between supports limit analysis finds it; otherwise every crack that may open is a mechanism of its own.
+    support; None: it meets each motion as it is given. check_terms: what its list says for the checks of a code.
+    statics_chooses: whether codes check the mechanism of least λ alone, as between supports limit analysis finds it;
+    otherwise every crack that may open is a mechanism of its own.
     """
 
     type_name: ClassVar[str] = ""
@@ -99,6 +101,7 @@ class Structure(metaclass=PlainlyMade):
     statics_chooses: ClassVar[bool] = False
     one_sided = False
     standing: ClassVar[Standing | None] = None
+    check_terms: ClassVar[CheckTerms] = CheckTerms()
 
     restitution_range: Annotated[
         float | None,
@@ -156,7 +159,8 @@ class Structure(metaclass=PlainlyMade):
     def __getstate__(self) -> dict[str, Any]:
         """The fields and what was typed: the rest is computed again after a copy or in another process."""
         state = {each.name: getattr(self, each.name) for each in fields(self)}
-        return state | {name: self.__dict__[name] for name in ("_typed", "standing") if name in self.__dict__}
+        of_list = ("_typed", "standing", "check_terms")
+        return state | {name: self.__dict__[name] for name in of_list if name in self.__dict__}
 
     @property
     def symmetric(self) -> bool:
@@ -389,6 +393,12 @@ class Structure(metaclass=PlainlyMade):
     def typed(self, values: dict[str, object], texts: dict[str, str]) -> None:
         """Remember the `values` of a file by key, and their `texts` as they were typed; for the loader only."""
         object.__setattr__(self, "_typed", {key: (values[key], texts[key]) for key in values})
+
+    def checked_with(self, terms: CheckTerms) -> Self:
+        """Return this structure with these terms of a check; what it has computed is shared. For the loader only."""
+        same = object.__new__(type(self))
+        same.__dict__.update(self.__dict__, check_terms=terms)
+        return same
 
     @property
     def is_carried(self) -> bool:

@@ -17,6 +17,8 @@ import yaml
 from rocking.described import kind_in_words
 from rocking.errors import ConfigurationError, StructureError, StructureWarning
 from rocking.quantities import shown
+from rocking.structures.check_terms import KEYS as CHECK_KEYS
+from rocking.structures.check_terms import CheckTerms, check_terms, check_terms_schema
 from rocking.structures.fields import Form, article
 from rocking.structures.standing import GROUND, TYPE_NAME, NamedSupport, support_from_config, support_schema
 from rocking.structures.structure import Structure, typed_text
@@ -163,7 +165,13 @@ def _definition(kind: str, form: Form) -> dict[str, object]:
         "type": "object",
         "additionalProperties": False,
         "required": ["name", "type", *form.required],
-        "properties": {"name": _NAME, "type": {"const": kind}, **properties, "stands_on": _STANDS_ON},
+        "properties": {
+            "name": _NAME,
+            "type": {"const": kind},
+            **properties,
+            **check_terms_schema(),
+            "stands_on": _STANDS_ON,
+        },
         "examples": [
             {"name": f"my {kind}", "type": kind, **{each.key: each.value.example for each in form.fields}}
         ],
@@ -229,9 +237,18 @@ def _where_it_stands(
 
     supports: None for one that has a defect of its own. Warns of each size beyond its plausible range.
     """
-    place = entry.get("stands_on") if isinstance(entry, Mapping) else None
-    own = {key: value for key, value in entry.items() if key != "stands_on"} if place is not None else entry
+    place = None
+    own = entry
+    terms = CheckTerms()
+    if isinstance(entry, Mapping):
+        place = entry.get("stands_on")
+        terms = check_terms(entry)
+        apart = {key for key in ("stands_on", *CHECK_KEYS) if entry.get(key) is not None}
+        own = {key: value for key, value in entry.items() if key not in apart}
+        texts = {key: text for key, text in texts.items() if key not in apart}
     structure = structure_from_config(own, texts)
+    if terms != CheckTerms():
+        structure = structure.checked_with(terms)
     remarks = list(structure.remarks)
     structures = {name: structure}
     if place is not None and place != GROUND:

@@ -42,6 +42,8 @@ def write_checks(study: Study, folder: Path, tell: Callable[[str], None] = lambd
                 confidence_factor=design.confidence_factor,
                 behaviour_factor=design.behaviour_factor,
                 support=structure.standing.support if structure.standing else None,
+                elastic_period=structure.check_terms.elastic_period,
+                support_loss=structure.check_terms.support_loss,
                 records=selection,
             )
         except RockingError as error:

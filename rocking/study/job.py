@@ -26,7 +26,7 @@ from rocking.structures import Structure, load_structures
 from rocking.study.folder import locked
 from rocking.study.hashes import sha256_of
 from rocking.study.plan import JOBS, structures_sha256
-from rocking.study.results import cases_of, remove_copies, written_part
+from rocking.study.results import SPECTRA, cases_of, remove_copies, written_part
 from rocking.study.settings import Settings, read_settings
 from rocking.study.terminal import record_line, tell, tell_error
 from rocking.tables import write_rows, write_whole
@@ -149,6 +149,11 @@ def run_job(
 
                 write_report(result, rows, study, folder)
                 content = record_content(result, rows, study.structures)
+                level = study.settings.design_spectrum.spectrum()
+                if level is not None:
+                    from rocking.reports.design_figure import component_spectra  # as above
+
+                    content[SPECTRA] = component_spectra(result.accelerograms, level)
             else:
                 remove_copies(folder)
             if study.settings.histories:

@@ -173,7 +173,9 @@ def _check_results(settings: Settings) -> None:
 
 def structures_sha256(structures: Mapping[str, Structure]) -> str:
     """Return one hash for what a structure list says, whatever its comments and its layout."""
-    return sha256_of(*((name, each.as_config(), each.standing) for name, each in structures.items()))
+    return sha256_of(
+        *((name, each.as_config(), each.standing, each.check_terms) for name, each in structures.items())
+    )
 
 
 def settings_sha256(settings: Settings, structures: Mapping[str, Structure]) -> str:

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 PAGE = "explore.jsonl"
 """Beside them: what the page to explore shows of each record, one JSON value a line."""
+SPECTRA = "spectra"
+"""The key of these under which the spectra of the components stand, for the summary, where there is a design level."""
 _ROWS: tuple[type[Row], ...] = (*RECORD_TABLES, *SUMMARY_TABLES, TradeRow, CodeCheckRow)
 _TABLES = {each.table.name: each for each in _ROWS}
 _JOB = re.compile(r"\d{5}_of_\d{5}")

@@ -1,6 +1,7 @@
 """The records of a study that stand for its design level: the pool, the sets, and a catalogue with their factors."""
 
 import os
+from collections.abc import Mapping, Sequence
 from contextlib import chdir
 from pathlib import Path
 
@@ -23,8 +24,9 @@ def pool_of(settings: Settings) -> Path:
 def select_for(study: Study, records: tuple[CatalogueRecord, ...]) -> tuple[Selection, dict[str, str]]:
     """Return sets of `records` for the design level of `study`, and by record why it could not be used.
 
-    They are processed as the study says; a record that cannot be read costs no other. Raises ConfigurationError where
-    there is no design level, or no set meets the limits.
+    They are processed as the study says; a record that cannot be read costs no other. Two rows of a catalogue that hold
+    a component each of one station in one earthquake are one pair, by both names (`rows_of_pair`).
+    Raises ConfigurationError where there is no design level, or no set meets the limits.
     """
     design = study.settings.design_spectrum
     spectrum = design.spectrum()
@@ -45,7 +47,7 @@ def select_for(study: Study, records: tuple[CatalogueRecord, ...]) -> tuple[Sele
             f"none of {len(records)} records could be read; the first: {next(iter(reasons.values()))}"
         )
     selection = select(
-        pool,
+        joined_by_station(pool),
         spectrum,
         design.stations,
         periods=(design.shortest_period, design.longest_period),
@@ -53,6 +55,39 @@ def select_for(study: Study, records: tuple[CatalogueRecord, ...]) -> tuple[Sele
         seed=design.seed,
     )
     return selection, reasons
+
+
+_BETWEEN = " + "
+"""Between the two rows of a catalogue of which a pair was joined; no identifier of a record holds it."""
+
+
+def rows_of_pair(name: str) -> list[str]:
+    """Return the rows of the catalogue that a name of the pool stands for: one, or those of two components."""
+    return name.split(_BETWEEN)
+
+
+def joined_by_station(pool: Mapping[str, Sequence[Accelerogram]]) -> dict[str, list[Accelerogram]]:
+    """Return the records, of which two with one component each of the same station and earthquake are one.
+
+    What does not name its station and its earthquake, and what is not two unlike components, stays as it is.
+    """
+    alone: dict[tuple[str, str, str], list[str]] = {}
+    for name, components in pool.items():
+        first = components[0]
+        if len(components) == 1 and first.station and first.event:
+            alone.setdefault((first.network, first.station, first.event), []).append(name)
+    other: dict[str, str] = {}
+    for names in alone.values():
+        directions = {pool[name][0].component for name in names}
+        if len(names) == len(directions) == 2:
+            other[names[0]] = names[1]
+    joined: dict[str, list[Accelerogram]] = {}
+    for name, components in pool.items():
+        if name in other:
+            joined[f"{name}{_BETWEEN}{other[name]}"] = [*components, *pool[other[name]]]
+        elif name not in other.values():
+            joined[name] = list(components)
+    return joined
 
 
 def write_selection(folder: Path, output: Path | None = None) -> list[str]:
@@ -93,9 +128,10 @@ def _catalogue_of(selection: Selection, catalogue: Path) -> str:
     rows = {row["id"].strip(): row for _, row in read_rows(catalogue)}
     chosen = []
     for place in selection.chosen:
-        row = rows[selection.names[place]]
-        own = float((row.get("scale_factor") or "").strip() or 1)
-        chosen.append(row | {"scale_factor": repr(float(own * selection.factors[place]))})
+        for name in rows_of_pair(selection.names[place]):
+            row = rows[name]
+            own = float((row.get("scale_factor") or "").strip() or 1)
+            chosen.append(row | {"scale_factor": repr(float(own * selection.factors[place]))})
     columns = [name for name in COLUMNS if name in chosen[0]]
     return catalogue_text(chosen, columns)
 

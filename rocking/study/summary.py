@@ -24,7 +24,14 @@ from rocking.errors import ConfigurationError, RockingError
 from rocking.records import Accelerogram, CatalogueRecord
 from rocking.structures import Structure
 from rocking.study.job import Study
-from rocking.study.results import page_contents, part, remove_other_cases, remove_other_parts, table_lines
+from rocking.study.results import (
+    SPECTRA,
+    page_contents,
+    part,
+    remove_other_cases,
+    remove_other_parts,
+    table_lines,
+)
 from rocking.tables import Row, data_package, frame, write_tables, write_whole
 from rocking.tables.workbook import workbook
 
@@ -68,8 +75,10 @@ def summarise(study: Study, records: Iterable[CatalogueRecord], jobs: Sequence[s
     if study.settings.reports:
         from rocking.reports.explore import explore_page  # matplotlib takes half a second to import
 
-        _report(target, study, results / "fragility")
-        page = explore_page(page_contents(parts, hashes), study.structures, study.settings.study or "")
+        contents = page_contents(parts, hashes)
+        spectra = [each for content in contents for each in content.pop(SPECTRA, {}).values()]
+        _report(target, study, results / "fragility", spectra)
+        page = explore_page(contents, study.structures, study.settings.study or "")
         write_whole(target / "study.html", page)
         paths = {each: target / each.table.file_name for each in SUMMARY_TABLES if each is not TimingRow}
         write_whole(target / WORKBOOK, workbook(paths, study.settings.study or ""))
@@ -93,8 +102,11 @@ def write_summary(
     write_tables(tables, target)
 
 
-def _report(folder: Path, study: Study, fragility: Path) -> None:
-    """Write summary.pdf and its figure beside the summary tables in `folder`, with fragility and trade if measured."""
+def _report(folder: Path, study: Study, fragility: Path, spectra: Sequence[Sequence[float]]) -> None:
+    """Write summary.pdf and its figure beside the summary tables in `folder`, with fragility and trade if measured.
+
+    spectra: of the components, where there is a design level.
+    """
     from rocking.reports.style import svg  # as above
     from rocking.reports.summary import prediction_scatter, summary_report
     from rocking.reports.trade import trade_picture
@@ -110,7 +122,9 @@ def _report(folder: Path, study: Study, fragility: Path) -> None:
         tables["fragility_summary"] = frame(FragilitySummaryRow, fragility / "fragility_summary.csv")
         tables["ida"] = frame(IdaRow, fragility / "ida.csv", _GOVERNING)
     trade = trade_picture(folder) if study.settings.trade.in_summary else []
-    write_whole(folder / "summary.pdf", summary_report(tables, study.settings.mapping(), trade))
+    level = study.settings.design_spectrum.spectrum()
+    design = (level, spectra) if level is not None and spectra else None
+    write_whole(folder / "summary.pdf", summary_report(tables, study.settings.mapping(), trade, design))
     scatter = svg(prediction_scatter(tables["comparison"])).encode()
     write_whole(folder / "prediction_against_integration.svg", scatter)
 

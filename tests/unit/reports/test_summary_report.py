@@ -3,9 +3,11 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pandas
 import pytest
 
+import rocking
 from rocking.assessment.intensity import INTENSITY_MEASURES
 from rocking.assessment.rows.of_fragility import FragilityRow, FragilitySummaryRow
 from rocking.assessment.rows.of_record import (
@@ -24,6 +26,13 @@ from rocking.assessment.verdict import (
     ratio,
     ratio_in_words,
     within_factor_two,
+)
+from rocking.records.measures import response_spectrum
+from rocking.reports.design_figure import (
+    MOST_LINES,
+    component_spectra,
+    design_summary_figure,
+    spectrum_periods,
 )
 from rocking.reports.fragility import fragility_data, fragility_figure
 from rocking.reports.style import svg
@@ -163,6 +172,28 @@ def test_a_record_is_listed_with_its_dominant_pulse(example):
     (row,) = summary_data(tables, SETTINGS)["records"]["rows"]
     assert {"9.00", "9.0", "9"}.isdisjoint(row)
     assert any(cell.startswith(f"{dominant.period_s:.1f}") for cell in row)
+
+
+def test_the_design_level_stands_beside_the_spectra_of_the_records():
+    """Each component is drawn at the level's damping; of many the quantiles; without a level there is no figure."""
+    level = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
+    (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
+    (spectrum,) = component_spectra([record], level).values()
+    periods = spectrum_periods(level)
+    np.testing.assert_allclose(
+        spectrum, response_spectrum(record, periods, 0.05).pseudo_acceleration, rtol=1e-3
+    )
+    tables = summary_tables(CASES)
+    assert summary_data(tables, SETTINGS)["design"] == []
+    (drawn,) = summary_data(tables, SETTINGS, design=(level, [spectrum, spectrum]))["design"]
+    assert drawn["words"] == level.words
+    for count, label in ((2, "components"), (MOST_LINES + 1, "5 to 95 % of the components")):
+        (axes,) = design_summary_figure([spectrum] * count, level).axes
+        assert axes.get_legend().get_texts()[0].get_text() == label
+        mean = next(line for line in axes.lines if line.get_label() == f"mean of {count}")
+        np.testing.assert_allclose(mean.get_ydata(), spectrum, rtol=1e-12)
+        design = next(line for line in axes.lines if line.get_label() == "design level")
+        np.testing.assert_allclose(design.get_ydata(), level.acceleration(periods), rtol=1e-12)
 
 
 def test_a_scatter_of_many_cases_does_not_grow_with_them():

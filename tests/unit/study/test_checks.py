@@ -1,6 +1,7 @@
 """The table of checks and the pages to sign: one of each structure, findings with both figures, and what is refused."""
 
 import csv
+import pickle
 from types import SimpleNamespace
 
 import pytest
@@ -11,8 +12,10 @@ from rocking.assessment.rows.of_check import CodeCheckRow, disagreement
 from rocking.assessment.rows.of_record import VerdictRow
 from rocking.errors import ConfigurationError
 from rocking.reports.structures import share_interval, structures_data
+from rocking.structures import load_structures
 from rocking.study.checks import write_checks
 from rocking.study.job import Study
+from rocking.study.plan import structures_sha256
 from rocking.study.settings import Settings, read_settings
 from rocking.tables import read_table, write_tables
 from tests.made_pools import made_pool
@@ -45,6 +48,33 @@ def study(tmp_path):
     write_tables({VerdictRow: []}, tmp_path)
     settings = {"catalogue": str(tmp_path / "catalogue.csv"), "processing": {"apply": "never"}}
     return settings, tmp_path
+
+
+def test_a_structure_list_says_what_vibrates_freely_and_what_falls(study):
+    """T_0 and the loss of support of an entry are those of `rocking.check`, and other structures keep theirs."""
+    settings, folder = study
+    listed = folder / "structures.yaml"
+    listed.write_text(
+        "- {name: plain, type: block, breadth_m: 0.45, height_m: 3.0}\n"
+        "- {name: free, type: block, breadth_m: 0.45, height_m: 3.0, elastic_period_s: 0.12, support_loss_m: 0.05}\n"
+    )
+    structures = load_structures(listed)
+    changed = read_settings(settings | {"design_spectrum": DESIGN})
+    write_checks(Study(structures, changed), folder)
+    spectrum = changed.design_spectrum.spectrum()
+    rows = {(each.structure, each.check): each for each in read_table(CodeCheckRow, folder)}
+    expected = check(STRUCTURES["parapet"], spectrum, elastic_period=0.12, support_loss=0.05)
+    for name, by_hand in (("free", expected), ("plain", check(STRUCTURES["parapet"], spectrum))):
+        for each, kind in ((by_hand.linear, "linear"), (by_hand.nonlinear, "nonlinear")):
+            assert rows[name, kind].level_capacity_m_s2 == pytest.approx(each.capacity, rel=1e-12)
+    assert rows["free", "nonlinear"].level_capacity_m_s2 < rows["plain", "nonlinear"].level_capacity_m_s2
+    assert structures["free"].as_config() == structures["plain"].as_config()
+    assert structures_sha256({"a": structures["free"]}) != structures_sha256({"a": structures["plain"]})
+    assert pickle.loads(pickle.dumps(structures["free"])).check_terms == structures["free"].check_terms
+    for wrong in ("elastic_period_s: 0", "support_loss_m: -1", "elastic_period_s: soon"):
+        listed.write_text(f"- {{name: free, type: block, breadth_m: 0.45, height_m: 3.0, {wrong}}}\n")
+        with pytest.raises(ConfigurationError, match=rf"\(free\): {wrong.split(':')[0]} is "):
+            load_structures(listed)
 
 
 def test_every_structure_has_its_checks_and_its_page(study):

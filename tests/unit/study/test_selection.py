@@ -1,6 +1,7 @@
 """`rocking select`: a catalogue of the chosen records with factors, which a study takes as it is; what it refuses."""
 
 import csv
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ import yaml
 
 from rocking.records import load_catalogue, open_record
 from rocking.study.cli import main
+from rocking.study.selection import joined_by_station
 from rocking.study.settings import read_settings
 from tests.made_pools import made_pool
 
@@ -47,6 +49,52 @@ def study(tmp_path):
     config = {"design_spectrum": DESIGN, "processing": {"apply": "never"}}
     (folder / "config.yaml").write_text(yaml.safe_dump(config))
     return folder
+
+
+def test_two_rows_of_one_station_and_earthquake_are_one_pair_with_one_factor(study, capsys):
+    """R1 and R2 become the two components of a station: eleven stations are left, and both rows get its factor."""
+    path = study / "records" / "catalogue.csv"
+    with path.open(newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    for row in rows:
+        row |= {"event": "made", "component": ""}
+        if row["id"] in ("R1", "R2"):
+            row |= {"station": "both", "component": {"R1": "EW", "R2": "NS"}[row["id"]], "scale_factor": ""}
+    with path.open("w", newline="") as stream:
+        writer = csv.DictWriter(stream, list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
+    pool = {each.id: [open_record(each)[0]] for each in load_catalogue(path) if each.id != "gone"}
+    joined = joined_by_station(pool)
+    assert len(joined) == 11
+    assert [each.component for each in joined["R1 + R2"]] == ["EW", "NS"]
+    config = yaml.safe_load((study / "config.yaml").read_text())
+    config["design_spectrum"]["stations"] = 11
+    config["design_spectrum"]["largest_factor"] = 100.0
+    (study / "config.yaml").write_text(yaml.safe_dump(config))
+    assert main(["select", str(study)]) == 0
+    assert "11 records of as many stations out of 11" in capsys.readouterr().out
+    factors = {each.id: each.scale_factor for each in load_catalogue(study / "records" / "selected.csv")}
+    assert len(factors) == 12
+    assert factors["R1"] == factors["R2"]
+
+
+def test_components_that_may_be_of_two_earthquakes_are_not_joined():
+    """No earthquake is named, or three rows share one, or both rows hold the same component."""
+    (first, second), *_ = made_pool(1).values()
+
+    def row(component, event, station="both"):
+        return [replace(first, component=component, event=event, station=station)]
+
+    for pool in (
+        {"a": row("EW", ""), "b": row("NS", "")},
+        {"a": row("EW", "one"), "b": row("NS", "two")},
+        {"a": row("EW", "one"), "b": row("NS", "one"), "c": row("N45", "one")},
+        {"a": row("EW", "one"), "b": row("EW", "one")},
+        {"a": row("EW", "one", ""), "b": row("NS", "one", "")},
+        {"a": [first, second], "b": row("NS", "one")},
+    ):
+        assert joined_by_station(pool).keys() == pool.keys()
 
 
 def test_the_catalogue_of_the_set_holds_the_factors_and_can_be_opened(study, capsys):
