@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from rocking.assessment.rows.of_record import (
     RATIO_COLUMNS,
@@ -62,6 +63,10 @@ _SMALLEST, _FALLEN = 1e-3, 1.6
 """Rotation ratio below which a point is set on the edge of the scatter, and where overturning is set."""
 _MOST_POINTS = 5000
 """Points that are drawn as shapes; more become a picture, whose size does not grow with them."""
+MOST_NAMED = 8
+"""Structures that a sentence names."""
+_BESIDE = 30
+"""Letters of a name beside a bar."""
 _HEAD = 20
 """Letters of a name above a column of the map; the table of the structures holds it whole."""
 
@@ -109,6 +114,12 @@ def summary_data(
         "subtitle": f"{counted(records['record'].nunique(), 'record')}, "
         f"{counted(len(tables['structures']), 'structure')}, {counted(len(comparison), 'case')}.",
         "notices": [notice.data for notice in _notices(records, comparison, len(failures))],
+        "outcomes": outcome_sentences(shown),
+        "outcomes-figure": pictures(
+            outcomes_figure,
+            shown,
+            "Number of records under which each structure overturns, is undecided and stands.",
+        ),
         "map": severity_map(shown, records),
         "supports": pictures(
             shares_by_period_figure,
@@ -184,6 +195,78 @@ def _notices(records: "DataFrame", comparison: "DataFrame", failures: int) -> li
 # What becomes of what --------------------------------------------------------------------------------------
 
 
+def outcome_counts(verdicts: Sequence[VerdictRow]) -> dict[str, Counter[Verdict]]:
+    """Return of each structure under how many records it has each verdict; the structures the worst first."""
+    counts: dict[str, Counter[Verdict]] = {
+        name: Counter() for name in worst_first((row.structure, row) for row in verdicts)
+    }
+    for row in verdicts:
+        counts[row.structure][row.verdict] += 1
+    return counts
+
+
+def outcome_sentences(verdicts: Sequence[VerdictRow]) -> list[str]:
+    """Return which structures overturn, which stay undecided and which stand, a sentence for each kind that occurs."""
+    counts = outcome_counts(verdicts)
+    records = len({row.record for row in verdicts})
+    fall = [name for name, each in counts.items() if each[Verdict.OVERTURNS]]
+    open_ = [name for name, each in counts.items() if name not in fall and each[Verdict.UNDECIDED]]
+    unknown = [name for name, each in counts.items() if name not in fall + open_ and each[Verdict.UNKNOWN]]
+    held = [name for name, each in counts.items() if each[Verdict.CANNOT_OVERTURN] == each.total()]
+    stand = [name for name in counts if name not in fall + open_ + unknown + held]
+    under = "under every record" if records > 1 else "under the record"
+    sentences = []
+    if fall:
+        at_least = "at least one record" if records > 1 else "the record"
+        names = [f"{name} ({counts[name][Verdict.OVERTURNS]} of {counts[name].total()})" for name in fall]
+        sentences.append(f"Overturning under {at_least}: {printing.listed(names, most=MOST_NAMED)}.")
+    if open_:
+        names = [f"{name} ({counts[name][Verdict.UNDECIDED]} of {counts[name].total()})" for name in open_]
+        listed = printing.listed(names, most=MOST_NAMED)
+        sentences.append(f"Overturning under none, but undecided under some: {listed}.")
+    if unknown:
+        sentences.append(f"Without an answer under some: {printing.listed(unknown, most=MOST_NAMED)}.")
+    if stand:
+        sentences.append(f"Standing {under}: {printing.listed(stand, most=MOST_NAMED)}.")
+    if held:
+        sentences.append(
+            f"Held by what ties it, so that it cannot overturn: {printing.listed(held, most=MOST_NAMED)}."
+        )
+    return sentences
+
+
+@styled
+def outcomes_figure(verdicts: Sequence[VerdictRow]) -> Figure:
+    """Draw of each structure, the worst first, under how many records it has each verdict."""
+    counts = outcome_counts(verdicts)
+    names = list(counts)[:MOST_STRUCTURES]
+    kinds = [kind for kind in ORDER if any(counts[name][kind] for name in names)]
+    row, head, foot = 5.0, 7.0, 10.0
+    figure = new_figure(row * len(names) + head + foot, margins=(46, 4, foot, head))
+    axes = figure.subplots()
+    places = list(range(len(names)))
+    start = np.zeros(len(names))
+    for kind in kinds:
+        sign, fill, ink, pattern = printing.LOOKS[kind]
+        width = np.array([counts[name][kind] for name in names], dtype=float)
+        # The hatch has the colour of the edge, so the frame is drawn a second time.
+        axes.barh(places, width, 0.72, start, color=fill, edgecolor="white", linewidth=0, hatch=pattern)
+        axes.barh(places, width, 0.72, start, fill=False, edgecolor="0.3", linewidth=0.4)
+        axes.bar(0, 0, color=fill, edgecolor="0.3", linewidth=0.4, label=f"{sign} {kind}")
+        box = {"facecolor": fill, "edgecolor": "none", "pad": 0.8}
+        for place, begin, size in zip(places, start, width, strict=True):
+            if size:
+                text = f"{size:.0f}"
+                axes.text(begin + size / 2, place, text, ha="center", va="center", color=ink, bbox=box)
+        start += width
+    axes.set_yticks(places, [elided(name, _BESIDE) for name in names])
+    axes.tick_params(axis="y", length=0)
+    axes.set(xlim=(0, float(start.max())), ylim=(len(names) - 0.4, -0.6), xlabel="number of records [-]")
+    axes.xaxis.set_major_locator(MaxNLocator(8, integer=True))
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=len(kinds), borderaxespad=0.2, frameon=False)
+    return figure
+
+
 def severity_map(verdicts: Sequence[VerdictRow], records: "DataFrame") -> dict[str, object]:
     """Return verdict and share by record and structure, both the worst first. verdicts: the worst first."""
     names = [worst_first((getattr(row, which), row) for row in verdicts) for which in ("record", "structure")]
@@ -216,9 +299,7 @@ def _cell(verdict_row: VerdictRow | None) -> dict[str, str]:
 def structure_table(verdicts: Sequence[VerdictRow]) -> dict[str, object]:
     """Return one row per structure: under how many records it overturns, and the record that is worst for it."""
     worst = {row.structure: row for row in reversed(verdicts)}
-    counts: dict[str, Counter[Verdict]] = {}
-    for row in verdicts:
-        counts.setdefault(row.structure, Counter())[row.verdict] += 1
+    counts = outcome_counts(verdicts)
     present = {row.verdict for row in verdicts}
     rare = (Verdict.UNKNOWN, Verdict.CANNOT_OVERTURN)
     kinds = [verdict for verdict in ORDER if verdict in present or verdict not in rare]

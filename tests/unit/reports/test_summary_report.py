@@ -1,6 +1,7 @@
 """The report over all records, and the agreement that is counted for it."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -107,6 +108,14 @@ def test_the_summary_counts_the_verdicts_of_each_structure_and_names_its_worst_r
     rows = {row[0]["text"]: row[1:] for row in data["structures"]["rows"]}
     assert rows["wall"][:5] == ["1", "1", "0", "two", "64 of 64"]
     assert rows["pier"][3:] == ["one", "20 of 64", "overturns", "0.50 – overturns"]
+    assert data["outcomes"] == [
+        "Overturning under at least one record: wall (1 of 2).",
+        "Overturning under none, but undecided under some: pier (1 of 1).",
+        "Standing under every record: arch.",
+    ]
+    (figure,) = data["outcomes-figure"]
+    drawn = re.findall(r">(wall|pier|arch|▲ overturns|\? undecided|● stands)<", figure["svg"])
+    assert sorted(drawn[:3]) == ["arch", "pier", "wall"] and len(drawn) == 6
 
 
 def test_the_map_holds_sign_and_share_with_the_worst_record_and_structure_first():
