@@ -40,8 +40,8 @@ TRUE_STEP = 2e-4
 UPLIFTS = (1.05, 3.0)
 """Range of peak acceleration over the least uplift acceleration to which records are scaled, log-uniform."""
 TRIALS = {
-    "spire": 11,
-    "pinnacle": 15,
+    "spire": 9,
+    "pinnacle": 13,
     "loaded wall": 6,
     "gable": 5,
     "façade with ties": 6,
