@@ -76,7 +76,7 @@ class CatalogueRecord:
     event: str = described("", "the earthquake, for the reader")
     station: str = described("", "the station, for the reader")
     licence: str = described("", "licence of the files, for the reader")
-    inventory: str = described("", "StationXML of a miniSEED file, a path like `file`")
+    inventory: str = described("", "StationXML of a miniSEED or SAC file, a path like `file`")
     high_pass: float | None = described(
         None, "corner of the high-pass filter, where the file does not state it", "Hz", gt=0)
     magnitude: float | None = described(None, "magnitude, where the file is silent or errs", ge=-2, le=10)

@@ -12,7 +12,7 @@ from urllib.parse import quote
 
 from rocking.errors import RecordError
 from rocking.records.catalogue import CatalogueRecord, RecordFile, catalogue_text, load_catalogue, read_rows
-from rocking.records.formats.binary import MINISEED
+from rocking.records.formats.binary import may_be_counts
 from rocking.records.read import LARGEST_FILE, bytes_of
 from rocking.records.traces import first_line
 from rocking.tables import read_start, write_whole
@@ -48,8 +48,8 @@ def path_of(record: CatalogueRecord, file: RecordFile, mirror: str | Path | None
 def local_files(record: CatalogueRecord, mirror: str | Path | None = None) -> list[Path]:
     """Return the files on this machine that opening `record` would read; none that leads out of its folder.
 
-    Its own files and the StationXML it names; for a miniSEED file, packed or not, that names none and declares no unit,
-    every XML file beside it, among which the reader looks.
+    Its own files and the StationXML it names; for a miniSEED or SAC file, packed or not, that names none and declares
+    no unit, every XML file beside it, among which the reader looks.
     """
     own = [] if record.example_name else [file.name for file in record.files]
     paths: list[Path] = []
@@ -58,8 +58,8 @@ def local_files(record: CatalogueRecord, mirror: str | Path | None = None) -> li
         with suppress(RecordError):
             paths += filter(None, [beside_catalogue(record, name, mirror)])
     for path in () if record.inventory or record.unit else paths:
-        head = read_start(path, 256)
-        if head.startswith(b"\x1f\x8b") or MINISEED.recognise(head):
+        head = read_start(path, 1024)
+        if head.startswith(b"\x1f\x8b") or may_be_counts(head):
             beside += sorted(path.parent.glob("*.xml"))
     return paths + beside
 

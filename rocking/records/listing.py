@@ -20,6 +20,10 @@ CELLS = {"unit": "unit", "time_step": "time_step_s"}
 """The column of a catalogue that declares what a file leaves out."""
 _STAND_INS: dict[str, Any] = {"unit": "nm/s2", "time_step": 0.01}
 """With which a file that declares none is looked at; in so small a unit no counts are beyond what ground does."""
+_OF_COUNTS = (
+    "Its samples are counts of the recorder where no unit is filled in: put the StationXML of the station beside it, "
+    "or name it in the column inventory."
+)
 _BAD_NAME = "its name holds a character that a catalogue does not allow, or a blank at its end; rename it."
 _LEADS_OUT = "it is a link that leads out of the folder; copy the file instead."
 _OF_UNIT = re.compile(r"m/s| g[ ,]")
@@ -136,6 +140,8 @@ def read_for_listing(raw: bytes, sha256: str, path: Path, declared: Mapping[str,
             if is_unit_known or not _OF_UNIT.search(sentence):
                 doubts.setdefault(sentence, []).append(channel.component)
     remarks = [s if len(of) == len(channels) else f"{', '.join(of)}: {s}" for s, of in doubts.items()]
+    if not is_unit_known and "StationXML" in str(asked):
+        remarks.append(_OF_COUNTS)
     listed = tuple(_without_samples(channel, is_known) for channel in channels)
     return Reading(sha256, listed, tuple(remarks), missing=missing)
 

@@ -76,8 +76,10 @@ def _from_trace(trace: Any, inventory: Any, unit: str | None, response: str) -> 
         fields["component"] = f"channel {trace.stats.channel}"
     processing = [*fields.get("processing", ()), *(f"obspy: {step}"[:200] for step in steps)]
     if by_response:
-        samples, step = calibrated(trace, inventory, response)
-        processing.append(step)
+        motion = calibrated(trace, inventory, response)
+        samples = motion.acceleration
+        processing.append(motion.sentence)
+        fields["warnings"] = (*fields.get("warnings", ()), *motion.warnings)
     else:
         calibration = float(trace.stats.get("calib", 1.0))
         samples = np.asarray(trace.data, dtype=float) * acceleration_factor(str(declared))

@@ -84,8 +84,11 @@ def scaled(record: Accelerogram, factor: float) -> Accelerogram:
     return enlarged.warned(f"{enlargement}, above 3 g: {_RARE}; check the factor.")
 
 
-def pass_limits(record: Accelerogram) -> tuple[str, ...]:
-    """Return warnings on a peak that is below 1e-5 g or above 3 g; raise RecordError when it is above 5 g."""
+def pass_limits(record: Accelerogram, form: str = "") -> tuple[str, ...]:
+    """Return warnings on a peak that is below 1e-5 g or above 3 g; raise RecordError when it is above 5 g.
+
+    form: the name of the format, by which the sentence says what to do.
+    """
     peak = record.peak_acceleration / GRAVITY
     if SMALLEST_PEAK <= record.peak_acceleration <= RARE_PEAK:
         return ()
@@ -97,11 +100,25 @@ def pass_limits(record: Accelerogram) -> tuple[str, ...]:
     if is_small:
         hint = f"; multiplied {fits} it would be plausible" if fits else ""
         return (f"The peak acceleration is {peak:.3g} g, below 1e-5 g: noise, or a wrong unit{hint}.",)
-    unexplained = ", and no factor between units explains it: counts without their calibration, perhaps"
-    raise RecordError(
+    beyond = (
         f"peak acceleration is {peak:.6g} g read as {record.source.unit or 'm/s2'}, above the 5 g that no ground has "
-        f"reached{f'; divided {fits} it would be plausible' if fits else unexplained}; declare the true unit."
+        "reached"
     )
+    if form in _OF_COUNTS:
+        raise RecordError(
+            f"{beyond}: the samples may be counts of the recorder; give the StationXML of the instrument (inventory=) "
+            f"and no unit{f'; divided {fits} they would be plausible as acceleration' if fits else ''}."
+        )
+    if fits:
+        raise RecordError(f"{beyond}; divided {fits} it would be plausible; declare the true unit.")
+    raise RecordError(
+        f"{beyond}, and no factor between units explains it: counts of the recorder, perhaps; multiply them by their "
+        "calibration, or use the calibrated file of the record."
+    )
+
+
+_OF_COUNTS = ("SAC", "miniSEED", "obspy")
+"""Kinds of file whose samples are mostly counts."""
 
 
 def agree_with_mean_square(record: Accelerogram, stated: float, unit: str, digit: float) -> Accelerogram:

@@ -44,7 +44,7 @@ def read(
     """Return every channel of acceleration in the file at `path`, in the file's order, in m/s².
 
     unit, time_step [s]: needed where the file does not declare them; refused where it declares otherwise.
-    inventory: StationXML of a miniSEED file; by default the one beside it that names the same station.
+    inventory: StationXML of a miniSEED or SAC file; by default the one beside it that names the same station.
     response: "sensitivity" divides counts by the overall sensitivity; "full" removes the whole instrument response.
     Raises UnknownFormatError when no reader recognises the file, UndeclaredError when a unit or a time step is declared
     nowhere, RecordError for every other defect.
@@ -85,9 +85,9 @@ def read_content(
         repeated = tuple(filter(None, [repeated_rows(records)]))
         for i, record in enumerate(records):
             own = replace(source, format=reader.name, unit=record.source.unit)
-            doubts = (*record.warnings, *notes, *pass_limits(record))
+            doubts = (*record.warnings, *notes, *pass_limits(record, reader.name))
             damage = (*damage_warnings(record, per_line), *repeated)
-            records[i] = replace(record, source=own, warnings=doubts + damage)
+            records[i] = replace(record, source=own, warnings=tuple(dict.fromkeys(doubts + damage)))
         return records
 
 
@@ -95,7 +95,7 @@ def checked_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
     """Return channels that came without a file, with names of their own and the doubts that a file's would have."""
     checked = []
     for record in distinct_channels(records):
-        doubts = (*pass_limits(record), *damage_warnings(record, 1))
+        doubts = (*pass_limits(record, record.source.format), *damage_warnings(record, 1))
         checked.append(record.warned(*(each for each in doubts if each not in record.warnings)))
     return checked
 

@@ -1,8 +1,12 @@
 """Traces of obspy: pieces joined, counts turned into acceleration by the response of their instrument."""
 
+import os
 import re
+import tempfile
 import warnings
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -58,8 +62,17 @@ def measured_as(units: str) -> tuple[float, int]:
     raise ValueError(f"the instrument of this channel measures {units!r}, which is no motion of the ground")
 
 
-def calibrated(trace: Any, inventory: Any, response: str) -> tuple[np.ndarray, str]:
-    """Return (acceleration (n,) m/s², the sentence that says how) of a trace of counts.
+@dataclass(frozen=True, eq=False)
+class Calibrated:
+    """Acceleration (n,) m/s² that counts were turned into, the sentence that says how, and what is doubtful of it."""
+
+    acceleration: np.ndarray
+    sentence: str
+    warnings: tuple[str, ...] = ()
+
+
+def calibrated(trace: Any, inventory: Any, response: str) -> Calibrated:
+    """Return what the counts of a trace are as acceleration.
 
     inventory: obspy's; None where the trace holds its response itself. Raises RecordError where none can be removed.
     """
@@ -82,10 +95,10 @@ def calibrated(trace: Any, inventory: Any, response: str) -> tuple[np.ndarray, s
         mean = counts.mean() / per_unit
         done = f"Counts divided by the overall sensitivity {per_unit:g}"
         if order == 0:
-            return counts / per_unit - mean, f"{done}, and their mean removed, {mean:.6g} m/s²."
+            return Calibrated(counts / per_unit - mean, f"{done}, and their mean removed, {mean:.6g} m/s².")
         motion = np.gradient(counts / per_unit - mean, stats.delta)
         stays = "the response of the seismometer has no stages and stays"
-        return motion, f"{done} to a velocity, its mean removed, and differentiated; {stays}."
+        return Calibrated(motion, f"{done} to a velocity, its mean removed, and differentiated; {stays}.")
     nyquist = stats.sampling_rate / 2
     band = (_CORNERS[0], _CORNERS[1], _CORNERS[2] * nyquist, _CORNERS[3] * nyquist)
     if factor != 1:
@@ -94,7 +107,7 @@ def calibrated(trace: Any, inventory: Any, response: str) -> tuple[np.ndarray, s
             "M/S or M/S**2, or take response: sensitivity."
         )
     try:
-        with warnings.catch_warnings():
+        with warnings.catch_warnings(), _printed() as lines:
             warnings.simplefilter("ignore")
             how = {"output": "ACC", "pre_filt": band, "water_level": None}
             clean = trace.copy().remove_response(inventory=inventory, **how)
@@ -102,7 +115,34 @@ def calibrated(trace: Any, inventory: Any, response: str) -> tuple[np.ndarray, s
         raise RecordError(f"the response of {trace.id} cannot be removed, {error}.") from error
     limits = " and ".join(f"{band[i]:g}-{band[i + 1]:g} Hz" for i in (0, 2))
     removed = f"full instrument response removed to acceleration between {limits}"
-    return clean.data, f"Mean removed, 5 % cosine taper, {removed}."
+    doubts = (_UNLIKE.format(trace.id),) if any("sensitivities" in line for line in lines) else ()
+    return Calibrated(clean.data, f"Mean removed, 5 % cosine taper, {removed}.", doubts)
+
+
+_UNLIKE = (
+    "The overall sensitivity of {0} is more than 5 % off what the stages of its response give at the frequency it is "
+    "stated for; the stages were used: ask the network which one holds."
+)
+
+
+@contextmanager
+def _printed() -> Iterator[list[str]]:
+    """Collect the lines that a library of C writes to the error output of the process, which name no file."""
+    lines: list[str] = []
+    try:
+        before = os.dup(2)
+    except OSError:  # a process without an error output
+        yield lines
+        return
+    with tempfile.TemporaryFile() as kept:
+        os.dup2(kept.fileno(), 2)
+        try:
+            yield lines
+        finally:
+            os.dup2(before, 2)
+            os.close(before)
+            kept.seek(0)
+            lines += kept.read().decode("utf-8", "replace").splitlines()
 
 
 def _check_gain(gain: float, response: Any) -> None:

@@ -16,7 +16,7 @@ from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.text import LARGEST_SERIES
-from rocking.records.traces import first_line, joined, names
+from rocking.records.traces import calibrated, first_line, joined, names, site
 from rocking.tables import read_whole
 
 _DAMAGE = re.compile(r"integrity|not a SEED record|unexpected end|will not be read|corrupt|mismatch", re.I)
@@ -103,7 +103,6 @@ def _is_sac(content: bytes) -> bool:
 
 def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
     traces, warnings = _stream(content, "SAC", checksize=True)
-    unit = options.unit_of(None)
     records = []
     for trace in traces:
         numbers = {key: float(x) for key, x in trace.stats.sac.items() if isinstance(x, np.floating | float)}
@@ -115,17 +114,43 @@ def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
         # The step in the file has single precision: 0.02 is stored as 0.0199999996.
         step = float(f"{trace.stats.delta:.6g}")
         _check_sac(header, trace.data, step)
-        values, offset = without_offset(trace.data.astype(float) * trace.stats.calib, unit)
-        facts: dict[str, Any] = {name: header[key] for name, key in _SAC_PLACE.items() if key in header}
+        unit, values, facts = _sac_motion(trace, options)
+        facts |= {name: header[key] for name, key in _SAC_PLACE.items() if key in header}
         if abs(header.get("cmpaz", _UNDEFINED)) <= 360:
             facts["azimuth"] = header["cmpaz"] % 360
         if "cmpinc" in header:  # degrees from upwards: 0 and 180 are vertical, 90 is horizontal
             facts["vertical"] = abs(header["cmpinc"] % 180 - 90) > _STEEP
         if header.get("stdp", 0.0) >= _BURIED:
             facts["borehole"] = True
-        facts |= names(trace) | {"processing": (offset,), "warnings": warnings}
+        facts |= names(trace) | {"warnings": (*warnings, *facts["warnings"])}
         records.append(options.accelerogram(unit, values, step, **facts))
     return records
+
+
+def _sac_motion(trace: Any, options: Options) -> tuple[str, np.ndarray, dict[str, Any]]:
+    """Return the unit of the samples of a SAC file, the samples (n,), and what was done to them.
+
+    A unit that is declared wins; without one the samples are counts, which the StationXML that is given, or lies beside
+    the file, turns into acceleration. Raises UndeclaredError where there is neither.
+    """
+    if options.unit is None:
+        try:
+            inventory = _inventory(trace.stats, options)
+        except UndeclaredError as error:
+            raise UndeclaredError(_SAC_SILENT.format(error), "unit") from None
+        if inventory is not None:
+            motion = calibrated(trace, inventory, options.response)
+            facts = {"processing": (motion.sentence,), "warnings": motion.warnings, "processed": False}
+            return "m/s2", motion.acceleration, facts | site(trace, inventory)
+    unit = options.unit_of(None)
+    values, offset = without_offset(trace.data.astype(float) * trace.stats.calib, unit)
+    return unit, values, {"processing": (offset,), "warnings": ()}
+
+
+_SAC_SILENT = (
+    "unit is not declared, for a SAC file declares none. Of acceleration, declare it: the column unit of the "
+    "catalogue, --unit on the command line, unit= in Python. Of counts, give the StationXML of the instrument: {}"
+)
 
 
 def _check_sac(header: dict[str, float], data: np.ndarray, step: float) -> None:
@@ -200,7 +225,8 @@ def _read_miniseed(content: bytes, options: Options) -> list[Accelerogram]:
     records = []
     for record in Accelerogram.from_obspy(traces, inventory, unit, options.response):
         step = options.time_step_of(float(f"{record.time_step:.9g}"))
-        records.append(replace(record, time_step=step, warnings=warnings, processed=False))
+        doubts = (*warnings, *record.warnings)
+        records.append(replace(record, time_step=step, warnings=doubts, processed=False))
     return records
 
 
@@ -236,6 +262,14 @@ def _parse(path: Path) -> Any:
             return read_inventory(io.BytesIO(content), format="STATIONXML")
     except Exception as error:
         raise RecordError(f"damaged StationXML {path.name}, {str(error)[:200]}; fetch it again.") from error
+
+
+def may_be_counts(head: bytes) -> bool:
+    """Whether a file that begins with `head`, its first 1024 bytes, may hold counts, which need a StationXML."""
+    if MINISEED.recognise(head):
+        return True
+    versions = (struct.unpack_from(order + "i", head.ljust(_SAC_HEADER), _VERSION)[0] for order in "<>")
+    return any(version in (6, 7) for version in versions)
 
 
 def _refuse(content: bytes, options: Options) -> list[Accelerogram]:

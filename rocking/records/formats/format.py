@@ -129,7 +129,10 @@ def without_offset(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
     """
     offset = values.mean() if values.size else 0.0
     if abs(offset) * acceleration_factor(unit) > LARGEST_PEAK:
-        limit = "above the 5 g that no recorder is off by; declare the true unit"
+        limit = (
+            "above the 5 g that no recorder is off by; declare the true unit, or the calibration of counts "
+            "(inventory= of miniSEED and SAC)"
+        )
         raise RecordError(f"the mean of the record is {offset:.6g} {unit}, {limit}.")
     sentence = f"Mean of the whole record removed, {offset:.6g} {unit}: the offset of the recorder."
     return values - offset, sentence

@@ -85,6 +85,42 @@ def test_counts_without_an_instrument_are_refused(miniseed: Path) -> None:
     assert read(miniseed, inventory=miniseed.parent / "a.xml")[0].azimuth == 72
 
 
+def test_counts_of_sac_are_divided_as_those_of_miniseed_are(tmp_path: Path) -> None:
+    counts = trace(COUNTS.astype(np.float32))
+    counts.write(str(tmp_path / "record.sac"), format="SAC")
+    with pytest.raises(RecordError, match=r"unit is not declared.*give the StationXML.*describes XX\.MADE"):
+        read(tmp_path / "record.sac")
+    with pytest.raises(RecordError, match=r"may be counts of the recorder; give the StationXML"):
+        read(tmp_path / "record.sac", unit="cm/s2")
+    (tmp_path / "station.xml").write_text(XML.format(units="M/S**2"))
+    (record,) = read(tmp_path / "record.sac")
+    assert np.allclose(record.acceleration, (COUNTS - COUNTS.mean()) / 200000, atol=1e-7)
+    assert record.azimuth == 72 and record.processed is False
+    assert read(tmp_path / "record.sac", unit="nm/s2")[0].source.unit == "nm/s2"
+
+
+def test_a_folder_of_counts_hears_that_its_stationxml_is_missing(miniseed: Path) -> None:
+    trace(COUNTS.astype(np.float32)).write(str(miniseed.parent / "record.sac"), format="SAC")
+    for file in list_folder(miniseed.parent)[0]:
+        assert any("put the StationXML of the station beside it" in sentence for sentence in file.doubts)
+    (miniseed.parent / "station.xml").write_text(XML.format(units="M/S**2"))
+    assert [file.doubts for file in list_folder(miniseed.parent)[0]][:2] == [(), ()]
+
+
+def test_what_the_c_library_says_of_a_response_is_a_warning_of_the_record(miniseed: Path, capfd) -> None:
+    """The gain of a velocity meter with poles at 1 rad/s holds at its own frequency only."""
+    poles = "".join(
+        f'<Pole number="{n}"><Real>-0.7</Real><Imaginary>{sign}0.7</Imaginary></Pole>'
+        for n, sign in ((0, ""), (1, "-"))
+    )
+    xml = XML.format(units="M/S**2").replace("</PolesZeros>", poles + "</PolesZeros>")
+    (miniseed.parent / "station.xml").write_text(xml.replace("<Frequency>1<", "<Frequency>0.01<", 1))
+    (record,) = read(miniseed, response="full")
+    assert any("more than 5 % off what the stages" in sentence for sentence in record.warnings)
+    printed = capfd.readouterr()
+    assert "sensitivities" not in printed.err + printed.out
+
+
 @pytest.mark.parametrize(("xml", "message"), [
     ("", "not a plain StationXML"), ("<FDSNStationXML", "damaged"), ('<!DOCTYPE x><FDSNStationXML/>', "not a plain"),
     (XML.format(units="M/S**2").replace("2000-01-01", "2030-01-01"), "no response of XX.MADE"),
