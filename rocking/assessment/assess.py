@@ -26,7 +26,7 @@ from rocking.assessment.contacts import contact_share, doubt
 from rocking.assessment.cracks import cracks, ensemble_over_cracks
 from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
 from rocking.assessment.ground_motions import GroundMotions, processed
-from rocking.assessment.reserve import reserve
+from rocking.assessment.reserve_search import reserve
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.variations import Variation, candidates, processed_variants
 from rocking.assessment.verdict import BOTH_COMPONENTS, Method, Verdict, ratio_in_words

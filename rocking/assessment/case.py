@@ -263,6 +263,32 @@ class StationResult(Judgement):
         return self.decisive.reserve if self.decisive else None
 
     @property
+    def doubts_of_reserve(self) -> tuple[Doubt, ...]:
+        """What may happen of which the mechanism knows nothing, so that its reserve may be too high.
+
+        Unlike the verdict, which needs a doubt only where the mechanism stands, the reserve reaches from the first
+        uplift to the limit, so that a body of courses that tapers is always in doubt.
+        """
+        both = [*self.cases.values(), *([self.directions] if self.directions else [])]
+        doubts = {each.doubt for each in both}
+        if any(each.check.bounces for each in both):
+            doubts.add(Doubt.CONTACTS_OPEN)
+        if isinstance(self.body, Structure) and self.body.tapers:
+            doubts.add(Doubt.COURSES_THROWN)
+        return tuple(each for each in Doubt if each in doubts)
+
+    @property
+    def reserve_in_words(self) -> str:
+        """The reserve, and why it may be too high; "" where it was not sought."""
+        if self.reserve is None:
+            return ""
+        words = str(self.reserve)
+        if self.doubts_of_reserve:
+            reasons = " and ".join(self.doubts_of_reserve)
+            words = f"{words}; this is the reserve of the mechanism alone, and too high where {reasons}"
+        return words
+
+    @property
     def component(self) -> str:
         """The component of the case that decides, or `BOTH_COMPONENTS`."""
         deciding = self.decisive or self.worst or next(iter(self.cases.values()))

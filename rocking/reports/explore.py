@@ -108,11 +108,12 @@ def _case(
     closed = ratio(predicted, 2)
     band = f" (5 to 95 % of the members: {band_text(station, ' to ')})" if station.members else ""
     crack = f" Crack that governs: {station.crack}." if station.crack else ""
+    reserve = f" Reserve: {station.reserve_in_words}." if station.reserve else ""
     case: Content = {
         "verdict": str(station.verdict),
         "cell": cell_text(station),
         "text": f"{station.verdict}: {station.why}. Largest rotation over critical rotation: "
-        f"{ratio(station.rotation_ratio, 2)} as given{band}, {closed} by the closed form.{crack}",
+        f"{ratio(station.rotation_ratio, 2)} as given{band}, {closed} by the closed form.{crack}{reserve}",
         "share": _number(station.overturning_share),
         "severity": [_number(min(each, 1e9)) for each in station.severity],
         "component": row.component if row else "",

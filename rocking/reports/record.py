@@ -474,7 +474,7 @@ def _pictures(report: RecordReport) -> dict[str, object]:
 
 def _reserve_note(stations: Sequence[StationResult]) -> str:
     """Say of which structures the reserve is that of a mechanism which knows less than may happen; "" of none."""
-    doubtful = [station.structure for station in stations if station.is_in_doubt]
+    doubtful = [station.structure for station in stations if station.doubts_of_reserve]
     if not doubtful:
         return ""
     return (

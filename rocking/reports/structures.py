@@ -11,7 +11,9 @@ from matplotlib.figure import Figure
 
 from rocking.assessment.code_check import LIMIT_STATES, Check, LocalMechanism
 from rocking.assessment.dynamic_check import StructureCheck
+from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows.of_check import KINDS, disagreement
+from rocking.assessment.verdict import Doubt
 from rocking.quantities import counted
 from rocking.records.design_spectrum import DesignSpectrum
 from rocking.records.selection import Selection
@@ -35,7 +37,8 @@ class CheckedStructure:
     """The content of the page of one structure.
 
     checked: None where it could not be checked, and `refusal` then says why. overturning_share: mean over the records
-    of the study, nan without any; stations: how many records.
+    of the study, nan without any; stations: how many records. reserves: under each record of the study under which one
+    was sought; reserve_doubts: what may make them too high.
     """
 
     name: str
@@ -44,6 +47,8 @@ class CheckedStructure:
     refusal: str = ""
     overturning_share: float = math.nan
     stations: int = 0
+    reserves: Sequence[Reserve] = ()
+    reserve_doubts: Sequence[Doubt] = ()
 
 
 def structures_report(
@@ -161,11 +166,36 @@ def _share(each: CheckedStructure) -> str:
     if not each.stations:
         return "No record of the study tells whether it overturns."
     low, high = share_interval(each.overturning_share, each.stations)
-    return (
+    share = (
         f"Under the {counted(each.stations, 'record')} of the study, uncertain inputs considered, it overturns with a "
         f"share of {percent(each.overturning_share)} % (90 % interval over records: {percent(low)} to "
         f"{percent(high)} %)."
     )
+    return f"{share} {_reserve(each)}"
+
+
+def _reserve(each: CheckedStructure) -> str:
+    """By how much the records may be stronger: the least reserve and the middle one, and what they leave out."""
+    if not each.reserves:
+        return "No reserve was sought, by how much these records may be stronger."
+    lows = np.array([reserve.low for reserve in each.reserves])
+    reached = lows[~np.isnan(lows)]
+    limit = max(reserve.limit for reserve in each.reserves)
+    of_all = f"all {counted(lows.size, 'record')}" if lows.size > 1 else "that record"
+    if not reached.size:
+        words = f"Under {of_all} fewer than 5 % of its members fall up to {limit:g} times the record"
+    else:
+        words = f"5 % of its members fall at {number(reached.min(), 2)} times the most demanding record"
+        if lows.size > 1:
+            median = float(np.quantile(np.where(np.isnan(lows), np.inf, lows), 0.5, method="lower"))
+            middle = f"beyond {limit:g}" if math.isinf(median) else f"at {number(median, 2)}"
+            words = (
+                f"{words}, and {middle} times the record in the median over {counted(lows.size, 'record')}"
+            )
+    if each.reserve_doubts:
+        reasons = " and ".join(each.reserve_doubts)
+        words = f"{words}; this is the reserve of the mechanism alone, and too high where {reasons}"
+    return f"{words}."
 
 
 def share_interval(share: float, count: int) -> tuple[float, float]:

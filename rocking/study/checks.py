@@ -7,10 +7,12 @@ from pathlib import Path
 from rocking.assessment.dynamic_check import StructureCheck, check
 from rocking.assessment.rows.of_check import KINDS, CodeCheckRow, code_check_rows
 from rocking.assessment.rows.of_record import VerdictRow
+from rocking.assessment.verdict import Doubt
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records import load_catalogue
 from rocking.records.selection import Selection
 from rocking.reports.structures import CheckedStructure, structures_report
+from rocking.structures import Structure
 from rocking.study.job import Study
 from rocking.study.selection import pool_of, select_for
 from rocking.tables import read_table, write_tables, write_whole
@@ -48,7 +50,8 @@ def write_checks(study: Study, folder: Path, tell: Callable[[str], None] = lambd
             )
         except RockingError as error:
             refusal = f"It could not be checked: {error}"
-        shares = [each.overturning_share for each in verdicts if each.structure == name]
+        own = [each for each in verdicts if each.structure == name]
+        shares = [each.overturning_share for each in own]
         known = [share for share in shares if not math.isnan(share)]
         page = CheckedStructure(
             name=name,
@@ -57,6 +60,8 @@ def write_checks(study: Study, folder: Path, tell: Callable[[str], None] = lambd
             refusal=refusal,
             overturning_share=sum(known) / len(known) if known else math.nan,
             stations=len(known),
+            reserves=[each.reserve for each in own if each.reserve is not None],
+            reserve_doubts=_reserve_doubts(structure, own),
         )
         pages.append(page)
         tell(f"{name}: {refusal or _told(checked)}")
@@ -66,6 +71,14 @@ def write_checks(study: Study, folder: Path, tell: Callable[[str], None] = lambd
     write_tables({CodeCheckRow: rows}, folder, "rocking-code-checks", "code_checks.json")
     report = structures_report(pages, spectrum, study.settings.mapping(), selection, notices)
     write_whole(folder / "structures.pdf", report)
+
+
+def _reserve_doubts(structure: Structure, verdicts: Iterable[VerdictRow]) -> list[Doubt]:
+    """What may happen to a structure of which the mechanism whose reserve it is knows nothing."""
+    told = {doubt for each in verdicts for doubt in Doubt if doubt in each.why}
+    if structure.tapers:
+        told.add(Doubt.COURSES_THROWN)
+    return [doubt for doubt in Doubt if doubt in told]
 
 
 def _told(checked: StructureCheck | None) -> str:

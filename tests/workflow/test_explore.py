@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from scipy.signal import detrend
 
+from rocking.assessment.rows.of_record import VerdictRow
 from rocking.motion.integration import integrate
 from rocking.pulses import extract_pulses
 from rocking.records.catalogue import load_catalogue
@@ -21,6 +22,7 @@ from rocking.structures import load_structures
 from rocking.study.job import Study, run_job
 from rocking.study.results import page_contents
 from rocking.study.settings import read_settings
+from rocking.tables import read_table
 from tests.workflow.write_study import write_study
 
 PATIENCE = 100
@@ -126,6 +128,15 @@ def test_the_page_carries_the_closed_form_of_each_case_and_the_path_of_the_groun
     drawn = unpacked(motion["displacement"])
     expected = extremes(accelerogram.times, path, 0.0, accelerogram.duration)
     assert drawn == pytest.approx(expected, abs=np.abs(path).max() / 30000)
+
+
+def test_the_page_tells_the_reserve_that_the_table_holds_and_what_it_leaves_out(content, study):
+    """The factors of verdicts.csv stand in the words; those of a spire with what its mechanism does not follow."""
+    rows = {row.structure: row for row in read_table(VerdictRow, study[0].parent.parent / "part")}
+    for name, case in content["records"][0]["cases"].items():
+        reserve = rows[name].reserve
+        assert reserve is not None and f"Reserve: {reserve}" in case["text"]
+        assert "courses above a rocking body may be thrown" in case["text"] or name != "spire"
 
 
 def test_every_case_and_every_failure_is_on_the_page(content, study):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rocking.assessment.reserve import Reserve
 from rocking.assessment.verdict import (
     BOTH_COMPONENTS,
     POLARITIES,
@@ -256,6 +257,13 @@ class VerdictRow(MembersRow, Judgement):
     why: str = column("Reason for the verdict")
     stack_falls: int | None = column("Stacks of courses that fall in contact dynamics; empty: not asked")
     stack_runs: int | None = column("Stacks that were followed, over amplitudes, time steps and directions")
+
+    @property
+    def reserve(self) -> Reserve | None:
+        """The reserve, whose factors are nan where they were not reached; None where it was not sought."""
+        if math.isnan(self.reserve_limit):
+            return None
+        return Reserve(self.reserve_low, self.reserve_median, self.reserve_high, self.reserve_limit)
 
 
 @row("supports")

@@ -9,7 +9,8 @@ import pytest
 import rocking
 from rocking.assessment.causes import lattice
 from rocking.assessment.ground_motions import GroundMotions
-from rocking.assessment.reserve import Reserve, reserve
+from rocking.assessment.reserve import Reserve
+from rocking.assessment.reserve_search import reserve
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.errors import ConfigurationError
 from rocking.records import Accelerogram

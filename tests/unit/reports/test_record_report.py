@@ -10,7 +10,7 @@ from rocking.assessment.rows.of_study import structure_rows
 from rocking.assessment.verdict import Agreement, Doubt, Verdict
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports.record import RecordReport, failure_report
-from rocking.structures import Block
+from rocking.structures import Block, Spire
 from rocking.tables import cell
 
 from .conftest import HOSTILE, assessed, of_structures, pages, shaken
@@ -185,3 +185,14 @@ def test_a_reserve_that_may_be_too_high_is_told_as_such(example):
     stations = example.result.stations | {name: replace(station, cases=cases)}
     doubtful = replace(example, result=replace(example.result, stations=stations))
     assert f"may be too high for {name}" in doubtful.data()["reserve-note"]
+
+
+def test_the_reserve_of_a_spire_is_always_told_as_the_mechanisms(example):
+    """Its courses may be thrown at every factor, also where it falls as a mechanism and its verdict needs no doubt."""
+    name = next(each.structure for each in example.stations if each.reserve is not None)
+    station = example.result.stations[name]
+    assert station.reserve_in_words == str(station.reserve)
+    spire = Spire(width=3.0, height=15.0, wall_thickness=0.25, crack_height=5.0)
+    words = replace(station, body=spire).reserve_in_words
+    assert words.startswith(str(station.reserve))
+    assert words.endswith("too high where courses above a rocking body may be thrown")

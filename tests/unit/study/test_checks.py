@@ -1,6 +1,7 @@
 """The table of checks and the pages to sign: one of each structure, findings with both figures, and what is refused."""
 
 import csv
+import math
 import pickle
 from types import SimpleNamespace
 
@@ -178,6 +179,38 @@ def test_the_page_names_the_client_and_what_the_checks_rest_on():
     assert "50 %" in text["share"] and text["figure"][0]["svg"].startswith("<?xml")
     assert f"T_SLV = {checked.limit.period:.3g}" in " ".join(text["sentences"])
     assert [line[0] for line in text["checks"]["rows"]] == ["linear", "nonlinear"]
+
+
+def test_the_page_tells_a_reserve_that_was_not_sought_from_one_that_was_not_reached():
+    from rocking.assessment.reserve import Reserve
+    from rocking.assessment.verdict import Doubt
+    from rocking.reports.structures import CheckedStructure
+
+    spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
+
+    def share(*reserves: Reserve, doubts: tuple[Doubt, ...] = ()) -> str:
+        page = CheckedStructure(
+            name="parapet",
+            structure=STRUCTURES["parapet"],
+            checked=check(STRUCTURES["parapet"], spectrum),
+            overturning_share=0.5,
+            stations=4,
+            reserves=reserves,
+            reserve_doubts=doubts,
+        )
+        return structures_data([page], spectrum, Settings().mapping())["pages"][0]["share"]
+
+    never = Reserve(math.nan, math.nan, math.nan, 3.0)
+    low = Reserve(0.8, 1.1, math.nan, 3.0)
+    high = Reserve(1.6, 2.2, 3.0, 3.0)
+    assert "No reserve was sought" in share()
+    assert "Under all 2 records fewer than 5 % of its members fall up to 3 times the record." in share(
+        never, never
+    )
+    both = share(high, low, never)
+    assert "at 0.80 times the most demanding record, and at 1.6 times the record in the median" in both
+    assert "beyond 3 times the record in the median over 3 records" in share(low, never, never)
+    assert share(low, doubts=(Doubt.CONTACTS_OPEN,)).endswith("too high where contacts open.")
 
 
 def test_the_report_of_a_record_draws_the_design_level_beside_its_spectra(study):
