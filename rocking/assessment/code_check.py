@@ -6,7 +6,7 @@ that push without resting on the chain are not implemented, nor are other codes.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -29,6 +29,8 @@ BEHAVIOUR_FACTOR = 2.0
 _MOST_FALL = 0.5
 """Share of the largest capacity in acceleration by which it may fall as a part breaks (C8.7.1.2.1.6)."""
 _JUST_BEFORE = 1 - 1e-12
+Demand = Callable[[np.ndarray], np.ndarray]
+"""What is asked of a mechanism at levels (n,) of the spectrum, m/s²."""
 
 
 @dataclass(frozen=True)
@@ -290,8 +292,9 @@ def kinematic_check(
         )
         for words, sign, body in _opening(structure)
     )
-    damage = [_damage_level(each, floor) for each in mechanisms]
-    first = int(np.argmin(damage))
+    # What lets the weakest mechanism start does so at the least level, as all feel the same motion.
+    first = int(np.argmin([each.onset_acceleration for each in mechanisms]))
+    damage = _damage_level(mechanisms[first], floor)
     linear = nonlinear = None
     remark = ""
     governing = mechanisms[first]
@@ -303,23 +306,20 @@ def kinematic_check(
         linear = Check(
             clause=clause,
             limit_state=limit_state,
-            capacity=behaviour * damage[first],
+            capacity=behaviour * damage,
             demand=spectrum.level,
             mechanism=mechanisms[first].description,
         )
     if limit_state in LIMIT_STATES:
-        state = LIMIT_STATES[limit_state]
-        levels = [_collapse_level(each, floor, state) for each in mechanisms]
-        reached = np.maximum(levels, damage)  # a_g,SLV is never below a_g,SLD
-        governed_by = int(np.argmin(reached))
-        if math.isinf(reached[governed_by]):
+        governed_by, capacity = _weakest(mechanisms, floor, LIMIT_STATES[limit_state])
+        if math.isinf(capacity):
             remark = _not_made(mechanisms[first])
         else:
             governing = mechanisms[governed_by]
             nonlinear = Check(
                 clause="C8.7.1.2.1.8",
                 limit_state=limit_state,
-                capacity=float(reached[governed_by]),
+                capacity=capacity,
                 demand=spectrum.level,
                 mechanism=governing.description,
             )
@@ -327,7 +327,7 @@ def kinematic_check(
         limit_state=limit_state,
         linear=linear,
         nonlinear=nonlinear,
-        damage_level=damage[first],
+        damage_level=damage,
         mechanisms=mechanisms,
         governing=governing,
         remark=remark,
@@ -369,18 +369,49 @@ def _opening(structure: Structure) -> Iterator[tuple[str, int, Structure]]:
             yield f"{opens}{falls}".removesuffix(", ") or "as given", sign, body
 
 
-def _damage_level(mechanism: LocalMechanism, floor: FloorDemand) -> float:
-    """a_g [m/s²] at which the mechanism starts: C8.7.1.8, of a part free to vibrate C8.7.1.9."""
-    period = mechanism.elastic_period
+def _felt_by(floor: FloorDemand, period: float) -> Demand:
+    """What a mechanism of elastic `period` [s] feels as it starts, m/s² (C8.7.1.8, free to vibrate C8.7.1.9)."""
+    if not period:
+        return floor.peak
 
     def felt(level: np.ndarray) -> np.ndarray:
-        return floor.acceleration(period, level, floor.spectrum.damping) if period else floor.peak(level)
+        return floor.acceleration(period, level, floor.spectrum.damping)
 
-    return least_level(floor.spectrum, felt, mechanism.onset_acceleration)
+    return felt
 
 
-def _collapse_level(mechanism: LocalMechanism, floor: FloorDemand, state: LimitState) -> float:
-    """a_g [m/s²] for which the displacement demand at the secant period is that of the limit state."""
+def _damage_level(mechanism: LocalMechanism, floor: FloorDemand) -> float:
+    """a_g [m/s²] at which the mechanism starts."""
+    felt = _felt_by(floor, mechanism.elastic_period)
+    return Crossing.of(floor.spectrum, felt, mechanism.onset_acceleration).level
+
+
+def _weakest(
+    mechanisms: Sequence[LocalMechanism], floor: FloorDemand, state: LimitState
+) -> tuple[int, float]:
+    """The place of the mechanism that reaches `state` at the least a_g, and that a_g [m/s²]; inf where none does.
+
+    a_g,SLV is never below a_g,SLD. Levels are refined only of such mechanisms as may be the weakest.
+    """
+    crossings = [_collapse(each, floor, state) for each in mechanisms]
+    lowest = [each.low if isinstance(each, Crossing) else each for each in crossings]
+    weakest, least = int(np.argmin(lowest)), math.inf
+    for place in np.argsort(lowest, kind="stable").tolist():
+        if lowest[place] > least:
+            break
+        crossing = crossings[place]
+        level = crossing.level if isinstance(crossing, Crossing) else crossing
+        mechanism = mechanisms[place]
+        felt = _felt_by(floor, mechanism.elastic_period)
+        if math.isfinite(level) and float(felt(np.array(level))) < mechanism.onset_acceleration:
+            level = max(level, _damage_level(mechanism, floor))
+        if level < least or (level == least and place < weakest):
+            weakest, least = place, level
+    return weakest, least
+
+
+def _collapse(mechanism: LocalMechanism, floor: FloorDemand, state: LimitState) -> "Crossing | float":
+    """Where the displacement demand at the secant period is that of the limit state; a_g itself where that is plain."""
     point = mechanism.limit(state)
     if not point.displacement > 0:
         return 0.0
@@ -390,24 +421,39 @@ def _collapse_level(mechanism: LocalMechanism, floor: FloorDemand, state: LimitS
     def asked(level: np.ndarray) -> np.ndarray:
         return floor.displacement(mechanism.elastic_period, point.period, level, state.damping)
 
-    return least_level(floor.spectrum, asked, point.displacement)
+    return Crossing.of(floor.spectrum, asked, point.displacement)
 
 
-def least_level(
-    spectrum: DesignSpectrum, demand: Callable[[np.ndarray], np.ndarray], capacity: float
-) -> float:
-    """Return the least level [m/s²] of `spectrum` at which `demand`, of levels (n,), reaches `capacity`.
+@dataclass(frozen=True)
+class Crossing:
+    """The least level [m/s²] of a spectrum at which a demand reaches a capacity, between `low` and `high`.
 
     On soft soil the factor S_S falls with a_g, so that it may be reached more than once.
     """
-    from scipy.optimize import brentq  # slow to import, and needed by checks only
 
-    near = spectrum.level * capacity / float(demand(np.array(spectrum.level)))
-    levels = near * np.geomspace(1e-2, 1e2, 801)
-    asked = demand(levels)
-    beyond = int(np.argmax(asked >= capacity))
+    demand: Demand
+    capacity: float
+    low: float
+    high: float
 
-    def missing(level: float) -> float:
-        return float(demand(np.array(level))) - capacity
+    @classmethod
+    def of(cls, spectrum: DesignSpectrum, demand: Demand, capacity: float) -> "Crossing":
+        """Return the first one. demand: of levels (n,)."""
+        near = spectrum.level * capacity / float(demand(np.array(spectrum.level)))
+        levels = near * _TRIED
+        beyond = int(np.argmax(demand(levels) >= capacity))
+        return cls(demand, capacity, float(levels[beyond - 1]), float(levels[beyond]))
 
-    return float(brentq(missing, levels[beyond - 1], levels[beyond], rtol=1e-14, xtol=1e-16))
+    @property
+    def level(self) -> float:
+        """The level itself."""
+        from scipy.optimize import brentq  # slow to import, and needed by checks only
+
+        return float(brentq(self._missing, self.low, self.high, rtol=1e-14, xtol=1e-16))
+
+    def _missing(self, level: float) -> float:
+        return float(self.demand(np.array(level))) - self.capacity
+
+
+_TRIED = np.geomspace(1e-2, 1e2, 801)
+"""Levels over a first guess among which a crossing is sought."""

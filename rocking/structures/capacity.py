@@ -4,6 +4,7 @@ The displacement of the equivalent system of one degree of freedom and its parti
 displacements at rest.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -15,6 +16,10 @@ from rocking.drawn import Drawn
 from rocking.structures.drawing import plane
 from rocking.structures.linkage import Linkage
 from rocking.structures.mechanism import Side, SideTie
+
+_CUBED_IS_ROUNDING = 1e-6
+"""Halley's method cubes the error: after a relative step this small none is left."""
+_MOST_STEPS = 100
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,21 +104,36 @@ class StaticCapacity:
         return float(self.linkage.carried(self.control_part, self.control_corner, at_rest).moved.real)
 
     def rotation_at(self, displacement: float) -> float:
-        """Return the rotation up to φ_cr at which the control point has moved by `displacement` [m]."""
-        from scipy.optimize import brentq  # slow to import, and needed by checks only
+        """Return the rotation up to φ_cr at which the control point has moved by `displacement` [m].
 
+        By Halley's method, kept between rotations on either side, from the chord to φ_cr.
+        """
         critical = self.side.critical_rotation
-        if displacement >= float(self.displacement(critical)):
+        farthest = float(self.displacement(critical))
+        if displacement >= farthest:
             return critical
-        return float(
-            brentq(
-                lambda phi: float(self.displacement(phi)) - displacement,
-                0.0,
-                critical,
-                xtol=1e-16,
-                rtol=1e-14,
-            )
-        )
+        low, high = 0.0, critical
+        rotation = critical * displacement / farthest
+        for _ in range(_MOST_STEPS):
+            moved, velocity, bend = self._control(rotation)
+            missing = moved - displacement
+            low, high = (low, rotation) if missing > 0 else (rotation, high)
+            slope = velocity - missing * bend / (2 * velocity) if velocity > 0 else 0.0
+            new = rotation - missing / slope if slope > 0 else math.inf
+            if not low <= new <= high:
+                new = (low + high) / 2
+            step = abs(new - rotation)
+            rotation = new
+            if step <= _CUBED_IS_ROUNDING * rotation:
+                break
+        return rotation
+
+    def _control(self, rotation: float) -> tuple[float, float, float]:
+        """The horizontal displacement of the control point [m] and its derivatives with φ."""
+        motion = self.linkage.motion(np.asarray(rotation))
+        point = self.linkage.carried(self.control_part, self.control_corner, motion)
+        moved, velocity, bend = (float(each.real) for each in point)
+        return moved - self._rounding, velocity, bend
 
     def curve(self, count: int) -> CapacityCurve:
         """Return it at `count` equal steps of rotation, and where ties yield or break and just beyond."""
