@@ -9,6 +9,7 @@ lies within a factor two would look better than it is.
 """
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from enum import StrEnum
 
@@ -60,7 +61,7 @@ class Doubt(StrEnum):
     COURSES_THROWN = "courses above a rocking body may be thrown"
 
 
-class Judgement:
+class Judgement(ABC):
     """A verdict with its counts, as a result decides it or as a row of verdicts holds it; and the words for both."""
 
     __slots__ = ()
@@ -68,74 +69,74 @@ class Judgement:
     """Name of the structure."""
 
     @property
+    @abstractmethod
     def verdict(self) -> Verdict:
         """The verdict on the structure."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def why(self) -> str:
         """The reason for the verdict."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def members(self) -> int:
         """Number of members of the ensemble that decides; 0 without one."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def overturning_members(self) -> int:
         """Number of members that overturn."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def overturning_share(self) -> float:
         """Share of the members that overturn; of a single run 0 or 1."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def rotation_ratio(self) -> float:
         """Largest rotation over critical rotation as recorded; inf if it overturns."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def rotation_ratio_low(self) -> float:
         """5 % quantile of the rotation ratio of the members."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def rotation_ratio_high(self) -> float:
         """95 % quantile of the rotation ratio of the members."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def crack(self) -> str:
         """The crack that governs; "" where only one may form."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def statics_crack(self) -> str:
         """The crack that statics chooses, where another one governs; "" elsewhere."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def statics_members(self) -> int | None:
         """Members with that crack; None where there is none."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def statics_overturning_members(self) -> int | None:
         """Members that overturn with that crack; None where there is none."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def stack_falls(self) -> int | None:
         """Stacks of courses that fall in contact dynamics; None where none was followed."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def stack_runs(self) -> int | None:
         """Stacks of courses that contact dynamics followed; None where none was."""
-        raise NotImplementedError
 
     @property
     def severity(self) -> tuple[float, ...]:

@@ -4,10 +4,10 @@ A class says it in the type of each parameter: `height: Annotated[float, length(
 loader, the checks at birth, the JSON schema and the documentation follow from there.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache, reduce
-from inspect import Parameter, Signature, signature
+from inspect import Parameter, signature
 from operator import or_
 from types import NoneType
 from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
@@ -176,18 +176,6 @@ class Form:
     def required(self) -> tuple[str, ...]:
         """The keys that must be given."""
         return tuple(each.key for each in self.fields if each.required)
-
-
-def plain_signature(function: Callable[..., Any]) -> Signature:
-    """Return the signature with plain types, for a reader: what is said of each value stands in the documentation."""
-    own = signature(function)
-    plain = [each.replace(annotation=_plain(each.annotation)) for each in own.parameters.values()]
-    return own.replace(parameters=plain, return_annotation=Signature.empty)
-
-
-def _plain(hint: Any) -> Any:
-    """A type without what is said beside it."""
-    return get_args(hint)[0] if get_origin(hint) is Annotated else hint
 
 
 def _bounded(bounds: Mapping[str, float]) -> Mapping[str, float]:

@@ -1,12 +1,11 @@
 """Every structure: mechanism, bodies, drawing, contacts, candidates, capacity, and how a file describes it."""
 
 import warnings
-from abc import ABCMeta, abstractmethod
+from abc import abstractmethod
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, fields, replace
 from functools import cache, cached_property
-from inspect import Signature, signature
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
@@ -19,8 +18,9 @@ from rocking.structures.capacity import StaticCapacity
 from rocking.structures.check_terms import CheckTerms
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.drawing import Dimension, Mark, Path, plane
-from rocking.structures.fields import Field, Form, Value, constructor, plain_signature
+from rocking.structures.fields import Field, Form, Value, constructor
 from rocking.structures.linkage import STILL, Linkage, Motion, Restitution, momentum_balance
+from rocking.structures.making import PlainlyMade, plainly_refusing
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.stack import Stack
 from rocking.structures.standing import Standing
@@ -35,45 +35,6 @@ CRACKS = 11
 """Number of mechanisms that are followed where more than one may form."""
 HIGHEST_SHARE = 0.95
 """Share of the height up to which a hinge or a crack is moved; a wall's hinge also stays that far above its base."""
-
-
-class PlainlyMade(ABCMeta):
-    """The kind of class that every structure is: its constructor shows plain types, and refuses in one sentence."""
-
-    def __setattr__(cls, name: str, value: Any) -> None:
-        if name == "__init__":  # which the dataclass makes when the class stands already
-            value.__signature__ = plain_signature(value)
-        super().__setattr__(name, value)
-
-    @property
-    def __signature__(cls) -> Signature:
-        own = signature(cls.__init__)  # type: ignore[misc]
-        return own.replace(parameters=[*own.parameters.values()][1:])
-
-    if not TYPE_CHECKING:  # a type checker looks at the constructor itself
-
-        def __call__(cls, *given: Any, **named: Any) -> Any:
-            try:
-                return super().__call__(*given, **named)
-            except TypeError as wrong:
-                try:
-                    cls.__signature__.bind(*given, **named)
-                except TypeError as mismatch:
-                    raise StructureError(cls._how_it_is_made(str(mismatch))) from None
-                raise wrong
-
-    def _how_it_is_made(cls, mismatch: str) -> str:
-        """The sentence on arguments that do not fit, which the `mismatch` of Python tells."""
-        takes = constructor(cls)
-        needed = ", ".join(each.name for each in takes.fields if each.required)
-        others = ", ".join(each.name for each in takes.fields if not each.required)
-        made = [f"{cls.__name__}.{make}{signature(getattr(cls, make))}" for make in cls._other_makes()]
-        instead = f"; or use {made[0]}" if made else ""
-        return f"{cls.__name__}: {mismatch}, but it takes {needed}, and may be given {others}{instead}."
-
-    def _other_makes(cls) -> list[str]:
-        """The class methods by which a file may describe it."""
-        return [make for make in cls.__dict__.get("described_as", {}) if make]
 
 
 @dataclass(frozen=True, repr=False)
@@ -129,10 +90,13 @@ class Structure(metaclass=PlainlyMade):
 
     def __init_subclass__(cls, **more: Any) -> None:
         super().__init_subclass__(**more)
-        for make in filter(None, cls.__dict__.get("described_as", {})):
-            if make in cls.__dict__:
-                method = cls.__dict__[make].__func__
-                method.__signature__ = plain_signature(method)
+        makes = {
+            name: method
+            for name, method in cls.__dict__.items()
+            if isinstance(method, classmethod) and not name.startswith("_")
+        }
+        for name, method in makes.items():
+            setattr(cls, name, classmethod(plainly_refusing(method.__func__)))
 
     @classmethod
     @cache

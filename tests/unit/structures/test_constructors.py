@@ -3,6 +3,7 @@
 import inspect
 import pydoc
 
+import numpy as np
 import pytest
 
 import rocking
@@ -18,6 +19,20 @@ TIED = {"tie_heights": (1.6,), "tie_strength": 4e3}
         (rocking.Block, "it takes semi_diagonal, slenderness, .*or use Block.of_size\\(breadth: float"),
         (lambda: rocking.Wall(height=3), "it takes lower_height, upper_height, thickness"),
         (lambda: rocking.Frame(1, 2, 3, 4, 5, 6, 7, 8), "too many positional arguments"),
+        (
+            lambda: rocking.Wall.of_size(3, 0.4, tie=1),
+            "^Wall.of_size: got .*'tie', but it takes height, thickness,",
+        ),
+        (
+            lambda: rocking.LoadedWall.of_size(3, 0.4, 2e4, tie=1),
+            "'tie', .*hinge_height, crack, top_load, .*tie_h",
+        ),
+        (lambda: rocking.LoadedWall.hinged_at(3, 1), "^LoadedWall.hinged_at: missing .*'thickness'"),
+        (lambda: rocking.Block.of_size(1, 2, 3, 4, 5, 6), "^Block.of_size: too many positional arguments"),
+        (
+            lambda: rocking.Frame.of_columns(),
+            "^Frame.of_columns: missing .*'column_breadth', .*beam_mass_ratio",
+        ),
         (lambda: rocking.LoadedWall(1.6, 1.6, 0.25, 20e3, tie_stiffness=5e-324, **TIED), "at least 1e-12"),
         (lambda: rocking.LoadedWall(1.6, 1.6, 0.25, 20e3, tie_stiffness=1e308, **TIED), "from 0 to 1e"),
         (lambda: rocking.Facade((3.5,), (0.6,), 1e308), "unit_weight is 1e.305 kN/m³"),
@@ -48,8 +63,23 @@ def test_a_type_error_within_a_constructor_is_not_taken_for_wrong_arguments():
         def __post_init__(self) -> None:
             raise TypeError("of its own")
 
-    with pytest.raises(TypeError, match="of its own"):
-        Broken(2.0, 0.2)
+    for make in (lambda: Broken(2.0, 0.2), lambda: Broken.of_size(0.6, 4.0)):
+        with pytest.raises(TypeError, match="of its own"):
+            make()
+
+
+def test_a_very_stiff_tie_is_taken_with_the_same_remark_by_facade_and_wall():
+    """An elastic tie never lets go: the wall reaches no balance, the façade none before it lies on the ground."""
+    ties = {"unit_weight": 18e3, "tie_heights": (2.8,), "tie_stiffness": 1e9}
+    outwards = {"one_sided": True, "restitution": 0.9}
+    facade = rocking.Facade(
+        storey_heights=(3.0,), thicknesses=(0.4,), floor_loads=(10e3,), **ties, **outwards
+    )
+    wall = rocking.LoadedWall.of_size(3.0, 0.4, hinge_height=1.5, **ties, **outwards)
+    assert not wall.mechanism().can_overturn
+    assert facade.mechanism().critical_rotation == pytest.approx(np.pi / 2, abs=1e-3)
+    for structure in (facade, wall):
+        assert "tie_stiffness_kN_m2 is 1e+06 kN/m², but is usually between" in structure.remarks[0]
 
 
 @pytest.mark.parametrize("kind", TYPES.values())
