@@ -255,7 +255,20 @@ def _sentences(report: RecordReport) -> list[str]:
     remark = f"Whether it overturns depends on the processing of the record: {printing.listed(depends)}."
     carried = (standing_of(station) for station in report.stations)
     heavy = dict.fromkeys(each.warning for each in carried if each and each.warning)
-    return [*_advice(report), *([remark] if depends else []), *heavy, *warnings_of(report.tables)]
+    notes = [*_cautions(report), *([remark] if depends else []), *heavy]
+    return [*_advice(report), *notes, *warnings_of(report.tables)]
+
+
+def _cautions(report: RecordReport) -> list[str]:
+    """Return what the models of structures that lift leave out, each sentence once."""
+    of_sentence: dict[str, list[str]] = {}
+    for station in report.stations:
+        caution = station.body.caution if isinstance(station.body, Structure) else ""
+        if caution and station.rotation_ratio > 0:
+            of_sentence.setdefault(caution, []).append(report.called(station.structure))
+    return [
+        f"{printing.listed(list(dict.fromkeys(names)))}: {caution}." for caution, names in of_sentence.items()
+    ]
 
 
 _TELLS = 0.2

@@ -179,6 +179,16 @@ class Facade(Tied):
         """False: inside and outside differ."""
         return False
 
+    @property
+    def caution(self) -> str:
+        """A sentence where floors stand behind it through which the model lets it rock."""
+        if self.one_sided or not (any(self.floor_loads) or self.tie_heights):
+            return ""
+        return (
+            "It rocks inwards as freely as outwards, though the floors that it carries or is tied to stand behind it: "
+            "with one_sided: true and the restitution of its impact on them it rocks outwards only"
+        )
+
     def _linkage(self, mirrored: bool) -> Turning:
         """The storeys above the crack about their outer toe, or in the mirror about the inner one."""
         base, outwards = self._lowest_storey, -1.0 if mirrored else 1.0

@@ -136,6 +136,11 @@ class Structure(metaclass=PlainlyMade):
         """To which side it falls, in words: where `peak_side` is +1, and where it is −1."""
         return "to the right", "to the left"
 
+    @property
+    def caution(self) -> str:
+        """A sentence on what the model of this structure leaves out beside every verdict on it; "" where nothing."""
+        return ""
+
     @cached_property
     def linkages(self) -> tuple[Linkage, ...]:
         """The moving parts on the positive side; then, seen in the mirror, on the negative one where that differs."""

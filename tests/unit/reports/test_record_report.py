@@ -10,7 +10,7 @@ from rocking.assessment.rows.of_study import structure_rows
 from rocking.assessment.verdict import Agreement, Doubt, Verdict
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports.record import RecordReport, failure_report
-from rocking.structures import Block, Spire
+from rocking.structures import Block, Facade, Spire
 from rocking.tables import cell
 
 from .conftest import HOSTILE, assessed, of_structures, pages, shaken
@@ -196,3 +196,15 @@ def test_the_reserve_of_a_spire_is_always_told_as_the_mechanisms(example):
     words = replace(station, body=spire).reserve_in_words
     assert words.startswith(str(station.reserve))
     assert words.endswith("too high where courses above a rocking body may be thrown")
+
+
+def test_a_front_that_is_free_to_rock_through_its_floors_is_told_on_page_one():
+    sizes = {"storey_heights": (3.5, 3.0), "thicknesses": (0.6, 0.5), "unit_weight": 20e3}
+    fronts = {
+        "floors": Facade(**sizes, floor_loads=(12e3, 6e3)),
+        "leaning": Facade(**sizes, floor_loads=(12e3, 6e3), one_sided=True, restitution=0.5),
+        "free": Facade(**sizes),
+    }
+    report = assessed("one", [shaken()], fronts)
+    (told,) = (each for each in report.data()["sentences"] if "inwards as freely" in each)
+    assert told.startswith("floors: ") and "leaning" not in told and "free:" not in told
