@@ -54,8 +54,9 @@ class CatalogueRecord:
     # fmt: off
     id: str = described(MISSING, "name of the record in every result: letters, digits, `.`, `_`, `-`; at most 80")
     file: str = described(
-        MISSING, "path beside the catalogue or in the mirror, or `obspy:NAME` for a file that obspy installs; the "
-        "files of one station, the vertical component among them, are separated by `;`")
+        MISSING, "path beside the catalogue or in the mirror, `archive.zip/member` for a file in a zip archive, or "
+        "`obspy:NAME` for one that obspy installs; the files of one station, the vertical component among them, are "
+        "separated by `;`")
     sha256: str = described(
         "", "of each file as it lies on disk, in the order of `file`; a blank one is filled in when a study first "
         "reads the file, and checked from then on")

@@ -11,6 +11,7 @@ from typing import IO
 from urllib.parse import quote
 
 from rocking.errors import RecordError
+from rocking.records.archive import archive_of
 from rocking.records.catalogue import CatalogueRecord, RecordFile, catalogue_text, load_catalogue, read_rows
 from rocking.records.formats.binary import may_be_counts
 from rocking.records.read import LARGEST_FILE, bytes_of
@@ -48,8 +49,8 @@ def path_of(record: CatalogueRecord, file: RecordFile, mirror: str | Path | None
 def local_files(record: CatalogueRecord, mirror: str | Path | None = None) -> list[Path]:
     """Return the files on this machine that opening `record` would read; none that leads out of its folder.
 
-    Its own files and the StationXML it names; for a miniSEED or SAC file, packed or not, that names none and declares
-    no unit, every XML file beside it, among which the reader looks.
+    Its own files, or the archives that hold them, and the StationXML it names; for a miniSEED or SAC file, packed or
+    not, that names none and declares no unit, every XML file beside it, among which the reader looks.
     """
     own = [] if record.example_name else [file.name for file in record.files]
     paths: list[Path] = []
@@ -57,6 +58,7 @@ def local_files(record: CatalogueRecord, mirror: str | Path | None = None) -> li
     for name in filter(None, [*own, record.inventory]):
         with suppress(RecordError):
             paths += filter(None, [beside_catalogue(record, name, mirror)])
+    paths = list(dict.fromkeys(archive_of(path) or path for path in paths))
     for path in () if record.inventory or record.unit else paths:
         head = read_start(path, 1024)
         if head.startswith(b"\x1f\x8b") or may_be_counts(head):
@@ -70,7 +72,11 @@ def beside_catalogue(record: CatalogueRecord, file: str, mirror: str | Path | No
     Raises RecordError for a link that leads out of them.
     """
     for folder in (mirror, record.folder):
-        if folder is None or not (path := Path(folder) / file).is_file():
+        if folder is None:
+            continue
+        path = Path(folder) / file
+        archive = archive_of(path)
+        if not (archive or path).is_file():
             continue
         if not path.resolve().is_relative_to(Path(folder).resolve()):
             raise RecordError(f"file {file!r} leads out of {folder}; keep it inside.")

@@ -12,6 +12,7 @@ from typing import Any
 
 from rocking.errors import CatalogueError, RecordError
 from rocking.quantities import acceleration_unit
+from rocking.records.archive import is_archive, members
 from rocking.records.catalogue import is_safe_id, read_rows
 from rocking.records.dates import day_of
 from rocking.records.formats.format import plain
@@ -201,12 +202,23 @@ def _channels(group: Sequence[ListedFile]) -> list[ListedChannel]:
 
 
 def _files(folder: Path) -> Iterator[Path]:
-    """Yield the files under `folder` in the order of names, but for hidden ones and catalogues."""
+    """Yield the files under `folder`, in the order of names, those of archives too; no hidden ones and catalogues."""
     for path in sorted(path for path in folder.rglob("*") if path.is_file()):
+        if is_archive(path) and not path.name.startswith("."):
+            yield from _in_archive(path)
+            continue
         head = read_start(path, 11).removeprefix(b"\xef\xbb\xbf")
         is_catalogue = path.suffix.lower() == ".csv" and head.startswith(b"id,file")
         if not (path.name.startswith(".") or is_catalogue):
             yield path
+
+
+def _in_archive(path: Path) -> Iterator[Path]:
+    """Yield the files in an archive, or the archive itself where it cannot be read: reading it says why."""
+    try:
+        yield from (path / name for name in members(path))
+    except RecordError:
+        yield path
 
 
 def _row(group: Sequence[ListedFile], level: Sequence[ListedChannel], ids: set[str]) -> Row:

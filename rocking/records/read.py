@@ -13,9 +13,10 @@ from pathlib import Path
 
 import numpy as np
 
-from rocking.errors import RecordError, UnknownFormatError, about
+from rocking.errors import RecordError, UndeclaredError, UnknownFormatError, about
 from rocking.quantities import shown
 from rocking.records.accelerogram import Accelerogram, Source
+from rocking.records.archive import archive_of, is_archive, member_bytes, members
 from rocking.records.damage import damage_warnings, repeated_rows
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
@@ -43,6 +44,7 @@ def read(
 ) -> list[Accelerogram]:
     """Return every channel of acceleration in the file at `path`, in the file's order, in m/s².
 
+    Of a zip archive, those of every file in it; "archive.zip/member" names one of them.
     unit, time_step [s]: needed where the file does not declare them; refused where it declares otherwise.
     inventory: StationXML of a miniSEED or SAC file; by default the one beside it that names the same station.
     response: "sensitivity" divides counts by the overall sensitivity; "full" removes the whole instrument response.
@@ -56,7 +58,38 @@ def read(
         raise RecordError(f"path is {shown(path)}, but must be the path of a file, as a text or a Path.")
     path = Path(path)
     options = Options(unit, time_step, Path(inventory) if inventory else None, path.parent, response)
+    if is_archive(path):
+        return _read_archive(path, options)
     return read_raw(bytes_of(path), path, options)
+
+
+def _read_archive(path: Path, options: Options) -> list[Accelerogram]:
+    """Return the channels of every file in an archive that can be read; the first says which ones cannot.
+
+    Raises RecordError where none can: UndeclaredError if a unit or a time step is missing, else that of the first.
+    """
+    records: list[Accelerogram] = []
+    refused: list[tuple[str, RecordError]] = []
+    with about(printable(path.name)):
+        for name in members(path):
+            try:
+                records += read_raw(bytes_of(path / name), path / name, options)
+            except RecordError as error:
+                refused.append((name, error))
+        if not records:
+            reasons = [error for _, error in refused] or [
+                RecordError("the archive holds no file; fetch it again.")
+            ]
+            raise next((error for error in reasons if isinstance(error, UndeclaredError)), reasons[0])
+    if refused:
+        names = ", ".join(printable(name) for name, _ in refused[:_LISTED])
+        more = f" and {len(refused) - _LISTED} more" if len(refused) > _LISTED else ""
+        records[0] = records[0].warned(f"Of the archive these files were not read: {names}{more}.")
+    return records
+
+
+_LISTED = 5
+"""Files that a sentence names."""
 
 
 def read_raw(raw: bytes, path: Path, options: Options) -> list[Accelerogram]:
@@ -124,7 +157,7 @@ _DOUBLED = "The line ends are doubled (CR CR LF) by a faulty conversion; the num
 
 _BY_OBSPY = "which is read by way of obspy: rocking.from_obspy(obspy.read(path), unit=...)"
 _TOLD = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence in (
-    (rb"PK\x03\x04", "this is a zip archive; unpack it and read the files in it."),
+    (rb"PK\x03\x04", "this is a zip archive; call it so, as records.zip, or unpack it."),
     (rb"\x93NUMPY", "this is an array of numpy, which says neither unit nor time step; give it as "
      "rocking.Accelerogram(numpy.load(path), time_step)."),
     (rb"MATLAB 5\.0", "this is a file of MATLAB; export time and acceleration as text, with their units as names."),
@@ -209,7 +242,19 @@ def unpack(raw: bytes, name: str) -> bytes:
 
 
 def bytes_of(path: Path, largest: int = LARGEST_FILE) -> bytes:
-    """Return the bytes of a regular file. Raises RecordError when it is missing or larger than any accelerogram."""
+    """Return the bytes of a regular file, or of a member of a zip archive.
+
+    Raises RecordError when it is missing, larger than any accelerogram, or an archive itself.
+    """
+    if archive := archive_of(path):
+        return member_bytes(path, archive, largest)
+    if is_archive(path):
+        with about(printable(path.name)):
+            count = len(members(path))
+        raise RecordError(
+            f"{printable(path.name)}: this is a zip archive of {count} files; name each of them, as "
+            f"{printable(path.name)}/member, or list the folder with rocking catalogue."
+        )
     return read_whole(path, largest, RecordError, printable(str(path)))
 
 

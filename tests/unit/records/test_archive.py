@@ -1,0 +1,129 @@
+"""Zip archives: their members are read as the files of a folder are, and nothing leads out of them or swells."""
+
+import shutil
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rocking.errors import RecordError
+from rocking.records import load_catalogue, read
+from rocking.records.archive import members
+from rocking.records.catalogue import catalogue_text
+from rocking.records.files import fill_hashes, local_files
+from rocking.records.folder import catalogue_of_folder, list_folder
+from rocking.records.station import open_station
+from tests.contracts.made_files import TRUE, peer
+
+FILES = {"quake/RSN1_MADE_ST000.AT2": peer(), "quake/RSN1_MADE_ST090.AT2": peer().replace(", 45", ", 135")}
+
+
+def packed(path: Path, files: dict[str, str | bytes] = FILES, how: int = zipfile.ZIP_DEFLATED) -> Path:
+    with zipfile.ZipFile(path, "w", how) as archive:
+        for name, content in files.items():
+            archive.writestr(name, content)
+    return path
+
+
+def test_every_member_is_read_as_the_file_is(tmp_path):
+    archive = packed(tmp_path / "peer.zip", FILES | {"__MACOSX/._x": "junk", "readme.pdf": "%PDF"})
+    first, second = read(archive)
+    assert np.allclose(first.acceleration, TRUE, atol=1e-6) and (first.component, second.component) == (
+        "45",
+        "135",
+    )
+    assert first.warnings == ("Of the archive these files were not read: readme.pdf.",)
+    (alone,) = read(archive / "quake/RSN1_MADE_ST090.AT2")
+    assert alone.source.sha256 == second.source.sha256 and alone.source.path.endswith(
+        ".zip/quake/RSN1_MADE_ST090.AT2"
+    )
+
+
+def test_a_catalogue_names_the_members_and_a_study_opens_them(tmp_path):
+    packed(tmp_path / "peer.zip")
+    listed, rows = list_folder(tmp_path)
+    names = [f"peer.zip/{name}" for name in FILES]
+    assert [file.file for file in listed] == names and rows[0]["file"] == ";".join(names)
+    catalogue = tmp_path / "catalogue.csv"
+    catalogue.write_text(catalogue_text([row | {"sha256": ""} for row in rows]), encoding="utf-8")
+    assert fill_hashes(catalogue)
+    (record,) = load_catalogue(catalogue)
+    assert record.sha256 == rows[0]["sha256"]
+    assert len(open_station(record).horizontal) == 2
+    assert local_files(record) == [tmp_path / "peer.zip"]
+    packed(
+        tmp_path / "peer.zip", {name: content.replace("Quake", "Other") for name, content in FILES.items()}
+    )
+    with pytest.raises(RecordError, match="another version"):
+        open_station(record)
+
+
+def test_members_that_were_unpacked_are_followed_by_their_content(tmp_path):
+    archive = packed(tmp_path / "peer.zip")
+    rows = list_folder(tmp_path)[1]
+    shutil.unpack_archive(archive, tmp_path)
+    archive.unlink()
+    followed = catalogue_of_folder(tmp_path, standing=rows)
+    assert followed.standing[0]["file"] == ";".join(FILES) and not followed.new
+
+
+@pytest.mark.parametrize(
+    ("files", "words"),
+    [
+        ({"../out.AT2": peer()}, "leads out of it"),
+        ({"/etc/passwd": "x"}, "leads out of it"),
+        ({"a\\b.AT2": peer()}, "leads out of it"),
+        ({"C:x.AT2": peer()}, "leads out of it"),
+        ({f"{n}.AT2": "x" for n in range(1001)}, "1001 files, more than 1000"),
+        ({"[Content_Types].xml": "x", "xl/sheet.xml": "x"}, "workbook"),
+        ({"empty/": ""}, "holds no file"),
+        ({"big.txt": b"1 2\n" * (3 * 2**20)}, "larger than"),
+    ],
+)
+def test_archives_that_are_refused(tmp_path, files, words):
+    archive = packed(tmp_path / "bad.zip", files)
+    with pytest.raises(RecordError, match=words):
+        read(archive)
+    if "empty/" not in files:
+        assert all(file.refusal for file in list_folder(tmp_path)[0])
+
+
+def test_an_archive_within_an_archive_is_refused(tmp_path):
+    inner = packed(tmp_path / "inner.zip").read_bytes()
+    (tmp_path / "inner.zip").unlink()
+    archive = packed(tmp_path / "outer.zip", {"inner.zip": inner})
+    with pytest.raises(RecordError, match="archive within an archive"):
+        read(archive)
+    with pytest.raises(RecordError, match="holds no such file"):
+        read(archive / "inner.zip" / "quake")
+
+
+def test_what_swells_or_is_damaged_is_refused_member_by_member(tmp_path):
+    archive = packed(tmp_path / "peer.zip", how=zipfile.ZIP_STORED)
+    content = bytearray(archive.read_bytes())
+    content[content.find(b"ACCELERATION TIME")] ^= 1
+    archive.write_bytes(content)
+    (record,) = read(archive)
+    assert "ST000.AT2" in record.warnings[0]
+    with pytest.raises(RecordError, match="damaged there"):
+        read(archive / "quake/RSN1_MADE_ST000.AT2")
+    with pytest.raises(RecordError, match="no such file"):
+        read(archive / "quake/RSN1_MADE_ST180.AT2")
+
+
+def test_a_row_that_names_the_archive_alone_is_told_what_to_write(tmp_path):
+    packed(tmp_path / "peer.zip")
+    (tmp_path / "c.csv").write_text("id,file\nA,peer.zip\n", encoding="utf-8")
+    with pytest.raises(RecordError, match=r"zip archive of 2 files; name each of them, as peer\.zip/member"):
+        open_station(load_catalogue(tmp_path / "c.csv")[0])
+
+
+def test_an_encrypted_member_is_refused(tmp_path):
+    archive = packed(tmp_path / "peer.zip")
+    content = bytearray(archive.read_bytes())
+    at = content.find(b"PK\x01\x02")
+    content[at + 8] |= 1
+    archive.write_bytes(content)
+    with pytest.raises(RecordError, match="encrypted"):
+        read(archive / members(archive)[0])
