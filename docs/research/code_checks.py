@@ -4,16 +4,27 @@ No number is fitted: each record has the factor that brings its spectrum nearest
 unsafe where it overturns under more than a tenth of the records, without any factor of confidence.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
 from docs.research.report import Target
 from docs.research.scores import Measure, Score, scored
 from docs.research.sites import independent
-from rocking import Accelerogram, Block, DesignSpectrum, Wall, integrate_batch, response_spectrum
+from rocking import (
+    Accelerogram,
+    Block,
+    DesignSpectrum,
+    Wall,
+    check,
+    integrate_batch,
+    response_spectrum,
+    select,
+)
 from rocking.assessment.code_check import kinematic_check
+from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import GRAVITY
+from rocking.records.selection import SETS, Selection
 from rocking.structures import Structure
 from rocking.tables import Row, column, row
 
@@ -84,9 +95,9 @@ def code_check(target: Target) -> None:
         for factor in CONFIDENCE
     }
     ratios_of = {
-        (check, factor): np.array([getattr(each, check).ratio for each in of_factor])
+        (formula, factor): np.array([getattr(each, formula).ratio for each in of_factor])
         for factor, of_factor in checks.items()
-        for check in ("linear", "nonlinear")
+        for formula in ("linear", "nonlinear")
     }
     onset = np.array([each.damage_level for each in checks[1.0]])
     rows = [
@@ -110,6 +121,101 @@ def code_check(target: Target) -> None:
     target.publish("Code and dynamics", subtitle, {WallRow: rows, Score: scores})
 
 
+@row("sets")
+class SetTrial(Row):
+    """One row per wall and pool of stations: what its sets say, and those of the stations that were left out."""
+
+    wall: str = column("Cantilever, by height and thickness")
+    split: int = column("Number of the split of the stations into two halves; each half is a pool once")
+    pool: str = column("first or second half")
+    stations: int = column("Stations of the pool")
+    share: float = column("Share of the sets of this pool that meet the dynamic check")
+    share_low: float = column("Lower end of its 90 % interval")
+    share_high: float = column("Upper end of that interval")
+    other_share: float = column("Share of the sets of the other half that meet it")
+
+    @property
+    def covered(self) -> bool:
+        """Whether the interval holds what the stations left out say, but for the coarseness of a share of 200."""
+        return self.share_low - _ONE_SET <= self.other_share <= self.share_high + _ONE_SET
+
+    @property
+    def sets_disagree(self) -> bool:
+        """Whether the sets of either half disagree among themselves, so that there is a share to cover."""
+        return 0 < self.share < 1 or 0 < self.other_share < 1 or self.share != self.other_share
+
+
+_ONE_SET = 1 / SETS
+SET_STATIONS = 10
+SPLITS = 12
+SET_WALLS = {
+    f"{height:g} × {height / slenderness:.3g} m": Block.of_size(height / slenderness, height)
+    for height in (3.0, 6.0, 9.0)
+    for slenderness in (6.0, 8.0, 10.0)
+}
+"""Cantilevers from such as all sets pass to such as none does."""
+
+
+def code_sets(target: Target) -> None:
+    """Hold the share of sets that meet the dynamic check beside that of stations that were left out."""
+    pairs: dict[str, list[Accelerogram]] = {}
+    for _, site, record in independent(target.records):
+        pairs.setdefault(site, []).append(record)
+    sites = sorted(pairs)
+    rng = np.random.default_rng(40)
+    trials: list[SetTrial] = []
+    for split in range(SPLITS):
+        order = rng.permutation(len(sites))
+        halves = [[sites[place] for place in order[start::2]] for start in (0, 1)]
+        pools = [{site: pairs[site] for site in half} for half in halves]
+        try:
+            selections = [select(pool, SPECTRUM, SET_STATIONS, seed=split) for pool in pools]
+        except RockingError as error:
+            target.tell(f"split {split}: {error}")
+            continue
+        trials += _trials(selections, split)
+        target.tell(f"split {split}: {sum(each.covered for each in trials)} of {len(trials)} covered")
+    if not trials:
+        raise ConfigurationError(
+            f"no half of {len(sites)} sites gave sets of {SET_STATIONS} stations at the design level; give more "
+            "records."
+        )
+    splits = [str(each.split) for each in trials]
+    covered = np.array([each.covered for each in trials], dtype=float)
+    disagree = np.array([each.sets_disagree for each in trials])
+    scores = []
+    for part, own in (("all", np.ones(len(trials), dtype=bool)), ("sets disagree", disagree)):
+        measures = {"covered": covered[own]}
+        of_splits = [split for split, counts in zip(splits, own, strict=True) if counts]
+        scores += list(scored("share of sets that pass", part, measures, of_splits))
+    subtitle = (
+        f"{len(SET_WALLS)} cantilevers, sets of {SET_STATIONS} of half of {len(sites)} sites, {len(set(splits))} "
+        f"splits, {SPECTRUM.words}; intervals of the coverage by split."
+    )
+    target.publish("What another set would have said", subtitle, {SetTrial: trials, Score: scores})
+
+
+def _trials(selections: Sequence[Selection], split: int) -> Iterator[SetTrial]:
+    """What the sets of two halves say of each wall, one beside the other."""
+    for name, wall in SET_WALLS.items():
+        checks = [check(wall, SPECTRUM, records=each).dynamic for each in selections]
+        for place, which in enumerate(("first", "second")):
+            own, other = checks[place], checks[1 - place]
+            assert own is not None
+            assert other is not None
+            low, high = own.interval
+            yield SetTrial(
+                wall=name,
+                split=split,
+                pool=which,
+                stations=len(set(selections[place].stations)),
+                share=own.share,
+                share_low=low,
+                share_high=high,
+                other_share=other.share,
+            )
+
+
 def _scores(
     fallen: np.ndarray,
     kinds: np.ndarray,
@@ -122,7 +228,7 @@ def _scores(
         "walls hinged at mid-height": kinds == "wall, hinge at mid-height",
     }
     parts["all, by the mechanism that governs"] = ~parts["walls hinged at mid-height"]
-    for (check, factor), ratios in ratios_of.items():
+    for (formula, factor), ratios in ratios_of.items():
         for part, own in parts.items():
             passed = own & (ratios >= 1)
             failed = own & (ratios < 1)
@@ -130,7 +236,7 @@ def _scores(
                 f"unsafe of the {passed.sum()} that pass": _share(fallen[:, passed], lambda p: p > OFTEN),
                 f"never falls of the {failed.sum()} that fail": _share(fallen[:, failed], lambda p: p == 0),
             }
-            yield from scored(f"{check}, FC {factor:g}", part, measures, sites)
+            yield from scored(f"{formula}, FC {factor:g}", part, measures, sites)
 
 
 def _share(fallen: np.ndarray, says: Callable[[np.ndarray], np.ndarray]) -> Measure:

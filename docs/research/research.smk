@@ -38,6 +38,11 @@ TARGETS_OF_RESEARCH = {
         REAL_RECORDS,
         ["walls.csv"],
     ),
+    "code_sets": (
+        "Hold what sets of records say beside sets of stations left out",
+        REAL_RECORDS,
+        ["sets.csv"],
+    ),
     "validate": (
         "Predict the overturning of two specimens on a shake table",
         [f"{workflow.basedir}/records/shake_table.csv"],

@@ -23,6 +23,7 @@ from rocking.assessment.code_check import (
     LocalMechanism,
     kinematic_check,
 )
+from rocking.errors import ConfigurationError
 from rocking.motion.members import Members, integrate_members
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.design_spectrum import DesignSpectrum
@@ -113,6 +114,13 @@ def check(
     >>> checks.linear.passed, checks.nonlinear.passed
     (True, True)
     """
+    for name, value, allowed, words in (
+        ("spectrum", spectrum, DesignSpectrum, "a DesignSpectrum, as rocking.DesignSpectrum.ntc gives it"),
+        ("support", support, Support | None, "a Support or None"),
+        ("records", records, Selection | None, "sets of records, as rocking.select gives them, or None"),
+    ):
+        if not isinstance(value, allowed):
+            raise ConfigurationError(f"{name} is a {type(value).__name__}, but must be {words}.")
     by_formula = kinematic_check(
         structure,
         spectrum,

@@ -2,16 +2,19 @@
 
 import json
 import shutil
+from collections import Counter
 from pathlib import Path
 
 import pytest
 import yaml
 from made_campaign import write_campaign
 
+from docs.research.code_checks import WallRow
 from docs.research.ensembles import EnsembleTrial
 from docs.research.scores import Score
 from docs.research.validation import PredictionRow
 from rocking.assessment.fidelity import STRUCTURE, Tier, read_tiers
+from rocking.quantities import GRAVITY
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.tables import read_table
 from tests.workflow.conftest import SmallStudy, new_study
@@ -23,6 +26,7 @@ TARGETS = {
     "calibrate": {"scores.csv"},
     "calibrate_ensemble": {"scores.csv", "ensemble_trials.csv"},
     "validate": {"scores.csv", "predictions.csv"},
+    "code_check": {"scores.csv", "walls.csv"},
 }
 """With the tables of each."""
 BLOCKS = """
@@ -91,6 +95,42 @@ def test_calibrate_ensemble_tries_every_record(asked):
     trials = read_table(EnsembleTrial, asked.results / "calibrate_ensemble")
     assert {row.record for row in trials} == {"near_1", "near_2", "near_3", "far_4"}
     assert len(trials) == 4 * 3 and any(0 < row.share_drawn < 1 for row in trials)
+
+
+def test_code_check_holds_every_wall_beside_every_record(asked):
+    """The linear ratio of a cantilever by hand: α_0 = b/h, e* = 1 and q = 2 on soil B, where S_S falls with a_g."""
+    rows = read_table(WallRow, asked.results / "code_check")
+    kinds = Counter(row.kind for row in rows)
+    assert kinds == {
+        "cantilever": 143,
+        "wall, hinge of statics": 143,
+        "wall, hinge at mid-height": 143,
+    }
+    assert {row.records for row in rows} == {4}
+    assert any(0 < row.overturning < 4 for row in rows)
+    design = 0.25 * GRAVITY
+    for row in rows:
+        if row.kind == "cantilever":
+            level = row.linear_ratio * design / 2
+            soil = min(max(1.4 - 0.4 * 2.45 * level / GRAVITY, 1.0), 1.2)
+            assert level * soil == pytest.approx(row.thickness_m / row.height_m * GRAVITY / 1.35, rel=1e-9)
+        assert row.nonlinear_ratio * design >= row.linear_ratio * design / 2 * (1 - 1e-9)
+    scores = read_table(Score, asked.results / "code_check")
+    for kind, formula in (("nonlinear", "nonlinear_ratio"), ("linear", "linear_ratio")):
+        passed = [
+            row for row in rows if row.kind != "wall, hinge at mid-height" and getattr(row, formula) >= 1
+        ]
+        (score,) = (
+            each
+            for each in scores
+            if each.subject == f"{kind}, FC 1.35"
+            and each.part.startswith("all")
+            and each.measure.startswith("unsafe")
+        )
+        assert score.measure == f"unsafe of the {len(passed)} that pass"
+        assert score.sites == 4
+        unsafe = sum(row.overturning / row.records > 0.1 for row in passed)
+        assert score.value == pytest.approx(unsafe / len(passed))
 
 
 def test_validate_predicts_what_the_tests_showed(asked):

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+import rocking
 from rocking import Arch, Block, DesignSpectrum, Facade, LoadedWall, Mode, Spire, Support
 from rocking.assessment.code_check import elastic_period, kinematic_check
 from rocking.errors import ConfigurationError, RecordError, StructureError
@@ -377,3 +378,7 @@ def test_what_cannot_be_checked_is_refused_in_a_sentence():
         kinematic_check(block.mechanism(), SPECTRUM)
     with pytest.raises(RecordError, match="damping_ratio of the support is 0"):
         kinematic_check(block, SPECTRUM, support=Support((Mode(0.3, 0.0, 1.0),)))
+    with pytest.raises(ConfigurationError, match=r"spectrum is a float, but must be a DesignSpectrum, as"):
+        rocking.check(block, 2.0)
+    with pytest.raises(ConfigurationError, match=r"records is a dict, but must be sets of records, as"):
+        rocking.check(block, SPECTRUM, records={})
