@@ -151,7 +151,7 @@ SPLITS = 12
 SET_WALLS = {
     f"{height:g} × {height / slenderness:.3g} m": Block.of_size(height / slenderness, height)
     for height in (3.0, 6.0, 9.0)
-    for slenderness in (6.0, 8.0, 10.0)
+    for slenderness in (3.0, 4.0, 5.0, 6.0)
 }
 """Cantilevers from such as all sets pass to such as none does."""
 
