@@ -128,3 +128,51 @@ def test_names_of_columns_are_components_without_their_unit() -> None:
     assert (one.component, one.azimuth, one.source.unit) == ("N10E", 10.0, "g")
     assert (two.component, two.source.unit) == ("quake", "cm/s2")
     assert one.peak_acceleration == pytest.approx(2 * 9.80665 / 0.01 * two.peak_acceleration / 4, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("spelt", "magnitude", "scale"),
+    [
+        ("M  4.09", 4.09, "M"),
+        ("ML    5.10", 5.1, "ML"),
+        ("Mw 7.82", 7.82, "Mw"),
+        ("Mb  5.2", 5.2, "mb"),
+        ("", None, ""),
+    ],
+)
+def test_the_magnitude_of_geonet(spelt: str, magnitude: float | None, scale: str) -> None:
+    epicentre = f"Epicentre  42 41 33S 173 01 19E  Bearing S18W  Dist    9km  Depth   15km {spelt}\n"
+    (record,) = read_text(made_files.geonet().replace("x\n", epicentre, 1))
+    assert (record.magnitude, record.magnitude_type) == (magnitude, scale)
+    assert record.epicentral_distance == 9000
+
+
+@pytest.mark.parametrize(("orientation", "along"), [("WE", 90.0), ("NS", 0.0), ("N26W", 334.0)])
+def test_the_orientation_of_resorce(orientation: str, along: float) -> None:
+    text = made_files.resorce().replace(": NS", f": {orientation}")
+    assert read_text(text)[0].azimuth == along
+
+
+@pytest.mark.parametrize(
+    "coordinates",
+    [": 31.868 LAT. N\n                                       : 116.664 LONG. W",
+     ": 31.868 LAT. N.\n:116.664 LONG. O.", ": 31.868 N, 116.664 W\n", ": 31.868 Lat. Norte\n : 116.664 Long. Oeste"],
+)  # fmt: skip
+def test_the_place_of_a_station_of_cicese(coordinates: str) -> None:
+    key = "COORDENADAS DE LA ESTACION             "
+    text = made_files.unam().replace("ORIENTACION C1", f"{key}{coordinates}\nORIENTACION C1", 1)
+    assert (read_text(text)[0].latitude, read_text(text)[0].longitude) == (31.868, -116.664)
+
+
+@pytest.mark.parametrize(
+    "key", ["Station No. 89146", "Station Id. 89146", "STATION ID: 89146", "Station Id 89146"]
+)
+def test_the_station_of_csmip(key: str) -> None:
+    (record,) = read_text(made_files.csmip().replace("Station No. 89146", key))
+    assert (record.station, record.latitude, record.longitude) == ("89146", 40.9, -123.6)
+
+
+@pytest.mark.parametrize("line", ["QDR S/N 673", "SMA-1 S/N AA6D", "S/N 673"])
+def test_the_instrument_names_a_station_of_renadic(line: str) -> None:
+    text = made_files.renadic().replace("RENADIC\nx\n", f"RENADIC\n{line}\n", 1)
+    assert read_text(text)[0].station == line

@@ -259,6 +259,7 @@ def typed_magnitude(text: str) -> dict[str, Any]:
 
     A number without a scale counts where none has one; 0 and below stand for none.
     """
+    text = " ".join(text.split())
     values = {(m[1] or m[4]).lower(): float(m[2] or m[3]) for m in _TYPED.finditer(text)}
     values[""] = optional_number(r"(-?\d+(?:\.\d+)?)", text) or 0.0
     scale = next((scale for scale in _SCALES if 0 < values.get(scale, 0) <= 10), "")
@@ -267,7 +268,8 @@ def typed_magnitude(text: str) -> dict[str, Any]:
 
 
 _ANGLE = r"(\d{1,3}(?:\.\d+)?)(?:[ °]+(\d\d?)[ ']+(\d\d?))?[ °\"]*(?:LAT\.? *|LONG?\.? *)?"
-_COORDINATES = re.compile(rf"{_ANGLE}([NS])\b[\s,;:/-]*{_ANGLE}([EWO])\b", re.I)
+_POLE, _SIDE = r"([NS])(?:orth|orte|outh|ur)?\b", r"([EWO])(?:ast|est|este|ste)?\b"
+_COORDINATES = re.compile(rf"{_ANGLE}{_POLE}[\s.,;:/-]*{_ANGLE}{_SIDE}", re.I)
 
 
 def coordinates(text: str) -> Mapping[str, float]:
