@@ -9,6 +9,7 @@ from rocking.errors import RecordError
 _VERTICAL = {
     "UP", "-UP", "DOWN", "DN", "DWN", "V", "Z", "UD", "U-D", "U", "VER", "VERT", "VERTICAL", "UPDO", "U/D", "UPWARD",
     "UP-DOWN", "UP/DOWN", "VERT.", "VRT", "VRTL", "UPP", "UPWD", "DWNW", "VERTICAL UP", "VERTICAL DOWN", "V-UP",
+    "400", "500", "600",  # codes of vertical, up and down in the headers of USC, SMC and COSMOS
 }  # fmt: skip
 _NAMED = {
     "N": 0.0, "NS": 0.0, "N-S": 0.0, "S-N": 180.0, "NORTH": 0.0, "E": 90.0, "EW": 90.0, "E-W": 90.0, "W-E": 90.0,
@@ -80,7 +81,11 @@ def direction_warnings(component: str, along: float | None, vertical: bool) -> t
         or _BAND.fullmatch(name.upper())
     ):
         return ()
-    if re.search(r"\d\d", name):  # an angle to which a program has written more
+    is_beyond = name.isdigit() and int(name) > 360
+    is_combined = re.match(r"(?i)rot|srss|gm|geo", name)
+    if (
+        re.search(r"\d\d", name) and not is_beyond and not is_combined
+    ):  # an angle to which a program has written more
         return ()
     return (
         f"The direction of the component {name} is unknown: its name is neither a direction nor an angle, and it is "
@@ -106,8 +111,22 @@ _STRUCTURE = re.compile(
     r"dam|gallery|basement|bsmt|bldg|building|bridge)\b", re.I)  # fmt: skip
 _FREE = re.compile(r"\bfree[- ]?field\b", re.I)
 _DOWN_HOLE = re.compile(r"(?i)\b(down-?hole|bore-?hole|depth|below (ground|surface))\b|-\s*\d+(\.\d+)?\s*m\b")
-_CODE = re.compile(r"(?!CH\d)[A-Z]([HLMP])[ENZ123](\d\d)?")
+_CODE = re.compile(r"(?!CH\d)[A-Z](?:([HLMPJ])[ENZ123]|([DFK])[FHEIOZ])(\d\d)?")
 """A channel code but for CH1, CH2 and CH3, which count the channels of a logger."""
+_NO_MOTION = {"J": "rotational sensor", "D": "pressure sensor", "F": "magnetometer", "K": "thermometer"}
+
+
+_BURIED = 5.0
+"""m below the surface from which on an instrument stands in a borehole; vaults are shallower."""
+_DEPTH = re.compile(r"(?i)(\d+(?:\.\d+)?)\s*(m|ft|feet)\b")
+
+
+def is_down_hole(place: str) -> bool:
+    """Whether the `place` of an instrument, as a header writes it, is a borehole or more than 5 m below the ground."""
+    if not _DOWN_HOLE.search(place):
+        return False
+    depths = [float(depth) * (1.0 if unit in "mM" else 0.3048) for depth, unit in _DEPTH.findall(place)]
+    return max(depths) >= _BURIED if depths else bool(re.search(r"(?i)(down|bore)-?hole", place))
 
 
 def site_warnings(place: str) -> tuple[str, ...]:
@@ -124,6 +143,8 @@ def channel_warnings(component: str) -> tuple[str, ...]:
     code = _CODE.fullmatch(component.strip().upper())
     if not code:
         return ()
+    if other := _NO_MOTION.get(code[1] or code[2]):
+        return (f"The channel code {component.strip()} is that of a {other}: leave the channel out.",)
     kind = {"H": "high-gain seismometer", "L": "low-gain seismometer", "M": "mass position", "P": "geophone"}
     not_of = "which measures velocity and clips in strong motion; an accelerometer has N in second place"
     return (f"The channel code {component.strip()} is that of a {kind[code[1]]}, {not_of}.",)

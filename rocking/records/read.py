@@ -183,6 +183,7 @@ def recognise(content: bytes) -> Format:
     if content.startswith(_PICKLE + _PICKLED):
         raise UnknownFormatError("this is a pickled Python object, which could run code; it is never opened.")
     forms = [form for form in FORMATS if form.recognise(content)]
+    forms = [form for form in forms if not form.yields] or forms
     if len(forms) == 1:
         return forms[0]
     if forms:

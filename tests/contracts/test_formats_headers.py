@@ -176,3 +176,47 @@ def test_the_station_of_csmip(key: str) -> None:
 def test_the_instrument_names_a_station_of_renadic(line: str) -> None:
     text = made_files.renadic().replace("RENADIC\nx\n", f"RENADIC\n{line}\n", 1)
     assert read_text(text)[0].station == line
+
+
+@pytest.mark.parametrize(
+    ("place", "is_buried"),
+    [("Downhole", True), ("Depth 30 m", True), ("-156 m", True), ("Downhole: 100 ft", True), ("Downhole: 2 m", False),
+     ("Free Field", False), ("Depth 0 m", False), ("Basement", False)],
+)  # fmt: skip
+def test_a_channel_down_hole_is_no_motion_of_the_surface(place: str, is_buried: bool) -> None:
+    (record,) = read_text(made_files.cosmos().replace("Location:\n", f"Location: {place}\n"))
+    assert record.borehole is is_buried and record.is_horizontal is not is_buried
+
+
+def test_a_station_of_peer_down_hole_is_no_motion_of_the_surface() -> None:
+    (record,) = read_text(made_files.peer().replace("Station, 45", "Array (Downhole 90 m), 45"))
+    assert record.borehole and record.warnings
+
+
+@pytest.mark.parametrize(
+    ("unit", "step"), [("SEC", 0.01), ("MSEC", 1e-5), ("ms", 1e-5), ("Milliseconds", 1e-5)]
+)
+def test_the_step_of_peer_in_milliseconds(unit: str, step: float) -> None:
+    assert read_text(made_files.peer().replace(" SEC", f" {unit}"))[0].time_step == pytest.approx(step)
+
+
+@pytest.mark.parametrize(
+    ("code", "vertical"), [("400", True), ("500", True), ("600", True), ("360", False), ("700", False)]
+)
+def test_codes_above_360_are_no_angles(code: str, vertical: bool) -> None:
+    (record,) = read_text(made_files.smc().replace("component=     45", f"component=     {code}"))
+    assert record.vertical is vertical and record.azimuth == (0.0 if code == "360" else None)
+    assert any("direction" in sentence for sentence in record.warnings) is (code == "700")
+
+
+@pytest.mark.parametrize(
+    ("code", "word"), [("HJ1", "rotational"), ("BDF", "pressure"), ("HHE", "velocity"), ("HNE", "")]
+)
+def test_the_code_of_a_channel_says_what_it_measures(code: str, word: str) -> None:
+    (record,) = read_text(made_files.dyna().replace("HNE", code))
+    assert bool(word) is any(word in sentence for sentence in record.warnings if "channel code" in sentence)
+
+
+def test_text_with_names_and_units_below_a_header_of_a_network_is_the_networks() -> None:
+    (record, *_) = read_text(made_files.jma().replace("gal(cm/s/s)", "gal"))
+    assert record.source.format == "JMA CSV"

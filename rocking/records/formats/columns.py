@@ -616,9 +616,10 @@ def _read_emod3d(content: bytes, options: Options) -> list[Accelerogram]:
 COLUMNS = Format(
     "columns of numbers",
     "spreadsheets, OpenSees and scripts",
-    "lines that hold numbers only, below at most one row of names",
+    "lines that hold numbers only, below names that leave nothing open",
     _are_columns,
     _read_columns,
+    yields=True,
 )
 TITLED = Format(
     "titled column",

@@ -97,6 +97,7 @@ class Format:
     never raises.
     read: (content, options) to accelerograms; raises RecordError only, whose message need not name the file.
     plugin: its name among obspy's formats, where it is offered to obspy.
+    yields: whether another format that recognises a file as well has it: bare numbers below any text.
     """
 
     name: str
@@ -105,6 +106,7 @@ class Format:
     first: Callable[[bytes], bool] | re.Pattern[str]
     read: Callable[[bytes, Options], list[Accelerogram]]
     plugin: str = ""
+    yields: bool = False
 
     def recognise(self, content: bytes) -> bool:
         """Whether `content` is of this format."""

@@ -14,7 +14,7 @@ from rocking.quantities import acceleration_factor, positive
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Options
 from rocking.records.formats.text import count, fields, lines, number, whole
-from rocking.records.instrument import refuse_other_quantity, site_warnings
+from rocking.records.instrument import is_down_hole, refuse_other_quantity, site_warnings
 from rocking.records.plausibility import agree_with_header, agree_with_mean_square
 
 NUMBER = r"([+-]?(?:\d+\.?\d*|\.\d+)(?:E[+-]?\d+)?)"
@@ -110,7 +110,10 @@ class Layout:
             check_equal("the step", interval, step)
         elif step is None:
             step = number("the step", self.required("step", head))
-        record = options.accelerogram(unit, values, step, **self._facts(head) | fields)
+        facts = self._facts(head) | fields
+        if is_down_hole(self.text("location", head)) or is_down_hole(str(facts.get("station", ""))):
+            facts = {"borehole": True} | facts
+        record = options.accelerogram(unit, values, step, **facts)
         announced = optional_number(r"\(\s*(\d+)\s+Chns\s+of", head) or 0.0
         if total < announced < 1e4:
             sentence = f"The header speaks of {announced:g} channels, but the file holds {total}."

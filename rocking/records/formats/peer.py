@@ -10,7 +10,11 @@ from rocking.records.formats.header import Layout
 from rocking.records.formats.text import after_lines, count, is_number, lines, number, numbers, whole
 
 _STEPS = (
-    re.compile(r"NPTS\s*=\s*(?P<npts>[^\s,]+)\s*,?\s*DT\s*=\s*(?P<dt>[0-9.+\-]+(E[+-]?\d+)?)", re.I),
+    re.compile(
+        r"NPTS\s*=\s*(?P<npts>[^\s,]+)\s*,?\s*DT\s*=\s*(?P<dt>[0-9.+\-]+(E[+-]?\d+)?)"
+        r"(?P<milli>\s*M(?:ILLI)?-?S(?:EC\w*)?\b)?",
+        re.I,
+    ),
     re.compile(r"^\s*(?P<npts>\d+)\s+(?P<dt>\S+)\s+NPTS\s*,\s*DT", re.I),
 )
 _UNITS = (
@@ -80,7 +84,8 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
         undated = _DATE_AT_END.sub("", parts[0])
         facts |= {"station": parts[-2], "event": undated or parts[0]}
     facts["high_pass_frequency"] = float(corner) or None if is_number(corner) else None
-    return [_LAYOUT.channel(text, values, options, unit=unit, step=number("DT", size["dt"]), **facts)]
+    step = number("DT", size["dt"]) * (1e-3 if size.groupdict().get("milli") else 1.0)
+    return [_LAYOUT.channel(text, values, options, unit=unit, step=step, **facts)]
 
 
 def _component(title: str) -> str:
