@@ -148,7 +148,8 @@ def test_obspys_own_records() -> None:
     ("228", 228.0, False), ("360", 0.0, False), ("090", 90.0, False), ("N26W", 334.0, False), ("S62W", 242.0, False),
     ("N00E", 0.0, False), ("S10E", 170.0, False), ("E-W", 90.0, False), ("NS", 0.0, False), ("HNE", 90.0, False),
     ("HGZ", None, True), ("-UP", None, True), ("up", None, True), ("U-D", None, True), ("V", None, True),
-    ("T3", None, False), ("Long", None, False), ("", None, False), ("400", None, True), ("401", None, False), ("HN1", None, False),
+    ("T3", None, False), ("Long", None, False), ("", None, False),
+    ("400", None, True), ("401", None, False), ("HN1", None, False),
 ])  # fmt: skip
 def test_directions(name: str, degrees: float | None, vertical: bool) -> None:
     assert (azimuth(name), is_vertical(name)) == (degrees, vertical)
