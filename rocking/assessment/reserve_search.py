@@ -1,19 +1,22 @@
-"""The reserve: by how much a record may be stronger before a structure falls under it.
+"""The search for a reserve: by how much a record may be stronger before a structure falls under it.
 
-There is no first factor at which a structure falls: most stand again at a somewhat larger one, so that it would move
-with the step of the search. The share of the members of an ensemble that overturn is smooth, and the reserve is the
-factors on the record at which it reaches 5, 50 and 95 %.
+A run of a member at a factor depends on the product of that factor and the member's own amplitude, and on its other
+causes. So every run tells of all factors whose range of amplitudes holds its product. Runs therefore stand on rungs of
+a ladder of amplitudes, evenly spaced in their logarithm, from the one at which the structure lifts up to the limit; the
+rung k has the other causes of the point k of a lattice, which goes on periodically. The share of the members that
+overturn at a factor is the mean over the amplitudes of the ensemble there, each run standing for those nearest to it.
 
-Factors are tried at levels, never by bisection: the first at which any member lifts, and then each STEP times the one
-before. Few members meet few levels up to the limit, and all of them the levels next to where the share crosses 5, 50
-and 95 %. The curve is the rising one nearest to the shares (isotonic regression, each level with the same weight).
+Few rungs are followed first, then those beside the factors at which the share crosses 5, 50 and 95 %, and beside runs
+that fall or stand where most do not: never by bisection. The curve is the rising one nearest to the shares (isotonic
+regression over factors evenly spaced in their logarithm).
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
-from rocking.assessment.causes import Situation, draw, lattice
+from rocking.assessment.causes import CAUSES, Situation, draw
 from rocking.assessment.ensemble import followed_at
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.reserve import Reserve
@@ -21,23 +24,38 @@ from rocking.assessment.settings import EnsembleSettings
 from rocking.motion.forcing import forcing_of
 from rocking.structures import Mechanism
 
-STEP = 1.06
-"""Factor between two levels."""
-COARSE = 5
-"""Levels from one to the next that few members meet: 1.06⁵ = 1.34."""
-FEW = 16
-"""Members that meet the coarse levels."""
-MEMBERS = 64
-"""Members that meet the levels next to a crossing."""
+RUNGS = 512
+"""Rungs within a factor of e: 51 within an amplitude of ± 5 %."""
+LATTICE = 1024
+"""Points of the lattice that the rungs take their other causes from, one after the other and again from the first."""
+COARSE = 8
+"""Every so many rungs are followed first, over the whole ladder: a structure may stand again where it fell before."""
 SHARES = (0.05, 0.5, 0.95)
 """Shares of the members that overturn at the low, the median and the high factor."""
-NEXT = (3, 2, 4)
-"""Levels that all members meet next to each of these crossings. The curve is flattest at its ends, where few members
-decide, and at the high end those that stand again have to be seen above the crossing too."""
+LEAST_WIDTH = 0.03
+"""The amplitudes that tell of a factor reach at least so far to both sides, as a share of it, also where the ensemble
+has but one amplitude."""
+FACTORS = 0.02
+"""Step, in the logarithm, of the factors at which the share is looked at."""
 TOLERANCE = 1e-4
-"""Tolerance of the integration, relative to the largest rotation: that of an outcome, far below a STEP."""
+"""Tolerance of the integration, relative to the largest rotation: that of an outcome, far below a step of FACTORS."""
 ROUNDS = 3
-"""Rounds of refinement at the most: a crossing may move when all members are asked."""
+"""Rounds of each stage at the most: a crossing may move when more rungs are followed."""
+
+
+class Stage(NamedTuple):
+    """Which rungs are followed beside what is known.
+
+    spacing: every so many of them. beside: how far beyond the amplitudes that tell of a crossing, and around: how far
+    from a run that falls below the median factor or stands above it, both in the logarithm of the amplitude.
+    """
+
+    spacing: int
+    beside: float
+    around: float
+
+
+STAGES = (Stage(4, 0.1, 0.2), Stage(1, 0.05, 0.0))
 
 
 def reserve(
@@ -45,29 +63,42 @@ def reserve(
     motions: GroundMotions,
     settings: EnsembleSettings | None = None,
     *,
-    points: np.ndarray | None = None,
+    shift: np.ndarray | None = None,
 ) -> Reserve:
     """Return the reserve of one mechanism under `motions`, the vertical one scaled with the horizontal ones.
 
-    settings: ranges of the causes, and the largest factor that is tried. points: of the members, MEMBERS by default. A
-    member that cannot be followed counts as one that overturns. Raises MotionError as `integrate` does.
+    settings: ranges of the causes, and the largest factor that is tried. shift: (c,) in [0, 1), one for each of CAUSES,
+    by which the points of the lattice are moved, for another sample of the same ensemble; none by default. A member
+    that cannot be followed counts as one that overturns. Raises MotionError as `integrate` does.
     """
     settings = settings or EnsembleSettings()
-    search = _Search(mechanism, motions, settings, lattice(MEMBERS) if points is None else points)
-    if not search.levels.size:
+    lowest = _lowest(mechanism, motions, settings.reserve)
+    if not lowest < settings.reserve:
         return Reserve(math.nan, math.nan, math.nan, settings.reserve)
-    search.try_coarse_levels()
-    for _ in range(ROUNDS):
-        if not search.refine():
-            break
-    low, median, high = search.crossings()
+    ladder = _Ladder(mechanism, motions, settings, lowest, np.zeros(len(CAUSES)) if shift is None else shift)
+    ladder.follow_coarsely()
+    for stage in STAGES:
+        for _ in range(ROUNDS):
+            if not ladder.follow(ladder.worth_following(stage)):
+                break
+    low, median, high = ladder.crossings()
     return Reserve(low, median, high, settings.reserve)
 
 
-class _Search:
-    """The state of the search for a reserve.
+def _lowest(mechanism: Mechanism, motions: GroundMotions, limit: float) -> float:
+    """The amplitude below which nothing lifts; inf on still ground."""
+    excitations = [forcing_of(motion, motions.vertical).excitation for motion in motions.horizontal.values()]
+    strongest = max(excitations)
+    if not strongest > 0:
+        return math.inf
+    return mechanism.uplift_multiplier / strongest if math.isfinite(strongest) else limit / 100
 
-    levels: (k,) ascending factors. falls: (k, m) whether a member overturns at a level; nan where that was not tried.
+
+class _Ladder:
+    """The runs from which a reserve is read.
+
+    amplitudes: (n,) ascending factors on the motion. falls: (n,) whether the run of a rung overturns, 1 or 0; nan where
+    it was not followed.
     """
 
     def __init__(
@@ -75,39 +106,62 @@ class _Search:
         mechanism: Mechanism,
         motions: GroundMotions,
         settings: EnsembleSettings,
-        points: np.ndarray,
+        lowest: float,
+        shift: np.ndarray,
     ) -> None:
         self.mechanism = mechanism
         self.motions = motions
-        self.values = draw(Situation.of(mechanism, motions, settings), points)
-        self.levels = _levels(mechanism, motions, settings, self.values["amplitude"])
-        self.falls = np.full((self.levels.size, len(points)), np.nan)
+        self.lowest = lowest
+        self.width = max(settings.amplitude_range, LEAST_WIDTH)
+        highest = settings.reserve * (1 + self.width)
+        rungs = np.arange(math.ceil(RUNGS * math.log(highest / lowest)) + 1)
+        self.logs = math.log(lowest) + (rungs + shift[0]) / RUNGS
+        self.amplitudes = np.exp(self.logs)
+        self.falls = np.full(rungs.size, np.nan)
 
-    def try_at(self, places: list[int], members: slice) -> None:
-        """Follow `members` at the levels at `places`."""
-        values = {name: each[members] for name, each in self.values.items()}
-        ratios = followed_at(
-            self.mechanism, self.motions, values, self.levels[places], tolerance=TOLERANCE
-        ).rotation_ratios
-        self.falls[places, members] = np.isinf(ratios) | np.isnan(ratios)
+        generator = np.array([cause.generator % LATTICE for cause in CAUSES])
+        points = (rungs[:, None] * generator % LATTICE / LATTICE + 0.5 / LATTICE + shift) % 1.0
+        of_causes = draw(Situation.of(mechanism, motions, settings), points)
+        self.values = {**of_causes, "amplitude": self.amplitudes}
 
-    def try_coarse_levels(self) -> None:
-        """Follow few members at every COARSE level up to the limit: they may stand again where all fell before."""
-        last = self.levels.size - 1
-        self.try_at([*range(0, last, COARSE), last], slice(0, FEW))
+        first = math.log(lowest / (1 + self.width))
+        last = math.log(settings.reserve)
+        self.log_factors = np.append(np.arange(first, last, FACTORS), last)
 
-    def refine(self) -> bool:
-        """Follow all members at the levels next to each crossing; return whether there were any left to follow."""
-        logs = np.log(self.levels)
-        open_levels = set()
-        for crossing, count in zip(self.crossings(), NEXT, strict=True):
+    def follow(self, wanted: np.ndarray) -> bool:
+        """Follow the rungs that are wanted (n,) and were not followed yet; return whether there were any."""
+        places = np.flatnonzero(wanted & np.isnan(self.falls))
+        if not places.size:
+            return False
+        values = {name: each[places] for name, each in self.values.items()}
+        followed = followed_at(self.mechanism, self.motions, values, np.ones(1), tolerance=TOLERANCE)
+        ratios = followed.rotation_ratios[0]
+        self.falls[places] = np.isinf(ratios) | np.isnan(ratios)
+        return True
+
+    def follow_coarsely(self) -> None:
+        """Follow every COARSE rung, and the last one."""
+        wanted = np.arange(self.falls.size) % COARSE == 0
+        wanted[-1] = True
+        self.follow(wanted)
+
+    def worth_following(self, stage: Stage) -> np.ndarray:
+        """Return which rungs (n,) a stage asks for."""
+        wanted = np.zeros(self.falls.size, dtype=bool)
+        crossings = self.crossings()
+        for crossing in crossings:
             if not math.isnan(crossing):
-                nearest = np.argsort(np.abs(logs - math.log(crossing)), kind="stable")
-                open_levels |= set(nearest[:count].tolist())
-        places = sorted(place for place in open_levels if np.isnan(self.falls[place]).any())
-        if places:
-            self.try_at(places, slice(None))
-        return bool(places)
+                first = math.log(crossing * (1 - self.width)) - stage.beside
+                last = math.log(crossing * (1 + self.width)) + stage.beside
+                wanted |= (self.logs > first) & (self.logs < last)
+        if stage.around:
+            median = crossings[1]
+            above = np.zeros(self.falls.size, dtype=bool) if math.isnan(median) else self.amplitudes > median
+            unlike = np.where(above, self.falls == 0, self.falls == 1)
+            for place in np.flatnonzero(unlike):
+                wanted |= np.abs(self.logs - self.logs[place]) < stage.around
+        asked: np.ndarray = wanted & (np.arange(self.falls.size) % stage.spacing == 0)
+        return asked
 
     def crossings(self) -> list[float]:
         """Return the factors at which the rising curve nearest to the shares reaches SHARES; nan where it does not."""
@@ -115,27 +169,22 @@ class _Search:
             isotonic_regression,  # half a second, which who asks for no reserve would pay
         )
 
-        logs = np.log(self.levels)
-        tried = np.isfinite(self.falls).any(axis=1)
-        # Between levels that were tried the share is interpolated, so that each level has the same weight.
-        shares = np.interp(logs, logs[tried], np.nanmean(self.falls[tried], axis=1))
-        rising = isotonic_regression(shares).x
-        return [_crossing(logs, rising, share) for share in SHARES]
+        rising = isotonic_regression(self._shares()).x
+        return [_crossing(self.log_factors, rising, share) for share in SHARES]
 
-
-def _levels(
-    mechanism: Mechanism, motions: GroundMotions, settings: EnsembleSettings, amplitude: np.ndarray
-) -> np.ndarray:
-    """The levels, from the lowest factor at which any member lifts up to the limit of the settings; the limit last."""
-    excitations = [forcing_of(motion, motions.vertical).excitation for motion in motions.horizontal.values()]
-    strongest = max(excitations) * float(amplitude.max())
-    if not strongest > 0:
-        return np.array([])
-    lowest = mechanism.uplift_multiplier / strongest if math.isfinite(strongest) else settings.reserve / 100
-    if not lowest < settings.reserve:
-        return np.array([])
-    count = math.ceil(math.log(settings.reserve / lowest) / math.log(STEP))
-    return np.append(lowest * STEP ** np.arange(count), settings.reserve)
+    def _shares(self) -> np.ndarray:
+        """The share of the members that overturn at each of the factors."""
+        followed = np.flatnonzero(np.isfinite(self.falls))
+        between = (self.logs[followed][1:] + self.logs[followed][:-1]) / 2
+        edges = np.exp([math.log(self.lowest), *between, self.logs[followed[-1]]])
+        # The amplitudes up to each edge at which it overturns: those within a range are a difference of two.
+        overturning = np.append(0.0, np.cumsum(self.falls[followed] * np.diff(edges)))
+        factors = np.exp(self.log_factors)
+        low, high = (
+            np.interp(factors * side, edges, overturning) for side in (1 - self.width, 1 + self.width)
+        )
+        shares: np.ndarray = (high - low) / (2 * self.width * factors)
+        return shares
 
 
 def _crossing(logs: np.ndarray, rising: np.ndarray, share: float) -> float:

@@ -15,6 +15,11 @@ from rocking.records.accelerogram import Accelerogram
 GroundMotion = Accelerogram | Pulse
 
 
+_REMEMBERED = 64
+"""Ground motions whose arrays are kept: more than the eight directions of a raw pair after each of six processings, which
+every structure and every stage of a reserve goes through again."""
+
+
 @dataclass(frozen=True, eq=False)
 class Forcing:
     """The ground motion as the kernel takes it.
@@ -41,7 +46,7 @@ class Forcing:
 def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Forcing:
     """Return what the kernel takes of a record, with its vertical component, or of a pulse.
 
-    The last few are remembered.
+    Those of the directions and processings of a record are remembered.
     Raises MotionError when `motion` is neither, or `vertical` does not fit it sample by sample.
     """
     if not isinstance(motion, Accelerogram | Pulse):
@@ -69,7 +74,7 @@ def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Fo
     return _forcing(motion, vertical)
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=_REMEMBERED)
 def _forcing(motion: GroundMotion, vertical: Accelerogram | None) -> Forcing:
     # Copies, because a record's own arrays are read-only, for which the kernel would compile anew.
     horizontal = np.array([motion.amplitude] if isinstance(motion, Pulse) else motion.acceleration)
@@ -78,7 +83,7 @@ def _forcing(motion: GroundMotion, vertical: Accelerogram | None) -> Forcing:
         horizontal=horizontal,
         vertical=lift,
         strongest=np.maximum.accumulate(np.abs(horizontal[::-1]))[::-1].copy(),
-        lightest=np.minimum.accumulate(lift[::-1])[::-1].copy(),
+        lightest=lift if vertical is None else np.minimum.accumulate(lift[::-1])[::-1].copy(),
         time_step=motion.period if isinstance(motion, Pulse) else motion.time_step,
         circular_frequency=motion.circular_frequency if isinstance(motion, Pulse) else 0.0,
         gravity=GRAVITY,

@@ -74,6 +74,22 @@ def test_it_is_what_a_scan_of_every_member_at_every_level_gives():
     assert np.mean(np.abs(np.log(ratios)) < np.log(1.1)) >= 0.85
 
 
+def test_where_one_amplitude_divides_falls_from_the_rest_it_is_that_of_the_uniform_distribution():
+    """Under half a sine a block with one restitution overturns from one amplitude A on. Members have 1 ± r times the
+    motion, so that a share s of them overturns at the factor A/(1 + r (1 − 2 s))."""
+    pulse = 4.0 * np.sin(np.pi * TIMES / 0.6) * (TIMES < 0.6)
+    record = Accelerogram(pulse, STEP)
+    factors = np.linspace(0.5, 3.0, 2501)
+    falls = np.isinf(rocking.integrate_batch([BLOCK], record, factors.tolist())[0])
+    assert np.all(np.diff(falls.astype(int)) >= 0) and 0 < falls.sum() < falls.size
+    limit_amplitude = factors[falls.argmax()]
+    for spread in (0.1, 0.3):
+        settings = EnsembleSettings(amplitude_range=spread, restitution_range=0.0, reserve=6.0)
+        own = reserve(BLOCK.mechanism(), GroundMotions.of(record), settings)
+        expected = [limit_amplitude / (1 + spread * (1 - 2 * share)) for share in (0.05, 0.5, 0.95)]
+        assert [own.low, own.median, own.high] == pytest.approx(expected, rel=0.01)
+
+
 def test_a_stronger_record_has_as_much_less():
     once, twice = (
         reserve(BLOCK.mechanism(), GroundMotions.of(_record(each)), EnsembleSettings(reserve=10.0 * 3 / each))
