@@ -16,8 +16,8 @@ GroundMotion = Accelerogram | Pulse
 
 
 _REMEMBERED = 64
-"""Ground motions whose arrays are kept: more than the eight directions of a raw pair after each of six processings, which
-every structure and every stage of a reserve goes through again."""
+"""Ground motions whose arrays are kept: more than the eight directions of a raw pair after each of six processings,
+which every structure and every stage of a reserve goes through again."""
 
 
 @dataclass(frozen=True, eq=False)
