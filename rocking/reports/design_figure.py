@@ -11,6 +11,7 @@ from rocking.records.design_spectrum import DesignSpectrum
 from rocking.records.measures import response_spectrum
 from rocking.reports.record_figures import Trace
 from rocking.reports.style import PULSE, new_figure, plain_logarithmic, styled
+from rocking.reports.units import unit_of
 
 _PERIODS = np.geomspace(0.04, 4.0, 60)
 MOST_LINES = 60
@@ -46,7 +47,9 @@ def design_figure(motions: Sequence[Trace], level: DesignSpectrum) -> Figure:
         spectrum = response_spectrum(motion.accelerogram, periods, level.damping)
         line = ("-", "--", ":")[place % 3]
         name = motion.accelerogram.component or "record"
-        axes.plot(periods, spectrum.pseudo_acceleration, line, color="0.35", label=name)
+        axes.plot(
+            periods, spectrum.pseudo_acceleration / unit_of("m/s²").size, line, color="0.35", label=name
+        )
     _draw_level(axes, level)
     return figure
 
@@ -60,7 +63,7 @@ def design_summary_figure(spectra: Sequence[Sequence[float]], level: DesignSpect
     figure = new_figure(70.0)
     axes = figure.subplots()
     periods = spectrum_periods(level)
-    values = np.array(spectra)
+    values = np.array(spectra) / unit_of("m/s²").size
     if len(values) <= MOST_LINES:
         for place, spectrum in enumerate(values):
             label = "components" if place == 0 else None
@@ -76,9 +79,10 @@ def design_summary_figure(spectra: Sequence[Sequence[float]], level: DesignSpect
 
 def _draw_level(axes: Axes, level: DesignSpectrum) -> None:
     periods = spectrum_periods(level)
-    axes.plot(periods, level.acceleration(periods), color=PULSE, label="design level")
+    unit = unit_of("m/s²")
+    axes.plot(periods, level.acceleration(periods) / unit.size, color=PULSE, label="design level")
     plain_logarithmic(axes, "x")
     axes.set_ylim(bottom=0)
     axes.margins(x=0)
-    axes.set(xlabel="period [s]", ylabel="spectral acceleration [m/s²]")
+    axes.set(xlabel="period [s]", ylabel=f"spectral acceleration [{unit.name}]")
     axes.legend()

@@ -66,14 +66,18 @@ def draw_motion(
     pulse: "Pulse | None" = None,
     span: tuple[float, float] = (0.0, math.inf),
     most: int = MOST_POINTS,
+    unit: float = 1.0,
 ) -> None:
-    """Draw the acceleration against time within `span` [s], with its pulse. most: points of the trace."""
+    """Draw the acceleration against time within `span` [s], with its pulse.
+
+    most: points of the trace. unit: size of that of the axis, m/s².
+    """
     inside = (record.times >= span[0]) & (record.times <= span[1])
-    times, samples = thinned(record.times[inside], record.acceleration[inside], most)
+    times, samples = thinned(record.times[inside], record.acceleration[inside] / unit, most)
     axes.plot(times, samples, color=RECORD, linewidth=0.6, label="record")
     if pulse is not None:
         cycle = np.linspace(pulse.start_time, pulse.end_time, 121)
-        axes.plot(cycle, pulse.acceleration(cycle), color=PULSE, linewidth=1.5, label="dominant pulse")
+        axes.plot(cycle, pulse.acceleration(cycle) / unit, color=PULSE, linewidth=1.5, label="dominant pulse")
 
 
 def draw_rotation(

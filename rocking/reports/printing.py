@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from rocking.assessment.verdict import NEGLIGIBLE, Method, Verdict, rests
 from rocking.quantities import counted
+from rocking.reports.units import unit_of, units_in_words
 from rocking.tables import Row
 
 if TYPE_CHECKING:
@@ -131,6 +132,7 @@ def settings_texts(settings: Mapping[str, Any]) -> dict[str, object]:
     """Return what both reports print of the settings: who, what and when; tolerance and acceleration scale."""
     return {
         "about": dict(settings.get("about", {})),
+        "units": units_in_words(),
         "tolerance": plain(float(settings["tolerance"])),
         "acceleration-scale": str(settings["acceleration_scale"]),
     }
@@ -184,20 +186,29 @@ def columns_of(kind: type[Row], fields: str, width: str = "") -> list[Column]:
     for name, _, own_width in (each.partition("=") for each in fields.split()):
         column = described[name]
         usual, side = ("0.8", "r") if column.holds in (float, int) else ("1", "l")
-        unit = column.unit or ("-" if column.holds is float else "")
+        unit = unit_of(column.unit).name or ("-" if column.holds is float else "")
         heading = sentence(column.attribute.replace("_", " ").replace("rotd", "RotD"))
         heading += f" [{unit}]" if unit else ""
-        columns.append((heading, own_width or width or usual, side, partial(field_of, name)))
+        columns.append((heading, own_width or width or usual, side, partial(field_of, name, si=column.unit)))
     return columns
 
 
-def field_of(name: str, row: Row | None) -> str:
-    """Return the field `name` of a row as it is printed: by its type, rotation ratios in words where they are none."""
+def quantity(value: float, si: str) -> str:
+    """Return a value in the SI unit `si` as the report at hand shows it, with its unit."""
+    unit = unit_of(si)
+    return f"{number(value / unit.size)} {unit.name}"
+
+
+def field_of(name: str, row: Row | None, si: str = "") -> str:
+    """Return the field `name` of a row as it is printed: by its type, rotation ratios in words where they are none.
+
+    si: the unit that it has in the row.
+    """
     value = getattr(row, name, None)
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float) and name not in _CHOSEN:
-        return ratio(value) if name.endswith("rotation_ratio") else number(value)
+        return ratio(value) if name.endswith("rotation_ratio") else number(value / unit_of(si).size)
     return plain(value) if isinstance(value, float | int) else words(value)
 
 

@@ -46,6 +46,7 @@ from rocking.reports.printing import (
 from rocking.reports.record_figures import History, Trace
 from rocking.reports.style import pictures
 from rocking.reports.supports import SupportPanel, floor_sentences, support_panels, supports_figure
+from rocking.reports.units import displaying
 from rocking.structures import Structure
 from rocking.structures.standing import Standing
 
@@ -81,6 +82,10 @@ class RecordReport:
 
     def data(self) -> dict[str, object]:
         """Return what the template is given: texts, tables and figures."""
+        with displaying(self.settings):
+            return self._data()
+
+    def _data(self) -> dict[str, object]:
         return {
             "title": f"Rocking assessment: {self.record}",
             "running": f"{self.record}.{self.scale_note}",
@@ -374,7 +379,8 @@ def _key_numbers(row: RecordRow) -> str:
     like = {None: "", True: " (pulse-like)", False: " (not pulse-like)"}[row.velocity_pulse_like]
     return (
         f"{words(row.component)}: PGA {number(row.peak_acceleration_m_s2 / GRAVITY)} g, "
-        f"PGV {number(row.peak_velocity_m_s)} m/s, D5–95 {number(row.significant_duration_s)} s, {pulse}{like}"
+        f"PGV {printing.quantity(row.peak_velocity_m_s, 'm/s')}, D5–95 {number(row.significant_duration_s)} s, "
+        f"{pulse}{like}"
     )
 
 
@@ -390,7 +396,7 @@ def _pulse_sentence(tables: RecordRows, motion: Trace) -> str:
             "Its period differs by more than a factor of two from that of the velocity pulse: they are two features."
         )
     pulse = (
-        f"Component {words(component)}: amplitude {number(abs(row.amplitude_m_s2))} m/s², "
+        f"Component {words(component)}: amplitude {printing.quantity(abs(row.amplitude_m_s2), 'm/s²')}, "
         f"period {number(row.period_s)} s, from {number(row.start_time_s)} s on; it "
         f"explains {printing.percent(row.explained_energy)}\u00a0% of the acceleration energy."
     )
@@ -505,7 +511,7 @@ def _tables(report: RecordReport) -> dict[str, object]:
         "facts": facts_table(record),
         "verdicts": table_of(report.stations, number_of, *VERDICT_COLUMNS),
         "structures": table_of(structures, number_of, *STRUCTURE_COLUMNS),
-        "pulses": table_of(ranked, *PULSE_COLUMNS),
+        "pulses": table_of(ranked, *columns_of(PulseRow, PULSE_FIELDS)),
         "methods": table_of(tables.comparison, number_of, *_method_columns(tables.comparison)),
         "friction": plain(report.settings.get("friction_coefficient")),
         "vertical": _unique(row.vertical_component for row in record),
@@ -573,11 +579,11 @@ STRUCTURE_COLUMNS: list[Column] = [
         "forcing_defect",
     ),
 ]
-PULSE_COLUMNS = columns_of(
-    PulseRow,
+PULSE_FIELDS = (
     "component=auto kind=auto rank=auto amplitude_m_s2 period_s start_time_s gain_ratio explained_energy "
-    "effective_length_m",
+    "effective_length_m"
 )
+"""Fields of the table of pulses that a report shows."""
 
 
 def _method_columns(rows: Sequence[ComparisonRow]) -> list[Column]:

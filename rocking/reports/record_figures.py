@@ -26,6 +26,7 @@ from rocking.reports.drawings import draw_structure, fallen_rotation, round_leng
 from rocking.reports.panels import draw_energy_map, draw_motion, draw_rotation, moving_span
 from rocking.reports.printing import LOOKS, number, ratio, to_spread
 from rocking.reports.style import PREDICTED, PULSE, TEXT_WIDTH, elided, new_figure, panel_at, styled
+from rocking.reports.units import unit_of
 from rocking.structures import Structure
 
 _POINTS = 1200
@@ -101,15 +102,16 @@ def ground_figure(motions: Sequence[Trace]) -> Figure:
 def _draw_ground(panel: Axes, motion: Trace, span: tuple[float, float], last: bool) -> None:
     """Draw the acceleration of a component within `span` [s], its dominant pulse and PGA; the last one names time."""
     accelerogram = motion.accelerogram
-    draw_motion(panel, accelerogram, next(iter(motion.pulses), None), span, _POINTS)
+    unit = unit_of("m/s²")
+    draw_motion(panel, accelerogram, next(iter(motion.pulses), None), span, _POINTS, unit.size)
     amplitudes = [abs(each.amplitude) for each in motion.pulses[:1]]
-    reach = 1.1 * max(accelerogram.peak_acceleration, *amplitudes, 1e-9)
+    reach = 1.1 * max(accelerogram.peak_acceleration, *amplitudes, 1e-9) / unit.size
     peak = f"{_component(accelerogram.component)}: PGA {accelerogram.peak_acceleration / GRAVITY:.2g} g"
     panel.text(0.995, 0.97, peak, transform=panel.transAxes, ha="right", va="top")
     _fixed_ticks(panel, "y", -reach, 1.5 * reach)  # room for the label above the highest peak
     _fixed_ticks(panel, "x", *span, 6)
     panel.tick_params(labelbottom=last)
-    panel.set(xlabel="time after the first sample [s]" if last else "", ylabel="[m/s²]")
+    panel.set(xlabel="time after the first sample [s]" if last else "", ylabel=f"[{unit.name}]")
 
 
 def _fixed_ticks(panel: Axes, which: str, low: float, high: float, count: int = 5) -> None:

@@ -21,8 +21,9 @@ from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.drawings import draw_dimensions, draw_structure
 from rocking.reports.panels import ZERO, plot
-from rocking.reports.printing import Cell, number, percent, table
+from rocking.reports.printing import Cell, number, percent, quantity, table
 from rocking.reports.style import PREDICTED, PULSE, new_figure, panel_at, picture, styled
+from rocking.reports.units import displaying, unit_of
 from rocking.structures import Structure
 
 _TURNED = 0.5
@@ -72,6 +73,17 @@ def structures_data(
     notices: Sequence[str] = (),
 ) -> dict[str, object]:
     """Return what the template is given."""
+    with displaying(settings):
+        return _data(structures, spectrum, settings, selection, notices)
+
+
+def _data(
+    structures: Sequence[CheckedStructure],
+    spectrum: DesignSpectrum,
+    settings: Mapping[str, Any],
+    selection: Selection | None,
+    notices: Sequence[str],
+) -> dict[str, object]:
     spectra = []
     if selection is not None:
         alt = "Spectra of the set of records and their mean beside the design spectrum."
@@ -131,7 +143,7 @@ def _check_table(checked: StructureCheck) -> dict[str, object]:
 
 def _valued(check: Check, value: float) -> str:
     letter = "d" if check.unit == "m" else "a_g"
-    return f"{letter} = {number(value)} {check.unit}"
+    return f"{letter} = {quantity(value, check.unit)}"
 
 
 def _sentences(checked: StructureCheck) -> list[str]:
@@ -140,16 +152,16 @@ def _sentences(checked: StructureCheck) -> list[str]:
     lines = [
         f"Mechanism that governs: {mechanism.description}; α₀ = {number(mechanism.onset_multiplier)}, "
         f"e* = {number(mechanism.participating_mass_ratio)}, FC = {number(mechanism.confidence_factor)}, "
-        f"d₀ = {number(mechanism.ultimate_displacement)} m; it starts at "
-        f"a_g = {number(checked.damage_level)} m/s² (SLD)."
+        f"d₀ = {quantity(mechanism.ultimate_displacement, 'm')}; it starts at "
+        f"a_g = {quantity(checked.damage_level, 'm/s²')} (SLD)."
     ]
     for state in LIMIT_STATES.values():
         point = mechanism.limit(state)
         if math.isinf(point.displacement):
             continue
         lines.append(
-            f"d_{state.name} = {number(point.displacement)} m ({point.reason}), a = {number(point.acceleration)} m/s², "
-            f"T_{state.name} = {number(point.period)} s."
+            f"d_{state.name} = {quantity(point.displacement, 'm')} ({point.reason}), "
+            f"a = {quantity(point.acceleration, 'm/s²')}, T_{state.name} = {number(point.period)} s."
         )
     dynamic = checked.dynamic
     if dynamic is not None:
@@ -233,20 +245,27 @@ def _draw_capacity(axes: Axes, mechanism: LocalMechanism) -> None:
     bends = np.array(side.bends)
     steps = np.linspace(0.0, side.critical_rotation, _POINTS)
     rotations = np.unique([*steps, *bends, *bends * (1 + 1e-9)])
-    displacements = [mechanism.displacement(float(each)) for each in rotations]
-    accelerations = [mechanism.acceleration(float(each)) for each in rotations]
+    length, force = unit_of("m"), unit_of("m/s²")
+    displacements = [mechanism.displacement(float(each)) / length.size for each in rotations]
+    accelerations = [mechanism.acceleration(float(each)) / force.size for each in rotations]
     axes.plot(displacements, accelerations, color="black")
     for (name, state), colour in zip(LIMIT_STATES.items(), (PREDICTED, PULSE), strict=True):
         point = mechanism.limit(state)
         if math.isinf(point.displacement):
             continue
-        label = f"d {name} = {number(point.displacement)} m, T {name} = {number(point.period)} s"
-        axes.plot([0, point.displacement], [0, point.acceleration], "--", color=colour, linewidth=0.8)
-        axes.plot(point.displacement, point.acceleration, "o", color=colour, markersize=4, label=label)
+        label = f"d {name} = {quantity(point.displacement, 'm')}, T {name} = {number(point.period)} s"
+        place = point.displacement / length.size
+        level = point.acceleration / force.size
+        axes.plot([0, place], [0, level], "--", color=colour, linewidth=0.8)
+        axes.plot(place, level, "o", color=colour, markersize=4, label=label)
     axes.axhline(0, **ZERO)
     axes.margins(x=0)
     axes.set_ylim(0, 1.35 * max(accelerations))
-    axes.set(xlabel="displacement d [m]", ylabel="acceleration a [m/s²]", title="capacity curve")
+    axes.set(
+        xlabel=f"displacement d [{length.name}]",
+        ylabel=f"acceleration a [{force.name}]",
+        title="capacity curve",
+    )
     if axes.get_legend_handles_labels()[0]:
         axes.legend(loc="upper right")
 

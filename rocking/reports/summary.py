@@ -48,6 +48,7 @@ from rocking.reports.printing import (
 )
 from rocking.reports.style import PREDICTED, elided, new_figure, picture, pictures, styled
 from rocking.reports.supports import shares_by_period_figure
+from rocking.reports.units import displaying, unit_of
 from rocking.tables import rows_of
 
 if TYPE_CHECKING:
@@ -98,6 +99,16 @@ def summary_data(
     settings: at least tolerance and acceleration_scale; below "about" what is told of the study, where it is given.
     trade: figure and conclusion, where it was measured. design: None where the study has no design level.
     """
+    with displaying(settings):
+        return _data(tables, settings, trade, design)
+
+
+def _data(
+    tables: Mapping[str, "DataFrame"],
+    settings: Mapping[str, Any],
+    trade: Sequence[Mapping[str, str]],
+    design: Design | None,
+) -> dict[str, object]:
     verdicts = sorted(rows_of(VerdictRow, tables["verdicts"]), key=lambda row: row.severity, reverse=True)
     carried = supports_of(tables)
     shown = one_period_each(verdicts, carried)
@@ -275,8 +286,10 @@ def severity_map(verdicts: Sequence[VerdictRow], records: "DataFrame") -> dict[s
     rest = " and ".join(counted(count, noun) for count, noun in others if count)
     by_pair = {(row.record, row.structure): row for row in verdicts}
     peaks = records.groupby("record", observed=True)[["peak_acceleration_m_s2", "peak_velocity_m_s"]].max()
-    peaks = (peaks / [GRAVITY, 1.0]).reindex(rows)
+    velocity = unit_of("m/s")
+    peaks = (peaks / [GRAVITY, velocity.size]).reindex(rows)
     return {
+        "peak-heads": ["PGA [g]", f"PGV [{velocity.name}]"],
         "heads": [elided(name, _HEAD) for name in columns],
         "rows": [
             {

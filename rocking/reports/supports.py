@@ -15,7 +15,7 @@ from rocking.assessment.rows.of_record import SupportRow
 from rocking.quantities import GRAVITY
 from rocking.records.floor_spectrum import FLOOR_DAMPING, floor_spectrum, has_code_spectrum, spectrum_of
 from rocking.records.measures import response_spectrum
-from rocking.reports.printing import LOOKS
+from rocking.reports.printing import LOOKS, quantity
 from rocking.reports.style import (
     PREDICTED,
     elided,
@@ -188,9 +188,7 @@ def floor_sentences(panels: Sequence[SupportPanel]) -> list[str]:
             text = f"at T_b {support.modes[0].period:.3g} s the peak is {factor:.2g} times that of the ground"
             if floor.analysis is not None:
                 pulse = floor.analysis.evidence.pulse
-                text += (
-                    f" and the dominant pulse has {abs(pulse.amplitude):.3g} m/s² and {pulse.period:.2g} s"
-                )
+                text += f" and the dominant pulse has {quantity(abs(pulse.amplitude), 'm/s²')} and {pulse.period:.2g} s"
             parts.append(text)
         sentences.append(f"On {panel.structures[0].place}, {'; '.join(parts)}.")
     return sentences

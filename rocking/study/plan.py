@@ -93,7 +93,7 @@ class Plan:
     def made_from(self, job: str) -> str:
         """Return one hash for everything on which the files of a job depend."""
         settings = self.settings
-        shown = settings.about if settings.reports else ()
+        shown = (settings.about, settings.display_units) if settings.reports else ()
         return sha256_of(*self.params(job).items(), shown, settings.reports, settings.histories)
 
     @property

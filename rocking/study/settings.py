@@ -135,6 +135,12 @@ class Settings(AssessmentSettings):
         heading=Heading.OUTPUT,
         changes_numbers=False,
     )
+    display_units: Literal["SI", "g and cm"] = described(
+        "SI",
+        "how reports show accelerations, velocities and displacements: in SI units as the tables do, or in g and cm",
+        heading=Heading.OUTPUT,
+        changes_numbers=False,
+    )
     histories: bool = described(
         False,
         "whether each record gets histories.csv, the rotation of every response",

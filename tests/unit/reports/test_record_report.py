@@ -9,6 +9,7 @@ import pytest
 from rocking.assessment.rows.of_study import structure_rows
 from rocking.assessment.verdict import Agreement, Doubt, Verdict
 from rocking.records.accelerogram import Accelerogram
+from rocking.reports import printing
 from rocking.reports.record import RecordReport, failure_report
 from rocking.structures import Block, Facade, Spire
 from rocking.tables import cell
@@ -208,3 +209,44 @@ def test_a_front_that_is_free_to_rock_through_its_floors_is_told_on_page_one():
     report = assessed("one", [shaken()], fronts)
     (told,) = (each for each in report.data()["sentences"] if "inwards as freely" in each)
     assert told.startswith("floors: ") and "leaning" not in told and "free:" not in told
+
+
+def _head_and_value(facts: dict) -> list[tuple[str, list[str]]]:
+    """The heads of the facts of one component with their values; two stand beside each other in a line."""
+    return [(row[place], [row[place + 1]]) for row in facts["rows"] for place in (0, 2)]
+
+
+def _columns(table: dict) -> list[tuple[str, tuple[str, ...]]]:
+    """The heads of a table, each with what stands below it."""
+    return list(zip(table["heads"], zip(*table["rows"], strict=True), strict=True))
+
+
+def test_a_report_in_g_and_centimetres_prints_the_same_numbers_in_them(example):
+    """Every number is that of SI units over the size of its unit: 9.80665 m/s², .01 m/s and .01 m."""
+    settings = {**example.settings, "display_units": "g and cm"}
+    plain, shown = example.data(), replace(example, settings=settings).data()
+    assert "m/s²" not in str(shown["facts"]) + str(shown["pulses"]) + str(shown["sentences"])
+    sizes = {"[m/s²]": ("[g]", 9.80665), "[m/s]": ("[cm/s]", 0.01), "[m]": ("[cm]", 0.01)}
+    (row,) = example.tables.record
+    pulse = next(each for each in example.tables.pulses if each.rank == 1)
+    expected = {
+        "PGV": f"PGV {printing.number(row.peak_velocity_m_s / 0.01)} cm/s",
+        "amplitude": f"amplitude {printing.number(abs(pulse.amplitude_m_s2) / 9.80665)} g",
+    }
+    printed = " ".join(map(str, shown.values()))
+    for text in expected.values():
+        assert text in printed, text
+    pairs = [*zip(_head_and_value(plain["facts"]), _head_and_value(shown["facts"]), strict=True)]
+    pairs += zip(_columns(plain["pulses"]), _columns(shown["pulses"]), strict=True)
+    for (head, before), (new_head, after) in pairs:
+        unit = next((each for each in sizes if each in head), None)
+        if unit is None:
+            assert (new_head, after) == (head, before)
+            continue
+        name, size = sizes[unit]
+        assert new_head == head.replace(unit, name)
+        for old, new in zip(before, after, strict=True):
+            ((first, half),) = printed_numbers(old)
+            ((second, other),) = printed_numbers(new)
+            assert abs(second * size - first) <= 1.001 * (half + other * size), (head, old, new)
+    assert example.data() == plain, "the units are those of one report"
