@@ -46,6 +46,10 @@ class StructureError(RockingError):
     """A geometry that cannot stand, or a structure that cannot be described as asked."""
 
 
+class DoesNotStandError(StructureError):
+    """A structure that what acts on it at rest turns over."""
+
+
 class MotionError(RockingError):
     """A setting of the integration, or a forcing, outside what is allowed."""
 

@@ -117,6 +117,9 @@ class Facade(Tied):
         self._check_storeys()
         self._check_ties()
         self.mechanism()  # one that is pushed over at rest is refused at birth
+        grows = any(above > below for below, above in pairwise(self.thicknesses))
+        if self.crack != "known" and (self.thrust or grows):
+            self.candidates()  # and one that is with another crack
 
     def _check_storeys(self) -> None:
         heights, thicknesses, loads = self.storey_heights, self.thicknesses, self.floor_loads

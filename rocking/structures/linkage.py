@@ -19,7 +19,7 @@ from typing import Literal, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.errors import StructureError
+from rocking.errors import DoesNotStandError
 from rocking.quantities import GRAVITY
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.mechanism import Side, SideTie, Tie
@@ -218,7 +218,9 @@ class Linkage(ABC):
         return tuple(side_tie(each, each.tie) for each in self.hung if each.tie)
 
     def side(self, restitution: float) -> Side:
-        """Return the side of rocking."""
+        """Return the side of rocking. Raises DoesNotStandError where nothing restores at rest."""
+        if not self.gravity(0.0) > 0:
+            raise DoesNotStandError("the structure does not stand: what acts on it at rest turns it over.")
         critical = self._first_zero() if self.critical is None else self.critical
         functions = self.inertia, self.inertia_slope, self.gravity, self.gravity_slope, self.ground
         return Side(
@@ -234,7 +236,7 @@ class Linkage(ABC):
     def _first_zero(self) -> float | None:
         """The rotation at which G first vanishes within (0, end_rotation), or a tie lets it fall below zero, rad.
 
-        None where it does not vanish. Raises StructureError when G does not restore at rest.
+        None where it does not vanish.
         """
         from scipy.optimize import brentq  # slow to import, and not needed by what has a formula
 
@@ -244,8 +246,6 @@ class Linkage(ABC):
         falls = np.flatnonzero(self.gravity(places) <= 0)
         if not falls.size:
             return None
-        if falls[0] == 0:
-            raise StructureError("the structure does not stand: what acts on it at rest turns it over.")
         before, after = places[falls[0] - 1], places[falls[0]]
         # Where a tie breaks, a rotation alone may be rounded otherwise than in a row.
         while bends and self.gravity(before) <= 0:

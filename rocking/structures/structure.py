@@ -3,7 +3,6 @@
 import warnings
 from abc import abstractmethod
 from collections.abc import Mapping
-from contextlib import suppress
 from dataclasses import dataclass, field, fields, replace
 from functools import cache, cached_property
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
@@ -11,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.errors import StructureError, StructureWarning
+from rocking.errors import DoesNotStandError, StructureError, StructureWarning
 from rocking.quantities import within
 from rocking.structures.capacity import CapacityCurve as CapacityCurve
 from rocking.structures.capacity import StaticCapacity
@@ -547,7 +546,7 @@ class CrackedAtHeight(Crackable):
 
         Where λ has its least value between two of the heights, the height of that is one more. A crack at which what
         holds the structure leaves no mechanism is left out, and one with which it cannot overturn where with another
-        one it can.
+        one it can. Raises DoesNotStandError where it falls at rest with one of them.
         """
         heights = sorted({*self._places(count), float(self.crack_position)})
         formed = [each for each in map(self._candidate, heights) if each]
@@ -576,13 +575,20 @@ class CrackedAtHeight(Crackable):
         return self._candidate(float(least.x))
 
     def _candidate(self, height: float) -> Candidate | None:
-        with suppress(StructureError), warnings.catch_warnings():
-            # a crack next to a support may keep nothing of an impact: nobody asked for that one
-            warnings.simplefilter("ignore", StructureWarning)
-            structure = replace(self, crack="known").cracked_at(height)
-            structure.mechanism()
-            return Candidate(self._in_words(height), height, structure)
-        return None
+        try:
+            with warnings.catch_warnings():
+                # a crack next to a support may keep nothing of an impact: nobody asked for that one
+                warnings.simplefilter("ignore", StructureWarning)
+                structure = replace(self, crack="known").cracked_at(height)
+                structure.mechanism()
+        except DoesNotStandError:
+            raise DoesNotStandError(
+                f"the structure does not stand with the {self._in_words(height)}: what acts on it at rest turns it "
+                "over; mend its loads or its sizes, or say by crack: known that it can open where it is given alone."
+            ) from None
+        except StructureError:
+            return None
+        return Candidate(self._in_words(height), height, structure)
 
     def cracked_by_statics(self) -> Self:
         """Return this structure cracked where statics chooses; the crack is unknown."""

@@ -51,6 +51,14 @@ def facade(**changes):
             "floor_loads has 1 values, but must have 3, one for each storey",
         ),
         (lambda: facade(thrust=1e6), "does not stand: what acts on it at rest turns it over"),
+        (
+            lambda: Facade((3.5, 3.0), (1.0, 0.35), 20e3, thrust=3e3),
+            r"does not stand with the crack at 3\.0.* m: what acts on it at rest .*; mend its loads",
+        ),
+        (
+            lambda: Facade((3.0, 3.0), (0.3, 1.0), 20e3),
+            r"does not stand.*: what acts on it at rest turns it over",
+        ),
         (lambda: facade(thrust_height=12.0), "thrust_height is 12.0 m, but must lie on the wall"),
         (lambda: facade(crack_storey=4), "crack_storey is 4, but must be a whole number from 1 to 3"),
         (lambda: facade(crack_storey=2, crack_height=1.0), "one crack is meant; give one of them"),
