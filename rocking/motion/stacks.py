@@ -5,7 +5,7 @@ changes with it, so that one run says less than the share of several (`assessmen
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -97,13 +97,14 @@ def follow_stack(
         steps=steps,
         unsolved_steps=swept,
     )
-    if not every:
-        return response
-    kept = kept[: (steps - 1) // every + 1, 1:] * np.array([1, 1, -1, 1, 1, -1])
-    times = step * (1 + every * np.arange(len(kept)))
-    return StackResponse(
-        **{**vars(response), "times": times, "places": kept[..., :3], "velocities": kept[..., 3:]}
-    )
+    return _with_history(response, kept, step, every) if every else response
+
+
+def _with_history(response: StackResponse, kept: np.ndarray, step: float, every: int) -> StackResponse:
+    """The response with its history: the kernel kept the states after each `every` steps, with turns to the left."""
+    states = kept[: (response.steps - 1) // every + 1, 1:] * np.array([1, 1, -1, 1, 1, -1])
+    times = step * (1 + every * np.arange(len(states)))
+    return replace(response, times=times, places=states[..., :3], velocities=states[..., 3:])
 
 
 def _kicks(motion: Accelerogram, vertical: Accelerogram | None, step: float) -> np.ndarray:

@@ -100,11 +100,7 @@ def support_from_config(mapping: Mapping[str, Any]) -> NamedSupport:
     >>> round(support_from_config(roof).supports[0].modes[0].participation, 3)
     1.286
     """
-    for key in mapping:
-        if key not in _KEYS:
-            near = get_close_matches(str(key), sorted(_KEYS), n=1, cutoff=0.5)
-            hint = f"did you mean {near[0]}?" if near else f"use {', '.join(sorted(_KEYS - {'type'}))}."
-            raise ConfigurationError(f"{key} is not a key of a support; {hint}")
+    _check_keys(mapping)
     yields = mapping.get("yielding_masonry") or False
     if not isinstance(yields, bool):
         raise ConfigurationError(f"yielding_masonry is {yields!r}, but must be true or false.")
@@ -130,6 +126,15 @@ def support_from_config(mapping: Mapping[str, Any]) -> NamedSupport:
     except RecordError as error:
         raise ConfigurationError(str(error)) from None
     return NamedSupport(str(mapping["name"]), supports, _mass_ratio(mapping))
+
+
+def _check_keys(mapping: Mapping[str, Any]) -> None:
+    """Refuse a key that a support has not."""
+    for key in mapping:
+        if key not in _KEYS:
+            near = get_close_matches(str(key), sorted(_KEYS), n=1, cutoff=0.5)
+            hint = f"did you mean {near[0]}?" if near else f"use {', '.join(sorted(_KEYS - {'type'}))}."
+            raise ConfigurationError(f"{key} is not a key of a support; {hint}")
 
 
 def _mass_ratio(mapping: Mapping[str, Any]) -> float | None:
@@ -213,9 +218,44 @@ def _period_range(mode: Mapping[str, Any], yields: bool) -> tuple[float, float]:
 
 def support_schema(name: Mapping[str, object]) -> dict[str, object]:
     """Return the JSON schema of an entry. name: that of its name."""
-    number = {"type": "number", "exclusiveMinimum": 0}
+    of_mode = _mode_schema()
+    several_modes = {
+        "type": "array",
+        "minItems": 1,
+        "items": {
+            "type": "object",
+            "additionalProperties": False,
+            "required": ["period_s", "participation"],
+            "properties": dict(of_mode),
+        },
+        "description": "Several modes, as of a tower, in place of one",
+    }
+    mass_ratio = {
+        "type": "number",
+        "minimum": 0,
+        "description": f"Mass of a structure over that of the mode; a warning is given above {HEAVY:g}",
+    }
+    return {
+        "description": "Support: a floor, a roof, a façade or a tower on which structures stand",
+        "type": "object",
+        "additionalProperties": False,
+        "required": ["name", "type"],
+        "properties": {
+            "name": {**name, "description": "Name of the support, which stands_on of structures says"},
+            "type": {"const": TYPE_NAME},
+            **of_mode,
+            **_building_schema(),
+            "mass_ratio": mass_ratio,
+            "modes": several_modes,
+        },
+        "examples": [_EXAMPLE],
+    }
+
+
+def _mode_schema() -> dict[str, object]:
+    """The keys of a mode."""
     period = {
-        "oneOf": [number, {"type": "array", "items": number, "minItems": 2, "maxItems": 2}],
+        "oneOf": [_POSITIVE, {"type": "array", "items": _POSITIVE, "minItems": 2, "maxItems": 2}],
         "description": f"Period of the support, s, or a range of it, of which {PERIODS} are followed",
     }
     damping = {
@@ -226,53 +266,32 @@ def support_schema(name: Mapping[str, object]) -> dict[str, object]:
         f"{YIELDING_DAMPING:g} with yielding_masonry",
     }
     participation = {"type": "number", "description": "Γψ of the mode where the structures stand"}
-    of_mode = {"period_s": period, "damping_ratio": damping, "participation": participation}
-    properties = {
-        "name": {**name, "description": "Name of the support, which stands_on of structures says"},
-        "type": {"const": TYPE_NAME},
-        **of_mode,
+    return {"period_s": period, "damping_ratio": damping, "participation": participation}
+
+
+def _building_schema() -> dict[str, object]:
+    """The keys of the building from which the participation follows."""
+    return {
         "storeys": {
             "type": "integer",
             "minimum": 1,
             "description": "Storeys n of the building; Γ = 3n/(2n+1)",
         },
         "height_m": {"type": "number", "minimum": 0, "description": "Height z of the support, m; ψ = z/H"},
-        "building_height_m": {**number, "description": "Height H of the building, m"},
+        "building_height_m": {**_POSITIVE, "description": "Height H of the building, m"},
         "yielding_masonry": {
             "type": "boolean",
             "description": "Whether the building yields: its period is then 1.5 to 2 times as long",
         },
-        "mass_ratio": {
-            "type": "number",
-            "minimum": 0,
-            "description": f"Mass of a structure over that of the mode; a warning is given above {HEAVY:g}",
-        },
-        "modes": {
-            "type": "array",
-            "minItems": 1,
-            "items": {
-                "type": "object",
-                "additionalProperties": False,
-                "required": ["period_s", "participation"],
-                "properties": dict(of_mode),
-            },
-            "description": "Several modes, as of a tower, in place of one",
-        },
     }
-    return {
-        "description": "Support: a floor, a roof, a façade or a tower on which structures stand",
-        "type": "object",
-        "additionalProperties": False,
-        "required": ["name", "type"],
-        "properties": properties,
-        "examples": [
-            {
-                "name": "my roof",
-                "type": TYPE_NAME,
-                "period_s": [0.15, 0.6],
-                "storeys": 3,
-                "height_m": 9.0,
-                "building_height_m": 9.0,
-            }
-        ],
-    }
+
+
+_POSITIVE: dict[str, object] = {"type": "number", "exclusiveMinimum": 0}
+_EXAMPLE = {
+    "name": "my roof",
+    "type": TYPE_NAME,
+    "period_s": [0.15, 0.6],
+    "storeys": 3,
+    "height_m": 9.0,
+    "building_height_m": 9.0,
+}

@@ -186,16 +186,12 @@ def load_structures(path: str | Path) -> dict[str, Structure]:
     the names of its `standing`. Raises ConfigurationError with every defect at once, one a line; warns with a
     StructureWarning of a size beyond its plausible range.
     """
-    entries, node = read_yaml(Path(path), ConfigurationError, "structure list")
-    if not isinstance(entries, list) or not entries:
-        raise ConfigurationError(
-            f"{path}: the file holds {kind_in_words(entries)}, but must hold a list of structures."
-        )
+    entries, texts_of = _entries(Path(path))
     defects: list[str] = []
     supports: dict[str, NamedSupport | None] = {}
     structures: dict[str, Structure] = {}
     names: list[object] = []
-    numbered = list(enumerate(zip(entries, map(_texts, node.value), strict=True), start=1))
+    numbered = list(enumerate(zip(entries, texts_of, strict=True), start=1))
     for number, (entry, texts) in sorted(numbered, key=lambda each: not _is_support(each[1][0])):
         name = entry.get("name") if isinstance(entry, Mapping) else None
         where = f"{path}: structure {number}" + (f" ({name})" if name else "")
@@ -220,6 +216,16 @@ def load_structures(path: str | Path) -> dict[str, Structure]:
     if defects:
         raise ConfigurationError("\n".join(defects))
     return structures
+
+
+def _entries(path: Path) -> tuple[list[Any], list[Mapping[str, str]]]:
+    """The entries of a structure list, and the text of each of their values as it was typed."""
+    entries, node = read_yaml(path, ConfigurationError, "structure list")
+    if not isinstance(entries, list) or not entries:
+        raise ConfigurationError(
+            f"{path}: the file holds {kind_in_words(entries)}, but must hold a list of structures."
+        )
+    return entries, [_texts(each) for each in node.value]
 
 
 def _is_support(entry: object) -> bool:

@@ -80,12 +80,13 @@ class WallLinkage(Linkage):
             velocities=np.array([-1j * lower, -2j * lower + 1j * ratio * upper]),
             accelerations=np.array([-lower, -2 * lower + (1j * curvature - ratio**2) * upper]),
         )
-        if not self.loads:
-            return blocks
-        # a load on the top rises with its bearing and moves to no side
+        return self._loaded(blocks) if self.loads else blocks
+
+    def _loaded(self, blocks: Motion) -> Motion:
+        """The motion with that of the loads on the top, each of which rises with its bearing and moves to no side."""
         lifts = [1j * np.imag(self.carried(1, each.start, blocks)) for each in self.loads]
         bearings = [each.start + shift for each, (shift, _, _) in zip(self.loads, lifts, strict=True)]
-        still = np.zeros((len(lifts), *across.shape))
+        still = np.zeros((len(lifts), *blocks.spins.shape[1:]))
         return replace(
             blocks,
             angles=np.concatenate([blocks.angles, still]),

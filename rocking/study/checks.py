@@ -1,7 +1,7 @@
 """The checks of every structure of a study at its design level: their table, and the page of each."""
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 from rocking.assessment.dynamic_check import StructureCheck, check
@@ -10,11 +10,13 @@ from rocking.assessment.rows.of_record import VerdictRow
 from rocking.assessment.verdict import Doubt
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records import load_catalogue
+from rocking.records.design_spectrum import DesignSpectrum
 from rocking.records.selection import Selection
 from rocking.reports.structures import CheckedStructure, structures_report
 from rocking.structures import Structure
 from rocking.study.job import Study
 from rocking.study.selection import pool_of, select_for
+from rocking.study.settings import StudyDesign
 from rocking.tables import read_table, write_tables, write_whole
 
 
@@ -34,43 +36,55 @@ def write_checks(study: Study, folder: Path, tell: Callable[[str], None] = lambd
     verdicts = read_table(VerdictRow, folder)
     pages = []
     for name, structure in study.structures.items():
-        checked: StructureCheck | None = None
-        refusal = ""
-        try:
-            checked = check(
-                structure,
-                spectrum,
-                limit_state=design.limit_state,
-                confidence_factor=design.confidence_factor,
-                behaviour_factor=design.behaviour_factor,
-                support=structure.standing.support if structure.standing else None,
-                elastic_period=structure.check_terms.elastic_period,
-                support_loss=structure.check_terms.support_loss,
-                records=selection,
-            )
-        except RockingError as error:
-            refusal = f"It could not be checked: {error}"
         own = [each for each in verdicts if each.structure == name]
-        shares = [each.overturning_share for each in own]
-        known = [share for share in shares if not math.isnan(share)]
-        page = CheckedStructure(
-            name=name,
-            structure=structure,
-            checked=checked,
-            refusal=refusal,
-            overturning_share=sum(known) / len(known) if known else math.nan,
-            stations=len(known),
-            reserves=[each.reserve for each in own if each.reserve is not None],
-            reserve_doubts=_reserve_doubts(structure, own),
-        )
+        page = _checked(name, structure, design, spectrum, selection, own)
         pages.append(page)
-        tell(f"{name}: {refusal or _told(checked)}")
+        tell(f"{name}: {page.refusal or _told(page.checked)}")
     rows: Iterable[CodeCheckRow] = (
         row for page in pages if page.checked for row in code_check_rows(page.name, page.checked)
     )
     write_tables({CodeCheckRow: rows}, folder, "rocking-code-checks", "code_checks.json")
     report = structures_report(pages, spectrum, study.settings.mapping(), selection, notices)
     write_whole(folder / "structures.pdf", report)
+
+
+def _checked(
+    name: str,
+    structure: Structure,
+    design: StudyDesign,
+    spectrum: DesignSpectrum,
+    selection: Selection | None,
+    verdicts: Sequence[VerdictRow],
+) -> CheckedStructure:
+    """The checks of one structure beside its verdicts in the study; where it cannot be checked, why."""
+    checked: StructureCheck | None = None
+    refusal = ""
+    try:
+        checked = check(
+            structure,
+            spectrum,
+            limit_state=design.limit_state,
+            confidence_factor=design.confidence_factor,
+            behaviour_factor=design.behaviour_factor,
+            support=structure.standing.support if structure.standing else None,
+            elastic_period=structure.check_terms.elastic_period,
+            support_loss=structure.check_terms.support_loss,
+            records=selection,
+        )
+    except RockingError as error:
+        refusal = f"It could not be checked: {error}"
+    shares = [each.overturning_share for each in verdicts]
+    known = [share for share in shares if not math.isnan(share)]
+    return CheckedStructure(
+        name=name,
+        structure=structure,
+        checked=checked,
+        refusal=refusal,
+        overturning_share=sum(known) / len(known) if known else math.nan,
+        stations=len(known),
+        reserves=[each.reserve for each in verdicts if each.reserve is not None],
+        reserve_doubts=_reserve_doubts(structure, verdicts),
+    )
 
 
 def _reserve_doubts(structure: Structure, verdicts: Iterable[VerdictRow]) -> list[Doubt]:

@@ -53,10 +53,7 @@ def run(folder: Path, options: Sequence[str]) -> int:
     is none; RockingError when another run works in it.
     """
     plan = _plan(folder)
-    for name in (option.partition("=")[0] for option in options):
-        for refused, why in _REFUSED.items():  # snakemake takes the begin of a name for the whole
-            if name[:3] == refused[:3] and refused.startswith(name) and name != "--config":
-                raise ConfigurationError(f"{refused} {why}; leave it out.")
+    _check_options(options)
     home = workflow_folder()
     if options and not options[0].startswith("-"):
         _check_target(options[0], home)
@@ -72,8 +69,7 @@ def run(folder: Path, options: Sequence[str]) -> int:
         return _snakemake(arguments)
     hold(folder.resolve())
     results = folder / plan.settings.results
-    summary = results / "summary"
-    log = summary / "logs" / "run.log"
+    log = results / "summary" / "logs" / "run.log"
     with contextlib.chdir(folder):
         doubts = plan.doubts
     print(
@@ -91,16 +87,33 @@ def run(folder: Path, options: Sequence[str]) -> int:
         print(f"Stopped; what was finished stays. To go on: rocking run {folder}")
         return 128 + _STOPS[0]
     if status:
-        raised = _RAISED.findall("\n".join(progress.errors))
-        reasons = progress.reasons or raised or progress.errors[-1:] or [f"see {log}"]
-        reason = "; ".join(dict.fromkeys(_in_a_sentence(each, folder, log) for each in reasons))
-        print(f"Not finished: {reason}\nMend that, then go on: rocking run {folder}")
+        print(f"Not finished: {_why(progress, folder, log)}\nMend that, then go on: rocking run {folder}")
         return 1
     if options and not options[0].startswith("-"):
         print(f"Finished: {options[0]}; what it wrote lies in {results}")
         return 0
-    failures = read_table(FailureRow, summary)
-    verdicts = read_table(VerdictRow, summary)
+    return _told_of(results)
+
+
+def _check_options(options: Sequence[str]) -> None:
+    """Refuse an option of snakemake that a study may not have; snakemake takes the begin of a name for the whole."""
+    for name in (option.partition("=")[0] for option in options):
+        for refused, why in _REFUSED.items():
+            if name[:3] == refused[:3] and refused.startswith(name) and name != "--config":
+                raise ConfigurationError(f"{refused} {why}; leave it out.")
+
+
+def _why(progress: Progress, folder: Path, log: Path) -> str:
+    """Why a run did not finish, in a sentence."""
+    raised = _RAISED.findall("\n".join(progress.errors))
+    reasons = progress.reasons or raised or progress.errors[-1:] or [f"see {log}"]
+    return "; ".join(dict.fromkeys(_in_a_sentence(each, folder, log) for each in reasons))
+
+
+def _told_of(results: Path) -> int:
+    """Tell what came of a whole study, and return the exit status."""
+    failures = read_table(FailureRow, results / "summary")
+    verdicts = read_table(VerdictRow, results / "summary")
     for line in (*closing_lines(verdicts, failures), *paths_to_read(results, verdicts)):
         print(fitting(line, sys.stdout))
     return int(bool(failures))

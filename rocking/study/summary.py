@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rocking.assessment.cracks import cracks
 from rocking.assessment.rows.of_record import RECORD_TABLES, ComparisonRow, TimingRow
@@ -22,7 +22,7 @@ from rocking.assessment.rows.of_study import (
 )
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records import Accelerogram, CatalogueRecord
-from rocking.structures import Structure
+from rocking.structures import Mechanism, Structure
 from rocking.study.job import Study
 from rocking.study.results import (
     SPECTRA,
@@ -34,6 +34,9 @@ from rocking.study.results import (
 )
 from rocking.tables import Row, data_package, frame, write_tables, write_whole
 from rocking.tables.workbook import workbook
+
+if TYPE_CHECKING:
+    from rocking.assessment.intensity import IntensityMeasure
 
 WORKBOOK = "study.xlsx"
 """The tables of the summary in one file, but for the times, which differ from run to run."""
@@ -150,23 +153,7 @@ def write_fragility(
     hazard = rows.read_hazard(Path(settings.hazard)) if settings.hazard else None
     measure = intensity_measure(settings.intensity_measure)
     mechanism = next(iter(study.structures.values())).mechanism()
-    names: list[str] = []
-    accelerograms: list[Accelerogram] = []
-    reasons: list[str] = []
-    for record in records:
-        try:
-            components, _ = study.open(record)
-            for accelerogram in components:
-                measure.of(accelerogram, mechanism)
-        except RockingError as error:
-            reasons.append(f"{record.id}: {error}")
-            continue
-        names += [f"{record.id} {accelerogram.component}".strip() for accelerogram in components]
-        accelerograms += components
-    if not accelerograms:
-        raise ConfigurationError(
-            "no record of the catalogue can be used, but a fragility needs two stations; the log says why."
-        )
+    names, accelerograms, reasons = _usable(records, study, measure, mechanism)
     tables: dict[type[Row], list[Row]] = {each: [] for each in rows.FRAGILITY_TABLES.values()}
     for count, (name, structure) in enumerate(study.structures.items(), start=1):
         if never := cracks(structure)[0].mechanism.never_lets_go:
@@ -193,3 +180,30 @@ def write_fragility(
         tell(f"{count} of {len(study.structures)}: {name}")
     write_tables(tables, folder, "rocking-fragility")
     return reasons
+
+
+def _usable(
+    records: Iterable[CatalogueRecord], study: Study, measure: "IntensityMeasure", mechanism: Mechanism
+) -> tuple[list[str], list[Accelerogram], list[str]]:
+    """The components that can be read and have the intensity measure, with their names; and why others are left out.
+
+    Raises ConfigurationError where none is left.
+    """
+    names: list[str] = []
+    accelerograms: list[Accelerogram] = []
+    reasons: list[str] = []
+    for record in records:
+        try:
+            components, _ = study.open(record)
+            for accelerogram in components:
+                measure.of(accelerogram, mechanism)
+        except RockingError as error:
+            reasons.append(f"{record.id}: {error}")
+            continue
+        names += [f"{record.id} {accelerogram.component}".strip() for accelerogram in components]
+        accelerograms += components
+    if not accelerograms:
+        raise ConfigurationError(
+            "no record of the catalogue can be used, but a fragility needs two stations; the log says why."
+        )
+    return names, accelerograms, reasons
