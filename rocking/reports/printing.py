@@ -108,8 +108,14 @@ def to_spread(value: float, judgement: "Judgement") -> str:
 
 
 def cell_text(judgement: "Judgement | None") -> str:
-    """Return a case in a map: sign and share of members that overturn, in %, or the rotation ratio of a single run."""
+    """Return a case in a map: its sign, and the number behind it, whose form says which it is.
+
+    "5/6": stacks of courses that fall, of those that contact dynamics followed. "12 %": share of the members that
+    overturn. "0.4": rotation ratio of a single run.
+    """
     sign = LOOKS[judgement.verdict if judgement else Verdict.UNKNOWN][0]
+    if judgement is not None and judgement.stack_runs:
+        return f"{sign} {judgement.stack_falls}/{judgement.stack_runs}"
     if judgement is not None and judgement.members and judgement.verdict is Verdict.UNDECIDED:
         # What contacts leave undecided though no member overturns has no share to print.
         return (

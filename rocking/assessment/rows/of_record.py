@@ -88,7 +88,9 @@ class MembersRow(CaseRow):
     )
     overturning_members: int = column("Number of members that overturn")
     members: int = column("Number of members; 0 without an ensemble")
-    overturning_share: float = column("Share of the members that overturn; of a single run 0 or 1")
+    overturning_share: float = column(
+        "Share of the members, never of stacks, that overturn; of a single run 0 or 1"
+    )
     crack: str = column("Crack that governs, to which the numbers belong; empty where only one may form")
     statics_crack: str = column(
         "Crack of statics where another governs; beside a crack that is given, the worst other"
@@ -287,7 +289,9 @@ class SupportRow(CaseRow):
     verdict: Verdict = column(
         "stands, overturns, undecided, unknown (a component failed), or cannot overturn"
     )
-    overturning_share: float = column("Share of the members that overturn; of a single run 0 or 1")
+    overturning_share: float = column(
+        "Share of the members, never of stacks, that overturn; of a single run 0 or 1"
+    )
 
 
 @row("variations")

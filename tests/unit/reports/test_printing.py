@@ -5,8 +5,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from rocking.assessment.rows.of_record import PulseRow
+from rocking.assessment.rows.of_record import PulseRow, VerdictRow
+from rocking.assessment.verdict import Verdict
 from rocking.reports import printing
+from tests.unit.assessment.made_rows import filled
 
 
 @pytest.mark.parametrize(
@@ -53,3 +55,32 @@ def test_a_column_has_the_heading_unit_and_digits_of_its_field():
 def test_a_ratio_has_no_more_digits_than_a_tenth_of_its_spread(value, spread, printed):
     judgement = SimpleNamespace(rotation_ratio_low=0.1, rotation_ratio_high=0.1 + spread)
     assert printing.to_spread(value, judgement) == printed
+
+
+@pytest.mark.parametrize(
+    ("verdict", "numbers", "printed"),
+    [
+        (
+            Verdict.OVERTURNS,
+            {"members": 64, "overturning_members": 62, "overturning_share": 62 / 64},
+            "▲ 97 %",
+        ),
+        (Verdict.UNDECIDED, {"members": 64, "overturning_members": 0, "overturning_share": 0.0}, "?"),
+        (Verdict.STANDS, {"members": 0, "rotation_ratio": 0.4}, "● 0.40"),
+        # what contact dynamics decides has its own count, whatever the members of the mechanism do
+        (
+            Verdict.STANDS,
+            {
+                "members": 64,
+                "overturning_members": 20,
+                "overturning_share": 20 / 64,
+                "stack_falls": 0,
+                "stack_runs": 6,
+            },
+            "● 0/6",
+        ),
+    ],
+)
+def test_the_number_of_a_cell_has_the_form_of_what_it_counts(verdict, numbers, printed):
+    row = filled(VerdictRow, record="a", structure="pier", verdict=verdict, **numbers)
+    assert printing.cell_text(row).replace("\u00a0", " ") == printed
