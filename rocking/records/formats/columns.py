@@ -94,7 +94,7 @@ def _below_text(above: list[str], remarks: Sequence[str], width: int, start: int
 
 
 _SCALED = re.compile(r"(?i)\b(scal\w*|factor\w*|multipl\w*|gain|sensitivity|counts?)\b")
-"""What text above a table speaks of that the numbers of the table may still lack."""
+"""Words above a table that speak of a factor by which its numbers may still have to be multiplied."""
 
 
 def _is_all_said(labels: Sequence[ColumnLabel], unit: str | None, step: float | None) -> bool:
