@@ -22,6 +22,7 @@ from rocking import (
     select,
 )
 from rocking.assessment.code_check import kinematic_check
+from rocking.assessment.dynamic_check import LEAST_SHARE
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import GRAVITY
 from rocking.records.selection import SETS, Selection
@@ -180,19 +181,33 @@ def code_sets(target: Target) -> None:
             f"no half of {len(sites)} sites gave sets of {SET_STATIONS} stations at the design level; give more "
             "records."
         )
-    splits = [str(each.split) for each in trials]
-    covered = np.array([each.covered for each in trials], dtype=float)
-    disagree = np.array([each.sets_disagree for each in trials])
-    scores = []
-    for part, own in (("all", np.ones(len(trials), dtype=bool)), ("sets disagree", disagree)):
-        measures = {"covered": covered[own]}
-        of_splits = [split for split, counts in zip(splits, own, strict=True) if counts]
-        scores += list(scored("share of sets that pass", part, measures, of_splits))
+    scores = list(_set_scores(trials))
     subtitle = (
-        f"{len(SET_WALLS)} cantilevers, sets of {SET_STATIONS} of half of {len(sites)} sites, {len(set(splits))} "
-        f"splits, {SPECTRUM.words}; intervals of the coverage by split."
+        f"{len(SET_WALLS)} cantilevers, sets of {SET_STATIONS} of half of {len(sites)} sites, "
+        f"{len({each.split for each in trials})} splits, {SPECTRUM.words}; intervals of the coverage by split."
     )
     target.publish("What another set would have said", subtitle, {SetTrial: trials, Score: scores})
+
+
+def _set_scores(trials: Sequence[SetTrial]) -> Iterator[Score]:
+    """How often the interval holds what the other half says, and how often both call a wall met; by split."""
+    parts = {
+        "all": list(trials),
+        "sets disagree": [each for each in trials if each.sets_disagree],
+        "called met by one half": [
+            each for each in trials if each.share >= LEAST_SHARE and each.sets_disagree
+        ],
+    }
+    for part, own in parts.items():
+        measures = {
+            "covered": [float(each.covered) for each in own],
+            "fewer meet it than the lower end": [
+                float(each.other_share < each.share_low - _ONE_SET) for each in own
+            ],
+            "the other half calls it met": [float(each.other_share >= LEAST_SHARE) for each in own],
+        }
+        if own:
+            yield from scored("share of sets that pass", part, measures, [str(each.split) for each in own])
 
 
 def _trials(selections: Sequence[Selection], split: int) -> Iterator[SetTrial]:
