@@ -45,8 +45,13 @@ def study(tmp_path_factory) -> tuple[Path, Study, list]:
     """A study of one strong record, assessed, with its page; one record more cannot be read."""
     folder = tmp_path_factory.mktemp("explore") / "study"
     write_study(folder, 2, duration=8.0)
-    (folder / "structures.yaml").write_text(STRUCTURES, encoding="utf-8")
     (folder / "records" / "synthetic_00001.AT2").write_text("no record", encoding="utf-8")
+    return _explored(folder, STRUCTURES)
+
+
+def _explored(folder: Path, structures: str) -> tuple[Path, Study, list]:
+    """The page of the study of `structures` in a folder, what assessed it, and its records."""
+    (folder / "structures.yaml").write_text(structures, encoding="utf-8")
     results = folder / "results"
     paths = {"catalogue": str(folder / "records" / "catalogue.csv"), "results": str(results)}
     choices = {"ensemble": {"members": 16}, "candidates": 0, "processing_variants": False}
@@ -63,9 +68,12 @@ def study(tmp_path_factory) -> tuple[Path, Study, list]:
 @pytest.fixture(scope="module")
 def content(study) -> dict:
     """What the page carries."""
-    (text,) = re.findall(
-        r'<script type="application/json" id="content">(.*?)</script>', study[0].read_text(encoding="utf-8")
-    )
+    return _content(study[0])
+
+
+def _content(page: Path) -> dict:
+    pattern = r'<script type="application/json" id="content">(.*?)</script>'
+    (text,) = re.findall(pattern, page.read_text(encoding="utf-8"))
     return json.loads(text)
 
 
@@ -112,6 +120,20 @@ def test_the_page_carries_the_rotation_that_was_integrated(content, study):
         expected = response.rotation_ratio
         assert largest > 1 if math.isinf(expected) else math.isclose(largest, expected, rel_tol=0.01)
     assert drawn
+
+
+def test_each_side_of_a_front_is_turned_by_its_own_critical_rotation(tmp_path):
+    """Inwards a storey that is thinner above has another centre of mass over its toe than outwards."""
+    sizes = "storey_heights_m: [3.0, 3.0], thicknesses_m: [0.6, 0.3], crack_height_m: 0"
+    front = f"- {{name: front, type: facade, {sizes}, unit_weight_kN_m3: 20}}\n"
+    write_study(tmp_path, 1, duration=8.0)
+    page, _, _ = _explored(tmp_path, front)
+    ((name, case),) = _content(page)["records"][0]["cases"].items()
+    # areas 1.8 and .9 m², their middles .3 and .15 m from the outer face and 1.5 and 4.5 m up; thickness .6 m below
+    outwards = (1.8 * 0.3 + 0.9 * 0.15) / 2.7
+    height = (1.8 * 1.5 + 0.9 * 4.5) / 2.7
+    expected = [math.atan2(outwards, height), math.atan2(0.6 - outwards, height)]
+    assert case["critical"] == pytest.approx(expected, rel=1e-4), name
 
 
 def test_the_page_carries_the_closed_form_of_each_case_and_the_path_of_the_ground(content, study):

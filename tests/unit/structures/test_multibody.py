@@ -99,3 +99,5 @@ def test_hinge_thrusts_are_the_constraint_forces(case):
                 across = turn * complex(*along)
                 pressing = abs(forces[2 * hinge : 2 * hinge + 2] @ [across.real, across.imag]) / mass
                 assert abs(contacts.normal[hinge, 0]) == pytest.approx(pressing, rel=1e-9)
+                if velocity == 0:
+                    assert contacts.normal[hinge, 0] > 0, "a ring that starts from rest is pressed together"
