@@ -483,20 +483,11 @@ def _at_levels(
             )
         chosen = chosen[chosen <= scaling.highest * (1 + 1e-9)]
         return chosen, at(chosen)
-    peaks = np.array([record.peak_acceleration for record in records])
-    uplifts = mechanism.uplift_multiplier * GRAVITY / peaks
-    within_reach = uplifts <= scaling.largest_factor
-    reach = scaling.highest
-    lowest = float((scaling.intensities * uplifts)[within_reach].min(initial=reach / 2))
-    severities = per_velocity(mechanism.equivalent_block("rest")) * np.array(
-        list(map(peak_velocity, records))
-    )
-    highest = min(float((scaling.intensities * SEVERE / severities).max()), reach)
-    chosen = np.geomspace(lowest, min(max(highest, 2 * lowest), max(reach, 1.01 * lowest)), COARSE)
+    chosen = _spread_levels(mechanism, records, scaling)
     ratios = at(chosen)
     while _share_that_overturns(ratios)[-1] < NEARLY_ALL and chosen.size < MOST_SPREAD:
         more = chosen[-1] * np.array([1.5, 2.25])
-        more = more[more <= reach]
+        more = more[more <= scaling.highest]
         if not more.size:
             break
         ratios = np.hstack([ratios, at(more)])
@@ -506,6 +497,23 @@ def _at_levels(
     chosen = np.append(chosen, between)
     order = np.argsort(chosen)
     return chosen[order], ratios[:, order]
+
+
+def _spread_levels(mechanism: Mechanism, records: Sequence[Accelerogram], scaling: _Scaling) -> np.ndarray:
+    """The first COARSE levels, from the first uplift to where all should overturn, or to the highest within reach."""
+    peaks = np.array([record.peak_acceleration for record in records])
+    uplifts = mechanism.uplift_multiplier * GRAVITY / peaks
+    within_reach = uplifts <= scaling.largest_factor
+    reach = scaling.highest
+    lowest = float((scaling.intensities * uplifts)[within_reach].min(initial=reach / 2))
+    severities = per_velocity(mechanism.equivalent_block("rest")) * np.array(
+        list(map(peak_velocity, records))
+    )
+    highest = min(float((scaling.intensities * SEVERE / severities).max()), reach)
+    levels: np.ndarray = np.geomspace(
+        lowest, min(max(highest, 2 * lowest), max(reach, 1.01 * lowest)), COARSE
+    )
+    return levels
 
 
 def _share_that_overturns(ratios: np.ndarray) -> np.ndarray:
