@@ -6,8 +6,10 @@ from time import process_time
 
 import numpy as np
 import pytest
+from motion_cases import noise
+from scipy.constants import g
 
-from rocking.assessment.assess import assess_case, assess_record, predict
+from rocking.assessment.assess import Extent, assess_case, assess_record, predict, with_histories
 from rocking.assessment.case import CaseResult
 from rocking.assessment.component import Component, HorizontalMotion, component_of, horizontal_motions
 from rocking.assessment.rows.of_record import (
@@ -80,6 +82,26 @@ def test_a_row_of_the_comparison_holds_what_each_method_says(case):
     assert len({getattr(row, name) for name in RATIO_COLUMNS.values()}) == len(RATIO_COLUMNS)
     response = integrate(BLOCK, RECORD)
     assert (row.impacts, row.peak_side) == (response.impacts, response.peak_side)
+
+
+def test_a_fragile_case_is_repeated_and_its_row_and_its_history_say_at_which_tolerance():
+    """Within 2e-9 of the limit: it falls at 1e-6, and stands in the oracle of the tests of motion, at 1.11640268442."""
+    block = Block(1.0, 0.25, restitution=0.85)
+    record = noise(11, 60, 0.05, g * block.mechanism().uplift_multiplier * 1.87260126893, 6)
+    assert integrate(block, record).outcome is Outcome.OVERTURNS
+    settings = AssessmentSettings(ensemble=EnsembleSettings(members=0))
+    result = assess_record("made", [record], {"block": block}, Extent(settings))
+    (kept,) = result.stations["block"].cases.values()
+    row = comparison_row(IDENTITY, kept, friction_coefficient=0.6)
+    assert (row.fragile, row.tolerance) == (True, 1e-9)
+    assert row.integrated_rotation_ratio == pytest.approx(1.11640268442, rel=1e-8)
+
+    without = replace(result, stations={"block": replace(result.stations["block"], cases={"": kept.kept})})
+    (again,) = with_histories(without, settings.tolerance).stations["block"].cases.values()
+    assert again.response.times is not None
+    assert (again.response.rotation_ratio, again.response.fragile) == (row.integrated_rotation_ratio, True)
+    calm = comparison_row(IDENTITY, assessed(RECORD, settings), friction_coefficient=0.6)
+    assert (calm.fragile, calm.tolerance) == (False, 1e-6)
 
 
 def test_a_record_without_a_pulse_is_integrated_all_the_same():
