@@ -13,7 +13,7 @@ _VERTICAL = {
 }  # fmt: skip
 _NAMED = {
     "N": 0.0, "NS": 0.0, "N-S": 0.0, "S-N": 180.0, "NORTH": 0.0, "E": 90.0, "EW": 90.0, "E-W": 90.0, "W-E": 90.0,
-    "WE": 90.0, "EAST": 90.0, "S": 180.0, "SOUTH": 180.0, "W": 270.0, "WEST": 270.0,
+    "N/S": 0.0, "E/W": 90.0, "WE": 90.0, "EAST": 90.0, "S": 180.0, "SOUTH": 180.0, "W": 270.0, "WEST": 270.0,
 }  # fmt: skip
 _QUADRANT = re.compile(r"([NS])\s*(\d{1,2})\s*([EW])")
 _DEGREES = re.compile(r"(\d{1,3}(?:\.\d*)?)(?:[ _]?(?:DEG(?:REES?)?\.?|°))?")

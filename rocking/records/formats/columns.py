@@ -409,7 +409,7 @@ def _others(rows: np.ndarray, labels: Sequence[ColumnLabel], kinds: Sequence[str
         meant = labels[place].beside_acceleration() if has_acceleration else ""
         if what := labels[place].other or meant:
             others[place] = what
-        elif not labels[place].text and any(
+        elif not labels[place].is_direction and any(
             _is_integral(rows[:, place], rows[:, earlier]) for earlier in places if earlier < place
         ):
             others[place] = _INTEGRAL

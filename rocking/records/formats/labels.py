@@ -36,16 +36,22 @@ _SEED_ID = re.compile(r"[\w-]+([._ -][\w-]*)*[._ -]([A-Z][HNGL][A-Z\d])")
 _OTHER_UNIT = re.compile(
     r"(?i)([cmuµk]?m|in(ch(es)?)?|ft|feet)(/s(ec)?)?|kines?|"
     r"[mk]?n|kips?|lbf?|kn[.*-]?m|[km]?pa|psi|[muµ]?v|volts?|count|cou?nts?|cts|adc|digits?|"
-    r"(m?rad|deg(ree)?s?|°)(/s(ec)?[\^]?[2²]?)?|hz|°?c|[uµ]?strain|µε|-|db|k?j|c?m2/s3"
+    r"(m?rad|deg(ree)?s?|°)(/s(ec)?[\^]?[2²]?)?|hz|°?c|[uµ]?strain|µε|-|%|db|k?j|c?m2/s3"
 )
 """Units in brackets that are of no acceleration."""
-_LIKE_A_UNIT = re.compile(r"(?i).*(/\s*s|s\s*\^?-\d|\*\*|\^\s*-?\d|gal\b|²)|[kmuµn]?g|\S*counts?\S*")
+_LIKE_A_UNIT = re.compile(r"(?i).*(/|s\s*\^?-\d|\*\*|\^\s*-?\d|gal\b|²).*|[kmuµn]?g|\S*counts?\S*")
 _OTHER_WORDS = re.compile(
     r"(?i)(?<![a-z])(strain|force|shear|moment|tilt|rot(ation)?|angle|temp(erature)?|pressure|volt(age)?|counts?|drift|"
-    r"load|error|residual|intensity|arias|husid|energy|power|stress|slip|uplift)(?![a-z])"
+    r"load|intensity|arias|husid|energy|power|stress|slip|uplift)(?![a-z])"
 )
-_MEANT = {"v": "velocity", "vel": "velocity", "d": "displacement", "u": "displacement", "x": "displacement",
-          "dis": "displacement", "disp": "displacement", "displ": "displacement"}  # fmt: skip
+_NOT_OF_THE_GROUND = re.compile(r"(?i)(?<![a-z])(relative|rel|norm(ali[sz]ed)?|error|residual)(?![a-z])")
+"""Words before an acceleration that is not that of the ground, or no acceleration any more."""
+_MULTIPLIED = re.compile(r"(?i)[x×*]\s*1\d*(\.0*)?(e[+-]?\d+|\^|0\b)|\b1e[+-]?\d+\b|\b10\s*(\^|\*\*|-\d)")
+"""A power of ten by which a label says that its numbers are multiplied."""
+_MEANT = {
+    **dict.fromkeys(("v", "vel"), "velocity"),
+    **dict.fromkeys(("d", "u", "x", "dis", "des", "desp", "spost", "disp", "displ"), "displacement"),
+}
 """The quantity of a letter beside a column "a"."""
 
 
@@ -90,6 +96,10 @@ class ColumnLabel:
         """The quantity that it states, where that is no acceleration, "" else."""
         if quantity := other_quantity(self.text):
             return quantity
+        if _MULTIPLIED.search(self.text):
+            return "multiplied by a power of ten"
+        if word := _NOT_OF_THE_GROUND.search(self.text):
+            return word[1].lower()
         if self.unit:
             return ""
         if word := _OTHER_WORDS.search(self.text):
@@ -109,7 +119,8 @@ class ColumnLabel:
     @property
     def is_plain_acceleration(self) -> bool:
         """Whether it names the quantity and no direction: "a", "Acc", "acceleration"."""
-        return bool(re.fullmatch(r"(?i)a|acc(el(eration)?)?", self.text.strip()))
+        bare = _BRACKETS.sub("", self.text).strip()
+        return bool(re.fullmatch(r"(?i)ag?|a_g|ac|acc(el(eration)?)?|aceleraci[oó]n|accelerazione", bare))
 
     @property
     def is_direction(self) -> bool:

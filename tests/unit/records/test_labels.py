@@ -38,6 +38,8 @@ def opened(folder: Path, content: str | bytes, **options) -> list[Accelerogram]:
         ("Acc/g", "g", "Acc"),
         ("acc, cm/s2", "cm/s2", "acc"),
         ("Acc (N)", None, "N"),
+        ("acc (N/S)", None, "N/S"),
+        ("rot30 acc (g)", "g", "rot30 acc"),
         ("AccUD", None, "UD"),
         ("az", None, "z"),
         ("acc_v", None, "v"),
@@ -55,7 +57,9 @@ def test_a_label_names_unit_and_component(label, unit, component):
 @pytest.mark.parametrize(
     "label",
     ["CH1 (V)", "CH1 (mV)", "acc (counts)", "counts", "shear (kN)", "NS (mm)", "NS (kine)", "NS (cm/s)", "rot (rad/s2)",
-     "tilt (deg)", "strain", "acc (mGal)", "Arias intensity (m/s)", "roof drift"],
+     "tilt (deg)", "strain", "acc (mGal)", "Arias intensity (m/s)", "roof drift",
+     "acc x1e-3 (g)", "acc (10^-3 g)", "acc *1000 (g)", "CH1 (V/g)", "jerk (g/s)", "acc (g^2/Hz)", "acc (%)",
+     "relative acc (g)", "normalized acc (g)"],
 )  # fmt: skip
 def test_a_column_of_something_else_is_no_acceleration_whatever_unit_is_declared(tmp_path, label):
     with pytest.raises(RecordError, match=r"of acceleration|of velocity"):
@@ -71,7 +75,10 @@ def test_more_spellings_of_units(unit, factor):
     assert acceleration_factor(unit) == pytest.approx(factor, rel=1e-12)
 
 
-@pytest.mark.parametrize("head", ["t a v d\n", "Time,Acc,Vel,Disp\n", "t,a (m/s2),v (m/s),u (m)\n"])
+@pytest.mark.parametrize(
+    "head",
+    ["t a v d\n", "t Ac Vel Des\n", "Time Ag Q1 Q2\n", "Time,Acc,Vel,Disp\n", "t,a (m/s2),v (m/s),u (m)\n"],
+)
 def test_velocity_and_displacement_beside_acceleration_are_left_out(tmp_path, head):
     parted = "," if "," in head else " "
     (record,) = opened(tmp_path, table(head, TIMES, FIRST, VELOCITY, VELOCITY, parted=parted), unit="m/s2")
