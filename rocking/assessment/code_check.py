@@ -30,7 +30,7 @@ _MOST_FALL = 0.5
 """Share of the largest capacity in acceleration by which it may fall as a part breaks (C8.7.1.2.1.6)."""
 _JUST_BEFORE = 1 - 1e-12
 Demand = Callable[[np.ndarray], np.ndarray]
-"""What is asked of a mechanism at levels (n,) of the spectrum, m/s²."""
+"""The demand on a mechanism at levels (n,) of the spectrum, m/s²."""
 
 
 @dataclass(frozen=True)
@@ -370,7 +370,7 @@ def _opening(structure: Structure) -> Iterator[tuple[str, int, Structure]]:
 
 
 def _felt_by(floor: FloorDemand, period: float) -> Demand:
-    """What a mechanism of elastic `period` [s] feels as it starts, m/s² (C8.7.1.8, free to vibrate C8.7.1.9)."""
+    """The acceleration [m/s²] that a mechanism of elastic `period` [s] feels as it starts: C8.7.1.8, or C8.7.1.9."""
     if not period:
         return floor.peak
 
@@ -411,7 +411,7 @@ def _weakest(
 
 
 def _collapse(mechanism: LocalMechanism, floor: FloorDemand, state: LimitState) -> "Crossing | float":
-    """Where the displacement demand at the secant period is that of the limit state; a_g itself where that is plain."""
+    """The a_g at which the displacement demand at the secant period is that of the limit state; a number where plain."""
     point = mechanism.limit(state)
     if not point.displacement > 0:
         return 0.0
