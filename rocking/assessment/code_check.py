@@ -411,7 +411,7 @@ def _weakest(
 
 
 def _collapse(mechanism: LocalMechanism, floor: FloorDemand, state: LimitState) -> "Crossing | float":
-    """The a_g at which the displacement demand at the secant period is that of the limit state; a number where plain."""
+    """The a_g at which the displacement demand at the secant period is that of the limit state."""
     point = mechanism.limit(state)
     if not point.displacement > 0:
         return 0.0
