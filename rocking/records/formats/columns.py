@@ -141,6 +141,8 @@ def _of_remark(remarks: Sequence[str], width: int) -> tuple[ColumnLabel, ...]:
     """Return the labels in the last of the remarks, if it holds one for each column, of times, units or directions."""
     labels = tuple(map(ColumnLabel, _labels(remarks[-1]))) if remarks else ()
     are_directions = len(labels) > 1 and all(label.is_direction for label in labels)
+    if len(labels) == 1 and not (labels[0].is_plain_acceleration or labels[0].is_direction):
+        return ()  # a remark like "Geoscope (G)" names a network
     are_names = bool(labels) and (labels[0].is_time or any(label.unit for label in labels) or are_directions)
     return labels if are_names and len(labels) == width else ()
 
@@ -266,6 +268,8 @@ _UNIT_OF_REMARK = re.compile(
     r"(?:\b(?:in|units? (?:of|are))\s+|[(\[]\s*)([A-Za-z][\w/^*²]*)",
     re.I,
 )
+_OF_ACCELERATION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|amplitud)")
+"""Words beside which a unit in brackets is that of the numbers: elsewhere "(G)" may be the code of a network."""
 _OF_PEAK = re.compile(r"(?i)\b(pga|peak|max\w*|scale\w*|factor|picco|pico)\b")
 """The subjects of a remark whose unit need not be that of the numbers."""
 _STEP_OF_REMARK = re.compile(
@@ -285,8 +289,11 @@ def _declared(remarks: Sequence[str]) -> tuple[str | None, float | None]:
     units: set[str] = set()
     steps: set[float] = set()
     for remark in (remark for remark in remarks if not _OF_PEAK.search(remark)):
-        words = (match[1] or match[2] for match in _UNIT_OF_REMARK.finditer(remark))
-        units |= set(filter(None, map(acceleration_unit, words)))
+        is_of_numbers = bool(_OF_ACCELERATION.search(remark))
+        words = (
+            match[1] or (match[2] if is_of_numbers else "") for match in _UNIT_OF_REMARK.finditer(remark)
+        )
+        units |= set(filter(None, map(acceleration_unit, filter(None, words))))
         steps |= {float(match[1]) for match in _STEP_OF_REMARK.finditer(remark)}
         steps |= {1 / float(match[1]) for match in _RATE_OF_REMARK.finditer(remark) if float(match[1])}
     unit = units.pop() if len(units) == 1 else None

@@ -120,7 +120,10 @@ def test_remarks_declare_unit_and_step(tmp_path, remarks, step):
         opened(tmp_path, table(remarks, 100 * FIRST), time_step=0.01)
 
 
-@pytest.mark.parametrize("remarks", ["# PGA: 0.35 (g)\n", "# scale factor in g\n", "# in g\n# units: gal\n"])
+@pytest.mark.parametrize(
+    "remarks",
+    ["# PGA: 0.35 (g)\n", "# scale factor in g\n", "# acc in g\n# units: gal\n", "# Geoscope (G)\n"],
+)
 def test_a_remark_on_the_peak_or_two_that_differ_declare_no_unit(tmp_path, remarks):
     with pytest.raises(RecordError, match="unit is not declared"):
         opened(tmp_path, table(remarks, FIRST), time_step=0.01)
