@@ -142,7 +142,7 @@ def write_fragility(
 
     A record that cannot be read, or lacks the intensity measure, costs no other. tell: takes a line for each structure.
     Raises ConfigurationError, before anything is written, where the records that are left come from fewer than two
-    stations, or the hazard curve is none.
+    stations, the hazard curve is none, or no structure can overturn; one that cannot is left out, and said.
     """
     # A quarter of a second that a summary has no need of.
     from rocking.assessment.fragility import fragility
@@ -152,6 +152,11 @@ def write_fragility(
     settings = study.settings.fragility
     hazard = rows.read_hazard(Path(settings.hazard)) if settings.hazard else None
     measure = intensity_measure(settings.intensity_measure)
+    if all(cracks(each)[0].mechanism.never_lets_go for each in study.structures.values()):
+        raise ConfigurationError(
+            "no structure of the list can overturn, so that none has a fragility; give ties a tie_strength at which "
+            "they let go, or leave the fragility out."
+        )
     mechanism = next(iter(study.structures.values())).mechanism()
     names, accelerograms, reasons = _usable(records, study, measure, mechanism)
     tables: dict[type[Row], list[Row]] = {each: [] for each in rows.FRAGILITY_TABLES.values()}

@@ -1,6 +1,7 @@
 """The fragility of a study: its tables say what the curves are, and a bad record costs no other."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,7 +12,7 @@ from rocking.errors import ConfigurationError
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.reports.fragility import write_fragility_report
-from rocking.structures import Block, Spire
+from rocking.structures import Block, LoadedWall, Spire
 from rocking.study.job import Study
 from rocking.study.settings import Settings, StudyFragility
 from rocking.study.summary import write_fragility
@@ -33,6 +34,29 @@ def _records(folder: Path, count: int) -> list[CatalogueRecord]:
         cells = {"unit": "g", "event": "made", "station": str(seed), "folder": folder}
         records.append(CatalogueRecord(f"made{seed}", f"made{seed}.AT2", **cells))
     return records
+
+
+def test_what_cannot_overturn_is_left_out_and_said(tmp_path):
+    held = LoadedWall.hinged_at(
+        3.2,
+        1.9,
+        0.25,
+        20e3,
+        tie_heights=(1.6,),
+        tie_stiffness=5e7,
+        one_sided=True,
+        restitution=0.7,
+        crack="known",
+    )
+    records = _records(tmp_path, 2)
+    both = replace(_study(), structures={"held": held, "slender": STRUCTURES["slender"]})
+    (unused,) = write_fragility(records, both, tmp_path / "out")
+    assert unused.startswith("held: it cannot overturn, and has no fragility: it lifts at 0.263 g")
+    rows = read_rows(FragilitySummaryRow, tmp_path / "out" / FragilitySummaryRow.table.file_name)
+    assert {row.structure for row in rows} == {"slender"}
+    with pytest.raises(ConfigurationError, match="no structure of the list can overturn"):
+        write_fragility(records, replace(both, structures={"held": held}), tmp_path / "none")
+    assert not (tmp_path / "none").exists()
 
 
 def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):
