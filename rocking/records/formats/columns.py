@@ -599,7 +599,9 @@ def _read_titled(content: bytes, options: Options) -> list[Accelerogram]:
 def _below_title(content: bytes, options: Options, size: str, step: str, **names: str) -> list[Accelerogram]:
     title, second, *rows = text.lines(content, _HEAD)
     refuse_other_quantity(options.file, f"{title}\n{second}")
-    words = (match[1] for match in _UNIT_IN_WORDS.finditer(f"{title}\n{second}"))
+    above = f"{title}\n{second}"
+    of_numbers = bool(_OF_ACCELERATION.search(above))
+    words = (match[1] for match in _UNIT_IN_WORDS.finditer(above) if of_numbers or match[0][0] not in "([")
     unit = next(filter(None, map(acceleration_unit, words)), None)
     per_line = max(len(row.split()) for row in rows)
     samples = text.count("number of samples", size)

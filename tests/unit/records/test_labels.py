@@ -243,3 +243,15 @@ def test_a_name_that_speaks_of_another_quantity_is_asked(tmp_path, name, word):
 def test_files_of_programs_are_named(tmp_path, content, word):
     with pytest.raises(RecordError, match=word):
         opened(tmp_path, content)
+
+
+@pytest.mark.parametrize(
+    ("title", "unit"), [("Made at Geoscope (G)", None), ("Acceleration (G)", "g"), ("made, in g", "g")]
+)
+def test_a_title_declares_a_unit_only_of_the_numbers(tmp_path, title, unit):
+    content = table(f"{title}\n600 0.01 NPTS, STEP\n", FIRST)
+    if unit is None:
+        with pytest.raises(RecordError, match="unit is not declared"):
+            opened(tmp_path, content)
+    else:
+        assert opened(tmp_path, content)[0].source.unit == unit
