@@ -264,7 +264,7 @@ class StationResult(Judgement):
 
     @property
     def doubts_of_reserve(self) -> tuple[Doubt, ...]:
-        """What may happen of which the mechanism knows nothing, so that its reserve may be too high.
+        """The doubts for which the reserve may be too high: what may happen of which the mechanism knows nothing.
 
         Unlike the verdict, which needs a doubt only where the mechanism stands, the reserve reaches from the first
         uplift to the limit, so that a body of courses that tapers is always in doubt.

@@ -44,7 +44,7 @@ ROUNDS = 3
 
 
 class Stage(NamedTuple):
-    """Which rungs are followed beside what is known.
+    """One stage of the search: the rungs that are followed beside what is known.
 
     spacing: every so many of them. beside: how far beyond the amplitudes that tell of a crossing, and around: how far
     from a run that falls below the median factor or stands above it, both in the logarithm of the amplitude.

@@ -187,7 +187,7 @@ def _share(each: CheckedStructure) -> str:
 
 
 def _reserve(each: CheckedStructure) -> str:
-    """By how much the records may be stronger: the least reserve and the middle one, and what they leave out."""
+    """The sentence on by how much the records may be stronger: the least reserve, the middle one, their doubts."""
     if not each.reserves:
         return "No reserve was sought, by how much these records may be stronger."
     lows = np.array([reserve.low for reserve in each.reserves])

@@ -88,7 +88,7 @@ def _checked(
 
 
 def _reserve_doubts(structure: Structure, verdicts: Iterable[VerdictRow]) -> list[Doubt]:
-    """What may happen to a structure of which the mechanism whose reserve it is knows nothing."""
+    """The doubts for which the reserves of a structure may be too high, from its rows and its type."""
     told = {doubt for each in verdicts for doubt in Doubt if doubt in each.why}
     if structure.tapers:
         told.add(Doubt.COURSES_THROWN)
