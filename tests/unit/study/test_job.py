@@ -121,7 +121,7 @@ def test_a_summary_draws_the_trade_where_its_study_measures_it(tmp_path, monkeyp
     trades: list[list] = []
     monkeypatch.setattr(
         "rocking.reports.summary.summary_report",
-        lambda _tables, _settings, trade: trades.append(trade) or b"",
+        lambda _tables, _settings, trade, _design: trades.append(trade) or b"",
     )
     results = tmp_path / "results"
     changed = {"reports": True, "trade": StudyTrade(in_summary), "results": str(results)}
