@@ -97,6 +97,11 @@ class Plan:
         return sha256_of(*self.params(job).items(), shown, settings.reports, settings.histories)
 
     @property
+    def fragility_made_from(self) -> str:
+        """One hash for everything on which the fragility of the study depends."""
+        return sha256_of(*self.params().items(), self.settings.fragility)
+
+    @property
     def summary_made_from(self) -> str:
         """One hash for everything on which the files over all records depend."""
         return sha256_of(*self.params().items(), self.settings)

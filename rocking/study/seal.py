@@ -50,10 +50,12 @@ def remove_broken_seals(plan: Plan) -> Iterator[str]:
     seals = {part(results, job) / SEAL: plan.made_from(job) for job in plan.jobs}
     seals[results / "summary" / SEAL] = plan.summary_made_from
     hashes = ContentHashes(_HASHES)
+    seals[results / "fragility" / SEAL] = plan.fragility_made_from
     for path, made_from in seals.items():
         if path.exists() and (why := _why_broken(path, made_from, results, hashes)):
             path.unlink()
-            yield f"{why}; it is made again."
+            by_hand = path.parent.name == "fragility" and not plan.settings.fragility.in_every_run
+            yield f"{why}; snakemake fragility makes it again." if by_hand else f"{why}; it is made again."
     hashes.save()
 
 

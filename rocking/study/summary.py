@@ -32,6 +32,7 @@ from rocking.study.results import (
     remove_other_parts,
     table_lines,
 )
+from rocking.study.seal import SEAL
 from rocking.tables import Row, data_package, frame, write_tables, write_whole
 from rocking.tables.workbook import workbook
 
@@ -119,7 +120,7 @@ def _report(folder: Path, study: Study, fragility: Path, spectra: Sequence[Seque
         for each in SUMMARY_TABLES
         if each.table.name in _SHOWN
     }
-    if (fragility / "fragility_summary.csv").exists():
+    if (fragility / SEAL).exists():  # which a table that was cut or edited has lost
         from rocking.assessment.rows.of_fragility import FragilitySummaryRow, IdaRow  # a quarter of a second
 
         tables["fragility_summary"] = frame(FragilitySummaryRow, fragility / "fragility_summary.csv")

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from rocking.records.synthetic import SyntheticRecord, at2_text
+from rocking.study.seal import SEAL, write_seal
 
 OTHER = at2_text(SyntheticRecord("other", 9, 4.0, 0.7, 1.0, 1.0, 6.0, 0.01)).encode()
 LONG_AGO, IN_TEN_YEARS = 1e9, time.time() + 3e8
@@ -85,9 +86,16 @@ def test_what_the_settings_ask_for_is_waited_for(finished) -> None:
 
 def test_the_page_takes_up_fragility_where_it_was_measured(finished, tmp_path: Path) -> None:
     study = finished.copy_to(tmp_path / "study")
-    (study.results / "fragility").mkdir()
-    (study.results / "fragility" / "fragility.csv").write_text("measured since\n", encoding="utf-8")
+    table, seal = (study.results / "fragility" / name for name in ("fragility.csv", SEAL))
+    table.parent.mkdir()
+    table.write_text("measured since\n", encoding="utf-8")
+    assert study.planned() == [], "what nobody sealed may be anything"
+    write_seal(seal, "", [table], study.results)
     assert study.planned() == ["summarise"]
+    table.write_text("edited since\n", encoding="utf-8")
+    told = study.run("--dry-run")
+    assert "fragility/fragility.csv is not as it was written; snakemake fragility makes it again." in told
+    assert not seal.exists() and study.planned() == []
 
 
 def test_a_record_that_changed_and_one_more_compute_their_own_jobs_only(finished, tmp_path: Path) -> None:

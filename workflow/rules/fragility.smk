@@ -10,13 +10,14 @@ rule fragility:
         description=f"{RESULTS}/fragility/datapackage.json",
         pdf=f"{RESULTS}/fragility/fragility.pdf",
         svg=f"{RESULTS}/fragility/fragility.svg",
+        seal=f"{RESULTS}/fragility/{SEAL}",
     log:
         f"{SUMMARY}/logs/fragility.log",
     benchmark:
         f"{SUMMARY}/benchmarks/fragility.tsv"
     params:
         **PLAN.params(),
-        fragility_sha256=sha256_of(SETTINGS.fragility),
+        made_from=PLAN.fragility_made_from,
     message:
         "Scale the records until the structures overturn"
     script:

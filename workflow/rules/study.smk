@@ -70,4 +70,4 @@ if SETTINGS.reports:
 if SETTINGS.design_spectrum.ag or SETTINGS.design_spectrum.points:
     TARGETS += [f"{SUMMARY}/code_checks.csv", f"{SUMMARY}/structures.pdf"]
 if SETTINGS.fragility.in_every_run:
-    TARGETS += [f"{RESULTS}/fragility/fragility.pdf"]
+    TARGETS += [f"{RESULTS}/fragility/fragility.pdf", f"{RESULTS}/fragility/{SEAL}"]

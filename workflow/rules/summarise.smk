@@ -20,7 +20,9 @@ OF_SUMMARY = {
     "jobs": list(PLAN.jobs),
     "made_from": PLAN.summary_made_from,
     # Where the target fragility is run by hand, its curves come into the report with the next run.
-    "fragility_sha256": "" if SETTINGS.fragility.in_every_run else PLAN.hashes.of(Path(FRAGILITY)),
+    "fragility_sha256": (
+        "" if SETTINGS.fragility.in_every_run else PLAN.hashes.of(Path(RESULTS, "fragility", SEAL))
+    ),
 }
 # A lone job has in memory what a process of its own would take two seconds to import.
 ALONE = len(PLAN.jobs) == 1 and not (SETTINGS.trade.in_summary or SETTINGS.fragility.in_every_run)

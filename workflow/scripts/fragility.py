@@ -4,6 +4,7 @@ from pathlib import Path
 
 from rocking.reports.fragility import write_fragility_report
 from rocking.study.job import begin_job
+from rocking.study.seal import write_seal
 from rocking.study.summary import write_fragility
 from rocking.study.terminal import line_writer
 
@@ -13,4 +14,6 @@ if __name__ == "__main__":
     folder = Path(output.pdf).parent
     reasons = write_fragility(records, study, folder, tell)
     write_fragility_report(folder, Path(output.pdf), Path(output.svg))
+    made = [Path(file) for file in output if file != output.seal]
+    write_seal(Path(output.seal), snakemake.params.made_from, made, folder.parent)
     tell("\n".join(reasons) or "All records were used.")
