@@ -128,7 +128,7 @@ def _data(
         "outcomes": outcome_sentences(shown),
         "outcomes-figure": pictures(
             outcomes_figure,
-            shown,
+            shown if len(shown) > 1 else (),
             "Number of records under which each structure overturns, is undecided and stands.",
         ),
         "map": severity_map(shown, records),
