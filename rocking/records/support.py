@@ -179,15 +179,15 @@ class _Ringing:
 
         step = record.time_step
         pole = mode.circular_frequency * complex(-mode.damping_ratio, math.sqrt(1 - mode.damping_ratio**2))
-        ground = np.append(record.acceleration, 0.0)
+        slope = np.diff(record.acceleration, append=0.0) / step
         # From one sample to the next, p = λq − a gains the integral of −a' e^{λs}; it starts at −a₀.
-        slope = np.diff(ground) / step
-        grown = np.expm1(pole * step) / pole
-        start = np.array([-ground[0] * np.exp(pole * step)])
-        rate, _ = signal.lfilter([-grown], [1.0, -np.exp(pole * step)], slope.astype(complex), zi=start)
-        before = np.concatenate(([complex(-ground[0])], rate[:-1]))
-        last = rate[-1]
-        excess = np.append(pole * before - slope, pole * last) * (mode.participation / pole.imag)
+        gained = np.empty(slope.size + 1, dtype=complex)
+        gained[0] = -record.acceleration[0]
+        np.multiply(slope, -np.expm1(pole * step) / pole, out=gained[1:])
+        excess = signal.lfilter([1.0], [1.0, -np.exp(pole * step)], gained)
+        excess *= pole
+        excess[:-1] -= slope
+        excess *= mode.participation / pole.imag
         return cls(mode, step, pole, excess)
 
     def still(self, after: int) -> np.ndarray:
@@ -268,18 +268,25 @@ def _finer(acceleration: np.ndarray, ringing: Sequence[_Ringing], finer: int, af
     by its place within the sample: one product of two matrices.
     """
     ground = np.append(acceleration, np.zeros(after))
-    places = np.arange(finer) / finer
-    starts = [ground[:-1], np.diff(ground)]
-    weights = [np.ones(finer), places]
+    starts = np.empty((2 + 2 * len(ringing), ground.size - 1))
+    weights = np.empty((len(starts), finer))
+    starts[0] = ground[:-1]
+    weights[0] = 1.0
+    np.subtract(ground[1:], ground[:-1], out=starts[1])
+    weights[1] = np.arange(finer) / finer
     last = ground[-1]
-    for each in ringing:
+    for row, each in zip(range(2, len(starts), 2), ringing, strict=True):
         still = each.still(after)
-        excess = np.concatenate((each.excess[:-1], still[:-1]))
+        during = each.excess.size - 1
+        for place, part in ((row, "imag"), (row + 1, "real")):
+            starts[place, :during] = getattr(each.excess[:-1], part)
+            starts[place, during:] = getattr(still[:-1], part)
         within_sample = each.within_sample(finer)
-        starts += [excess.imag, excess.real]
-        weights += [within_sample.real, within_sample.imag]
+        weights[row] = within_sample.real
+        weights[row + 1] = within_sample.imag
         last += still[-1].imag
     motion = np.empty((ground.size - 1) * finer + 1)
-    np.matmul(np.array(starts).T, np.array(weights), out=motion[:-1].reshape(-1, finer))
+    np.matmul(starts.T, weights, out=motion[:-1].reshape(-1, finer))
     motion[-1] = last
+    motion.flags.writeable = False
     return motion
