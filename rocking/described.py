@@ -5,7 +5,7 @@ the JSON schema, from which the sentences of an error are made. It is imported o
 """
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from difflib import get_close_matches
@@ -186,26 +186,45 @@ def read_described(
         if key in parts:
             values[key] = read_described(parts[key], value, defects, f"{above}{key}.", interpret)
         elif key not in allowed:
-            within = [f"{part}.{key}" for part in parts if key in _keys(parts[part].__class__)]
-            near = within or get_close_matches(str(key)[:_LONGEST_NAME], names, n=1, cutoff=0.6)
-            hint = f"did you mean {near[0]}?" if near else f"the names are {', '.join(names)}."
-            if value is None and str(key).isdigit():
-                hint = "a comma parts the entries within braces; write a number with a point, as in 6.4."
-            name = str(key) if len(str(key)) <= _LONGEST_NAME else shown(key)
-            defects.append(f"{above}{name} is {shown(value)}, but nothing has this name; {hint}")
+            defects.append(above + _nothing_has_the_name(key, value, names, parts))
         else:
-            for meant in [value, interpret(value)] if isinstance(value, str) else [value]:
-                with suppress(ValueError):
-                    values[allowed[key].name] = allowed[key].checked(meant)
-                    break
-            else:
-                defects.append(f"{above}{key} is {allowed[key].refusal(value)}")
+            try:
+                values[allowed[key].name] = _meant(allowed[key], value, interpret)
+            except ValueError as refusal:
+                defects.append(f"{above}{key} is {refusal}")
     if len(defects) == before:
         try:
             return replace(default, **values)  # type: ignore[type-var]
         except RockingError as wrong:
             defects.append(f"{above}{wrong}")
     return default
+
+
+def _meant(description: Described, value: Any, interpret: Callable[[Any], Any]) -> Any:
+    """Return an allowed value, of a text also what it means. Raises ValueError on the value as it stands."""
+    try:
+        return description.checked(value)
+    except ValueError:
+        if not isinstance(value, str):
+            raise
+        with suppress(ValueError):
+            return description.checked(interpret(value))
+        raise
+
+
+def _nothing_has_the_name(key: object, value: object, names: Sequence[str], parts: Mapping[str, Any]) -> str:
+    """Return the sentence on a key that is none of `names`, with the one that may be meant; parts: by their name."""
+    name = str(key)
+    within = [f"{part}.{key}" for part, default in parts.items() if key in _keys(default.__class__)]
+    near = within or get_close_matches(name[:_LONGEST_NAME], names, n=1, cutoff=0.6)
+    if value is None and name.isdigit():
+        hint = "a comma parts the entries within braces; write a number with a point, as in 6.4."
+    elif near:
+        hint = f"did you mean {near[0]}?"
+    else:
+        hint = f"the names are {', '.join(names)}."
+    printed = name if len(name) <= _LONGEST_NAME else shown(key)
+    return f"{printed} is {shown(value)}, but nothing has this name; {hint}"
 
 
 def kind_in_words(value: object) -> str:
@@ -228,24 +247,42 @@ _LONGEST_NAME = 80
 
 def _words(schema: Mapping[str, Any]) -> str:
     """The values that a JSON schema allows, in words."""
-    if examples := schema.get("examples"):
+    examples = schema.get("examples")
+    if examples:
         bare = {key: value for key, value in schema.items() if key != "examples"}
         return _words(bare).replace("a text that is not empty", f"a text like {' or '.join(examples)}", 1)
-    if options := schema.get("anyOf") or schema.get("oneOf"):
+    options = schema.get("anyOf") or schema.get("oneOf")
+    if options:
         return " or ".join(map(_words, options))
-    if names := schema.get("enum") or ([schema["const"]] if "const" in schema else None):
+    names = schema.get("enum") or ([schema["const"]] if "const" in schema else None)
+    if names:
         return " or ".join("null" if name is None else str(name) for name in names)
     if schema["type"] == "array":
         return f"a list, each of it {_words(schema['items'])}"
-    low, high = schema.get("minimum"), schema.get("maximum")
+    kind = _TYPES[schema["type"]]
+    if "minLength" in schema:
+        kind += " that is not empty"
+    return kind + _limits(schema)
+
+
+def _limits(schema: Mapping[str, Any]) -> str:
+    """The bounds of a number in a JSON schema: " from 0 to 1", " above 0 and up to 0.5", or nothing."""
+    if "minimum" in schema and "maximum" in schema:
+        return f" from {schema['minimum']:g} to {schema['maximum']:g}"
     limits = [f"{words} {schema[name]:g}" for name, words in _LIMITS.items() if name in schema]
-    limit = f" from {low:g} to {high:g}" if None not in (low, high) else "".join([" ", *" and ".join(limits)])
-    return _TYPES[schema["type"]] + " that is not empty" * ("minLength" in schema) + limit.rstrip()
+    return f" {' and '.join(limits)}" if limits else ""
 
 
 _TYPES = {
-    "integer": "a whole number", "number": "a number", "boolean": "true or false", "string": "a text", "null": "null",
-}  # fmt: skip
+    "integer": "a whole number",
+    "number": "a number",
+    "boolean": "true or false",
+    "string": "a text",
+    "null": "null",
+}
 _LIMITS = {
-    "exclusiveMinimum": "above", "minimum": "of at least", "exclusiveMaximum": "below", "maximum": "up to",
-}  # fmt: skip
+    "exclusiveMinimum": "above",
+    "minimum": "of at least",
+    "exclusiveMaximum": "below",
+    "maximum": "up to",
+}

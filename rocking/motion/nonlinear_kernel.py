@@ -555,9 +555,19 @@ def _glide(sides, phase, ground, member, k, motion, tolerance, log):
         next_weight = ground.gravity + member.vertical * vertical[i + 1]
         j, centre, room = _place(grid, k, arc)
         x = _short_series(
-            pieces, k, j, arc - centre, speed, push, (next_push - push) * rate, weight, (next_weight - weight) * rate,
-            sides.ties, phase, slot
-        )  # fmt: skip
+            pieces,
+            k,
+            j,
+            arc - centre,
+            speed,
+            push,
+            (next_push - push) * rate,
+            weight,
+            (next_weight - weight) * rate,
+            sides.ties,
+            phase,
+            slot,
+        )
         plain, new, pull = _eventless(x, h, share, arc, room, farthest, fastest, tolerance)
         out = new > critical and pull > 0
         if not plain or not new > 0 or out or _beyond(sides.ties, phase, slot, new) != 0:

@@ -161,9 +161,24 @@ def _collected(rows, b, onset, mask, places, gains, k):
     )
 )
 def _searched(
-    held, mask, start, filled, end, first, last, largest, share, places, gains,
-    padded, counts, last_onsets, turning, weights, sums
-):  # fmt: skip
+    held,
+    mask,
+    start,
+    filled,
+    end,
+    first,
+    last,
+    largest,
+    share,
+    places,
+    gains,
+    padded,
+    counts,
+    last_onsets,
+    turning,
+    weights,
+    sums,
+):
     """Search the onsets from `start` to `end` until places might overflow.
 
     held: rows of the energy map, `filled` of them from the onsets before. Returns (maxima counted, next start, rows

@@ -138,26 +138,50 @@ def _defects(record: CatalogueRecord) -> Iterator[str]:
     source = record.source_repository, record.source_path, record.source_commit
     is_fetched = any(source)
     checks = [
-        (is_safe_id(record.id),
-         f"id is {shown(record.id)}, but must be a safe file name: letters, digits, . _ -, at most 80, not reserved."),
+        (
+            is_safe_id(record.id),
+            f"id is {shown(record.id)}, but must be a safe file name: letters, digits, . _ -, at most 80, not "
+            "reserved.",
+        ),
         (names, "file is missing; give a path beside the catalogue or obspy:NAME."),
-        *((False, f"{name} is {shown(value)}, but must be a relative path without '..'.") for name, value in outside),
-        *((_HASH.fullmatch(value),
-           f"sha256 is {shown(value)}, but must be 64 hexadecimal digits in lower case, or blank to be filled in.")
-          for value in hashes if value),
-        (len(hashes) in (0, len(names)),
-         f"sha256 holds {len(hashes)} hashes for {len(names)} files; give one for each, separated by ';'."),
-        (not record.is_remote or (hashes and all(hashes)), "sha256 is missing; a file that is fetched needs it."),
-        (not is_fetched or _REPOSITORY.fullmatch(source[0]),
-         f"source_repository is {shown(source[0])}, but must be owner/name."),
-        (not is_fetched or (len(paths) == len(names) and all(map(stays_inside, paths))),
-         f"source_path is {shown(source[1])}, but must be a relative path without '..' for each file."),
-        (not is_fetched or _COMMIT.fullmatch(source[2]),
-         f"source_commit is {shown(source[2])}, but must be 40 hexadecimal digits."),
+        *(
+            (False, f"{name} is {shown(value)}, but must be a relative path without '..'.")
+            for name, value in outside
+        ),
+        *(
+            (
+                _HASH.fullmatch(value),
+                f"sha256 is {shown(value)}, but must be 64 hexadecimal digits in lower case, or blank to be filled in.",
+            )
+            for value in hashes
+            if value
+        ),
+        (
+            len(hashes) in (0, len(names)),
+            f"sha256 holds {len(hashes)} hashes for {len(names)} files; give one for each, separated by ';'.",
+        ),
+        (
+            not record.is_remote or (hashes and all(hashes)),
+            "sha256 is missing; a file that is fetched needs it.",
+        ),
+        (
+            not is_fetched or _REPOSITORY.fullmatch(source[0]),
+            f"source_repository is {shown(source[0])}, but must be owner/name.",
+        ),
+        (
+            not is_fetched or (len(paths) == len(names) and all(map(stays_inside, paths))),
+            f"source_path is {shown(source[1])}, but must be a relative path without '..' for each file.",
+        ),
+        (
+            not is_fetched or _COMMIT.fullmatch(source[2]),
+            f"source_commit is {shown(source[2])}, but must be 40 hexadecimal digits.",
+        ),
         (record.scale_factor != 0, "scale_factor is 0, but must not be; leave the row out instead."),
-        (record.scale_factor == 1 or not record.scale_to,
-         f"scale_factor is {record.scale_factor:g} beside scale_to {shown(record.scale_to)}; give one of the two."),
-    ]  # fmt: skip
+        (
+            record.scale_factor == 1 or not record.scale_to,
+            f"scale_factor is {record.scale_factor:g} beside scale_to {shown(record.scale_to)}; give one of the two.",
+        ),
+    ]
     yield from (sentence for is_right, sentence in checks if not is_right)
     for cell, check in ((record.unit, acceleration_factor), (record.scale_to, ScalingTarget.parse)):
         if cell:

@@ -94,9 +94,12 @@ def download(file: str, repository: str, commit: str, path: str, *, sha256: str 
     name = f"{(sha256 or commit)[:16]}-{Path(path).name}"
     address = _RAW.format(repository=repository, commit=commit, path=quote(path, safe="/"))
     store = pooch.create(
-        path=pooch.os_cache("rocking"), base_url="",
-        registry={name: f"sha256:{sha256}" if sha256 else None}, urls={name: address}, retry_if_failed=_RETRIES,
-    )  # fmt: skip
+        path=pooch.os_cache("rocking"),
+        base_url="",
+        registry={name: f"sha256:{sha256}" if sha256 else None},
+        urls={name: address},
+        retry_if_failed=_RETRIES,
+    )
     pooch.get_logger().setLevel("WARNING")
     try:
         return Path(store.fetch(name, downloader=_Downloader()))

@@ -122,9 +122,18 @@ def angle_between(first: Component, second: Component) -> float | None:
 
 
 _LETTERS = {
-    "LN": "L", "LON": "L", "LONG": "L", "LONGITUDINAL": "L", "TR": "T", "TRAN": "T", "TRANS": "T", "TRANSVERSE": "T",
-    "RADIAL": "R", "RAD": "R", "TRANSVERSAL": "T",
-}  # fmt: skip
+    "LN": "L",
+    "LON": "L",
+    "LONG": "L",
+    "LONGITUDINAL": "L",
+    "TR": "T",
+    "TRAN": "T",
+    "TRANS": "T",
+    "TRANSVERSE": "T",
+    "RADIAL": "R",
+    "RAD": "R",
+    "TRANSVERSAL": "T",
+}
 _ACROSS = ({"L", "T"}, {"R", "T"}, {"FN", "FP"}, {"SN", "SP"}, {"X", "Y"}, {"H1", "H2"}, {"1", "2"})
 """Names of two components that are at right angles by what they mean."""
 _CODE = re.compile(r"([A-Z][HNGL])([RT12XY])")

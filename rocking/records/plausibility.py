@@ -14,9 +14,12 @@ _RARE = "almost no ground moves so"
 SMALLEST_PEAK = 1e-5 * GRAVITY
 """m/s²; below, a record is noise or has a wrong unit."""
 _FACTORS = {
-    980.665: "cm/s² against g", 9.80665: "m/s² against g", 100.0: "cm/s² against m/s²",
-    1000.0: "mg against g, or mm/s² against m/s²", 10.0: "g/10 against g",
-}  # fmt: skip
+    980.665: "cm/s² against g",
+    9.80665: "m/s² against g",
+    100.0: "cm/s² against m/s²",
+    1000.0: "mg against g, or mm/s² against m/s²",
+    10.0: "g/10 against g",
+}
 _ROUNDING = 1e-3
 """Share by which a stated peak may be off for its rounding, beyond its last digit: fifty times what real files show."""
 _NEAR = 0.02  # how close a ratio must come to a factor between units to be explained by it

@@ -23,11 +23,14 @@ class Processing:
     2005); velocity and displacement need them kept to end at rest. Raises RecordError when a setting is out of range.
     """
 
-    # fmt: off
-    pre_event: float | None = described(None, "time at the start of the record whose mean is removed", "s", gt=0)
-    baseline: Baseline = described("none", "none; linear: removes the least-squares line; adaptive: removes the drift "
-        "of velocity around the shaking")
-    # fmt: on
+    pre_event: float | None = described(
+        None, "time at the start of the record whose mean is removed", "s", gt=0
+    )
+    baseline: Baseline = described(
+        "none",
+        "none; linear: removes the least-squares line; adaptive: removes the drift "
+        "of velocity around the shaking",
+    )
     taper: float = described(0.0, "share of the record that a cosine taper covers at each end", ge=0, le=0.5)
     high_pass: float | None = described(None, "corner frequency of the acausal high-pass filter", "Hz", gt=0)
     low_pass: float | None = described(None, "corner frequency of the acausal low-pass filter", "Hz", gt=0)

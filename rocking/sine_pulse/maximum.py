@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -93,6 +94,14 @@ class Maximum:
         return f"Maximum({self.outcome.of(self.rotation_ratio)}, regime: {self.regime})"
 
 
+class _Peak(NamedTuple):
+    """The largest rotation to one side over the critical one, and the number of impacts before it."""
+
+    side: int
+    ratio: float
+    impacts: int
+
+
 def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
     """Return the exact largest rotation of `equivalent_block` under `pulse`, with the regime that it belongs to.
 
@@ -115,13 +124,16 @@ def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
         return Maximum(0.0, Outcome.NO_UPLIFT, Regime.NO_UPLIFT)
     # Of the two sides the one whose peak came first counts, unless the other's is larger.
     first_sign = 1 if pulse.amplitude < 0 else -1
-    ratios = [
-        equivalent_block.sides[0 if sign > 0 else -1].rotation_ratio(peak)
-        for sign, peak in zip((first_sign, -first_sign), course.peaks, strict=True)
+    peaks = [
+        _Peak(sign, equivalent_block.sides[0 if sign > 0 else -1].rotation_ratio(rotation), impacts)
+        for sign, rotation, impacts in zip((first_sign, -first_sign), course.peaks, then, strict=True)
+        if impacts >= 0  # else this side never lifts
     ]
-    early = 0 if then[1] < 0 or 0 <= then[0] <= then[1] else 1
-    index = 1 - early if then[1 - early] >= 0 and ratios[1 - early] > ratios[early] * _EQUAL else early
-    overturns, impacts = ratios[index] == math.inf, then[index]
+    earliest = min(peaks, key=lambda peak: peak.impacts)
+    largest = max(peaks, key=lambda peak: peak.ratio)
+    peak = largest if largest.ratio > earliest.ratio * _EQUAL else earliest
+    impacts = peak.impacts
+    overturns = peak.ratio == math.inf
     if overturns:
         regime = Regime.OVERTURNS_AFTER_IMPACTS if impacts else Regime.OVERTURNS_WITHOUT_IMPACT
     elif course.contacts:
@@ -133,11 +145,11 @@ def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
         as_printed = equivalent_block.other_side is None and sides[0].exists
         regime = Regime.PRINTED_EXACT if as_printed else Regime.AFTER_FIRST_IMPACT
     return Maximum(
-        rotation_ratio=ratios[index],
+        rotation_ratio=peak.ratio,
         outcome=Outcome.OVERTURNS if overturns else Outcome.ROCKS,
         regime=regime,
         impacts=impacts,
-        peak_side=first_sign if index == 0 else -first_sign,
+        peak_side=peak.side,
         overturning_margin=course.margin,
     )
 

@@ -43,8 +43,15 @@ WORKBOOK = "study.xlsx"
 """The tables of the summary in one file, but for the times, which differ from run to run."""
 _GOVERNING = ("structure", "record", "level", "overturning_share", "governing_overturning_share")
 _SHOWN = (
-    "record", "pulses", "comparison", "verdicts", "supports", "structures", "agreement", "failures",
-)  # fmt: skip
+    "record",
+    "pulses",
+    "comparison",
+    "verdicts",
+    "supports",
+    "structures",
+    "agreement",
+    "failures",
+)
 _LIBRARIES = ("rocking", "obspy", "numpy", "scipy", "pandas", "matplotlib", "numba", "snakemake", "typst")
 
 

@@ -11,9 +11,16 @@ from rocking.described import Described, comma_hint, described, described_values
 from rocking.quantities import shown
 
 _UNITS = {
-    "rad_s": "rad/s", "m_s2": "m/s²", "m2_s3": "m²/s³", "m_s": "m/s", "rad": "rad", "hz": "Hz", "deg": "°", "s": "s",
+    "rad_s": "rad/s",
+    "m_s2": "m/s²",
+    "m2_s3": "m²/s³",
+    "m_s": "m/s",
+    "rad": "rad",
+    "hz": "Hz",
+    "deg": "°",
+    "s": "s",
     "m": "m",
-}  # fmt: skip
+}
 """Unit by the end of a column's name; the first that fits counts."""
 
 

@@ -26,9 +26,15 @@ _VELOCITY_UNIT = re.compile(r"\bUNITS (OF|ARE) \(?(CM|M|IN)/S(EC)?\b(?!\s*[/*^\d
 _SERIES = re.compile(
     r"(?m)^(?!.*\bACC(?:EL|\b)).*\b(VELOCITY|DISPLACEMENT)\b.*\b(?:TIME|HISTORY|UNITS?|CM|IN)\b"
 )
-_LAYOUT = Layout("", {
-    "event_time": r"\A.*\n.*?(\d{1,2}/\d{1,2}/\d{2,4}(?:,? +\d{1,2}:?\d\d)?)", "peak": r"PGA\s*=\s*([0-9.]+)\s*G\b",
-}, peak_unit="g", half_digit=5e-6)  # fmt: skip
+_LAYOUT = Layout(
+    "",
+    {
+        "event_time": r"\A.*\n.*?(\d{1,2}/\d{1,2}/\d{2,4}(?:,? +\d{1,2}:?\d\d)?)",
+        "peak": r"PGA\s*=\s*([0-9.]+)\s*G\b",
+    },
+    peak_unit="g",
+    half_digit=5e-6,
+)
 _FILTER_POINTS = re.compile(r"HP\s*=\s*([0-9.]+)\s*HZ", re.I)
 _POLES = re.compile(r"(-?\d+)\s+POLE\s+@\s*([0-9.]+)", re.I)
 _DATE_AT_END = re.compile(r"\s*\b\d{1,2}/\d{1,2}/\d{2,4}(?:,? +\d{1,2}:?\d\d)?$")
