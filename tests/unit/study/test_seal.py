@@ -25,8 +25,27 @@ def plan(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> SimpleNamespace:
     write_seal(results / "summary" / SEAL, "all", [results / "summary" / "record.csv"], results)
     settings = Settings(results="results")
     return SimpleNamespace(
-        settings=settings, jobs={"one": ("a",)}, made_from=lambda job: "origin", summary_made_from="all"
+        settings=settings,
+        jobs={"one": ("a",)},
+        made_from=lambda job: "origin",
+        summary_made_from="all",
+        fragility_made_from="scaled",
     )
+
+
+def test_an_edited_fragility_loses_its_seal_and_says_what_makes_it_again(plan: SimpleNamespace) -> None:
+    folder = Path("results", "fragility")
+    folder.mkdir()
+    (folder / "fragility_summary.csv").write_text("median\n")
+    write_seal(folder / SEAL, "scaled", [folder / "fragility_summary.csv"], Path("results"))
+    assert list(remove_broken_seals(plan)) == []
+    (folder / "fragility_summary.csv").write_text("edited\n")
+    (told,) = remove_broken_seals(plan)
+    assert (
+        told
+        == f"{folder / 'fragility_summary.csv'} is not as it was written; snakemake fragility makes it again."
+    )
+    assert not (folder / SEAL).exists()
 
 
 def test_a_seal_holds_while_nothing_changes_but_the_times(plan: SimpleNamespace) -> None:
