@@ -194,9 +194,9 @@ def load_structures(path: str | Path) -> dict[str, Structure]:
     numbered = list(enumerate(zip(entries, texts_of, strict=True), start=1))
     for number, (entry, texts) in sorted(numbered, key=lambda each: not _is_support(each[1][0])):
         name = entry.get("name") if isinstance(entry, Mapping) else None
-        where = f"{path}: structure {number}" + (f" ({name})" if name else "")
+        where = f"{path}: structure {number}" + (f" ({_repeated(name)})" if name else "")
         if not isinstance(name, str) or not name.strip():
-            defects.append(f"{where}: name is {name!r}, but must be a text of its own.")
+            defects.append(f"{where}: name is {shown(name)}, but must be a text of its own.")
         elif name in names:
             defects.append(f"{where}: the name is already taken by another structure; give each its own.")
         names.append(name)
@@ -210,12 +210,20 @@ def load_structures(path: str | Path) -> dict[str, Structure]:
             defects.append(f"{where}: {error}")
     carrying = {str(entry.get("stands_on")) for entry in entries if isinstance(entry, Mapping)}
     for idle in supports.keys() - carrying:
-        defects.append(f"{path}: support {idle} carries nothing; name it by stands_on, or remove it.")
+        defects.append(
+            f"{path}: support {_repeated(idle)} carries nothing; name it by stands_on, or remove it."
+        )
     if not structures and not defects:
         defects.append(f"{path}: the file lists supports only; add a structure.")
     if defects:
         raise ConfigurationError("\n".join(defects))
     return structures
+
+
+def _repeated(name: object) -> str:
+    """The name of an entry as a sentence repeats it: without quotes, and of a long one only the begin."""
+    is_short = isinstance(name, str) and len(name) <= _LONGEST_KEY
+    return str(name) if is_short else shown(name)
 
 
 def _entries(path: Path) -> tuple[list[Any], list[Mapping[str, str]]]:
@@ -258,13 +266,13 @@ def _where_it_stands(
     remarks = list(structure.remarks)
     structures = {name: structure}
     if place is not None and place != GROUND:
-        if place not in supports:
-            listed = ", ".join([GROUND, *supports])
+        if not isinstance(place, str) or place not in supports:
+            listed = ", ".join([GROUND, *map(_repeated, supports)])
             raise ConfigurationError(
-                f"stands_on is {place!r}, but no support of the list has this name{_nearest(place, supports)}; "
+                f"stands_on is {shown(place)}, but no support of the list has this name{_nearest(place, supports)}; "
                 f"use one of {listed}, or add the support."
             )
-        support = supports[str(place)]
+        support = supports[place]
         standings = support.standings(name) if support else ()
         structures = {each.name: structure.standing_on(each) for each in standings}
         remarks += [standings[-1].warning] if standings and standings[-1].warning else []

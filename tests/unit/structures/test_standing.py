@@ -129,6 +129,35 @@ def test_lists_that_cannot_be(tmp_path, lines, sentence):
     assert len(str(raised.value).splitlines()) == (2 if "'rof'" in sentence else 1)
 
 
+@pytest.mark.parametrize("place", ["[roof]", "{roof: 1}", "3", "true"])
+def test_a_structure_stands_on_a_name(tmp_path, place):
+    with pytest.raises(
+        ConfigurationError, match=r"structure 1 \(a\): stands_on is .*, but no support of the list"
+    ):
+        listed(tmp_path, f"name: a, {BLOCK}, stands_on: {place}")
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        [f"name: a, {BLOCK}, stands_on: {'y' * 9000}"],
+        [f"name: [{'y, ' * 3000}y], {BLOCK}"],
+        [f"name: {'y' * 9000}, {BLOCK}, breadth: 1"],
+        [f"name: a, {BLOCK}", f"name: {'y' * 9000}, type: support, period_s: 0.3, participation: 1.3"],
+        [
+            f"name: a, {BLOCK}, stands_on: attic",
+            f"name: {'y' * 9000}, type: support, period_s: 0.3, participation: 1.3",
+        ],
+    ],
+    ids=["place", "list as name", "name", "idle support", "supports to choose from"],
+)
+def test_a_sentence_repeats_the_begin_of_a_long_name(tmp_path, lines):
+    with pytest.raises(ConfigurationError, match=r"… \(\d+ characters\)") as raised:
+        listed(tmp_path, *lines)
+    for sentence in str(raised.value).splitlines():
+        assert len(sentence) < 1000
+
+
 def test_a_heavy_structure_is_warned_of(tmp_path):
     roof = "name: roof, type: support, period_s: 0.3, participation: 1.3, mass_ratio: {}"
     with pytest.warns(StructureWarning, match=r"a has 0\.05 of the mass of roof"):
