@@ -111,5 +111,10 @@ def test_a_pipe_in_place_of_hashes_or_of_a_hazard_curve_keeps_nobody_waiting(tmp
 def test_results_of_a_study_may_be_looked_through(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "results" / "summary").mkdir(parents=True)
-    (tmp_path / "results" / "summary" / "record.csv").touch()
+    table = tmp_path / "results" / "summary" / "record.csv"
+    table.touch()
     check_own(Path("results"))
+    assert table.is_file()
+    (table.parent / "linked.csv").symlink_to(table)
+    with pytest.raises(ConfigurationError, match=r"linked\.csv: it is a link"):
+        check_own(Path("results"))
