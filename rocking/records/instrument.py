@@ -100,7 +100,7 @@ def vertical_doubt(components: Sequence[str], along: Sequence[float | None], ver
         return ""
     return (
         f"Of the {len(components)} channels {', '.join(of_unknown[:_OF_A_STATION])} may be vertical, for nothing says "
-        "which one is: name the horizontal ones in the column component of the catalogue."
+        "which one is: name the horizontal ones in the column component of the catalogue, or as --component."
     )
 
 

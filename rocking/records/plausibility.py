@@ -36,12 +36,14 @@ def agree_with_header(
     *,
     at: float | None = None,
     samples: np.ndarray | None = None,
+    times: np.ndarray | None = None,
 ) -> Accelerogram:
     """Return `record` after comparing its peak with the one its header states in `unit`, within 1 % or half a digit.
 
     A peak that is more than 0.1 % off, or out of its place, is a warning; without a stated peak nothing is checked.
     at: time of the stated peak, s after the first sample. samples: (n,) m/s² as the file holds them, where the record's
-    are resampled. Raises RecordError with the factor that would explain the difference.
+    are resampled; times: (n,) s at which those stand, where they are not evenly spaced. Raises RecordError with the
+    factor that would explain the difference.
     """
     if not peak:
         return record
@@ -67,12 +69,13 @@ def agree_with_header(
         )
     if at is None:
         return record
-    place = round(at / record.time_step)
-    around = magnitudes[max(0, place - _NEIGHBOURS) : max(0, place + _NEIGHBOURS + 1)]
+    instants = np.arange(magnitudes.size) * record.time_step if times is None else times
+    place = int(np.abs(instants - at).argmin())
+    around = magnitudes[max(0, place - _NEIGHBOURS) : place + _NEIGHBOURS + 1]
     if around.max(initial=0) >= 0.98 * peak_read:
         return record
     return record.warned(
-        f"The header puts the peak at {at:g} s, but it stands at {magnitudes.argmax() * record.time_step:g} s: "
+        f"The header puts the peak at {at:g} s, but it stands at {instants[magnitudes.argmax()]:g} s: "
         "lines may be missing, repeated or out of order before it, or the time step is another."
     )
 
@@ -150,6 +153,8 @@ _REACH = 5
 """Samples before and after a step of velocity by which it is foretold: agencies integrate finer than they print."""
 _STRAY = 100.0
 """The largest plausible error of one step, in usual errors from the median; of seven real channels none reaches 53."""
+_DIGITS_OFF = 4.0
+"""Units of the last digit by which rounding may take one step off: one by both velocities, and as much by each side."""
 
 
 def agree_with_velocity(record: Accelerogram, stated: np.ndarray) -> Accelerogram:
@@ -173,6 +178,12 @@ def agree_with_velocity(record: Accelerogram, stated: np.ndarray) -> Accelerogra
     return record.warned("The file's own velocity is not the integral of its acceleration: it is damaged.")
 
 
+def _last_digit(values: np.ndarray) -> float:
+    """Return the smallest difference between two unlike numbers among `values` (n,): a unit of their last digit."""
+    apart = np.diff(np.unique(values))
+    return float(apart[apart > 1e-6 * np.ptp(values)].min(initial=np.ptp(values)))
+
+
 def _stray_step(record: Accelerogram, stated: np.ndarray) -> int | None:
     """Return the place of a step of the velocity `stated`, m/s, that the acceleration around it does not explain.
 
@@ -186,5 +197,7 @@ def _stray_step(record: Accelerogram, stated: np.ndarray) -> int | None:
     weights = np.linalg.lstsq(products, np.einsum("ij,i->j", around, steps), rcond=None)[0]
     errors = np.abs(steps - np.einsum("ij,j->i", around, weights))
     stray = int(errors.argmax())
-    is_stray = errors[stray] > _STRAY * max(float(np.median(errors)) * 1.4826, 1e-12)
+    usual = max(float(np.median(errors)) * 1.4826, 1e-12)
+    # Where most of the record is still, the usual error says nothing: what rounding explains is no damage.
+    is_stray = errors[stray] > max(_STRAY * usual, _DIGITS_OFF * _last_digit(stated))
     return stray + _REACH if is_stray else None

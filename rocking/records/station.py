@@ -11,7 +11,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue import CatalogueRecord, RecordFile
 from rocking.records.files import beside_catalogue, path_of
 from rocking.records.formats import Options
-from rocking.records.instrument import directed
+from rocking.records.instrument import directed, vertical_doubt
 from rocking.records.joining import direction_doubt, joined, names_no_direction
 from rocking.records.plausibility import scaled
 from rocking.records.read import bytes_of, read_raw
@@ -82,6 +82,8 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
         _check_names(channels, record)
         vertical = _vertical(channels, record)
         horizontal = _horizontal(channels, record, vertical)
+        if not record.components:
+            _check_upright([*horizontal, *filter(None, [vertical])])
         if doubt := direction_doubt(horizontal):
             horizontal = [channel.warned(doubt) for channel in horizontal]
         declared = [_as_declared(channel, record) for channel in horizontal]
@@ -108,6 +110,14 @@ def _check_names(channels: Sequence[Accelerogram], record: CatalogueRecord) -> N
     for name in filter(None, (*record.components, record.vertical_component)):
         if name not in names:
             raise RecordError(f"component is {name!r}, but the file holds {_listed(channels)}.")
+
+
+def _check_upright(channels: Sequence[Accelerogram]) -> None:
+    """Raise RecordError where one of the channels may be the vertical one of a station, and nothing says which."""
+    names = [channel.component for channel in channels]
+    directions = [channel.azimuth for channel in channels]
+    if doubt := vertical_doubt(names, directions, [channel.vertical for channel in channels]):
+        raise RecordError(doubt)
 
 
 def _vertical(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Accelerogram | None:

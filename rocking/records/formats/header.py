@@ -92,14 +92,16 @@ class Layout:
         peak: float | None = None,
         peak_time: float | None = None,
         file_samples: np.ndarray | None = None,
+        file_times: np.ndarray | None = None,
         total: int = 10**9,
         **fields: Any,
     ) -> Accelerogram:
         """Return the accelerogram of a header and its samples (n,), after holding duration and peak against them.
 
         unit, step [s], peak and its time where they follow from something else than the patterns; fields: more of an
-        Accelerogram, before what the header says. file_samples: (n,) m/s² as agree_with_header takes it. total:
-        number of channels in the file. Raises RecordError when something is missing or contradicts the samples.
+        Accelerogram, before what the header says. file_samples: (n,) m/s² and file_times: (n,) s as agree_with_header
+        takes them. total: number of channels in the file. Raises RecordError when something is missing or contradicts
+        the samples.
         """
         unit = unit or self._unit(head)
         for name in self.mandatory:
@@ -129,7 +131,9 @@ class Layout:
             record = agree_with_mean_square(record, rms, in_unit, digit)
         peak = self.number("peak", head) if peak is None else peak
         at = self.number("peak_time", head) if peak_time is None else peak_time
-        return agree_with_header(record, peak, in_unit, self.half_digit, at=at, samples=file_samples)
+        return agree_with_header(
+            record, peak, in_unit, self.half_digit, at=at, samples=file_samples, times=file_times
+        )
 
     def channels(
         self,

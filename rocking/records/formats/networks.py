@@ -382,6 +382,7 @@ def _smc_digitised(
     step, even, sentence = text.through_points(times)
     facts |= {"processing": (sentence,), "warnings": (sentence,)}
     facts["file_samples"] = values * acceleration_factor(_SMC.unit)
+    facts["file_times"] = times
     return _SMC.channel(head, np.interp(even, times, values), options, step=step, **facts)
 
 

@@ -162,6 +162,7 @@ def _digitised(
     step, even, note = text.through_points(times)
     more: dict[str, Any] = {"processing": (note,), "warnings": (note,), "total": total, "step": step}
     more["file_samples"] = values * acceleration_factor("g/10")
+    more["file_times"] = times
     return layout.channel(head, np.interp(even, times, values), options, **more)
 
 

@@ -10,8 +10,10 @@ import pytest
 from made_files import MADE, STEP, TRUE, N, by_obspy, read_text
 
 from rocking.errors import RecordError, UndeclaredError
+from rocking.records import Accelerogram
 from rocking.records.formats import Options
 from rocking.records.formats.header import check_duration
+from rocking.records.plausibility import agree_with_velocity
 from rocking.records.read import LARGEST_FILE, read_content, unpack
 
 
@@ -275,3 +277,17 @@ def test_a_velocity_that_contradicts_its_acceleration_is_warned_of() -> None:
     other = text.replace(before, turned)
     assert head and other != text and not read_text(text)[0].warnings
     assert "own velocity is not the integral" in read_text(other)[0].warnings[0]
+
+
+def test_a_velocity_that_is_still_but_for_its_last_digit_is_no_damage() -> None:
+    """Most of the record rests, so that the usual error of a step is nought, and a few steps are off by rounding."""
+    times = np.arange(2000) * 0.01
+    pulse = np.sin(9 * times) * np.exp(-times) * (times < 8)
+    velocity = np.concatenate([[0.0], np.cumsum((pulse[1:] + pulse[:-1]) / 2) * 0.01])
+    record = Accelerogram(pulse, 0.01)
+    rounded = np.round(velocity, 5)
+    assert agree_with_velocity(record, rounded).warnings == ()
+    rounded[1200:] += 2e-4
+    assert (
+        "12 s the file's own velocity is not the integral" in agree_with_velocity(record, rounded).warnings[0]
+    )

@@ -1,6 +1,7 @@
 """Stations: components from several files, joined; and the vertical one."""
 
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -129,3 +130,26 @@ def test_it_is_still_after_its_end_and_cut_at_the_end_of_the_other():
     short, long = Accelerogram(np.ones(5), 0.01), Accelerogram(np.zeros(8), 0.01)
     assert aligned(short, long).acceleration.tolist() == [1.0] * 5 + [0.0] * 3
     assert aligned(long, short).acceleration.tolist() == [0.0] * 5
+
+
+def test_of_three_channels_without_directions_one_may_be_vertical_and_is_asked_for(tmp_path):
+    """Two, or three whose names say which is upright, are taken; a row that names components decides."""
+    waves = np.random.default_rng(1).normal(size=(3, 300))
+
+    def table(names):
+        rows = zip(np.arange(300) * 0.01, *waves[: len(names)], strict=True)
+        lines = [",".join(f"{value:.6f}" for value in row) for row in rows]
+        heads = ["time (s)", *(f"{name} (m/s2)" for name in names)]
+        (tmp_path / "t.csv").write_text("\n".join([",".join(heads), *lines]) + "\n")
+        return _record(tmp_path, "t.csv")
+
+    with pytest.raises(
+        RecordError, match=r"t\.csv: Of the 3 channels A, B, C may be vertical.*column component"
+    ):
+        open_station(table("ABC"))
+    named = open_station(replace(table("ABC"), component="A;C"))
+    assert [channel.component for channel in named.horizontal] == ["A", "C"] and named.vertical is None
+    assert len(open_station(table("AB")).horizontal) == 2
+    upright = open_station(table(["A", "B", "UP"]))
+    assert [channel.component for channel in upright.horizontal] == ["A", "B"]
+    assert upright.vertical.component == "UP"
