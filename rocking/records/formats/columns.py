@@ -3,7 +3,6 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import islice, pairwise
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,7 @@ from rocking.errors import RecordError
 from rocking.quantities import acceleration_unit
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats import text
+from rocking.records.formats.dialect import Dialect
 from rocking.records.formats.format import Format, Options
 from rocking.records.formats.labels import ColumnLabel
 from rocking.records.instrument import refuse_by_name, refuse_other_quantity
@@ -187,11 +187,11 @@ def _are_columns(content: bytes) -> bool:
     is_other = (
         bool(_COMMENTED_FORMAT.match(content)) or b"\0" in content[:4096] or _heading(content) is not None
     )
-    return not is_other and _table(_plain_numbers(content) or content) is not None
+    return not is_other and _table(Dialect.of(content).plain(content) or content) is not None
 
 
 def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
-    pointed = _plain_numbers(content)
+    pointed = Dialect.of(content).plain(content)
     if pointed is None:
         raise RecordError("the commas are decimal signs or part columns; write points, or semicolons.")
     table = _table(pointed) or _Table((), 1, 0)  # it was recognised by that
@@ -483,63 +483,6 @@ def _column(
             processing = repeats = (sentence,)
     facts: dict[str, Any] = {"component": label.component, "processing": processing, "warnings": repeats}
     return options.accelerogram(label.unit or unit, values, step, processed=None, **facts)
-
-
-_WITH_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
-_QUOTED = re.compile(rb'"\s*([+-]?[\d.,]*\d[\d.,]*(?:[eE][+-]?\d+)?)\s*"')
-_FORTRAN = re.compile(rb"(?<=[\d.])[dD](?=[+-]?\d)")
-
-
-def _unquoted(cell: re.Match[bytes]) -> bytes:
-    """Return the number of a quoted cell, in which one comma is a decimal sign; the cell where it is no number."""
-    number = cell[1].replace(b",", b".") if cell[1].count(b",") == 1 else cell[1]
-    return number if number.count(b".") <= 1 and b"," not in number else cell[0]
-
-
-def _plain_numbers(content: bytes) -> bytes | None:
-    """Return `content` with its numbers as Python writes them, None where a comma may be either of two things.
-
-    Without the quotes of a spreadsheet, with points for decimal commas, and with E for Fortran's D.
-    """
-    head = content[: 400 * _SAMPLE]
-    if b'"' in head:
-        content = _QUOTED.sub(_unquoted, content)
-    if b"D+" in head or b"D-" in head:
-        content = _FORTRAN.sub(b"E", content)
-    return _points_for_commas(content)
-
-
-_NUMERIC = re.compile(r"[\d+\-.,;eE \t]+")
-_SAMPLE = 40
-"""Lines that are looked at: the rest of a table is like them, or its numbers are refused one by one."""
-
-
-def _points_for_commas(content: bytes) -> bytes | None:
-    """Return `content` with points for its decimal commas, if it has such; None where a comma may be either.
-
-    A comma is a decimal sign where something else (a semicolon, a tab, blanks) parts the numbers and none has a point.
-    """
-    if b"," not in content[: 400 * _SAMPLE]:
-        return content
-    head = content[: 400 * _SAMPLE].decode("latin-1").split("\n")[:-1]
-    of_numbers = (line.strip() for line in head if line.strip() and _NUMERIC.fullmatch(line))
-    rows = list(islice(of_numbers, _SAMPLE))
-    if not any("," in row for row in rows):
-        return content
-    cells = [[cell for cell in re.split(r"[;\t ]+", row) if cell] for row in rows]
-    if any((cell.startswith(",") and len(cell) == 1) or cell.endswith(",") for row in cells for cell in row):
-        return content  # a comma beside a blank parts
-    with_comma = [cell for row in cells for cell in row if "," in cell]
-    decimal = all(_WITH_COMMA.fullmatch(cell) for cell in with_comma)
-    if any("." in row for row in rows):
-        return None if decimal and any(";" in row for row in rows) else content
-    if decimal and max(map(len, cells)) > 1:
-        return re.sub(rb"(?<=\d),(?=\d)|(?<![\d,]),(?=\d)", b".", content)
-    has_names = re.search(r"[A-Za-z]", next(line for line in head if line.strip()))
-    first = [row.split(",")[0] for row in rows]
-    steps = {int(b) - int(a) for a, b in pairwise(first)} if all(map(str.isdecimal, first)) else set()
-    counts = len(rows) > 2 and len(steps) == 1 and steps.pop() > 0  # evenly upwards, as times do
-    return content if has_names or counts else None
 
 
 _WORDS = re.compile(r"[A-Za-z=:,;()]+")
