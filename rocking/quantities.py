@@ -52,9 +52,17 @@ ACCELERATION_UNITS = {
 
 
 _SPELLINGS = (
-    ("sec", "s"), ("²", "2"), ("^2", "2"), ("**2", "2"), ("/s/s", "/s2"), ("/s*s", "/s2"), ("/(s*s)", "/s2"),
-    ("_s_2", "/s2"), ("_s2", "/s2"), ("µ", "u"),
-)  # fmt: skip
+    ("sec", "s"),
+    ("²", "2"),
+    ("^2", "2"),
+    ("**2", "2"),
+    ("/s/s", "/s2"),
+    ("/s*s", "/s2"),
+    ("/(s*s)", "/s2"),
+    ("_s_2", "/s2"),
+    ("_s2", "/s2"),
+    ("µ", "u"),
+)
 _NEGATIVE_POWER = re.compile(r"((?:[cmun]?m)|ft|in)[ .·*]?s(?:\*\*|\^)?[-−]2")
 """A unit like "m s-2", "cm.s^-2"."""
 _WORDS = {"gals": "gal", "gs": "g", "milli-g": "mg", "milli g": "mg", "millig": "mg"}

@@ -51,40 +51,53 @@ class CatalogueRecord:
     'TAK090.AT2'
     """
 
-    # fmt: off
-    id: str = described(MISSING, "name of the record in every result: letters, digits, `.`, `_`, `-`; at most 80")
+    id: str = described(
+        MISSING, "name of the record in every result: letters, digits, `.`, `_`, `-`; at most 80"
+    )
     file: str = described(
-        MISSING, "path beside the catalogue or in the mirror, `archive.zip/member` for a file in a zip archive, or "
+        MISSING,
+        "path beside the catalogue or in the mirror, `archive.zip/member` for a file in a zip archive, or "
         "`obspy:NAME` for one that obspy installs; the files of one station, the vertical component among them, are "
-        "separated by `;`")
+        "separated by `;`",
+    )
     sha256: str = described(
-        "", "of each file as it lies on disk, in the order of `file`; a blank one is filled in when a study first "
-        "reads the file, and checked from then on")
+        "",
+        "of each file as it lies on disk, in the order of `file`; a blank one is filled in when a study first "
+        "reads the file, and checked from then on",
+    )
     source_repository: str = described("", "where on GitHub the files are fetched from, as owner/name")
     source_path: str = described("", "path of each file in that repository, in the order of `file`")
     source_commit: str = described("", "commit of that repository, 40 hexadecimal digits")
     component: str = described(
-        "", "channels to use, separated by `;` (empty: every horizontal one at the surface); names the channels of "
-        "files that leave them unnamed, in the order of `file`")
-    vertical_component: str = described("", "the vertical channel, where the file's own name for it does not say so")
+        "",
+        "channels to use, separated by `;` (empty: every horizontal one at the surface); names the channels of "
+        "files that leave them unnamed, in the order of `file`",
+    )
+    vertical_component: str = described(
+        "", "the vertical channel, where the file's own name for it does not say so"
+    )
     unit: str = described(
-        "", "unit of the samples, where the file is silent; a contradiction with the file is an error")
+        "", "unit of the samples, where the file is silent; a contradiction with the file is an error"
+    )
     time_step: float | None = described(None, "time step, where the file is silent", "s", gt=0)
     scale_factor: float = described(1.0, "factor on the acceleration")
     scale_to: str = described(
-        "", "what the larger peak of the horizontal components is scaled to, by one factor on all components, in place "
-        "of scale_factor: `pga 0.35 g` or `pgv 50 cm/s`")
+        "",
+        "what the larger peak of the horizontal components is scaled to, by one factor on all components, in place "
+        "of scale_factor: `pga 0.35 g` or `pgv 50 cm/s`",
+    )
     event: str = described("", "the earthquake, for the reader")
     station: str = described("", "the station, for the reader")
     licence: str = described("", "licence of the files, for the reader")
     inventory: str = described("", "StationXML of a miniSEED or SAC file, a path like `file`")
     high_pass: float | None = described(
-        None, "corner of the high-pass filter, where the file does not state it", "Hz", gt=0)
+        None, "corner of the high-pass filter, where the file does not state it", "Hz", gt=0
+    )
     magnitude: float | None = described(None, "magnitude, where the file is silent or errs", ge=-2, le=10)
     epicentral_distance: float | None = described(
-        None, "distance from the epicentre, where the file is silent or errs", "km", ge=0, le=20_100)
+        None, "distance from the epicentre, where the file is silent or errs", "km", ge=0, le=20_100
+    )
     note: str = described("", "anything else, for the reader")
-    # fmt: on
     folder: Path = Path()
 
     def __post_init__(self) -> None:

@@ -107,8 +107,9 @@ def vertical_doubt(components: Sequence[str], along: Sequence[float | None], ver
 _OF_A_STATION = 3
 """Channels of a station that recorded every direction."""
 _STRUCTURE = re.compile(
-    r"\b(roof|floor|fl|flr|storey|story|penthouse|mezzanine|attic|deck|bent|column|girder|abutment|pier|crest|tower|"
-    r"dam|gallery|basement|bsmt|bldg|building|bridge)\b", re.I)  # fmt: skip
+    r"(?i)\b(roof|floor|fl|flr|storey|story|penthouse|mezzanine|attic|deck|bent|column|girder|abutment|pier|crest|tower|"
+    r"dam|gallery|basement|bsmt|bldg|building|bridge)\b"
+)
 _FREE = re.compile(r"\bfree[- ]?field\b", re.I)
 _DOWN_HOLE = re.compile(r"(?i)\b(down-?hole|bore-?hole|depth|below (ground|surface))\b|-\s*\d+(\.\d+)?\s*m\b")
 _CODE = re.compile(r"(?!CH\d)[A-Z](?:([HLMPJ])[ENZ123]|([DFK])[FHEIOZ])(\d\d)?")
@@ -157,10 +158,15 @@ _OTHER = {
 }
 _OF_THE_GROUND = re.compile(r"shear|wave|vs[ _,]?30", re.I)  # the velocity of a site is no record
 _SUFFIXES = {
-    ".vt2": "velocity", ".vel": "velocity", ".vtx": "velocity",
-    ".dt2": "displacement", ".dis": "displacement", ".disp": "displacement",
-    ".semv": "velocity", ".semd": "displacement",
-}  # fmt: skip
+    ".vt2": "velocity",
+    ".vel": "velocity",
+    ".vtx": "velocity",
+    ".dt2": "displacement",
+    ".dis": "displacement",
+    ".disp": "displacement",
+    ".semv": "velocity",
+    ".semd": "displacement",
+}
 
 
 def other_quantity(text: str) -> str | None:

@@ -554,8 +554,9 @@ def _below_title(content: bytes, options: Options, size: str, step: str, **names
 
 
 _EMOD3D = re.compile(
-    r"[ \t]*\S+[ \t]+\S.*\n[ \t]*(\d+)[ \t]+(\d\.\d+e[-+]\d\d)([ \t]+-?\d+){2}([ \t]+-?\d\.\d+e[-+]\d\d){4}[ \t]*\n",
-    re.I)  # fmt: skip
+    r"(?i)[ \t]*\S+[ \t]+\S.*\n[ \t]*(\d+)[ \t]+(\d\.\d+e[-+]\d\d)"
+    r"([ \t]+-?\d+){2}([ \t]+-?\d\.\d+e[-+]\d\d){4}[ \t]*\n"
+)
 """Station and component above number of samples, step, hours and minutes, and four reals."""
 
 

@@ -309,7 +309,8 @@ _SMC = Layout("cm/s2", {
 })  # fmt: skip
 _SMC_FIRST = re.compile(
     r"(?i)[0-6] (UNKNOWN|(UN)?CORRECTED ACC|VELOCITY|DISPLACEMENT|RESPONSE|FOURIER)(?:.*\n){11}"
-    r"[ \t]*(?:\S+[ \t]+){7}\S+[ \t]*(?:\n|\Z)")  # fmt: skip
+    r"[ \t]*(?:\S+[ \t]+){7}\S+[ \t]*(?:\n|\Z)"
+)
 """The first line, and below ten more the first one of integers."""
 _SMC_TEXT = 11
 _SMC_INTEGERS, _SMC_REALS = 6, 16  # lines below the text at which each part of the header ends

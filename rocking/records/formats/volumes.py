@@ -29,8 +29,9 @@ _COSMOS_FIRST = re.compile(
     r"(Corrected|Uncorrected)\s+(acceleration|velocity|displacement)\s+\(Format v", re.I
 )
 _DATA = re.compile(
-    r"^\s*(?P<n>\d+)\s+(?P<quantity>\w+)\s+pts,.*?units\s*=\s*(?P<unit>[\w/^]+)\.?\s*(?:\((?P<code>\d+)\))?\s*,?"
-    r"\s*Format\s*=\s*\(\s*(?P<per_line>\d+)[FE](?P<width>\d+)", re.I)  # fmt: skip
+    r"(?i)^\s*(?P<n>\d+)\s+(?P<quantity>\w+)\s+pts,.*?units\s*=\s*(?P<unit>[\w/^]+)\.?\s*(?:\((?P<code>\d+)\))?\s*,?"
+    r"\s*Format\s*=\s*\(\s*(?P<per_line>\d+)[FE](?P<width>\d+)"
+)
 _REALS = re.compile(r"^\s*(\d+)\s+Real-header values follow on\s+(\d+)\s+lines.*?\d+[FE](\d+)", re.I)
 _END = re.compile(r"\s*(End-of-data|/&)", re.I)
 _ELEVATION, _DISTANCE, _RECORDER_STEP, _STEP, _LENGTH, _PEAK, _PEAK_TIME, _RMS = 2, 16, 33, 61, 62, 63, 64, 83
@@ -193,13 +194,13 @@ _VOLUME_3 = re.compile(r"(Response and )?Fourier amplitude spectr|Response (and|
 _OF_RENADIC = r"(?:.*\n){0,12}.*RENADIC"
 _CSMIP_FIRST = re.compile(rf"{_VOLUME_1.pattern}(?!{_OF_RENADIC})|{_VOLUME_2.pattern}", re.I)
 _DATA_1 = re.compile(
-    r"^\s*(?P<n>\d+)\s+Accelerogram points at\s+(?P<rate>[\d.]+)\s*pts/sec in units of\s+(?P<unit>\S+?)\s*\.?\s+"
-    r"Format:\s*\((?P<per_line>\d+)[FE](?P<width>\d+)", re.I,
-)  # fmt: skip
+    r"(?i)^\s*(?P<n>\d+)\s+Accelerogram points at\s+(?P<rate>[\d.]+)\s*pts/sec in units of\s+(?P<unit>\S+?)\s*\.?\s+"
+    r"Format:\s*\((?P<per_line>\d+)[FE](?P<width>\d+)"
+)
 _DATA_2 = re.compile(
-    r"^\s*(?P<n>\d+)\s+points of (?P<quantity>accel|veloc|displ)\w* data equally spaced at\s+(?P<step>[\d.]+)\s*sec"
-    r"[.,]?\s*(?:in|\(units:)\s*(?P<unit>[\w/]+)[.)]*\s*(?:\((?P<per_line>\d+)[FE](?P<width>\d+))?", re.I,
-)  # fmt: skip
+    r"(?i)^\s*(?P<n>\d+)\s+points of (?P<quantity>accel|veloc|displ)\w* data equally spaced at\s+(?P<step>[\d.]+)\s*sec"
+    r"[.,]?\s*(?:in|\(units:)\s*(?P<unit>[\w/]+)[.)]*\s*(?:\((?P<per_line>\d+)[FE](?P<width>\d+))?"
+)
 _PER_LINE = 8  # of the volumes before 2000, which do not say it
 
 
