@@ -393,6 +393,7 @@ def assess_case(
         )
 
 
+# Whole on purpose: the order in which a case is decided, and where it may end early.
 def _case(
     name: str,
     structure: Structure | Mechanism,

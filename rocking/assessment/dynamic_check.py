@@ -87,6 +87,7 @@ class StructureCheck(CodeCheck):
         return (*super().checks, *((self.dynamic,) if self.dynamic else ()))
 
 
+# Whole on purpose: half of it are the arguments of a public name.
 def check(
     structure: Structure,
     spectrum: DesignSpectrum,

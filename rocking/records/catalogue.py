@@ -137,6 +137,7 @@ def _parts(cell: str) -> tuple[str, ...]:
 
 
 def _defects(record: CatalogueRecord) -> Iterator[str]:
+    """Yield a sentence for each cell that is wrong, and turn those of numbers into numbers."""
     for name, each in described_values(CatalogueRecord).items():
         if each.kind is str and isinstance(getattr(record, name), str):
             continue
@@ -144,57 +145,7 @@ def _defects(record: CatalogueRecord) -> Iterator[str]:
             object.__setattr__(record, name, each.checked(getattr(record, name)))
         except ValueError as error:
             yield f"{each.key} is {error}"
-    names, hashes, paths = _parts(record.file), _parts(record.sha256), _parts(record.source_path)
-    outside = [("file", name) for name in names if not stays_inside(name.removeprefix(_OBSPY))]
-    if record.inventory and not stays_inside(record.inventory):
-        outside.append(("inventory", record.inventory))
-    source = record.source_repository, record.source_path, record.source_commit
-    is_fetched = any(source)
-    checks = [
-        (
-            is_safe_id(record.id),
-            f"id is {shown(record.id)}, but must be a safe file name: letters, digits, . _ -, at most 80, not "
-            "reserved.",
-        ),
-        (names, "file is missing; give a path beside the catalogue or obspy:NAME."),
-        *(
-            (False, f"{name} is {shown(value)}, but must be a relative path without '..'.")
-            for name, value in outside
-        ),
-        *(
-            (
-                _HASH.fullmatch(value),
-                f"sha256 is {shown(value)}, but must be 64 hexadecimal digits in lower case, or blank to be filled in.",
-            )
-            for value in hashes
-            if value
-        ),
-        (
-            len(hashes) in (0, len(names)),
-            f"sha256 holds {len(hashes)} hashes for {len(names)} files; give one for each, separated by ';'.",
-        ),
-        (
-            not record.is_remote or (hashes and all(hashes)),
-            "sha256 is missing; a file that is fetched needs it.",
-        ),
-        (
-            not is_fetched or _REPOSITORY.fullmatch(source[0]),
-            f"source_repository is {shown(source[0])}, but must be owner/name.",
-        ),
-        (
-            not is_fetched or (len(paths) == len(names) and all(map(stays_inside, paths))),
-            f"source_path is {shown(source[1])}, but must be a relative path without '..' for each file.",
-        ),
-        (
-            not is_fetched or _COMMIT.fullmatch(source[2]),
-            f"source_commit is {shown(source[2])}, but must be 40 hexadecimal digits.",
-        ),
-        (record.scale_factor != 0, "scale_factor is 0, but must not be; leave the row out instead."),
-        (
-            record.scale_factor == 1 or not record.scale_to,
-            f"scale_factor is {record.scale_factor:g} beside scale_to {shown(record.scale_to)}; give one of the two.",
-        ),
-    ]
+    checks = (*_checks_of_files(record), *_checks_of_source(record), *_checks_of_scale(record))
     yield from (sentence for is_right, sentence in checks if not is_right)
     for cell, check in ((record.unit, acceleration_factor), (record.scale_to, ScalingTarget.parse)):
         if cell:
@@ -202,6 +153,62 @@ def _defects(record: CatalogueRecord) -> Iterator[str]:
                 check(cell)
             except RockingError as error:
                 yield str(error)
+
+
+_Check = tuple[object, str]
+"""Something that is true where a row is right, and the sentence that is said where it is not."""
+
+
+def _checks_of_files(record: CatalogueRecord) -> Iterator[_Check]:
+    """Yield the checks of the row's name, its files and their hashes."""
+    yield (
+        is_safe_id(record.id),
+        f"id is {shown(record.id)}, but must be a safe file name: letters, digits, . _ -, at most 80, not reserved.",
+    )
+    names, hashes = _parts(record.file), _parts(record.sha256)
+    yield names, "file is missing; give a path beside the catalogue or obspy:NAME."
+    paths = [("file", name) for name in names if not stays_inside(name.removeprefix(_OBSPY))]
+    if record.inventory and not stays_inside(record.inventory):
+        paths.append(("inventory", record.inventory))
+    for cell, path in paths:
+        yield False, f"{cell} is {shown(path)}, but must be a relative path without '..'."
+    for value in filter(None, hashes):
+        yield (
+            _HASH.fullmatch(value),
+            f"sha256 is {shown(value)}, but must be 64 hexadecimal digits in lower case, or blank to be filled in.",
+        )
+    yield (
+        len(hashes) in (0, len(names)),
+        f"sha256 holds {len(hashes)} hashes for {len(names)} files; give one for each, separated by ';'.",
+    )
+    are_hashed = bool(hashes) and all(hashes)
+    yield not record.is_remote or are_hashed, "sha256 is missing; a file that is fetched needs it."
+
+
+def _checks_of_source(record: CatalogueRecord) -> Iterator[_Check]:
+    """Yield the checks of where the files are fetched from; none where the row names nothing of it."""
+    repository, source_path, commit = record.source_repository, record.source_path, record.source_commit
+    if not (repository or source_path or commit):
+        return
+    paths = _parts(source_path)
+    yield (
+        _REPOSITORY.fullmatch(repository),
+        f"source_repository is {shown(repository)}, but must be owner/name.",
+    )
+    yield (
+        len(paths) == len(_parts(record.file)) and all(map(stays_inside, paths)),
+        f"source_path is {shown(source_path)}, but must be a relative path without '..' for each file.",
+    )
+    yield _COMMIT.fullmatch(commit), f"source_commit is {shown(commit)}, but must be 40 hexadecimal digits."
+
+
+def _checks_of_scale(record: CatalogueRecord) -> Iterator[_Check]:
+    """Yield the checks of the factor on the record."""
+    yield record.scale_factor != 0, "scale_factor is 0, but must not be; leave the row out instead."
+    yield (
+        record.scale_factor == 1 or not record.scale_to,
+        f"scale_factor is {record.scale_factor:g} beside scale_to {shown(record.scale_to)}; give one of the two.",
+    )
 
 
 def is_safe_id(text: str) -> bool:

@@ -52,37 +52,22 @@ def _from_trace(trace: Any, inventory: Any, unit: str | None, response: str) -> 
     steps = list(trace.stats.get("processing", ()))
     if own and own.get("component") != trace.stats.channel:
         own = {name: value for name, value in own.items() if name not in _DIRECTED}
-    order, removed = quantity_order(trace)
     is_motion = bool(own) or "output=" in " ".join(steps)  # what was integrated or differentiated is known
-    if order and (order > 0 or is_motion or unit is None):
-        kinds = {1: "velocity", 2: "displacement"}
-        kind = kinds.get(order, "the derivative of an acceleration")
-        last = steps[-1].partition("(")[0].split()[-1]
-        raise RecordError(
-            f"its processing by obspy, {last} at the end, leaves {kind}; give acceleration: "
-            "remove_response(output='ACC')."
-        )
-    by_response = unit is None and not removed and (inventory is not None or "response" in trace.stats)
-    declared = unit
-    if declared is None and not by_response:
-        declared = "m/s2" if removed and order == 0 else own.get("unit")
-    if declared is None and not by_response:
-        state = "its sensitivity removed" if removed else "neither a unit nor a response"
-        raise RecordError(f"it has {state}; give unit= of its samples, or the inventory= of counts.")
-    fields: dict[str, Any] = {"processed": False if by_response else None, **names(trace)}
+    declared = _unit_of(trace, unit, own, is_motion, has_response=inventory is not None)
+    fields: dict[str, Any] = {"processed": False if declared is None else None, **names(trace)}
     fields |= {name: own[name] for name in OBSPY_EXTRAS if name in own} | site(trace, inventory)
     if str(trace.stats.channel).isdigit() and len(str(trace.stats.channel)) == 1:
         fields.setdefault("azimuth", None)
         fields["component"] = f"channel {trace.stats.channel}"
     processing = [*fields.get("processing", ()), *(f"obspy: {step}"[:200] for step in steps)]
-    if by_response:
+    if declared is None:
         motion = calibrated(trace, inventory, response)
         samples = motion.acceleration
         processing.append(motion.sentence)
         fields["warnings"] = (*fields.get("warnings", ()), *motion.warnings)
     else:
         calibration = float(trace.stats.get("calib", 1.0))
-        samples = np.asarray(trace.data, dtype=float) * acceleration_factor(str(declared))
+        samples = np.asarray(trace.data, dtype=float) * acceleration_factor(declared)
         if calibration != 1:
             samples = samples * calibration
             processing.append(
@@ -91,3 +76,31 @@ def _from_trace(trace: Any, inventory: Any, unit: str | None, response: str) -> 
     fields["processing"] = tuple(processing)
     source = Source(format="obspy", unit=declared or "m/s2")
     return Accelerogram(samples, float(trace.stats.delta), source=source, **directed(fields))
+
+
+def _unit_of(
+    trace: Any, unit: str | None, own: dict[str, Any], is_motion: bool, *, has_response: bool
+) -> str | None:
+    """Return the unit of a trace's samples, None where they are counts whose response is at hand.
+
+    unit: as the caller declares it, which wins. own: what this program wrote into the trace. is_motion: its first
+    samples were of acceleration. Raises RecordError for samples of velocity or displacement, and of no unit.
+    """
+    order, removed = quantity_order(trace)
+    if order and (order > 0 or is_motion or unit is None):
+        kinds = {1: "velocity", 2: "displacement"}
+        kind = kinds.get(order, "the derivative of an acceleration")
+        last = list(trace.stats.processing)[-1].partition("(")[0].split()[-1]
+        raise RecordError(
+            f"its processing by obspy, {last} at the end, leaves {kind}; give acceleration: "
+            "remove_response(output='ACC')."
+        )
+    if unit is not None:
+        return unit
+    if not removed and (has_response or "response" in trace.stats):
+        return None
+    declared = "m/s2" if removed and order == 0 else own.get("unit")
+    if declared is None:
+        state = "its sensitivity removed" if removed else "neither a unit nor a response"
+        raise RecordError(f"it has {state}; give unit= of its samples, or the inventory= of counts.")
+    return str(declared)

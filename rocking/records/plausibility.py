@@ -70,9 +70,16 @@ def agree_with_header(
     if at is None:
         return record
     instants = np.arange(magnitudes.size) * record.time_step if times is None else times
+    return _peak_in_place(record, magnitudes, instants, at)
+
+
+def _peak_in_place(
+    record: Accelerogram, magnitudes: np.ndarray, instants: np.ndarray, at: float
+) -> Accelerogram:
+    """Return `record`, with a warning where none of `magnitudes` (n,) about the time `at`, s, is the largest."""
     place = int(np.abs(instants - at).argmin())
     around = magnitudes[max(0, place - _NEIGHBOURS) : place + _NEIGHBOURS + 1]
-    if around.max(initial=0) >= 0.98 * peak_read:
+    if around.max() >= 0.98 * magnitudes.max():
         return record
     return record.warned(
         f"The header puts the peak at {at:g} s, but it stands at {instants[magnitudes.argmax()]:g} s: "

@@ -119,6 +119,7 @@ class Selection(Drawn):
         )
 
 
+# Whole on purpose: half of it are the arguments of a public name and its result.
 def select(
     records: Mapping[str, Sequence[Accelerogram]],
     spectrum: DesignSpectrum,
@@ -148,27 +149,18 @@ def select(
     >>> rocking.select(pool, spectrum, 3, below=0.9, above=9.0, sets=2).chosen.size
     3
     """
-    shortest, longest = periods
-    least, most = factors
-    if not 0 < shortest < longest:
-        raise ConfigurationError(
-            f"periods is {shortest:g} to {longest:g} s, but must go from above 0 to a longer one."
-        )
-    if not 0 < least <= most:
-        raise ConfigurationError(
-            f"factors is {least:g} to {most:g}, but must go from above 0 to as much or more."
-        )
+    _check_ranges(periods, factors)
     for name, value in (("stations", stations), ("below", below), ("above", above), ("tries", tries)):
         positive(ConfigurationError, name, value)
+    shortest, longest = periods
     count = 1 + math.ceil(_PERIODS_PER_DOUBLING * math.log2(longest / shortest))
     grid = np.geomspace(shortest, longest, count)
     target = np.asarray(spectrum.acceleration(grid))
-    own = np.array([_mean_spectrum(pair, grid, spectrum.damping) for pair in records.values()]).reshape(
-        -1, count
-    )
+    means = [_mean_spectrum(pair, grid, spectrum.damping) for pair in records.values()]
+    own = np.array(means).reshape(-1, count)
     names = tuple(records)
     places = tuple(_station(name, pair) for name, pair in records.items())
-    scaling = np.clip(np.exp(np.log(target / own).mean(axis=1)), least, most)
+    scaling = np.clip(np.exp(np.log(target / own).mean(axis=1)), *factors)
     spectra = own * scaling[:, None]
     found, chosen, drawn = search(
         spectra / target, places, stations, below=below, above=above, sets=sets, tries=tries, seed=seed
@@ -189,6 +181,19 @@ def select(
     )
 
 
+def _check_ranges(periods: tuple[float, float], factors: tuple[float, float]) -> None:
+    shortest, longest = periods
+    if not 0 < shortest < longest:
+        raise ConfigurationError(
+            f"periods is {shortest:g} to {longest:g} s, but must go from above 0 to a longer one."
+        )
+    least, most = factors
+    if not 0 < least <= most:
+        raise ConfigurationError(
+            f"factors is {least:g} to {most:g}, but must go from above 0 to as much or more."
+        )
+
+
 def _mean_spectrum(pair: Sequence[Accelerogram], periods: np.ndarray, damping: float) -> np.ndarray:
     spectra = [response_spectrum(each, periods, damping).pseudo_acceleration for each in pair]
     mean: np.ndarray = np.mean(spectra, axis=0)
@@ -201,6 +206,7 @@ def _station(name: str, pair: Sequence[Accelerogram]) -> str:
     return f"{first.network}.{first.station}".strip(".") or name
 
 
+# Whole on purpose: one loop draws, judges and remembers, and a reader has to see all it carries from draw to draw.
 def search(
     ratios: np.ndarray,
     stations: Sequence[str],

@@ -106,22 +106,31 @@ def calibrated(trace: Any, inventory: Any, response: str) -> Calibrated:
     _check_gain(gain, of)
     staged = bool(getattr(of, "response_stages", None))
     if response == "sensitivity" and (order == 0 or (order == 1 and not staged)):
-        counts = trace.data.astype(float)
-        per_unit = gain / factor
-        mean = counts.mean() / per_unit
-        done = f"Counts divided by the overall sensitivity {per_unit:g}"
-        if order == 0:
-            return Calibrated(counts / per_unit - mean, f"{done}, and their mean removed, {mean:.6g} m/s².")
-        motion = np.gradient(counts / per_unit - mean, stats.delta)
-        stays = "the response of the seismometer has no stages and stays"
-        return Calibrated(motion, f"{done} to a velocity, its mean removed, and differentiated; {stays}.")
-    nyquist = stats.sampling_rate / 2
-    band = (_CORNERS[0], _CORNERS[1], _CORNERS[2] * nyquist, _CORNERS[3] * nyquist)
+        return _by_sensitivity(trace, gain / factor, order)
     if factor != 1:
         raise RecordError(
             f"the response of {trace.id} is in {units}, which its full removal does not convert; give a StationXML in "
             "M/S or M/S**2, or take response: sensitivity."
         )
+    return _by_response(trace, inventory)
+
+
+def _by_sensitivity(trace: Any, per_unit: float, order: int) -> Calibrated:
+    """Return the counts of a trace over the overall sensitivity; order: 1 where it is one of velocity, else 0."""
+    counts = trace.data.astype(float)
+    mean = counts.mean() / per_unit
+    done = f"Counts divided by the overall sensitivity {per_unit:g}"
+    if order == 0:
+        return Calibrated(counts / per_unit - mean, f"{done}, and their mean removed, {mean:.6g} m/s².")
+    motion = np.gradient(counts / per_unit - mean, trace.stats.delta)
+    stays = "the response of the seismometer has no stages and stays"
+    return Calibrated(motion, f"{done} to a velocity, its mean removed, and differentiated; {stays}.")
+
+
+def _by_response(trace: Any, inventory: Any) -> Calibrated:
+    """Return the counts of a trace without the full response of its instrument."""
+    nyquist = trace.stats.sampling_rate / 2
+    band = (_CORNERS[0], _CORNERS[1], _CORNERS[2] * nyquist, _CORNERS[3] * nyquist)
     try:
         with warnings.catch_warnings(), _printed() as lines:
             warnings.simplefilter("ignore")

@@ -439,6 +439,7 @@ _BLAME: dict[tuple[bool, ...], str] = {
 # Pictures and tables ---------------------------------------------------------------------------------------
 
 
+# Whole on purpose: the pictures of a report by the names of its template, and what each leaves out.
 def _pictures(report: RecordReport) -> dict[str, object]:
     """Return the pictures of the worst cases, and the sentences that say where the others stand."""
     motions, labels = report.motions, report.labels

@@ -103,6 +103,7 @@ def summary_data(
         return _data(tables, settings, trade, design)
 
 
+# Whole on purpose: the parts of the summary by the names of its template.
 def _data(
     tables: Mapping[str, "DataFrame"],
     settings: Mapping[str, Any],

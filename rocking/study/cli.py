@@ -78,7 +78,7 @@ def _show(message: Warning | str, *_: object, **__: object) -> None:
     print(f"rocking: {message}", file=sys.stderr)
 
 
-# Longer than other functions, for it is a list: the verbs in the order of `rocking --help`, each with its arguments.
+# Whole on purpose: a list, the verbs in the order of `rocking --help`, each with its arguments.
 def _parser() -> argparse.ArgumentParser:
     declarations = argparse.ArgumentParser(add_help=False)
     declarations.add_argument(

@@ -140,6 +140,7 @@ def _report(folder: Path, study: Study, fragility: Path, spectra: Sequence[Seque
     write_whole(folder / "prediction_against_integration.svg", scatter)
 
 
+# Whole on purpose: one loop fills the tables, of which a structure costs no other.
 def write_fragility(
     records: Iterable[CatalogueRecord],
     study: Study,

@@ -337,6 +337,7 @@ class TimingRow(Row):
     duration_s: float = column("CPU time")
 
 
+# Whole on purpose: a row, column by column.
 def record_row(identity: ComponentRow, component: "Component", licence: str) -> RecordRow:
     """Return the row of one component: what was read, done and measured."""
     accelerogram = component.accelerogram
@@ -438,6 +439,7 @@ def pulse_rows(identity: ComponentRow, component: "Component") -> Iterator[Pulse
             )
 
 
+# Whole on purpose: a row, column by column.
 def comparison_row(identity: ComponentRow, case: "CaseResult", friction_coefficient: float) -> ComparisonRow:
     """Return the row of one case that gave a result: the closed form beside the integration of the whole record."""
     assert case.answer is not None
@@ -555,6 +557,7 @@ def verdict_row(identity: ComponentRow, station: "StationResult") -> VerdictRow:
     )
 
 
+# Whole on purpose: a row, column by column.
 def support_rows(result: "RecordResult", identities: Mapping[str, ComponentRow]) -> Iterator[SupportRow]:
     """Yield the rows of every structure on a support. identities: what rows about a component hold, by its name."""
     for name, station in result.stations.items():
@@ -688,6 +691,7 @@ RECORD_TABLES: tuple[type[Row], ...] = tuple(RecordRows().tables)
 """The rows of every table of one record."""
 
 
+# Whole on purpose: the tables of a record, one after another.
 def rows_of_record(
     result: "RecordResult", settings_sha256: str = "", licence: str = "", friction_coefficient: float = 0.6
 ) -> RecordRows:
