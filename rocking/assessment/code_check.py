@@ -6,19 +6,19 @@ that push without resting on the chain are not implemented, nor are other codes.
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
-from functools import cached_property
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from rocking.assessment.crossings import Crossings
+from rocking.assessment.local_mechanism import LIMIT_STATES, LimitPoint, LimitState, LocalMechanism
 from rocking.errors import ConfigurationError, StructureError
 from rocking.quantities import GRAVITY, finite, positive
 from rocking.records.design_spectrum import DesignSpectrum
 from rocking.records.floor_demand import FloorDemand
 from rocking.records.support import Support
 from rocking.structures import Structure
-from rocking.structures.capacity import StaticCapacity
 
 CONFIDENCE_FACTOR = 1.35
 """The factor of the level of knowledge LC1, which C8.7.1.2.1 asks for unless crushing enters α; here it does not."""
@@ -26,32 +26,8 @@ CONFIDENCE_FACTOR = 1.35
 BEHAVIOUR_FACTOR = 2.0
 """q of the linear check where no better one is known (C8.7.1.2.1.7)."""
 
-_MOST_FALL = 0.5
-"""Share of the largest capacity in acceleration by which it may fall as a part breaks (C8.7.1.2.1.6)."""
-_JUST_BEFORE = 1 - 1e-12
-Demand = Callable[[np.ndarray], np.ndarray]
-"""The demand on a mechanism at levels (n,) of the spectrum, m/s²."""
-
-
-@dataclass(frozen=True)
-class LimitState:
-    """A limit state of collapse: its displacement over d_0, the factor of its secant period, and the damping.
-
-    ends_with_ties: whether it is reached, too, where a tie breaks and the capacity falls by more than half.
-    """
-
-    name: str
-    displacement_share: float
-    period_factor: float
-    damping: float
-    ends_with_ties: bool
-
-
-LIMIT_STATES = {
-    "SLV": LimitState("SLV", 0.4, 1.68 * math.pi, 0.08, ends_with_ties=True),
-    "SLC": LimitState("SLC", 0.6, 1.56 * math.pi, 0.10, ends_with_ties=False),
-}
-"""C8.7.1.2.1.6 and C8.7.1.2.1.8; the limit state of damage, SLD, has the linear check alone."""
+_SAME = 1e-9
+"""Relative difference below which two levels are one but for rounding: the mechanism that is named first decides."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,109 +67,6 @@ class Check:
             f"{self.clause}, {self.limit_state}: capacity {self.capacity:.4g} {self.unit}, demand "
             f"{self.demand:.4g} {self.unit}, ratio {self.ratio:.3g}, {outcome} ({self.mechanism})"
         )
-
-
-@dataclass(frozen=True)
-class LimitPoint:
-    """The place of a limit state on the capacity curve: d [m], a [m/s²], the secant period [s], and the reason."""
-
-    displacement: float
-    acceleration: float
-    period: float
-    reason: str
-
-
-@dataclass(frozen=True, eq=False)
-class LocalMechanism:
-    """One mechanism to one side as the code sees it: one degree of freedom, with the confidence factor in it.
-
-    description: what opens, to which side. body: the structure with that crack. sign: of the rotation. elastic_period:
-    T_0 of a part free to vibrate, s; 0 of one tied rigidly to the structure. support_loss: horizontal displacement of
-    the control point at which what it carries falls, m; inf where nothing does. one_sided: whether it leans on
-    something.
-    """
-
-    description: str
-    body: Structure
-    sign: int
-    static: StaticCapacity
-    confidence_factor: float
-    elastic_period: float = 0.0
-    support_loss: float = math.inf
-    one_sided: bool = False
-
-    @property
-    def onset_multiplier(self) -> float:
-        """α_0 (C8.7.1.1)."""
-        return self.static.side.uplift_multiplier
-
-    @property
-    def participating_mass_ratio(self) -> float:
-        """e* (C8.7.1.5); weights that something else holds sideways are left out, which is on the safe side."""
-        return self.static.participating_mass_ratio
-
-    @property
-    def onset_acceleration(self) -> float:
-        """α_0 g/(e* FC), m/s² (C8.7.1.8)."""
-        return self.onset_multiplier * GRAVITY / (self.participating_mass_ratio * self.confidence_factor)
-
-    def displacement(self, rotation: float) -> float:
-        """Return d [m] (C8.7.1.4)."""
-        return float(self.static.displacement(rotation)) * self.static.displacement_factor
-
-    def acceleration(self, rotation: float) -> float:
-        """Return a [m/s²]: C8.7.1.3, and of a part free to vibrate at most its elastic branch, C8.7.1.6."""
-        multiplier = float(self.static.multiplier(rotation))
-        rigid = multiplier * GRAVITY / (self.participating_mass_ratio * self.confidence_factor)
-        if not self.elastic_period:
-            return rigid
-        elastic = (2 * math.pi / self.elastic_period) ** 2 * self.displacement(rotation)
-        return min(rigid, elastic)
-
-    @cached_property
-    def ultimate_displacement(self) -> float:
-        """d_0 [m], where a vanishes with only such actions as hold on until then; inf where it vanishes nowhere."""
-        if not self.static.side.can_overturn:
-            return math.inf
-        return self.displacement(self.static.collapse_rotation)
-
-    @cached_property
-    def _limiting_rupture(self) -> float:
-        """The rotation at which a tie breaks and a falls more than half of its maximum below it; inf without."""
-        ruptures = self.static.ruptures
-        if not ruptures:
-            return math.inf
-        critical = self.static.side.critical_rotation
-        just_before = [rotation * _JUST_BEFORE for rotation in ruptures]
-        places = np.unique([*np.linspace(0.0, critical, 41), *just_before, *self.static.side.bends])
-        largest = max(self.acceleration(float(each)) for each in places if each <= critical)
-        for rotation in ruptures:
-            beyond = rotation * (2 - _JUST_BEFORE)
-            after = self.acceleration(beyond) if beyond < critical else 0.0
-            if after < (1 - _MOST_FALL) * largest:
-                return rotation
-        return math.inf
-
-    def limit(self, state: LimitState) -> LimitPoint:
-        """Return where `state` lies on the capacity curve; the period is nan where there is no displacement.
-
-        Where a vanishes nowhere and nothing else limits it, the displacement is inf, and the others are nan.
-        """
-        share = state.displacement_share
-        limits = {share * self.ultimate_displacement: f"{share:g} d₀"}
-        if state.ends_with_ties and self._limiting_rupture < math.inf:
-            limits[self.displacement(self._limiting_rupture * _JUST_BEFORE)] = "a tie breaks"
-        if self.support_loss < math.inf:
-            limits[self.support_loss * self.static.displacement_factor] = "what it carries falls"
-        displacement = min(limits)
-        if math.isinf(displacement):
-            return LimitPoint(displacement, math.nan, math.nan, "a vanishes nowhere")
-        rotation = self.static.rotation_at(displacement / self.static.displacement_factor)
-        acceleration = self.acceleration(rotation)
-        period = math.nan
-        if displacement > 0:
-            period = state.period_factor * math.sqrt(displacement / acceleration)
-        return LimitPoint(displacement, acceleration, period, limits[displacement])
 
 
 def elastic_period(
@@ -267,70 +140,56 @@ def kinematic_check(
     support_loss: float = math.inf,
 ) -> CodeCheck:
     """Return the linear and the nonlinear check of `structure`; see `check`."""
-    if limit_state not in ("SLD", *LIMIT_STATES):
-        raise ConfigurationError(
-            f"limit_state is {limit_state!r}, but must be one of SLD, {', '.join(LIMIT_STATES)}."
-        )
-    confidence = _at_least_one("confidence_factor", confidence_factor)
+    _check_limit_state(limit_state)
     behaviour = _at_least_one("behaviour_factor", behaviour_factor)
-    if finite(ConfigurationError, "elastic_period", elastic_period, "s") < 0:
-        raise ConfigurationError(f"elastic_period is {elastic_period!r} s, but must be 0 or more.")
-    loss = math.inf
-    if support_loss != math.inf:
-        loss = positive(ConfigurationError, "support_loss", support_loss, "m")
+    mechanisms = _local_mechanisms(structure, confidence_factor, elastic_period, support_loss)
     floor = FloorDemand(spectrum, support)
-    mechanisms = tuple(
-        LocalMechanism(
-            description=words,
-            body=body,
-            sign=sign,
-            static=body.static_capacity(sign),
-            confidence_factor=confidence,
-            elastic_period=elastic_period,
-            support_loss=loss,
-            one_sided=structure.one_sided,
-        )
-        for words, sign, body in _opening(structure)
-    )
-    # What lets the weakest mechanism start does so at the least level, as all feel the same motion.
-    first = int(np.argmin([each.onset_acceleration for each in mechanisms]))
-    damage = _damage_level(mechanisms[first], floor)
-    linear = nonlinear = None
-    remark = ""
-    governing = mechanisms[first]
-    if limit_state != "SLC":
-        clause = "C8.7.1.2.1.7"
-        if limit_state == "SLD":
-            behaviour = 1.0
-            clause = "C8.7.1.9" if elastic_period else "C8.7.1.8"
-        linear = Check(
-            clause=clause,
-            limit_state=limit_state,
-            capacity=behaviour * damage,
-            demand=spectrum.level,
-            mechanism=mechanisms[first].description,
-        )
-    if limit_state in LIMIT_STATES:
-        governed_by, capacity = _weakest(mechanisms, floor, LIMIT_STATES[limit_state])
-        if math.isinf(capacity):
-            remark = _not_made(mechanisms[first])
-        else:
-            governing = mechanisms[governed_by]
-            nonlinear = Check(
-                clause="C8.7.1.2.1.8",
-                limit_state=limit_state,
-                capacity=capacity,
-                demand=spectrum.level,
-                mechanism=governing.description,
-            )
-    return CodeCheck(
+    starts = _starts(mechanisms, floor)
+    first = _lowest(starts.capacities)  # all feel the same motion as they start
+    made = CodeCheck(
         limit_state=limit_state,
-        linear=linear,
-        nonlinear=nonlinear,
-        damage_level=damage,
+        linear=None,
+        nonlinear=None,
+        damage_level=float(starts.levels(np.array([first]))[0]),
         mechanisms=mechanisms,
-        governing=governing,
-        remark=remark,
+        governing=mechanisms[first],
+    )
+    if limit_state == "SLD":
+        return replace(made, linear=_onset_check(made, spectrum))
+    if limit_state == "SLV":
+        made = replace(made, linear=_linear_check(made, spectrum, behaviour))
+    collapses = _collapses(mechanisms, floor, LIMIT_STATES[limit_state])
+    weakest, level = _weakest(starts, collapses)
+    if math.isinf(level):
+        return replace(made, remark=_not_made(mechanisms[first]))
+    made = replace(made, governing=mechanisms[weakest])
+    return replace(made, nonlinear=_nonlinear_check(made, spectrum, level))
+
+
+def _onset_check(made: CodeCheck, spectrum: DesignSpectrum) -> Check:
+    """The check of SLD."""
+    clause = "C8.7.1.9" if made.governing.elastic_period else "C8.7.1.8"
+    return _level_check(made, spectrum, clause, made.damage_level)
+
+
+def _linear_check(made: CodeCheck, spectrum: DesignSpectrum, behaviour: float) -> Check:
+    """The linear check of SLV, of the mechanism that starts first: a_g,SLV = q a_g,SLD."""
+    return _level_check(made, spectrum, "C8.7.1.2.1.7", behaviour * made.damage_level)
+
+
+def _nonlinear_check(made: CodeCheck, spectrum: DesignSpectrum, level: float) -> Check:
+    """The nonlinear check, of the mechanism that governs."""
+    return _level_check(made, spectrum, "C8.7.1.2.1.8", level)
+
+
+def _level_check(made: CodeCheck, spectrum: DesignSpectrum, clause: str, capacity: float) -> Check:
+    """The check that holds the a_g `capacity` [m/s²] against that of the spectrum."""
+    return Check(
+        clause=clause,
+        limit_state=made.limit_state,
+        capacity=capacity,
+        demand=spectrum.level,
+        mechanism=made.governing.description,
     )
 
 
@@ -342,11 +201,43 @@ def _not_made(mechanism: LocalMechanism) -> str:
     )
 
 
+def _check_limit_state(name: str) -> None:
+    """Refuse another limit state than those of the code."""
+    if name not in ("SLD", *LIMIT_STATES):
+        raise ConfigurationError(
+            f"limit_state is {name!r}, but must be one of SLD, {', '.join(LIMIT_STATES)}."
+        )
+
+
 def _at_least_one(name: str, value: float) -> float:
     number = finite(ConfigurationError, name, value)
     if number < 1:
         raise ConfigurationError(f"{name} is {value!r}, but must be 1 or more.")
     return number
+
+
+def _local_mechanisms(
+    structure: Structure, confidence_factor: float, elastic_period: float, support_loss: float
+) -> tuple[LocalMechanism, ...]:
+    """The mechanisms of the structure that may open, with the values of the check in them."""
+    confidence = _at_least_one("confidence_factor", confidence_factor)
+    if finite(ConfigurationError, "elastic_period", elastic_period, "s") < 0:
+        raise ConfigurationError(f"elastic_period is {elastic_period!r} s, but must be 0 or more.")
+    if support_loss != math.inf:
+        support_loss = positive(ConfigurationError, "support_loss", support_loss, "m")
+    return tuple(
+        LocalMechanism(
+            description=words,
+            body=body,
+            sign=sign,
+            static=body.static_capacity(sign),
+            confidence_factor=confidence,
+            elastic_period=elastic_period,
+            support_loss=support_loss,
+            one_sided=structure.one_sided,
+        )
+        for words, sign, body in _opening(structure)
+    )
 
 
 def _opening(structure: Structure) -> Iterator[tuple[str, int, Structure]]:
@@ -369,91 +260,53 @@ def _opening(structure: Structure) -> Iterator[tuple[str, int, Structure]]:
             yield f"{opens}{falls}".removesuffix(", ") or "as given", sign, body
 
 
-def _felt_by(floor: FloorDemand, period: float) -> Demand:
-    """The acceleration [m/s²] that a mechanism of elastic `period` [s] feels as it starts: C8.7.1.8, or C8.7.1.9."""
-    if not period:
-        return floor.peak
+def _lowest(levels: np.ndarray, then: np.ndarray | None = None) -> int:
+    """The place of the least of `levels` (n,); of those that are the same but for rounding that of the least `then`.
 
-    def felt(level: np.ndarray) -> np.ndarray:
-        return floor.acceleration(period, level, floor.spectrum.damping)
-
-    return felt
-
-
-def _damage_level(mechanism: LocalMechanism, floor: FloorDemand) -> float:
-    """a_g [m/s²] at which the mechanism starts."""
-    felt = _felt_by(floor, mechanism.elastic_period)
-    return Crossing.of(floor.spectrum, felt, mechanism.onset_acceleration).level
-
-
-def _weakest(
-    mechanisms: Sequence[LocalMechanism], floor: FloorDemand, state: LimitState
-) -> tuple[int, float]:
-    """The place of the mechanism that reaches `state` at the least a_g, and that a_g [m/s²]; inf where none does.
-
-    a_g,SLV is never below a_g,SLD. Levels are refined only of such mechanisms as may be the weakest.
+    The first one where they are the same in both, or nothing more is given.
     """
-    crossings = [_collapse(each, floor, state) for each in mechanisms]
-    lowest = [each.low if isinstance(each, Crossing) else each for each in crossings]
-    weakest, least = int(np.argmin(lowest)), math.inf
-    for place in np.argsort(lowest, kind="stable").tolist():
-        if lowest[place] > least:
-            break
-        crossing = crossings[place]
-        level = crossing.level if isinstance(crossing, Crossing) else crossing
-        mechanism = mechanisms[place]
-        felt = _felt_by(floor, mechanism.elastic_period)
-        if math.isfinite(level) and float(felt(np.array(level))) < mechanism.onset_acceleration:
-            level = max(level, _damage_level(mechanism, floor))
-        if level < least or (level == least and place < weakest):
-            weakest, least = place, level
-    return weakest, least
+    least = levels <= levels.min() * (1 + _SAME)
+    if then is None:
+        return int(np.argmax(least))
+    return _lowest(np.where(least, then, np.inf))
 
 
-def _collapse(mechanism: LocalMechanism, floor: FloorDemand, state: LimitState) -> "Crossing | float":
-    """The a_g at which the displacement demand at the secant period is that of the limit state."""
-    point = mechanism.limit(state)
-    if not point.displacement > 0:
-        return 0.0
-    if math.isinf(point.displacement):
-        return math.inf
+def _starts(mechanisms: Sequence[LocalMechanism], floor: FloorDemand) -> Crossings:
+    """Where each mechanism starts: C8.7.1.8, or C8.7.1.9 of a part that is free to vibrate."""
+    period = mechanisms[0].elastic_period
 
-    def asked(level: np.ndarray) -> np.ndarray:
-        return floor.displacement(mechanism.elastic_period, point.period, level, state.damping)
+    def felt(_: np.ndarray, levels: np.ndarray) -> np.ndarray:
+        if not period:
+            return floor.peak(levels)
+        return floor.acceleration(period, levels, floor.spectrum.damping)
 
-    return Crossing.of(floor.spectrum, asked, point.displacement)
+    onsets = np.array([each.onset_acceleration for each in mechanisms])
+    return Crossings.of(felt, onsets, floor.spectrum.level)
 
 
-@dataclass(frozen=True)
-class Crossing:
-    """The least level [m/s²] of a spectrum at which a demand reaches a capacity, between `low` and `high`.
+def _collapses(mechanisms: Sequence[LocalMechanism], floor: FloorDemand, state: LimitState) -> Crossings:
+    """Where the displacement demand at the secant period of each mechanism is that of the limit state."""
+    points = [each.limit(state) for each in mechanisms]
+    periods = np.array([point.period for point in points])
+    shortest = mechanisms[0].elastic_period
 
-    On soft soil the factor S_S falls with a_g, so that it may be reached more than once.
+    def asked(places: np.ndarray, levels: np.ndarray) -> np.ndarray:
+        return floor.displacement(shortest, periods[places, None], levels, state.damping)
+
+    displacements = np.array([point.displacement for point in points])
+    return Crossings.of(asked, displacements, floor.spectrum.level)
+
+
+def _weakest(starts: Crossings, collapses: Crossings) -> tuple[int, float]:
+    """The place of the mechanism that reaches the limit state at the least a_g, and that a_g, m/s²; inf: none does.
+
+    a_g,SLV is never below a_g,SLD. Of mechanisms that reach it as they start, all at once, it is the one that bears
+    least beyond.
     """
-
-    demand: Demand
-    capacity: float
-    low: float
-    high: float
-
-    @classmethod
-    def of(cls, spectrum: DesignSpectrum, demand: Demand, capacity: float) -> "Crossing":
-        """Return the first one. demand: of levels (n,)."""
-        near = spectrum.level * capacity / float(demand(np.array(spectrum.level)))
-        levels = near * _TRIED
-        beyond = int(np.argmax(demand(levels) >= capacity))
-        return cls(demand, capacity, float(levels[beyond - 1]), float(levels[beyond]))
-
-    @property
-    def level(self) -> float:
-        """The level itself."""
-        from scipy.optimize import brentq  # slow to import, and needed by checks only
-
-        return float(brentq(self._missing, self.low, self.high, rtol=1e-14, xtol=1e-16))
-
-    def _missing(self, level: float) -> float:
-        return float(self.demand(np.array(level))) - self.capacity
-
-
-_TRIED = np.geomspace(1e-2, 1e2, 801)
-"""Levels over a first guess among which a crossing is sought."""
+    low = np.maximum(starts.low, collapses.low)
+    high = np.maximum(starts.high, collapses.high)
+    places = np.flatnonzero(low <= high.min())
+    of_collapse = collapses.levels(places)
+    levels = np.maximum(starts.levels(places), of_collapse)
+    place = _lowest(levels, of_collapse)
+    return int(places[place]), float(levels[place])

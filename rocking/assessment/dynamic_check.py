@@ -16,13 +16,11 @@ import numpy as np
 from rocking.assessment.code_check import (
     BEHAVIOUR_FACTOR,
     CONFIDENCE_FACTOR,
-    LIMIT_STATES,
     Check,
     CodeCheck,
-    LimitState,
-    LocalMechanism,
     kinematic_check,
 )
+from rocking.assessment.local_mechanism import LIMIT_STATES, LimitState, LocalMechanism
 from rocking.errors import ConfigurationError
 from rocking.motion.members import Members, integrate_members
 from rocking.records.accelerogram import Accelerogram
@@ -268,7 +266,7 @@ class _Body:
                 side = self.sides[place]
                 moved = float(ratio)
                 if math.isfinite(moved):
-                    moved = side.displacement(moved * side.static.side.critical_rotation)
+                    moved = float(side.displacement(moved * side.static.side.critical_rotation))
                 ends = math.isinf(moved) or not self.limits[place]
                 uses.append(math.inf if ends else moved / self.limits[place])
                 exceeded += not moved <= side.ultimate_displacement or math.isinf(moved)

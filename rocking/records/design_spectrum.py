@@ -134,21 +134,14 @@ class DesignSpectrum(ABC):
         displacement: np.ndarray = self.acceleration(periods, damping) * (periods / (2 * math.pi)) ** 2
         return displacement
 
+    @abstractmethod
     def largest_displacement(
-        self, shortest: float, longest: float, level: ArrayLike, damping: float
+        self, shortest: float, longest: ArrayLike, level: ArrayLike, damping: float
     ) -> np.ndarray:
         """Return the largest S_De [m] at periods from `shortest` to `longest` [s], were the level `level` [m/s²].
 
-        Raises ConfigurationError for a period beyond the points.
+        The last two broadcast. Raises ConfigurationError for a period beyond the points.
         """
-        periods = self._checked(self._between(min(shortest, longest), longest))
-        shapes = self.ordinates(periods, self.level, damping) / self.level * (periods / (2 * math.pi)) ** 2
-        largest: np.ndarray = np.asarray(level, dtype=float) * shapes.max()
-        return largest
-
-    def _between(self, shortest: float, longest: float) -> np.ndarray:
-        """Periods among which the largest S_De is sought."""
-        return np.linspace(shortest, longest, _SOUGHT)
 
     def _damping(self, damping: float | None) -> float:
         if damping is None:
@@ -235,10 +228,12 @@ class NtcSpectrum(DesignSpectrum):
     def _amplification(self, ag: ArrayLike) -> np.ndarray:
         most, slope, low, high, _, _ = SOILS[self.soil]
         shaking = self.f0 * np.asarray(ag, dtype=float) / GRAVITY
-        return self.topography * np.clip(most - slope * shaking, low, high)
+        of_soil = np.minimum(np.maximum(most - slope * shaking, low), high)
+        amplification: np.ndarray = self.topography * of_soil
+        return amplification
 
     def largest_displacement(
-        self, shortest: float, longest: float, level: ArrayLike, damping: float
+        self, shortest: float, longest: ArrayLike, level: ArrayLike, damping: float
     ) -> np.ndarray:
         """Return S_De at `longest` [s], as it never falls with the period."""
         periods = self._checked(longest)
@@ -246,7 +241,7 @@ class NtcSpectrum(DesignSpectrum):
 
     def ordinates(self, period: ArrayLike, level: ArrayLike, damping: float) -> np.ndarray:
         """Return S_e by the four branches of Eq. 3.2.2."""
-        periods, ag = np.broadcast_arrays(np.asarray(period, dtype=float), np.asarray(level, dtype=float))
+        periods, ag = np.asarray(period, dtype=float), np.asarray(level, dtype=float)
         factor = damping_factor(damping)
         constant = self._constant_until
         rising = constant / 3
@@ -299,10 +294,18 @@ class PointSpectrum(DesignSpectrum):
         factor = level / self.level
         return replace(self, accelerations=tuple(factor * each for each in self.accelerations))
 
-    def _between(self, shortest: float, longest: float) -> np.ndarray:
-        points = np.array(self.periods)
-        within_range = points[(points > shortest) & (points < longest)]
-        return np.unique([*super()._between(shortest, longest), *within_range])
+    def largest_displacement(
+        self, shortest: float, longest: ArrayLike, level: ArrayLike, damping: float
+    ) -> np.ndarray:
+        """Return that among many periods and the points within the range; it is in proportion to the level."""
+        ends = self._checked(longest)
+        begins = np.minimum(shortest, ends)
+        even = np.linspace(begins, ends, _SOUGHT, axis=-1)
+        points = np.clip(np.array(self.periods), begins[..., None], ends[..., None])
+        periods = np.concatenate([even, points], axis=-1)
+        shapes = self.ordinates(periods, self.level, damping) / self.level * (periods / (2 * math.pi)) ** 2
+        largest: np.ndarray = np.asarray(level, dtype=float) * shapes.max(axis=-1)
+        return largest
 
     def ordinates(self, period: ArrayLike, level: ArrayLike, damping: float) -> np.ndarray:
         """Return S_e between the points."""

@@ -35,32 +35,37 @@ class FloorDemand:
         larger: np.ndarray = np.maximum(ground, floor)
         return larger
 
-    def acceleration(self, period: float, level: ArrayLike, damping: float) -> np.ndarray:
-        """Return S_eZ(T, ξ, z) [m/s²] of a part of that `period` [s] (C7.2.5), were the level `level` [m/s²]."""
-        ground = self.spectrum.ordinates(period, level, damping)
+    def acceleration(self, period: ArrayLike, level: ArrayLike, damping: float) -> np.ndarray:
+        """Return S_eZ(T, ξ, z) [m/s²] of parts of that `period` [s] (C7.2.5), were the level `level` [m/s²].
+
+        The two broadcast.
+        """
+        periods = np.asarray(period, dtype=float)
+        ground = self.spectrum.ordinates(periods, level, damping)
         if self.support is None:
             return ground
-        factors = [float(amplification(mode, np.asarray(period), damping)) for mode in self.support.modes]
+        factors = [amplification(mode, periods, damping) for mode in self.support.modes]
         peaks = self._mode_peaks(self.support, level)
         terms = [np.square(peak * factor) for peak, factor in zip(peaks, factors, strict=True)]
         floor: np.ndarray = np.sqrt(sum(terms))
-        return np.maximum(floor, ground) if period > _first_period(self.support) else floor
+        return np.where(periods > _first_period(self.support), np.maximum(floor, ground), floor)
 
-    def displacement(self, shortest: float, period: float, level: ArrayLike, damping: float) -> np.ndarray:
-        """Return the displacement demand [m] at the secant `period` [s] of a part, were the level `level` [m/s²].
+    def displacement(
+        self, shortest: float, period: ArrayLike, level: ArrayLike, damping: float
+    ) -> np.ndarray:
+        """Return the displacement demand [m] at the secant `period` [s] of parts, were the level `level` [m/s²].
 
-        shortest: T_0 of the part, from which on site spectra are searched for their largest S_De; 0 of one that is tied
-        rigidly. On the ground S_De, on a support C8.7.1.12.
+        The two broadcast. shortest: T_0 of the parts, from which on site spectra are searched for their largest S_De;
+        0 of such as are tied rigidly. On the ground S_De, on a support C8.7.1.12.
         """
         if self.support is None:
             return self.spectrum.largest_displacement(shortest, period, level, damping)
-        demand = self.acceleration(period, level, damping) * (period / (2 * math.pi)) ** 2
+        periods = np.asarray(period, dtype=float)
+        demand = self.acceleration(periods, level, damping) * (periods / (2 * math.pi)) ** 2
         first = _first_period(self.support)
         resonance = UPPER_PERIOD * first
-        if period <= resonance:
-            return demand
         at_resonance = self.acceleration(first, level, damping) * (resonance / (2 * math.pi)) ** 2
-        return np.maximum(demand, at_resonance)
+        return np.where(periods > resonance, np.maximum(demand, at_resonance), demand)
 
     def _mode_peaks(self, support: Support, level: ArrayLike) -> list[np.ndarray]:
         """a_Z,k of each mode (C7.2.7)."""

@@ -9,8 +9,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rocking.assessment.code_check import LIMIT_STATES, Check, LocalMechanism
+from rocking.assessment.code_check import Check
 from rocking.assessment.dynamic_check import StructureCheck
+from rocking.assessment.local_mechanism import LIMIT_STATES, LocalMechanism
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows.of_check import KINDS, disagreement
 from rocking.assessment.verdict import Doubt
@@ -246,8 +247,8 @@ def _draw_capacity(axes: Axes, mechanism: LocalMechanism) -> None:
     steps = np.linspace(0.0, side.critical_rotation, _POINTS)
     rotations = np.unique([*steps, *bends, *bends * (1 + 1e-9)])
     length, force = unit_of("m"), unit_of("m/s²")
-    displacements = [mechanism.displacement(float(each)) / length.size for each in rotations]
-    accelerations = [mechanism.acceleration(float(each)) / force.size for each in rotations]
+    displacements = mechanism.displacement(rotations) / length.size
+    accelerations = mechanism.acceleration(rotations) / force.size
     axes.plot(displacements, accelerations, color="black")
     for (name, state), colour in zip(LIMIT_STATES.items(), (PREDICTED, PULSE), strict=True):
         point = mechanism.limit(state)
@@ -260,7 +261,7 @@ def _draw_capacity(axes: Axes, mechanism: LocalMechanism) -> None:
         axes.plot(place, level, "o", color=colour, markersize=4, label=label)
     axes.axhline(0, **ZERO)
     axes.margins(x=0)
-    axes.set_ylim(0, 1.35 * max(accelerations))
+    axes.set_ylim(0, 1.35 * float(accelerations.max()))
     axes.set(
         xlabel=f"displacement d [{length.name}]",
         ylabel=f"acceleration a [{force.name}]",

@@ -8,6 +8,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from operator import itemgetter
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -63,11 +64,8 @@ class StaticCapacity:
         cls, side: Side, linkage: Linkage, parts: Sequence[tuple[int, np.ndarray]], mirrored: bool
     ) -> "StaticCapacity":
         """Return that of a side whose moving outlines are `parts`; the control point moves furthest half-way out."""
-        half = linkage.motion(side.critical_rotation / 2)
-        corners = [(part, corner) for part, of_part in parts for corner in of_part]
-        shifts = [float(linkage.carried(part, corner, half).moved.real) for part, corner in corners]
-        control_part, control_corner = corners[int(np.argmax(shifts))]
-        place = plane(control_corner, mirrored)
+        control_part, control_corner = _farthest(linkage, parts, side.critical_rotation / 2)
+        place = plane(np.asarray(control_corner), mirrored)
 
         # a mass that something else holds sideways, as that of a load that only rises, has no part
         at_rest = linkage.motion(0.0)
@@ -75,7 +73,7 @@ class StaticCapacity:
         masses = np.where(across == 0, 0.0, linkage.masses)
         first = masses @ across
         second = masses @ across**2
-        speed = float(linkage.carried(control_part, control_corner, at_rest).velocity.real)
+        speed = float(linkage.point(control_part, control_corner, 0.0).velocity.real)
         return cls(
             side=side,
             linkage=linkage,
@@ -93,15 +91,13 @@ class StaticCapacity:
 
     def displacement(self, rotation: ArrayLike) -> np.ndarray:
         """Return the horizontal displacement of the control point, m."""
-        motion = self.linkage.motion(np.asarray(rotation, dtype=float))
-        moved = self.linkage.carried(self.control_part, self.control_corner, motion).moved.real
+        moved = self.linkage.point(self.control_part, self.control_corner, rotation).moved.real
         return moved - self._rounding
 
     @cached_property
     def _rounding(self) -> float:
         """The displacement at rest, which is rounding."""
-        at_rest = self.linkage.motion(0.0)
-        return float(self.linkage.carried(self.control_part, self.control_corner, at_rest).moved.real)
+        return float(self.linkage.point(self.control_part, self.control_corner, 0.0).moved.real)
 
     def rotation_at(self, displacement: float) -> float:
         """Return the rotation up to φ_cr at which the control point has moved by `displacement` [m].
@@ -130,8 +126,7 @@ class StaticCapacity:
 
     def _control(self, rotation: float) -> tuple[float, float, float]:
         """The horizontal displacement of the control point [m] and its derivatives with φ."""
-        motion = self.linkage.motion(np.asarray(rotation))
-        point = self.linkage.carried(self.control_part, self.control_corner, motion)
+        point = self.linkage.point(self.control_part, self.control_corner, rotation)
         moved, velocity, bend = (float(each.real) for each in point)
         return moved - self._rounding, velocity, bend
 
@@ -186,3 +181,16 @@ class StaticCapacity:
         if gravity(critical) >= 0:
             return critical
         return float(brentq(gravity, 0.0, critical, xtol=1e-16, rtol=1e-14))
+
+
+def _farthest(
+    linkage: Linkage, parts: Sequence[tuple[int, np.ndarray]], rotation: float
+) -> tuple[int, complex]:
+    """The corner at rest, and its part, of outlines `parts` that has moved farthest sideways at `rotation` [rad]."""
+    farthest = []
+    for part, corners in parts:
+        shifts = linkage.point(part, corners, rotation).moved.real
+        place = int(shifts.argmax())
+        farthest.append((float(shifts[place]), part, complex(corners[place])))
+    _, part, corner = max(farthest, key=itemgetter(0))
+    return part, corner

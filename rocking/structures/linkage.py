@@ -147,6 +147,10 @@ class Linkage(ABC):
             motion.accelerations[part] + (1j * motion.spin_slopes[part] - spin**2) * arm,
         )
 
+    def point(self, part: int, start: complex | np.ndarray, rotation: ArrayLike) -> PointMotion:
+        """Return how points fixed to a part have moved at `rotation` [rad] from `start`, where they are at rest."""
+        return self.carried(part, start, self.motion(rotation))
+
     def inertia(self, rotation: ArrayLike) -> np.ndarray:
         """I = Σ m|r'|² + I_c ω², shape of `rotation`."""
         motion = self.motion(rotation)
@@ -182,8 +186,8 @@ class Linkage(ABC):
     def untied_gravity(self, rotation: ArrayLike) -> np.ndarray:
         """G without the ties."""
         powers = [
-            (each.force.conjugate() * point.velocity).real
-            for each, point in self._hanging(rotation)
+            (each.force.conjugate() * self.point(each.part, each.start, rotation).velocity).real
+            for each in self.hung
             if each.force
         ]
         return self.weight(rotation) - sum(powers, np.zeros(())) / self.unit
@@ -201,7 +205,7 @@ class Linkage(ABC):
     def _hanging(self, rotation: ArrayLike) -> Iterator[tuple[Hung, PointMotion]]:
         """The things that hang on it, with the motions of their points."""
         for each in self.hung:
-            yield each, self.carried(each.part, each.start, self.motion(rotation))
+            yield each, self.point(each.part, each.start, rotation)
 
     @cached_property
     def ties(self) -> tuple[SideTie, ...]:
@@ -209,7 +213,7 @@ class Linkage(ABC):
 
         def side_tie(each: Hung, tie: Tie) -> SideTie:
             def point(rotation: np.ndarray) -> PointMotion:
-                return self.carried(each.part, each.start, self.motion(rotation))
+                return self.point(each.part, each.start, rotation)
 
             return SideTie(
                 tie.over(self.unit), lambda phi: point(phi).moved.real, lambda phi: point(phi).velocity.real
@@ -319,9 +323,18 @@ class Turning(Linkage):
 
     def carried(self, part: int, start: complex | np.ndarray, motion: Motion) -> PointMotion:
         """Return how points have moved; small rotations keep their relative accuracy."""
-        arm, angle = start - self.corner, motion.angles[part]
+        return self._turned(start, motion.angles[part])
+
+    def point(self, part: int, start: complex | np.ndarray, rotation: ArrayLike) -> PointMotion:
+        """Return how points have moved, without the motion of the parts: all turn together."""
+        return self._turned(start, -np.asarray(rotation, dtype=float))
+
+    def _turned(self, start: complex | np.ndarray, angle: np.ndarray) -> PointMotion:
+        """How points at `start` have moved as all has turned by `angle` [rad], counterclockwise."""
+        arm = start - self.corner
+        half = np.exp(0.5j * angle)
         turn = np.exp(1j * angle)
-        return PointMotion(2j * arm * np.sin(angle / 2) * np.exp(0.5j * angle), -1j * arm * turn, -arm * turn)
+        return PointMotion(2j * arm * np.sin(angle / 2) * half, -1j * arm * turn, -arm * turn)
 
     def inertia(self, rotation: ArrayLike) -> np.ndarray:
         """I_O over the static moment; 4R/3 for a rectangular block (Eq. 1)."""

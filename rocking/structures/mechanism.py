@@ -106,8 +106,9 @@ class SideTie:
 
     def moment(self, rotation: np.ndarray, largest: np.ndarray) -> np.ndarray:
         """Return what it adds to G at `rotation`, the largest rotation so far being `largest` [rad]."""
-        force = self.tie.tension(self.stretch(rotation), self.stretch(largest))
-        return force * self.stretch_slope(rotation)
+        stretch = self.stretch(rotation)
+        farthest = stretch if largest is rotation else self.stretch(largest)
+        return self.tie.tension(stretch, farthest) * self.stretch_slope(rotation)
 
     def bends(self, end_rotation: float) -> list[float]:
         """Return the rotations below `end_rotation` at which it yields and breaks, rad."""
@@ -117,6 +118,17 @@ class SideTie:
 
     def rotation(self, stretch: float, end_rotation: float) -> float:
         """Return the rotation [rad] at which u is `stretch`; inf beyond `end_rotation`."""
+        asked = stretch, end_rotation
+        if asked not in self._rotations:
+            self._rotations[asked] = self._sought_rotation(stretch, end_rotation)
+        return self._rotations[asked]
+
+    @cached_property
+    def _rotations(self) -> dict[tuple[float, float], float]:
+        """The rotations that were asked for: yield and rupture are, by the mechanism, its capacity and the checks."""
+        return {}
+
+    def _sought_rotation(self, stretch: float, end_rotation: float) -> float:
         from scipy.optimize import brentq  # slow to import, and needed by ties with a strength only
 
         def beyond(rotation: float) -> float:

@@ -574,12 +574,17 @@ class CrackedAtHeight(Crackable):
             least = minimize_scalar(multiplier, bounds=(low, high), method="bounded", options=accuracy)
         return self._candidate(float(least.x))
 
+    @cached_property
+    def _cracked_there_only(self) -> Self:
+        """This structure where nothing else forms than what is given, from which those cracked elsewhere are made."""
+        return replace(self, crack="known")
+
     def _candidate(self, height: float) -> Candidate | None:
         try:
             with warnings.catch_warnings():
                 # a crack next to a support may keep nothing of an impact: nobody asked for that one
                 warnings.simplefilter("ignore", StructureWarning)
-                structure = replace(self, crack="known").cracked_at(height)
+                structure = self._cracked_there_only.cracked_at(height)
                 structure.mechanism()
         except DoesNotStandError:
             raise DoesNotStandError(

@@ -1,0 +1,147 @@
+"""A local mechanism as the Italian code sees it: one degree of freedom, its capacity curve and its limit states.
+
+Circolare 7/2019, C8.7.1.2.1, to the NTC 2018.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rocking.quantities import GRAVITY
+from rocking.structures import Structure
+from rocking.structures.capacity import StaticCapacity
+
+_MOST_FALL = 0.5
+"""Share of the largest capacity in acceleration by which it may fall as a part breaks (C8.7.1.2.1.6)."""
+
+_JUST_BEFORE = 1 - 1e-12
+"""Share of the rotation at which a tie breaks up to which it surely holds."""
+
+
+@dataclass(frozen=True)
+class LimitState:
+    """A limit state of collapse: its displacement over d_0, the factor of its secant period, and the damping.
+
+    ends_with_ties: whether it is reached, too, where a tie breaks and the capacity falls by more than half.
+    """
+
+    name: str
+    displacement_share: float
+    period_factor: float
+    damping: float
+    ends_with_ties: bool
+
+
+LIMIT_STATES = {
+    "SLV": LimitState("SLV", 0.4, 1.68 * math.pi, 0.08, ends_with_ties=True),
+    "SLC": LimitState("SLC", 0.6, 1.56 * math.pi, 0.10, ends_with_ties=False),
+}
+"""C8.7.1.2.1.6 and C8.7.1.2.1.8; the limit state of damage, SLD, has the linear check alone."""
+
+
+@dataclass(frozen=True)
+class LimitPoint:
+    """The place of a limit state on the capacity curve: d [m], a [m/s²], the secant period [s], and the reason."""
+
+    displacement: float
+    acceleration: float
+    period: float
+    reason: str
+
+
+@dataclass(frozen=True, eq=False)
+class LocalMechanism:
+    """One mechanism to one side as the code sees it: one degree of freedom, with the confidence factor in it.
+
+    description: what opens, to which side. body: the structure with that crack. sign: of the rotation. elastic_period:
+    T_0 of a part free to vibrate, s; 0 of one tied rigidly to the structure. support_loss: horizontal displacement of
+    the control point at which what it carries falls, m; inf where nothing does. one_sided: whether it leans on
+    something.
+    """
+
+    description: str
+    body: Structure
+    sign: int
+    static: StaticCapacity
+    confidence_factor: float
+    elastic_period: float = 0.0
+    support_loss: float = math.inf
+    one_sided: bool = False
+
+    @property
+    def onset_multiplier(self) -> float:
+        """α_0 (C8.7.1.1)."""
+        return self.static.side.uplift_multiplier
+
+    @property
+    def participating_mass_ratio(self) -> float:
+        """e* (C8.7.1.5); weights that something else holds sideways are left out, which is on the safe side."""
+        return self.static.participating_mass_ratio
+
+    @property
+    def onset_acceleration(self) -> float:
+        """α_0 g/(e* FC), m/s² (C8.7.1.8)."""
+        return self.onset_multiplier * GRAVITY / (self.participating_mass_ratio * self.confidence_factor)
+
+    def displacement(self, rotation: ArrayLike) -> np.ndarray:
+        """Return d [m] at `rotation` [rad], of any shape (C8.7.1.4)."""
+        return self.static.displacement(rotation) * self.static.displacement_factor
+
+    def acceleration(self, rotation: ArrayLike) -> np.ndarray:
+        """Return a [m/s²] at `rotation` [rad], of any shape: C8.7.1.3.
+
+        Of a part free to vibrate it is at most its elastic branch, C8.7.1.6.
+        """
+        multiplier = self.static.multiplier(rotation)
+        rigid = multiplier * GRAVITY / (self.participating_mass_ratio * self.confidence_factor)
+        if not self.elastic_period:
+            return rigid
+        elastic = (2 * math.pi / self.elastic_period) ** 2 * self.displacement(rotation)
+        least: np.ndarray = np.minimum(rigid, elastic)
+        return least
+
+    @cached_property
+    def ultimate_displacement(self) -> float:
+        """d_0 [m], where a vanishes with only such actions as hold on until then; inf where it vanishes nowhere."""
+        if not self.static.side.can_overturn:
+            return math.inf
+        return float(self.displacement(self.static.collapse_rotation))
+
+    @cached_property
+    def _limiting_rupture(self) -> float:
+        """The rotation at which a tie breaks and a falls more than half of its maximum below it; inf without."""
+        ruptures = np.array(self.static.ruptures)
+        if not ruptures.size:
+            return math.inf
+        critical = self.static.side.critical_rotation
+        steps = np.linspace(0.0, critical, 41)
+        places = np.concatenate([steps, ruptures * _JUST_BEFORE, self.static.side.bends])
+        largest = self.acceleration(places[places <= critical]).max()
+        beyond = ruptures * (2 - _JUST_BEFORE)
+        after = np.where(beyond < critical, self.acceleration(np.minimum(beyond, critical)), 0.0)
+        limiting = ruptures[after < (1 - _MOST_FALL) * largest]
+        return float(limiting[0]) if limiting.size else math.inf
+
+    def limit(self, state: LimitState) -> LimitPoint:
+        """Return where `state` lies on the capacity curve; the period is nan where there is no displacement.
+
+        Where a vanishes nowhere and nothing else limits it, the displacement is inf, and the others are nan.
+        """
+        share = state.displacement_share
+        limits = {share * self.ultimate_displacement: f"{share:g} d₀"}
+        if state.ends_with_ties and self._limiting_rupture < math.inf:
+            limits[float(self.displacement(self._limiting_rupture * _JUST_BEFORE))] = "a tie breaks"
+        if self.support_loss < math.inf:
+            limits[self.support_loss * self.static.displacement_factor] = "what it carries falls"
+        displacement = min(limits)
+        if math.isinf(displacement):
+            return LimitPoint(displacement, math.nan, math.nan, "a vanishes nowhere")
+        rotation = self.static.rotation_at(displacement / self.static.displacement_factor)
+        acceleration = float(self.acceleration(rotation))
+        period = math.nan
+        if displacement > 0:
+            period = state.period_factor * math.sqrt(displacement / acceleration)
+        return LimitPoint(displacement, acceleration, period, limits[displacement])
