@@ -272,7 +272,7 @@ def _lowest(levels: np.ndarray, then: np.ndarray | None = None) -> int:
 
 
 def _starts(mechanisms: Sequence[LocalMechanism], floor: FloorDemand) -> Crossings:
-    """Where each mechanism starts: C8.7.1.8, or C8.7.1.9 of a part that is free to vibrate."""
+    """The levels at which each mechanism starts: C8.7.1.8, or C8.7.1.9 of a part that is free to vibrate."""
     period = mechanisms[0].elastic_period
 
     def felt(_: np.ndarray, levels: np.ndarray) -> np.ndarray:
@@ -285,7 +285,7 @@ def _starts(mechanisms: Sequence[LocalMechanism], floor: FloorDemand) -> Crossin
 
 
 def _collapses(mechanisms: Sequence[LocalMechanism], floor: FloorDemand, state: LimitState) -> Crossings:
-    """Where the displacement demand at the secant period of each mechanism is that of the limit state."""
+    """The levels at which the displacement demand at the secant period of each mechanism is that of the limit state."""
     points = [each.limit(state) for each in mechanisms]
     periods = np.array([point.period for point in points])
     shortest = mechanisms[0].elastic_period
