@@ -7,13 +7,13 @@ from typing import Self
 import numpy as np
 
 Demand = Callable[[np.ndarray, np.ndarray], np.ndarray]
-"""What k mechanisms are asked at levels (k, m) [m/s²]: their places (k,) and the levels to (k, m)."""
+"""The demands (k, m) on the mechanisms at places (k,), at levels (k, m) [m/s²] of the spectrum."""
 
 _TRIED = np.geomspace(0.1, 10.0, 401)
 """Levels over a first guess among which the first crossing is sought: on soft soil S_S falls as a_g grows."""
 
 _WIDER = 10.0
-"""By how much the guess is moved where the crossing is not among them."""
+"""The factor by which the guess is moved where the crossing is not among them."""
 
 _SECTIONS = 5
 _SHARES = np.linspace(0.0, 1.0, 257)
