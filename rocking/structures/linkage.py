@@ -330,7 +330,7 @@ class Turning(Linkage):
         return self._turned(start, -np.asarray(rotation, dtype=float))
 
     def _turned(self, start: complex | np.ndarray, angle: np.ndarray) -> PointMotion:
-        """How points at `start` have moved as all has turned by `angle` [rad], counterclockwise."""
+        """The movement of points at `start` as all has turned by `angle` [rad], counterclockwise."""
         arm = start - self.corner
         half = np.exp(0.5j * angle)
         turn = np.exp(1j * angle)
