@@ -61,11 +61,16 @@ class Check:
         """Whether the check is met."""
         return not self.refusal and self.capacity >= self.demand
 
+    @property
+    def outcome(self) -> str:
+        """Its verdict in a word or two: met, or not met."""
+        return "met" if self.passed else "not met"
+
     def __str__(self) -> str:
-        outcome = self.refusal or ("met" if self.passed else "not met")
         return (
             f"{self.clause}, {self.limit_state}: capacity {self.capacity:.4g} {self.unit}, demand "
-            f"{self.demand:.4g} {self.unit}, ratio {self.ratio:.3g}, {outcome} ({self.mechanism})"
+            f"{self.demand:.4g} {self.unit}, ratio {self.ratio:.3g}, {self.refusal or self.outcome} "
+            f"({self.mechanism})"
         )
 
 

@@ -134,7 +134,7 @@ def _check_table(checked: StructureCheck) -> dict[str, object]:
             _valued(each, each.capacity),
             _valued(each, each.demand),
             number(each.ratio),
-            {"text": "met" if each.passed else "not met", "strong": True},
+            {"text": each.outcome, "strong": True},
             each.mechanism,
         ]
         for each in checked.checks
@@ -167,7 +167,7 @@ def _sentences(checked: StructureCheck) -> list[str]:
     dynamic = checked.dynamic
     if dynamic is not None:
         said = f"Dynamic check under {counted(dynamic.motions, 'motion')}: {dynamic.sentence}"
-        lines.append(f"{said}; {dynamic.refusal}." if dynamic.refusal else f"{said}.")
+        lines.append(f"{said}; {dynamic.refusal}." if dynamic.refusal else f"{said}. {dynamic.caution}")
     elif checked.remark:
         lines.append(checked.remark)
     else:

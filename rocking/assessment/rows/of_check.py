@@ -1,7 +1,7 @@
 """The row of a check of the code: its capacity and demand, and where the limit state lies on the capacity curve."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from rocking.assessment.code_check import Check
 from rocking.assessment.dynamic_check import DynamicCheck, StructureCheck
@@ -105,24 +105,52 @@ def disagreement(checked: StructureCheck, overturning_share: float, stations: in
     dynamic check that is not, or with a structure that overturns under more than a tenth of the records; those that are
     not met, with a dynamic check that is and a structure that never overturns.
     """
-    dynamic = checked.dynamic
     formulas = [each for each in checked.checks if not isinstance(each, DynamicCheck)]
+    met = [each for each in formulas if each.passed]
+    failed = [each for each in formulas if not each.passed]
+    against_met = _against_met(checked.dynamic, overturning_share, stations)
+    against_failed = _against_failed(checked.dynamic, overturning_share, stations)
+    sentences = []
+    if met and against_met:
+        sentences.append(f"{_with_ratios(met, 'met')}, but {against_met}.")
+    if failed and against_failed:
+        sentences.append(f"{_with_ratios(failed, 'not met')}, but {against_failed}.")
+    return " ".join(sentences)
+
+
+def _with_ratios(checks: Sequence[Check], outcome: str) -> str:
+    """The checks of one outcome with their ratios: "The linear check is met with a ratio of 1.08"."""
+    names = " and the ".join(KINDS[each.clause] for each in checks)
+    ratios = " and ".join(f"{each.ratio:.3g}" for each in checks)
+    if len(checks) == 1:
+        return f"The {names} check is {outcome} with a ratio of {ratios}"
+    return f"The {names} check are {outcome} with ratios of {ratios}"
+
+
+def _against_met(dynamic: DynamicCheck | None, overturning_share: float, stations: int) -> str:
+    """The finding of the dynamics that speaks against formulas that are met; "" where there is none.
+
+    That fewer sets were drawn than must be asked is none.
+    """
+    if dynamic is not None and not dynamic.met_by_the_set:
+        return f"the dynamic check is not: {_why(dynamic)}"
+    if dynamic is not None and not dynamic.sets_agree:
+        return f"whether the dynamic check is depends on the records: the chosen set meets it, and {dynamic.sentence}"
+    if overturning_share > _OFTEN:
+        return _of_records(overturning_share, stations)
+    return ""
+
+
+def _against_failed(dynamic: DynamicCheck | None, overturning_share: float, stations: int) -> str:
+    """The finding of the dynamics that speaks against formulas that are not met; "" where there is none."""
+    if dynamic is not None:
+        return f"the dynamic check is with one of {dynamic.ratio:.3g}" if dynamic.passed else ""
+    return _of_records(overturning_share, stations) if overturning_share == 0 else ""
+
+
+def _of_records(overturning_share: float, stations: int) -> str:
     share = f"{100 * overturning_share:.0f} %"
-    of_records = f"under the {stations} records of the study it overturns with a share of {share}"
-    parts = []
-    for each in formulas:
-        figure = f"The {KINDS[each.clause]} check is {{}} with a ratio of {each.ratio:.3g}"
-        if each.passed and dynamic is not None and not dynamic.passed:
-            parts.append(f"{figure.format('met')}, but the dynamic check is not: {_why(dynamic)}.")
-        elif each.passed and overturning_share > _OFTEN:
-            parts.append(f"{figure.format('met')}, but {of_records}.")
-        elif not each.passed and dynamic is not None and dynamic.passed:
-            parts.append(
-                f"{figure.format('not met')}, but the dynamic check is with one of {dynamic.ratio:.3g}."
-            )
-        elif not each.passed and dynamic is None and overturning_share == 0:
-            parts.append(f"{figure.format('not met')}, but {of_records}.")
-    return " ".join(parts)
+    return f"under the {stations} records of the study it overturns with a share of {share}"
 
 
 _OFTEN = 0.1
@@ -130,11 +158,10 @@ _OFTEN = 0.1
 
 
 def _why(dynamic: DynamicCheck) -> str:
+    """The reason for which the chosen set does not meet the dynamic check, with the share of the sets that do."""
     if dynamic.exceeding:
         return (
             f"d₀ is exceeded under {dynamic.exceeding} of {dynamic.motions} motions, and {dynamic.sentence}"
         )
-    if dynamic.demand <= dynamic.capacity:
-        return dynamic.refusal
     allowed = f"{dynamic.capacity:.3g} m are allowed"
     return f"the mean displacement is {dynamic.demand:.3g} m where {allowed}, and {dynamic.sentence}"

@@ -108,7 +108,7 @@ def test_too_few_sets_call_nothing_met(records):
     few = replace(records, sets=records.sets[:199])
     found = rocking.check(Block.of_size(2.5, 3.0), SPECTRUM, records=few).dynamic
     assert not found.passed and found.share == 1
-    assert "199 sets were found, and 200 must be asked" in found.refusal
+    assert "199 other sets lay within the limits, and 200 must be asked" in found.refusal
 
 
 @pytest.mark.slow

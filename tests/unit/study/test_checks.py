@@ -125,12 +125,13 @@ def test_a_structure_that_cannot_be_checked_costs_no_other(study):
     assert {each.structure for each in read_table(CodeCheckRow, folder)} == {"stout"}
 
 
-def found(passed, exceeding=0):
-    return DynamicCheck(
-        clause="C8.7.1.2.1.9", limit_state="SLV", capacity=0.1, demand=0.05 if passed else 0.2, mechanism="as given",
-        unit="m", refusal="" if passed else "not met", exceeding=exceeding, motions=40, sets=200,
-        share=1.0 if passed else 0.1, interval=(0.0, 1.0),
-    )  # fmt: skip
+def found(passed, exceeding=0, **others):
+    values = {
+        "clause": "C8.7.1.2.1.9", "limit_state": "SLV", "capacity": 0.1, "demand": 0.05 if passed else 0.2,
+        "mechanism": "as given", "unit": "m", "refusal": "" if passed else "not met", "exceeding": exceeding,
+        "motions": 40, "stations": 57, "sets": 200, "share": 1.0 if passed else 0.1, "interval": (0.0, 1.0),
+    }  # fmt: skip
+    return DynamicCheck(**values | others)
 
 
 def test_formulas_and_dynamics_that_disagree_are_told_with_both_figures():
@@ -141,17 +142,51 @@ def test_formulas_and_dynamics_that_disagree_are_told_with_both_figures():
         checks = tuple(each for each in (checked.linear, checked.nonlinear, dynamic) if each)
         return disagreement(SimpleNamespace(dynamic=dynamic, checks=checks), share, 20)
 
-    ratio = f"{formulas.linear.ratio:.3g}"
+    ratios = f"{formulas.linear.ratio:.3g} and {formulas.nonlinear.ratio:.3g}"
     assert said(found(True)) == said(None) == ""
-    assert f"linear check is met with a ratio of {ratio}, but the dynamic check is not" in said(
-        found(False, 3)
+    assert said(found(False, 3)).startswith(
+        f"The linear and the nonlinear check are met with ratios of {ratios}, but the dynamic check is not: "
     )
     assert "3 of 40 motions" in said(found(False, 3)) and "10 % meet it" in said(found(False, 3))
     assert "0.2 m where 0.1 m are allowed" in said(found(False))
     assert "overturns with a share of 25 %" in said(None, 0.25)
     weak = check(Block.of_size(0.1, 2.0), spectrum)
-    assert "is not met with a ratio of" in said(found(True), checked=weak)
+    assert "are not met with ratios of" in said(found(True), checked=weak)
     assert "but the dynamic check is with one of 2" in said(found(True), checked=weak)
+    one_of_each = check(
+        Block.of_size(0.3, 1.6), DesignSpectrum.ntc(1.2, 2.45, 0.33, "B"), elastic_period=0.11
+    )
+    assert not one_of_each.linear.passed and one_of_each.nonlinear.passed
+    passed = f"{one_of_each.linear.ratio:.3g}, but the dynamic check is with one of 2"
+    assert said(found(True), checked=one_of_each) == f"The linear check is not met with a ratio of {passed}."
+
+
+def test_sets_that_are_few_contradict_no_formula_and_sets_that_disagree_do():
+    spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
+    formulas = check(Block.of_size(0.6, 2.0), spectrum)
+
+    def said(dynamic):
+        checks = (formulas.linear, formulas.nonlinear, dynamic)
+        return disagreement(SimpleNamespace(dynamic=dynamic, checks=checks), 0.0, 20)
+
+    few = found(True, refusal="met by this set, but not called met: 72 other sets", sets=72)
+    unlike = found(True, refusal="met by this set, but not called met: 44 %", share=0.44, interval=(0.1, 0.9))
+    assert few.outcome == unlike.outcome == "not called met"
+    assert found(False).outcome == found(True, 2, refusal="not met: 2 of 40").outcome == "not met"
+    assert said(few) == ""
+    assert (
+        "depends on the records: the chosen set meets it, and of 200 sets drawn 44 % meet it (10 to 90 %"
+        in said(unlike)
+    )
+
+
+def test_a_check_that_is_met_tells_how_far_its_stations_speak_for_others():
+    """Of 57 stations none: at most 5.1 % of all at 95 %, as (1 − .0512)^57 = .05; "" where not met."""
+    met = found(True, interval=(0.35, 1.0))
+    assert "other stations than the 57 of the pool" in met.caution
+    assert "up to 5 % of all stations may" in met.caution and "as few as 35 % may meet" in met.caution
+    assert pytest.approx(0.05, rel=2e-3) == (1 - 0.0512) ** 57
+    assert found(False).caution == ""
 
 
 def test_the_interval_of_a_share_is_that_of_wilson():
