@@ -358,7 +358,8 @@ class StationResult(Judgement):
         concerned = [self.directions] if over_all and self.directions else list(self.cases.values())
         doubts = [each.doubt for each in concerned if each.doubt is not None]
         if decided is Verdict.STANDS and doubts:
-            decided, why = Verdict.UNDECIDED, str(doubts[0])
+            decided = Verdict.UNDECIDED
+            why = str(doubts[0])
         if decided is not Verdict.UNDECIDED:
             return decided, why
         asked = [each for each in concerned if each.doubt or each.verdict is Verdict.UNDECIDED]

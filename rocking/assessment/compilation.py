@@ -23,8 +23,10 @@ from rocking.structures import Block
 
 USUAL = 20.0
 """Seconds that compiling takes on two cores of 2024."""
-_PATIENCE, _EVERY = 3.0, 5.0
-"""Seconds after which something is said, as what is compiled already is loaded in less; and seconds between words."""
+_PATIENCE = 3.0
+"""Seconds after which something is said, as what is compiled already is loaded in less."""
+_EVERY = 5.0
+"""Seconds between two words."""
 
 
 def compile_all(say: Callable[[str], None] = print) -> None:
@@ -87,7 +89,8 @@ def _compile(say: Callable[[str], None]) -> None:
 
 def compile_mechanisms() -> None:
     """Compile the search for pulses and the integration of mechanisms."""
-    record, block = _record(), Block(2.0, 0.2)
+    record = _record()
+    block = Block(2.0, 0.2)
     integrate(block, record)
     integrate_members(block, record, Members([1.0]))
     extract_pulses(record)
@@ -95,7 +98,9 @@ def compile_mechanisms() -> None:
 
 def compile_blocks() -> None:
     """Compile what is exact of equivalent blocks: under a record and under a sine pulse."""
-    record, block, pulse = _record(), Block(2.0, 0.2).mechanism().equivalent_block(), Pulse(3.0, 6.0)
+    record = _record()
+    block = Block(2.0, 0.2).mechanism().equivalent_block()
+    pulse = Pulse(3.0, 6.0)
     integrate(block, record)
     integrate_members(block, record, Members([1.0]))
     integrate_batch([block, block], record)

@@ -49,7 +49,8 @@ class Crossings:
         if not sought.any():
             return found
         rows = places[sought]
-        low, high = self.low[rows], self.high[rows]
+        low = self.low[rows]
+        high = self.high[rows]
         for _ in range(_SECTIONS):
             levels = low[:, None] + (high - low)[:, None] * _SHARES
             reached = self.demand(rows, levels) >= self.capacities[rows, None]

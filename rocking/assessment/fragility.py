@@ -126,7 +126,8 @@ def fragility_of(levels: np.ndarray, exceedance: np.ndarray, stations: Sequence[
     over = _by_station(np.where(tried, exceedance, 0.0), stations)
     trials = _by_station(tried.astype(float), stations)
     ever = trials.any(axis=1)
-    over, trials = over[ever], trials[ever]
+    over = over[ever]
+    trials = trials[ever]
     count = len(over)
     probability, low, high = _empirical(over, trials)
     resampled = np.random.default_rng(0).multinomial(count, np.full(count, 1 / count), REPLICATES)
@@ -302,7 +303,8 @@ class IncrementalDynamicAnalysis:
         above = np.isinf(ratios) | (ratios > threshold)
         exceedance = np.where(np.isnan(ratios), np.nan, above).mean(axis=2)
         curve = fragility_of(self.levels, exceedance, self.stations)
-        name, unit = self.measure.name, self.measure.unit
+        name = self.measure.name
+        unit = self.measure.unit
         return replace(curve, measure=name, unit=unit, threshold=threshold, analysis=self)
 
 

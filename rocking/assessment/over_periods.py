@@ -73,7 +73,8 @@ class OverPeriods:
 
 def _interval(periods: Sequence[float], is_last: bool) -> str:
     """The interval in which one verdict holds; periods: ascending, 0 of the ground."""
-    first, end = periods[0], periods[-1]
+    first = periods[0]
+    end = periods[-1]
     if end == 0:
         return "on the ground"
     if first == 0:

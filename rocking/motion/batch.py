@@ -56,12 +56,14 @@ def integrate_batch(
         raise MotionError(
             f"structures is a {type(structures).__name__}, but must be a list of structures; integrate follows one."
         )
-    factors, forcing = Members(scale_factors).scale_factor, forcing_of(record, vertical)
+    factors = Members(scale_factors).scale_factor
+    forcing = forcing_of(record, vertical)
     ratios = np.full((len(structures), factors.size), math.nan)
     workers = workers or os.cpu_count() or 1
 
     def run(job: Sequence[tuple[int, slice]]) -> None:
-        places, some = [index for index, _ in job], job[0][1]
+        places = [index for index, _ in job]
+        some = job[0][1]
         if blocks := _plain_blocks([structures[index] for index in places], forcing):
             responses = concluded(blocks[0].sides, follow_blocks(blocks, forcing, factors[some]))
             ratios[places, some] = responses.rotation_ratio.reshape(len(places), -1)
@@ -149,7 +151,8 @@ def rocking_spectrum(
     # The block of λ under the record responds as the one of λ = 1 under the record over λ.
     blocks = [EquivalentBlock(p, 1.0, 1.0, restitution) for p in frequencies.tolist()]
     ratios = integrate_batch(blocks, accelerogram, 1 / multipliers, workers=workers).view(RockingSpectrum)
-    ratios.frequency_parameters, ratios.uplift_multipliers = frequencies, multipliers
+    ratios.frequency_parameters = frequencies
+    ratios.uplift_multipliers = multipliers
     return ratios
 
 

@@ -142,8 +142,10 @@ def follow(
             [reduced], forcing, horizontal, restitution, start=start, settle=settle, log=log
         )
         return reduced.sides, results
-    table, results = table_of(reduced, forcing.vertical), np.zeros((horizontal.size, runs.COLUMNS))
-    kernel, eta = table.kernel_of(forcing), np.empty((horizontal.size, 2))
+    table = table_of(reduced, forcing.vertical)
+    results = np.zeros((horizontal.size, runs.COLUMNS))
+    kernel = table.kernel_of(forcing)
+    eta = np.empty((horizontal.size, 2))
     own = table.sides[0].restitution, table.sides[-1].restitution
     eta[:] = own if restitution is None else restitution
     arc, speed = _initial_arc(table, start) if start[2] else (0.0, 0.0)
@@ -175,7 +177,8 @@ def follow_blocks(
         side = blocks[0].sides[0 if start[2] > 0 else -1]
         arc, speed = _initial_arc(linear_table(blocks[0]), start)
         begin = begin._replace(x=arc / side.critical_arc, w=speed / side.velocity_scale, side=start[2])
-    ground, sides = forcing.ground, rows.span.shape[1]
+    ground = forcing.ground
+    sides = rows.span.shape[1]
     samples = linear_kernel.Samples(
         ground.horizontal, ground.time_step, np.empty((sides, 2, ground.horizontal.size))
     )
@@ -294,7 +297,8 @@ def _is_fragile(
 def _states(table: Table, log: np.ndarray, begin: float) -> dict[str, Any]:
     """The history of a Response, whose motion starts at the time `begin`, from the lines of a log, which holds arcs."""
     times, arcs, speeds = log[1 : int(log[0, 0]) + 1].T
-    rotation, velocity = np.empty_like(arcs), np.empty_like(arcs)
+    rotation = np.empty_like(arcs)
+    velocity = np.empty_like(arcs)
     negative = (arcs < 0) | ((arcs == 0) & (speeds < 0))
     for sign, rows in ((1, ~negative), (-1, negative)):
         side = table.side(sign)

@@ -72,7 +72,8 @@ class Members:
                 raise MotionError(f"{name} holds {wrong[0]!s}, but every value must {allowed}.")
 
     def __repr__(self) -> str:
-        low, high = self.scale_factor.min(), self.scale_factor.max()
+        low = self.scale_factor.min()
+        high = self.scale_factor.max()
         return f"<Members: {self.count}, scaled by {low:.4g} to {high:.4g}>"
 
     @property
@@ -154,12 +155,14 @@ def follow_factors(
     lift = np.zeros(horizontal.size) if vertical is None else vertical
     if solvable_exactly(reduced, forcing) and 0 < np.count_nonzero(lift) < lift.size:
         # Members with and without vertical motion each go their own way.
-        ratio, side = np.empty(lift.size), np.empty(lift.size, int)
+        ratio = np.empty(lift.size)
+        side = np.empty(lift.size, int)
         reasons: dict[int, str] = {}
         for places in (np.flatnonzero(lift == 0), np.flatnonzero(lift)):
             eta = None if restitution is None else restitution[places]
             some = follow_factors(reduced, forcing, horizontal[places], lift[places], eta, tolerance)
-            ratio[places], side[places] = some.rotation_ratio, some.peak_side
+            ratio[places] = some.rotation_ratio
+            side[places] = some.peak_side
             reasons |= {int(places[k]): reason for k, reason in some.reasons.items()}
         return MemberResponses(ratio, side, reasons)
     return concluded(*follow(reduced, forcing, horizontal, lift, restitution, tolerance))
@@ -167,17 +170,20 @@ def follow_factors(
 
 def concluded(sides: Sequence[SideTable | EquivalentBlock], results: np.ndarray) -> MemberResponses:
     """Return what the results (m, 9) of a kernel say; sides: one where they are mirrored."""
-    status, reasons = results[:, runs.STATUS], {}
+    status = results[:, runs.STATUS]
+    reasons = {}
     arcs = np.where(status == runs.ROCKS, results[:, runs.PEAKS : runs.PEAKS + 2].T, 0.0)
     if len(sides) == 1:
         one, other = sides[0].rotation_ratios(arcs)
     else:
         one, other = (each.rotation_ratios(own) for each, own in zip(sides, arcs, strict=True))
-    ratio, side = np.maximum(one, other), np.where(one >= other, 1, -1)
+    ratio = np.maximum(one, other)
+    side = np.where(one >= other, 1, -1)
     side[status == 0] = 0
     if status.max(initial=runs.ROCKS) > runs.ROCKS:
         ratio[status == runs.OVERTURNS] = np.inf  # as it is where it passed the end of the mechanism
         failed = np.flatnonzero(status > runs.OVERTURNS)
-        ratio[failed], side[failed] = np.nan, 0
+        ratio[failed] = np.nan
+        side[failed] = 0
         reasons = {int(k): str(failure(*results[k, [runs.STATUS, runs.IMPACTS]])) for k in failed}
     return MemberResponses(ratio, side, reasons)

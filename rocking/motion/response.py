@@ -124,7 +124,9 @@ def check_model(
     >>> check_model(block, integrate(block, record, history=True), record).bounces
     False
     """
-    times, rotation, velocity = response.times, response.rotation, response.angular_velocity
+    times = response.times
+    rotation = response.rotation
+    velocity = response.angular_velocity
     if times is None or rotation is None or velocity is None:
         return ModelCheck(reason="the response keeps no history")
     critical = structure.mechanism().critical_rotation

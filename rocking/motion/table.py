@@ -76,11 +76,13 @@ def linear_side(block: EquivalentBlock) -> SideTable:
     square = block.frequency_parameter**2 / GRAVITY
     critical = block.critical_arc
     scale = critical / block.uplift_multiplier
-    width, count = critical / 8, 513  # the last one is the outer zone, which has no end
+    width = critical / 8
+    count = 513  # the last one is the outer zone, which has no end
     starts = np.arange(count) * width
     pieces = np.zeros((count, 2 * DEGREE + 2))
     pieces[:, 0] = square * (critical - starts - width / 2)
-    pieces[:, 1], pieces[:, 2] = square * scale, -square
+    pieces[:, 1] = square * scale
+    pieces[:, 2] = -square
     near = np.array([[critical, (1 - _NEAR) * critical], [scale, scale]]) * square
     kernel = _kernel(
         pieces=pieces,
@@ -133,7 +135,8 @@ def _functions(side: Side, rotation_at: Function, gravity: Function, ties: Seque
         scale = np.sqrt(side.inertia(rotation) * rest)
         values = [gravity(rotation) / scale, side.ground(rotation) / scale]
         for tie in ties:
-            stretch, pull = tie.stretch(rotation), tie.stretch_slope(rotation) / scale
+            stretch = tie.stretch(rotation)
+            pull = tie.stretch_slope(rotation) / scale
             values += [pull, stretch * pull, stretch]
         return np.stack(values)
 
@@ -146,7 +149,8 @@ def _tabulated(side: Side, arc: Arc, inverse: RotationMap, last: float, apart: b
     gravity = side.untied_gravity if apart and side.untied_gravity is not None else side.gravity
     ties = side.ties if apart else ()
     functions = _functions(side, rotation_at, gravity, ties)
-    end, critical = float(arc.at(last)), float(arc.at(side.critical_rotation))
+    end = float(arc.at(last))
+    critical = float(arc.at(side.critical_rotation))
     split = min(2 * critical, (critical + end) / 2)
     largest = np.abs(functions(np.linspace(end / 1000, end, 1000))).max(axis=1)
     rest = side.at("inertia", 0.0)
@@ -188,10 +192,12 @@ def _steepest(side: Side, functions: Function, critical: float, apart: bool) -> 
 
 def _ties(side: Side, arc: Arc, powers: np.ndarray) -> Ties:
     """The ties of one side, from the polynomials (3 n, m, 8) of D̃, u D̃ and u of each."""
-    count, pieces = powers.shape[0] // 3, powers.shape[1]
+    count = powers.shape[0] // 3
+    pieces = powers.shape[1]
     pulls, stretch = np.split(powers.reshape(count, 3, pieces, DEGREE + 1), [2], axis=1)
     pulls = pulls.transpose(0, 2, 3, 1).reshape(count, pieces, -1)
-    laws, rotations = [], np.linspace(0.0, arc.last, 129)
+    laws = []
+    rotations = np.linspace(0.0, arc.last, 129)
     for tie in side.ties:
         law = tie.tie
         ends = [tie.rotation(stretch, arc.last) for stretch in (law.yield_stretch, law.rupture_stretch)]
@@ -212,7 +218,8 @@ def _standing(gravity: Function, rotation: Function, critical: float) -> float:
 
 def _grid(split: float, end: float, inner: int, outer: int) -> tuple[tuple[float, ...], np.ndarray]:
     """The grid of a SideTable with so many pieces in its zones, and where its pieces start (with the end)."""
-    width, further = split / inner, (end - split) / outer
+    width = split / inner
+    further = (end - split) / outer
     starts = np.concatenate([np.arange(inner) * width, split + np.arange(outer + 1) * further])
     zones = (width, inner, ROOM * width, further, outer, ROOM * further)
     return (split, *zones, 1 / width, 1 / further), starts
@@ -234,7 +241,8 @@ def _near_rest(reach: float, values: np.ndarray) -> tuple[float, ...]:
     """
     changes = np.abs(np.diff(values, axis=1)).max(axis=1)
     slopes = 1.5 * changes * (values.shape[1] - 1) / reach
-    least, most = values[0].min() - changes[0], values[0].max() + changes[0]
+    least = values[0].min() - changes[0]
+    most = values[0].max() + changes[0]
     drive = np.abs(values[1]).max() + changes[1]
     speed = np.sqrt(2 * GRAVITY * max(least, 0.0) * reach)
     return tuple(float(each) for each in (reach, least, most, drive, *slopes, speed))
@@ -252,7 +260,8 @@ def _hold(gravity: Function, ground: Function, rotation: Function, starts: np.nd
 
 def _slope_near_rest(side: Side, tie: SideTie, arc: Arc, reach: float) -> float:
     """Return a bound of |d(T D̃)/dq| at arcs up to `reach`, from equal steps and widened for those between."""
-    rest, rotations = side.at("inertia", 0.0), arc.rotation(np.linspace(0.0, reach, 65))
+    rest = side.at("inertia", 0.0)
+    rotations = arc.rotation(np.linspace(0.0, reach, 65))
     pull = tie.stretch_slope(rotations) / np.sqrt(side.inertia(rotations) * rest)
     stretch = tie.stretch(rotations)
     force = tie.tie.pretension + tie.tie.stiffness * stretch[-1]
@@ -289,14 +298,18 @@ def fitted(
     AIM of the zone's own maximum, or no longer falls because it is the rounding of the functions themselves; it must
     then be within ACCURACY of `largest` (f,), the maxima over the whole side. Maxima below `least` (f,) count as that.
     """
-    best, best_error, good, count = None, np.inf, False, 2
+    best = None
+    best_error = np.inf
+    good = False
+    count = 2
     while count <= _MOST_PIECES:
         powers, errors, zone = _fit(functions, start, end, count)
         if not np.all(np.isfinite(errors)):
             return None
         error = (errors / np.maximum(zone, least)).max()
         if error < best_error:
-            best, best_error = powers, error
+            best = powers
+            best_error = error
             good = bool(np.all(errors <= ACCURACY * np.maximum(largest, least)))
         elif good:
             break
@@ -316,7 +329,8 @@ def _fit(
     high = np.minimum(end - centres, (1 + 2 * ROOM) * half) / half
     places, probes = ((low + high) / 2 + (high - low) / 2 * each for each in (_NODES, _PROBES))
     everywhere = functions(centres + half * np.concatenate([places, probes], axis=1))
-    values, between = everywhere[..., : _NODES.size], everywhere[..., _NODES.size :]
+    values = everywhere[..., : _NODES.size]
+    between = everywhere[..., _NODES.size :]
     powers = np.linalg.solve(polyvander(places, DEGREE), np.moveaxis(values, 0, -1))
     powers = np.moveaxis(powers, -1, 0)
     fit = np.einsum("fmp,mqp->fmq", powers, polyvander(probes, DEGREE))
@@ -391,7 +405,8 @@ def stacked_ties(sides: Sequence[Ties | None], pieces: int) -> Ties | None:
     count = max((each.law.shape[1] for each in sides if each is not None), default=0)
     if not count:
         return None
-    pieces_of, law = np.zeros((len(sides) * count, pieces, 24)), np.zeros((len(sides), count, 8))
+    pieces_of = np.zeros((len(sides) * count, pieces, 24))
+    law = np.zeros((len(sides), count, 8))
     law[:, :, 2:6] = np.inf
     for k, each in enumerate(sides):
         if each is not None:

@@ -17,8 +17,10 @@ from rocking.records.accelerogram import Accelerogram
 
 NOTHING_LEFT = 1e-20
 """Share of the record's energy below which what the pursuit leaves, or what a cycle gains, is rounding."""
-LEAST_PEAK, GREATEST_PEAK = 1e-100, 1e100
-"""Peak accelerations, m/s², whose squares neither vanish nor overflow."""
+LEAST_PEAK = 1e-100
+"""Peak acceleration, m/s², above which squares do not vanish."""
+GREATEST_PEAK = 1e100
+"""Peak acceleration, m/s², below which squares do not overflow."""
 REFINEMENT_REACH = 3.0
 """Steps of the frequency grid that a refinement may walk from its scanned maximum."""
 SCANNED_OVERLAP = 0.7
@@ -27,8 +29,10 @@ LEAST_SHARE = 0.01
 """Share of the largest gain below which a maximum of the scan is no rival."""
 NEAR_BEST = 0.8
 """Share of the largest scanned gain from which a maximum is worth a look when only the best is wanted."""
-NEAR_TIME, NEAR_OCTAVES = 0.5, 0.5
-"""Periods of onset and octaves of frequency within which a pulse is still the same pulse, sought again."""
+NEAR_TIME = 0.5
+"""Periods between two onsets within which a pulse is still the same pulse, sought again."""
+NEAR_OCTAVES = 0.5
+"""Octaves of frequency within which it is."""
 
 EQUAL_GAIN_RATIO = 0.85
 """Second gain over first above which the choice between the two is not the record's."""
@@ -67,7 +71,8 @@ def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None
     Pulse(3 m/s² = 0.3059 g, period 1.257 s, start 4 s)
     """
     settings = settings or PulseSettings()
-    samples, name = accelerogram.acceleration, accelerogram.source.path or "The accelerogram"
+    samples = accelerogram.acceleration
+    name = accelerogram.source.path or "The accelerogram"
     if np.ptp(samples) == 0:
         raise PulseError(
             f"{name} holds {samples.size} samples that all equal {samples[0]:g} m/s², but a pulse can only be sought "
@@ -142,7 +147,8 @@ class PulseSearch:
     @classmethod
     def of(cls, accelerogram: Accelerogram, settings: PulseSettings) -> "PulseSearch":
         """Return that of the frequencies in `settings` that the record can hold; raises PulseError without any."""
-        step, per_octave = accelerogram.time_step, settings.frequencies_per_octave
+        step = accelerogram.time_step
+        per_octave = settings.frequencies_per_octave
         low = max(settings.lowest_frequency, 1 / accelerogram.duration)
         high = min(settings.highest_frequency, 1 / (settings.samples_per_cycle * step))
         if low >= high:
@@ -204,8 +210,10 @@ class PulseSearch:
     def refined_maxima(self, samples: np.ndarray, maxima: Maxima, count: int) -> list[PulseEvidence]:
         """Return the best `count` maxima that do not cover one another, refined, by refined gain."""
         order = np.argsort(-maxima.gains, kind="stable")
-        onsets, frequencies = maxima.onsets[order], self.frequencies[maxima.columns[order]]
-        starts, free = onsets * self.time_step, np.ones(order.size, bool)
+        onsets = maxima.onsets[order]
+        frequencies = self.frequencies[maxima.columns[order]]
+        starts = onsets * self.time_step
+        free = np.ones(order.size, bool)
         ends = starts + 1 / frequencies
         energy = self.energy(samples)
         refined: list[PulseEvidence] = []
@@ -252,7 +260,8 @@ class PulseSearch:
         frequency = float(frequencies[maxima.columns[best]])
         evidence = self.refined(window, self.energy(samples), int(maxima.onsets[best]), frequency)
         sine = replace(evidence.pulse, start_time=evidence.pulse.start_time + first * self.time_step)
-        onset, angle = round(sine.start_time / self.time_step), sine.circular_frequency * self.time_step
+        onset = round(sine.start_time / self.time_step)
+        angle = sine.circular_frequency * self.time_step
         return replace(evidence, pulse=sine, phase=envelope_phase(samples, onset, angle))
 
 
@@ -288,7 +297,8 @@ def _raised(
     sequence: tuple[PulseEvidence, ...],
 ) -> tuple[Flag, ...]:
     """The flags of the dominant pulse."""
-    pulse, second = ranked[0].pulse, ranked[1] if len(ranked) > 1 else None
+    pulse = ranked[0].pulse
+    second = ranked[1] if len(ranked) > 1 else None
     equal = second is not None and second.gain / ranked[0].gain > EQUAL_GAIN_RATIO
     strong = [other.pulse for other in ranked[1:] if other.gain > OSCILLATION_GAIN_RATIO * ranked[0].gain]
     more_cycles = oscillates(pulse, strong)
@@ -297,8 +307,10 @@ def _raised(
         alike = abs(neighbour.period / pulse.period - 1) <= ADJOINING_PERIOD_CHANGE
         more_cycles = more_cycles or (alike and gap <= ADJOINING_GAP * pulse.period)
     high_pass = accelerogram.high_pass_frequency
-    samples, step = accelerogram.acceleration, accelerogram.time_step
-    frequency, (low, high) = 1 / pulse.period, search.band
+    samples = accelerogram.acceleration
+    step = accelerogram.time_step
+    frequency = 1 / pulse.period
+    low, high = search.band
     rooms = pulse.start_time / pulse.period, ((samples.size - 1) * step - pulse.end_time) / pulse.period
     loud = np.abs(samples[[0, -1]]) > EDGE_ACCELERATION * abs(pulse.amplitude)
     changes = np.flatnonzero(np.diff(samples))  # a run of identical samples at an end is padding, no gap

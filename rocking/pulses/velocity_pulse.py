@@ -22,8 +22,10 @@ SUPPORT = 7.0
 """Length of db4 in its own time; its centre frequency is 5 cycles over it."""
 LARGEST_KEPT = 2**16
 """Length of the longest transform of a wavelet that is kept for the next time: 1 MB each."""
-SHORTEST_PERIOD, LONGEST_PERIOD = 0.25, 15.0
-"""Band of T_p that is searched, s."""
+SHORTEST_PERIOD = 0.25
+"""Lower end of the band of T_p that is searched, s."""
+LONGEST_PERIOD = 15.0
+"""Upper end of that band, s."""
 SCALES = 50
 """Steps of the first search over scales; the best is then refined to one sample."""
 RESOLUTION = 64
@@ -167,19 +169,22 @@ def _settled(both: np.ndarray, scale: int, place: int, width: int) -> int:
     """Sample of the largest coefficient among the `width` that were averaged at `place`, and their neighbours."""
     if width == 1:
         return place
-    low, high = max(0, (place - 1) * width), min((place + 2) * width, both.size)
+    low = max(0, (place - 1) * width)
+    high = min((place + 2) * width, both.size)
     return low + int(np.argmax(np.abs(coefficients(both, scale, low, high))))
 
 
 def _judged(velocities: np.ndarray, step: float, scales: np.ndarray, row: int, column: int) -> VelocityPulse:
     """Extract the pulse at one coefficient in its own orientation and judge it."""
     amplitudes = [coefficient_at(velocity, int(scales[row]), column) for velocity in velocities]
-    first, second = amplitudes[0], amplitudes[1] if len(amplitudes) == 2 else 0.0
+    first = amplitudes[0]
+    second = amplitudes[1] if len(amplitudes) == 2 else 0.0
     orientation = (math.atan(second / first) if first else math.pi / 2) if second else 0.0
     velocity = math.cos(orientation) * velocities[0] + math.sin(orientation) * velocities[-1]
     scale = _refined_scale(velocity, scales, row, column)
     pulse, centre = _extracted(velocity, scale, column)
-    peak, remainder = np.abs(velocity).max(), np.abs(velocity - pulse).max()
+    peak = np.abs(velocity).max()
+    remainder = np.abs(velocity - pulse).max()
     energy = ((velocity - pulse) ** 2).sum() / (velocity**2).sum()
     return VelocityPulse(
         period=PERIOD_OF_SCALE * scale * step,
@@ -193,7 +198,8 @@ def _judged(velocities: np.ndarray, step: float, scales: np.ndarray, row: int, c
 
 def _refined_scale(velocity: np.ndarray, scales: np.ndarray, row: int, column: int) -> int:
     """Scale, to one sample, of the largest coefficient between the neighbours of one scale of the first search."""
-    low, high = int(scales[max(row - 1, 0)]), int(scales[min(row + 1, len(scales) - 1)])
+    low = int(scales[max(row - 1, 0)])
+    high = int(scales[min(row + 1, len(scales) - 1)])
     stride = math.isqrt(high - low) or 1
 
     def size(scale: int) -> float:
@@ -205,9 +211,12 @@ def _refined_scale(velocity: np.ndarray, scales: np.ndarray, row: int, column: i
 
 def _extracted(velocity: np.ndarray, scale: int, column: int) -> tuple[np.ndarray, int]:
     """Return the pulse, as the sum of the largest wavelets of one scale near `column`, and its first centre."""
-    pulse, centre, reach = np.zeros_like(velocity), column, math.ceil(NEIGHBOURHOOD * scale)
+    pulse = np.zeros_like(velocity)
+    centre = column
+    reach = math.ceil(NEIGHBOURHOOD * scale)
     for number in range(WAVELETS):
-        low, high = max(0, centre - reach), min(centre + reach + 1, velocity.size)
+        low = max(0, centre - reach)
+        high = min(centre + reach + 1, velocity.size)
         sizes = coefficients(velocity - pulse, scale, low, high).real
         best = int(np.argmax(np.abs(sizes)))
         begin, end, wavelet = overlap(velocity.size, scale, low + best)
@@ -285,5 +294,6 @@ def overlap(count: int, scale: int, column: int) -> tuple[int, int, np.ndarray]:
     """First and last sample of the wavelet centred at `column` inside `count` samples, and that part of it."""
     wavelet = _wavelet(scale)
     begin = column - wavelet.size // 2
-    low, high = max(begin, 0), min(begin + wavelet.size, count)
+    low = max(begin, 0)
+    high = min(begin + wavelet.size, count)
     return low, high, wavelet[low - begin : high - begin]

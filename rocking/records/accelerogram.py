@@ -22,8 +22,10 @@ if TYPE_CHECKING:
 LARGEST_PEAK = 5 * GRAVITY
 """m/s²; the largest recorded so far is 4.4 g (Iwate-Miyagi 2008, IWTH25), so what is above is a wrong unit."""
 
-SHORTEST_STEP, LONGEST_STEP = 1e-4, 0.1
-"""s; a longer step leaves out what makes a structure rock, and no accelerograph has a shorter one."""
+SHORTEST_STEP = 1e-4
+"""s; no accelerograph has a shorter one."""
+LONGEST_STEP = 0.1
+"""s; a longer one leaves out what makes a structure rock."""
 
 
 @dataclass(frozen=True)

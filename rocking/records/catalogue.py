@@ -165,7 +165,8 @@ def _checks_of_files(record: CatalogueRecord) -> Iterator[_Check]:
         is_safe_id(record.id),
         f"id is {shown(record.id)}, but must be a safe file name: letters, digits, . _ -, at most 80, not reserved.",
     )
-    names, hashes = _parts(record.file), _parts(record.sha256)
+    names = _parts(record.file)
+    hashes = _parts(record.sha256)
     yield names, "file is missing; give a path beside the catalogue or obspy:NAME."
     paths = [("file", name) for name in names if not stays_inside(name.removeprefix(_OBSPY))]
     if record.inventory and not stays_inside(record.inventory):
@@ -187,7 +188,9 @@ def _checks_of_files(record: CatalogueRecord) -> Iterator[_Check]:
 
 def _checks_of_source(record: CatalogueRecord) -> Iterator[_Check]:
     """Yield the checks of where the files are fetched from; none where the row names nothing of it."""
-    repository, source_path, commit = record.source_repository, record.source_path, record.source_commit
+    repository = record.source_repository
+    source_path = record.source_path
+    commit = record.source_commit
     if not (repository or source_path or commit):
         return
     paths = _parts(source_path)

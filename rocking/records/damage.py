@@ -92,7 +92,8 @@ def _still_stretch(record: Accelerogram) -> str:
         return ""
     lengths = np.diff(changes)
     longest = int(lengths.argmax())
-    first, last = int(changes[longest]) + 1, int(changes[longest + 1])
+    first = int(changes[longest]) + 1
+    last = int(changes[longest + 1])
     share = min(_share_of_changes(values[:first][-_BESIDE:]), _share_of_changes(values[last + 1 :][:_BESIDE]))
     steps = last - first
     if share < _LIVELY or steps < _SHORT:
@@ -213,7 +214,8 @@ def _copied_stretch(record: Accelerogram, per_line: int) -> str:
     first, second = _same_windows(values, size)
     windows = sliding_window_view(values, size)
     is_loud = np.ptp(windows[first], axis=1) > _LOUD * record.peak_acceleration
-    first, second = first[is_loud], second[is_loud]
+    first = first[is_loud]
+    second = second[is_loud]
     if not first.size:
         return ""
     starts, lengths = _runs(first, second)
@@ -250,7 +252,8 @@ def _same_windows(values: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray
 def _runs(first: np.ndarray, second: np.ndarray) -> tuple[list[tuple[int, int]], np.ndarray]:
     """Return the start and the length of each run of windows that are the same at one distance from one another."""
     order = np.lexsort((first, second - first))
-    places, apart = first[order], (second - first)[order]
+    places = first[order]
+    apart = (second - first)[order]
     begins = np.flatnonzero((np.diff(places, prepend=-2) != 1) | (np.diff(apart, prepend=-1) != 0))
     lengths = np.diff(begins, append=places.size)
     starts = [(int(places[at]), int(places[at] + apart[at])) for at in begins]

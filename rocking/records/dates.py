@@ -52,7 +52,8 @@ def day_of(text: str) -> str:
 def _iso(parts: dict[str, str | None]) -> str:
     """Return the parts of a date as ISO 8601; "" where there is no such day, time or zone."""
     zone = (parts["zone"] or "").upper()
-    hour, minute = parts["hour"], parts["minute"]
+    hour = parts["hour"]
+    minute = parts["minute"]
     seconds = float(parts["second"] or 0)
     try:
         day = datetime(*_year_month_day(parts), int(hour or 0), int(minute or 0), int(seconds))

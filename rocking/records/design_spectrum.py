@@ -241,7 +241,8 @@ class NtcSpectrum(DesignSpectrum):
 
     def ordinates(self, period: ArrayLike, level: ArrayLike, damping: float) -> np.ndarray:
         """Return S_e by the four branches of Eq. 3.2.2."""
-        periods, ag = np.asarray(period, dtype=float), np.asarray(level, dtype=float)
+        periods = np.asarray(period, dtype=float)
+        ag = np.asarray(level, dtype=float)
         factor = damping_factor(damping)
         constant = self._constant_until
         rising = constant / 3

@@ -20,8 +20,10 @@ from rocking.tables import read_start, write_whole
 
 _RETRIES = 3
 _PIECE = 2**16
-LONGEST_DOWNLOAD, _SILENCE = 300.0, 30.0
-"""s; of one file with all its tries, and without a byte."""
+LONGEST_DOWNLOAD = 300.0
+"""s; of one file with all its tries."""
+_SILENCE = 30.0
+"""s; without a byte."""
 _RAW = "https://raw.githubusercontent.com/{repository}/{commit}/{path}"
 
 

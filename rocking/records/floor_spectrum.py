@@ -18,8 +18,10 @@ from rocking.records.support import Mode, Support
 GroundSpectrum = Callable[[float, float], float]
 """Elastic spectrum of the ground: acceleration [m/s²] of an undamped period [s] and a damping ratio."""
 
-LOWER_PERIOD, UPPER_PERIOD = 0.8, 1.1
-"""a and b of C7.2.6: shares of the period of a mode between which its floor spectrum is flat."""
+LOWER_PERIOD = 0.8
+"""a of C7.2.6: share of the period of a mode from which on its floor spectrum is flat."""
+UPPER_PERIOD = 1.1
+"""b of C7.2.6: share of that period up to which it is flat."""
 
 LEAST_DAMPING = 0.001
 """Damping ratio below which the formula, which divides by its root, has no value that means anything."""
@@ -93,7 +95,8 @@ def amplification(mode: Mode, periods: np.ndarray, damping_ratio: float) -> np.n
     if mode.period == 0:
         return np.zeros(np.shape(periods))
     within(RecordError, "damping_ratio of the support", mode.damping_ratio, LEAST_DAMPING, 0.999)
-    a, b = LOWER_PERIOD, UPPER_PERIOD
+    a = LOWER_PERIOD
+    b = UPPER_PERIOD
     p = 1.1 / math.sqrt(mode.damping_ratio) * damping_factor(damping_ratio)
     below = np.maximum(1 - periods / (a * mode.period), 0) ** 1.6
     above = np.maximum(periods / (b * mode.period) - 1, 0) ** 1.2

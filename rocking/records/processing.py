@@ -181,7 +181,8 @@ def _resampled(record: Accelerogram, processing: Processing) -> Accelerogram:
 
 _CANDIDATES = 20  # places at which shaking may end
 _DEGREES = (1, 2)  # of the polynomial after each
-_FEWEST, _LEFT = 64, 16  # samples of the record and after shaking, at least: fewer say nothing of a drift
+_FEWEST = 64  # samples of the record, at least: fewer say nothing of a drift
+_LEFT = 16  # samples after shaking, at least
 
 
 def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.ndarray, str]:

@@ -46,7 +46,8 @@ class Readings:
         except RecordError as error:
             return Reading("", refusal=printable(str(error)))
         sha256 = hashlib.sha256(raw).hexdigest()
-        unit, time_step = declared["unit"], declared["time_step"]
+        unit = declared["unit"]
+        time_step = declared["time_step"]
         key = json.dumps([sha256, printable(path.name), unit, time_step, self._metadata_beside(path.parent)])
         reading = self._before.get(key)
         if reading is None or reading.sha256 != sha256:
@@ -91,7 +92,9 @@ def _stored(path: Path) -> dict[str, Reading]:
     content = read_whole(path, _LARGEST, _UnusableStoreError, "the store of readings")
     try:
         store = json.loads(content)
-        version, checksum, readings = store["version"], store["sha256"], store["readings"]
+        version = store["version"]
+        checksum = store["sha256"]
+        readings = store["readings"]
     except (ValueError, KeyError, TypeError, RecursionError):
         raise _UnusableStoreError("this is no store of readings, or it is cut") from None
     if version != _version():
@@ -106,8 +109,10 @@ def _stored(path: Path) -> dict[str, Reading]:
 
 def _reading(values: dict[str, Any]) -> Reading:
     """Return a reading from its JSON. Raises TypeError where a value is not of its type."""
-    sha256, refusal = values["sha256"], values["refusal"]
-    doubts, missing = tuple(values["doubts"]), tuple(values["missing"])
+    sha256 = values["sha256"]
+    refusal = values["refusal"]
+    doubts = tuple(values["doubts"])
+    missing = tuple(values["missing"])
     if (
         not all(isinstance(text, str) for text in (sha256, refusal, *doubts))
         or not set(missing) <= CELLS.keys()

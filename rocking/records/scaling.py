@@ -57,7 +57,9 @@ class ScalingTarget:
         match = _SPELLING.fullmatch(text.strip())
         if not match:
             raise RecordError(f"scale_to is {shown(text)}, but must be {FORM}.")
-        measure, number, unit = match[1].lower(), match[2], match[3].strip()
+        measure = match[1].lower()
+        number = match[2]
+        unit = match[3].strip()
         if not is_number(number) or not 0 < float(number) < math.inf:
             must = f"must be finite and above 0{comma_hint(number)}"
             raise RecordError(f"scale_to is {shown(text)}, but its number {must}; give {FORM}.")

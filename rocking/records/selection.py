@@ -26,8 +26,10 @@ STATIONS = 20
 SETS = 200
 """Drawn beside the chosen one, to say what another would have said."""
 
-BELOW, ABOVE = 0.10, 0.30
-"""The allowed deviation of the mean spectrum below and above the target (NTC 2018, 3.2.3.6)."""
+BELOW = 0.10
+"""The allowed deviation of the mean spectrum below the target (NTC 2018, 3.2.3.6)."""
+ABOVE = 0.30
+"""The allowed deviation above it (the same place)."""
 
 _CHUNK = 2000
 _PERIODS_PER_DOUBLING = 8
@@ -232,14 +234,17 @@ def search(
     found: list[np.ndarray] = []
     distances: list[np.ndarray] = []
     number = drawn = 0
-    nearest, extremes = math.inf, (0.0, 0.0)
+    nearest = math.inf
+    extremes = (0.0, 0.0)
     for places in _drawn(np.asarray(stations), count, tries, np.random.default_rng(seed)):
         means = ratios[places].mean(axis=1)
-        low, high = means.min(axis=1) - 1, means.max(axis=1) - 1
+        low = means.min(axis=1) - 1
+        high = means.max(axis=1) - 1
         excess = np.maximum(-below - low, high - above)
         best = int(np.argmin(excess))
         if excess[best] < nearest:
-            nearest, extremes = float(excess[best]), (float(low[best]), float(high[best]))
+            nearest = float(excess[best])
+            extremes = (float(low[best]), float(high[best]))
         within_limits = excess <= 0
         found.append(places[within_limits])
         distances.append((np.log(means[within_limits]) ** 2).mean(axis=1))

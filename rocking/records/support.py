@@ -218,7 +218,8 @@ class _Ringing:
 
 
 def _check_alike(records: Sequence[Accelerogram]) -> None:
-    size, step = records[0].acceleration.size, records[0].time_step
+    size = records[0].acceleration.size
+    step = records[0].time_step
     for each in records:
         if each.acceleration.size != size or abs(each.time_step / step - 1) > 1e-9:
             raise RecordError(

@@ -14,7 +14,8 @@ from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, finite, positive
 from rocking.records.accelerogram import Accelerogram
 
-_EPSILON, _ETA = 0.2, 0.05
+_EPSILON = 0.2
+_ETA = 0.05
 
 
 @dataclass(frozen=True)

@@ -27,8 +27,10 @@ _HINGE: dict[str, Any] = {
 }
 _SIDES = {"load": ("center", "bottom"), "thrust": ("right", "center")}
 """The side of its value that touches the end of an arrow, horizontally and vertically."""
-_FALLEN, _FARTHEST = 3.0, 1.5
-"""Times the critical rotation up to which a mechanism of several bodies is drawn as fallen, at most this, rad."""
+_FALLEN = 3.0
+"""Times the critical rotation up to which a mechanism of several bodies is drawn as fallen."""
+_FARTHEST = 1.5
+"""Rotation at which it is drawn at most, rad."""
 
 
 def draw_structure(
@@ -48,7 +50,8 @@ def draw_structure(
     """
     where = axes.transData if place is None else place + axes.transData
     filled = {"facecolor": "0.85", "edgecolor": "0.3", "linewidth": 0.8, "transform": where} | (look or {})
-    parts, at_rest = structure.outline(rotation), structure.outline() if rotation else []
+    parts = structure.outline(rotation)
+    at_rest = structure.outline() if rotation else []
     for outline in parts:
         axes.add_patch(Polygon(outline, closed=True, **filled))
     for outline in at_rest:

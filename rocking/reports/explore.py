@@ -28,8 +28,12 @@ from rocking.structures import Mechanism, Structure
 Content = dict[str, Any]
 """The content that JSON can hold."""
 
-BINS, GROUND_BINS, PULSE_BINS = 600, 2400, 60
-"""Points on the page of a trace, of an acceleration, of which a case may show a short piece, and of a pulse."""
+BINS = 600
+"""Points on the page of a trace."""
+GROUND_BINS = 2400
+"""Points of an acceleration, of which a case may show a short piece."""
+PULSE_BINS = 60
+"""Points of a pulse."""
 FRAMES = 24
 """Drawings of a structure for each side; between two of them the page interpolates."""
 _HERE = Path(__file__).parent
@@ -123,7 +127,8 @@ def _case(
     response = responses.get(row.case) if row else None
     history = rotation_ratios(response, mechanism) if response else None
     if response and history and response.rotation_ratio > NEGLIGIBLE:
-        times, ratios = history[0], np.clip(history[1], -_BEYOND, _BEYOND)
+        times = history[0]
+        ratios = np.clip(history[1], -_BEYOND, _BEYOND)
         case["history"] = _trace(times, ratios, *moving_span([(times, ratios)]))
         case["critical"] = [_number(mechanism.sides[place].critical_rotation) for place in (0, -1)]
     return case
@@ -131,7 +136,8 @@ def _case(
 
 def _motion(accelerogram: Accelerogram, rows: RecordRows) -> Content:
     """Acceleration [m/s²] and its pulse, and the displacement [m] that moves the drawing, over the whole record."""
-    times, duration = accelerogram.times, accelerogram.duration
+    times = accelerogram.times
+    duration = accelerogram.duration
     path = displacement(accelerogram)
     line = np.polyval(np.polyfit(times, path, 1), times)
     motion = {
@@ -165,7 +171,8 @@ def drawings(structure: Structure) -> list[Content]:
         side = mechanism.sides[0 if sign > 0 else -1]
         end = min(abs(fallen_rotation(structure, sign)), _BEYOND * side.critical_rotation)
         for rotation in sign * end * np.linspace(1e-6, 1.0, FRAMES):
-            parts, marks = structure.outline(rotation), structure.marks(rotation)
+            parts = structure.outline(rotation)
+            marks = structure.marks(rotation)
             hinges = np.reshape(structure.hinges(rotation), (-1, 2))
             frame = {
                 "rotation": rotation,

@@ -25,10 +25,14 @@ ON_A_PAGE = 8
 """Structures whose curves stand on one page."""
 FEW_STATIONS = 20
 """Below so many stations the curves are called rough."""
-_COLUMNS, _HEIGHT = 2, 46.0
-"""Panels of a row, and its height, mm."""
-_GOVERNING, _HALF = 3, 0.5
-"""Records that are named for each structure; share of the members from which on a record overturns it."""
+_COLUMNS = 2
+"""Panels of a row."""
+_HEIGHT = 46.0
+"""Height of a row, mm."""
+_GOVERNING = 3
+"""Records that are named for each structure."""
+_HALF = 0.5
+"""Share of the members from which on a record overturns a structure."""
 _COLOURS = dict(zip(ROTATION_RATIOS, ("#56B4E9", "#0072B2", "#009E73"), strict=False))
 _WORST = "#D55E00"
 _READ = ("structure", "record", "station", "level", "overturning_share", "governing_overturning_share")
@@ -120,7 +124,8 @@ def _scaled(rows: Sequence[FragilitySummaryRow]) -> str:
 
 def _rate_with_interval(row: FragilitySummaryRow) -> str:
     """Return the annual rate with its interval."""
-    low, high = number(row.annual_rate_low, 2), number(row.annual_rate_high, 2)
+    low = number(row.annual_rate_low, 2)
+    high = number(row.annual_rate_high, 2)
     return f"{number(row.annual_rate, 2)} ({low}–{high})"
 
 
@@ -172,7 +177,8 @@ def fragility_figure(curves: "DataFrame") -> Figure:
 
 def _draw_curve(panel: Axes, curve: "DataFrame") -> None:
     """Draw one curve, that of overturning with its interval and lognormal curve."""
-    threshold, governing = float(curve["threshold"].iloc[0]), bool(curve["governing"].iloc[0])
+    threshold = float(curve["threshold"].iloc[0])
+    governing = bool(curve["governing"].iloc[0])
     columns = ["level", "probability", "probability_low", "probability_high", "lognormal"]
     levels, probability, low, high, lognormal = curve[columns].to_numpy(dtype=float).T
     if threshold < math.inf:

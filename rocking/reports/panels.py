@@ -119,7 +119,8 @@ def rotation_ratios(response: "Response", mechanism: "Mechanism") -> tuple[np.nd
 
 
 def _over_critical(rotation: np.ndarray, mechanism: "Mechanism") -> np.ndarray:
-    first, last = mechanism.sides[0].critical_rotation, mechanism.sides[-1].critical_rotation
+    first = mechanism.sides[0].critical_rotation
+    last = mechanism.sides[-1].critical_rotation
     return rotation / np.where(rotation < 0, last, first)
 
 
@@ -130,7 +131,8 @@ def moving_span(histories: Iterable[tuple[np.ndarray, np.ndarray]]) -> tuple[flo
     """
     sizes = [(times, np.abs(rotation)) for times, rotation in histories]
     moving = np.concatenate([times[size >= _STILL * size.max()] for times, size in sizes])
-    begin, end = float(moving.min()), float(moving.max())
+    begin = float(moving.min())
+    end = float(moving.max())
     margin = 0.05 * (end - begin) + 1e-3
     return max(0.0, begin - margin), end + margin
 
@@ -239,7 +241,9 @@ def _plot_spectrum(spectrum: "RockingSpectrum", axes: Axes) -> None:
         raise MotionError(
             f"the spectrum has shape {spectrum.shape}, but lines need the whole of it, {whole}, and at least (2, 2)."
         )
-    across, up, ratios = spectrum.frequency_parameters, spectrum.uplift_multipliers, np.asarray(spectrum).T
+    across = spectrum.frequency_parameters
+    up = spectrum.uplift_multipliers
+    ratios = np.asarray(spectrum).T
     overturns = np.isinf(ratios)
     if overturns.any():
         axes.contourf(across, up, overturns.astype(float), levels=[0.5, 1.5], colors="0.85", hatches=["///"])
@@ -279,7 +283,8 @@ def _plot_selection(selection: "Selection", axes: Axes) -> None:
     for place in selection.chosen:
         axes.plot(selection.periods, selection.spectra[place], color="0.75", linewidth=0.6)
     target = selection.target
-    low, high = (1 - selection.below) * target, (1 + selection.above) * target
+    low = (1 - selection.below) * target
+    high = (1 + selection.above) * target
     axes.fill_between(selection.periods, low, high, color=PULSE, alpha=0.15, linewidth=0)
     allowed = f"target, {-100 * selection.below:+.0f} to {100 * selection.above:+.0f} %"
     axes.plot(selection.periods, target, color=PULSE, label=allowed)

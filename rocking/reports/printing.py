@@ -130,7 +130,8 @@ def cell_text(judgement: "Judgement | None") -> str:
 
 def band_text(judgement: "Judgement", to: str) -> str:
     """Return the rotation ratios that 5 and 95 % of the members do not exceed, with `to` between them; one if equal."""
-    low, high = ratio(judgement.rotation_ratio_low, 2), ratio(judgement.rotation_ratio_high, 2)
+    low = ratio(judgement.rotation_ratio_low, 2)
+    high = ratio(judgement.rotation_ratio_high, 2)
     return low if low == high else f"{low}{to}{high}"
 
 

@@ -52,10 +52,14 @@ from rocking.structures.standing import Standing
 
 MOST_DRAWN = 10
 """Structures of page one and of the histories, the worst first; the tables hold all."""
-FEWER_DRAWN, MOST_LINES = 5, 4
-"""Structures of page one where more than so many lines stand above them, so that it stays one page."""
-MOST_NAMED, MOST_LETTERS = 12, 300
-"""Structures that the first lines name with one verdict, and their letters."""
+FEWER_DRAWN = 5
+"""Structures of page one where many lines stand above them, so that it stays one page."""
+MOST_LINES = 4
+"""Lines above which they are many."""
+MOST_NAMED = 12
+"""Structures that the first lines name with one verdict."""
+MOST_LETTERS = 300
+"""Letters of those names together."""
 MOST_PULSES = 3
 """Ranks of pulses that are printed."""
 MOST_COMPARED = 24
@@ -442,7 +446,8 @@ _BLAME: dict[tuple[bool, ...], str] = {
 # Whole on purpose: the pictures of a report by the names of its template, and what each leaves out.
 def _pictures(report: RecordReport) -> dict[str, object]:
     """Return the pictures of the worst cases, and the sentences that say where the others stand."""
-    motions, labels = report.motions, report.labels
+    motions = report.motions
+    labels = report.labels
     drawable = [station for station in report.stations if station.structure in report.structures]
     reserves = [each for each in one_period_each(drawable) if each.reserve is not None][:MOST_DRAWN]
     crowded = len(headlines(report.stations)) > MOST_LINES or reserves
@@ -504,7 +509,8 @@ def _reserve_note(stations: Sequence[StationResult]) -> str:
 
 
 def _tables(report: RecordReport) -> dict[str, object]:
-    tables, record = report.tables, report.tables.record
+    tables = report.tables
+    record = report.tables.record
     number_of: Column = ("No.", "auto", "r", lambda row: report.numbers[row.structure])
     ranked = [row for row in tables.pulses if row.rank <= MOST_PULSES]
     structures = list(structure_rows(report.structures))

@@ -33,18 +33,28 @@ _POINTS = 1200
 """Points of a trace: no printer shows more on the width of a page."""
 _MARGIN = 0.15
 """Share of the strong shaking that is drawn before and after it."""
-_COLUMNS, _DRAWN = 5, (30.0, 27.0)
-"""Structures of a row of page one; width and height of each drawing, mm."""
-_LINE, _LETTERS = 3.2, 26
-"""Height of a line below a drawing, mm, and its letters."""
-_HISTORIES, _HIGHEST_ROW = 160.0, 30.0
-"""Height of all histories together, and of one at most, mm."""
+_COLUMNS = 5
+"""Structures of a row of page one."""
+_DRAWN = (30.0, 27.0)
+"""Width and height of each drawing, mm."""
+_LINE = 3.2
+"""Height of a line below a drawing, mm."""
+_LETTERS = 26
+"""Letters of such a line."""
+_HISTORIES = 160.0
+"""Height of all histories together, mm."""
+_HIGHEST_ROW = 30.0
+"""Height of one history at most, mm."""
 _HIGHEST = 1.25
 """Rotation ratio beyond which a history is not drawn."""
-_ZOOM, _MAP_COLUMNS = 1.5, 240
-"""Periods of the pulse that are drawn before and after it; columns of the map of energy, at most twice as many."""
-_SMALLEST, _FALLEN = 1e-3, 3.0
-"""Rotation ratios at the left end of the comparison, and where overturning stands."""
+_ZOOM = 1.5
+"""Periods of the pulse that are drawn before and after it."""
+_MAP_COLUMNS = 240
+"""Columns of the map of energy, at most twice as many."""
+_SMALLEST = 1e-3
+"""Rotation ratio at the left end of the comparison."""
+_FALLEN = 3.0
+"""Rotation ratio at which overturning stands there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +69,8 @@ class Trace:
         """The time of 5 to 95 % of the Arias intensity with a margin, and of the dominant pulse, s."""
         begin, end = record_measures(self.accelerogram).significant_times
         for pulse in self.pulses[:1]:
-            begin, end = min(begin, pulse.start_time), max(end, pulse.end_time)
+            begin = min(begin, pulse.start_time)
+            end = max(end, pulse.end_time)
         if not end > begin:  # nothing shakes
             return 0.0, self.accelerogram.duration
         margin = _MARGIN * (end - begin)
@@ -132,7 +143,8 @@ def pulses_figure(motions: Sequence[Trace]) -> Figure:
     height = 36.0
     figure = new_figure(height * len(motions))
     for place, motion in enumerate(motions):
-        accelerogram, pulse = motion.accelerogram, motion.pulses[0]
+        accelerogram = motion.accelerogram
+        pulse = motion.pulses[0]
         near, energy = (panel_at(figure, left, 3 + place * height, 69, 24) for left in (14, 100))
         zoom = _ZOOM * pulse.period
         span = max(pulse.start_time - zoom, 0.0), min(pulse.end_time + zoom, accelerogram.duration)
@@ -246,7 +258,8 @@ def _draw_state(axes: Axes, structure: Structure, station: StationResult, middle
     rotation = drawn_rotation(structure, station)
     marks = [mark.line for mark in structure.marks(rotation)]
     points = np.vstack([*structure.outline(), *structure.outline(rotation), *marks])
-    low, high = points.min(axis=0), points.max(axis=0)
+    low = points.min(axis=0)
+    high = points.max(axis=0)
     scale = float(min(np.array(_DRAWN) / (high - low)))
     foot = top - 7 - _DRAWN[1]
     origin = np.array([(low[0] + high[0]) / 2, min(low[1], 0.0)])
@@ -314,7 +327,9 @@ def histories_figure(
     Each row has a scale of its own, which stands below its name, one of `labels`.
     """
     row = min(_HIGHEST_ROW, _HISTORIES / len(histories))
-    below, left, width = 20.0, 38.0, TEXT_WIDTH - 77
+    below = 20.0
+    left = 38.0
+    width = TEXT_WIDTH - 77
     figure = new_figure(row * len(histories) + below * len(motions) + 9)
     panel = panel_at(figure, left, 1, width, row * len(histories))
     for place, history in enumerate(histories):
@@ -330,7 +345,9 @@ def histories_figure(
 
 def _draw_history(panel: Axes, history: History, level: int, label: str, several: bool) -> None:
     """Draw one history about `level`, between its `label` and what happened; of `several` components, with its own."""
-    station, case, ratios = history.station, history.case, history.ratios
+    station = history.station
+    case = history.case
+    ratios = history.ratios
     predicted = case.predicted_rotation_ratio
     largest = (each for each in (float(np.abs(ratios).max()), predicted) if 0 < each < math.inf)
     reach = min(1.25 * max(largest, default=1.0), _HIGHEST)

@@ -246,7 +246,8 @@ def _draw_capacity(axes: Axes, mechanism: LocalMechanism) -> None:
     bends = np.array(side.bends)
     steps = np.linspace(0.0, side.critical_rotation, _POINTS)
     rotations = np.unique([*steps, *bends, *bends * (1 + 1e-9)])
-    length, force = unit_of("m"), unit_of("m/s²")
+    length = unit_of("m")
+    force = unit_of("m/s²")
     displacements = mechanism.displacement(rotations) / length.size
     accelerations = mechanism.acceleration(rotations) / force.size
     axes.plot(displacements, accelerations, color="black")

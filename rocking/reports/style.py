@@ -16,8 +16,12 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator, StrMethodF
 
 TEXT_WIDTH = 170.0
 """Width of the text of a page, mm."""
-RECORD, PULSE, PREDICTED = "0.35", "#D55E00", "#0072B2"
-"""Colours of a recorded motion, of its sine pulse and of a closed form."""
+RECORD = "0.35"
+"""Colour of a recorded motion."""
+PULSE = "#D55E00"
+"""Colour of its sine pulse."""
+PREDICTED = "#0072B2"
+"""Colour of a closed form."""
 MOST_POINTS = 4000
 """Points of a trace; a longer one keeps the least and the largest value of each stretch."""
 FONT_FOLDER = Path(matplotlib.get_data_path()) / "fonts" / "ttf"

@@ -56,12 +56,18 @@ if TYPE_CHECKING:
 
 FEWEST_POINTS = 3
 """Cases from which on the closed form is drawn against the integration; fewer are read from the tables."""
-MOST_MAPPED, MOST_STRUCTURES = 48, 20
-"""Records and structures of the map, the worst first; verdicts.csv holds all."""
-MOST_LISTED, MOST_RECORDS = 20, 200
-"""Rows of the lists of unsafe cases and of failures, and of that of the records; the CSV tables hold all."""
-_SMALLEST, _FALLEN = 1e-3, 1.6
-"""Rotation ratio below which a point is set on the edge of the scatter, and where overturning is set."""
+MOST_MAPPED = 48
+"""Records of the map, the worst first; verdicts.csv holds all."""
+MOST_STRUCTURES = 20
+"""Structures of the map, likewise."""
+MOST_LISTED = 20
+"""Rows of the lists of unsafe cases and of failures; the CSV tables hold all."""
+MOST_RECORDS = 200
+"""Rows of the list of the records, likewise."""
+_SMALLEST = 1e-3
+"""Rotation ratio below which a point is set on the edge of the scatter."""
+_FALLEN = 1.6
+"""Rotation ratio at which overturning is set there."""
 _MOST_POINTS = 5000
 """Points that are drawn as shapes; more become a picture, whose size does not grow with them."""
 MOST_NAMED = 8
@@ -113,7 +119,9 @@ def _data(
     verdicts = sorted(rows_of(VerdictRow, tables["verdicts"]), key=lambda row: row.severity, reverse=True)
     carried = supports_of(tables)
     shown = one_period_each(verdicts, carried)
-    comparison, failures, records = tables["comparison"], tables["failures"], tables["record"]
+    comparison = tables["comparison"]
+    failures = tables["failures"]
+    records = tables["record"]
     unsafe = comparison[comparison["agreement"] == Agreement.TOO_LOW]
     unsafe = unsafe.sort_values("integrated_rotation_ratio", ascending=False, kind="stable")
     both = comparison[["predicted_rotation_ratio", "integrated_rotation_ratio"]].max(axis=1, skipna=False)
@@ -253,7 +261,9 @@ def outcomes_figure(verdicts: Sequence[VerdictRow]) -> Figure:
     counts = outcome_counts(verdicts)
     names = list(counts)[:MOST_STRUCTURES]
     kinds = [kind for kind in ORDER if any(counts[name][kind] for name in names)]
-    row, head, foot = 5.0, 7.0, 10.0
+    row = 5.0
+    head = 7.0
+    foot = 10.0
     figure = new_figure(row * len(names) + head + foot, margins=(46, 4, foot, head))
     axes = figure.subplots()
     places = list(range(len(names)))
@@ -282,7 +292,8 @@ def outcomes_figure(verdicts: Sequence[VerdictRow]) -> Figure:
 def severity_map(verdicts: Sequence[VerdictRow], records: "DataFrame") -> dict[str, object]:
     """Return verdict and share by record and structure, both the worst first. verdicts: the worst first."""
     names = [worst_first((getattr(row, which), row) for row in verdicts) for which in ("record", "structure")]
-    rows, columns = names[0][:MOST_MAPPED], names[1][:MOST_STRUCTURES]
+    rows = names[0][:MOST_MAPPED]
+    columns = names[1][:MOST_STRUCTURES]
     others = [(len(names[0]) - len(rows), "record"), (len(names[1]) - len(columns), "structure")]
     rest = " and ".join(counted(count, noun) for count, noun in others if count)
     by_pair = {(row.record, row.structure): row for row in verdicts}

@@ -265,7 +265,8 @@ def _followed(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse]) -> tup
     frequencies = np.array([pulse.circular_frequency for pulse in pulses])
     amplitudes = np.array([pulse.amplitude for pulse in pulses])
     rows = _rows(blocks, frequencies, np.abs(amplitudes))
-    peaks, margins = np.empty((len(blocks), len(pulses), 2)), np.empty((len(blocks), len(pulses)))
+    peaks = np.empty((len(blocks), len(pulses), 2))
+    margins = np.empty((len(blocks), len(pulses)))
     # A positive ground acceleration rocks the block to its negative side.
     signs = np.where(amplitudes < 0, 1, -1)
     sine_pulse.kernel.courses(rows, signs, frequencies, np.abs(amplitudes), peaks, margins)
@@ -297,7 +298,8 @@ def pulse_spectrum(
     eta = within(StructureError, "restitution", restitution, 0, 1)
     rows = np.tile([1.0, 1.0, eta, 1.0, math.inf, 1.0], (1, 2, 1))  # p = gλ = 1
     omegas, strengths = (each.ravel() for each in np.meshgrid(frequencies, amplitudes, indexing="ij"))
-    peaks, margins = np.empty((1, omegas.size, 2)), np.empty((1, omegas.size))
+    peaks = np.empty((1, omegas.size, 2))
+    margins = np.empty((1, omegas.size))
     sine_pulse.kernel.courses(rows, np.ones(omegas.size, dtype=int), omegas, strengths, peaks, margins)
     result: np.ndarray = peaks[0].max(axis=1).reshape(frequencies.size, amplitudes.size)
     return result

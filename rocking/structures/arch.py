@@ -197,8 +197,10 @@ class Arch(Crackable):
         There the left half of the mechanism has snapped through, far below the unstable equilibrium, and the
         bar CD turns back. All functions are smooth up to that rotation.
         """
-        sections, ring = self._hinge_sections, self.ring
-        points, foot = self.radius * ring.contact_points(sections, PATTERN), ring.feet(sections)
+        sections = self._hinge_sections
+        ring = self.ring
+        points = self.radius * ring.contact_points(sections, PATTERN)
+        foot = ring.feet(sections)
         # the thrust runs along the arch at a hinge, up through the left foot and down through the right one
         joints = np.where(foot == 0, -sections, -np.pi / 2 * foot)
         linkage = FourBar(points, self._bars(sections), self.radius, ring.mass, joints)
@@ -225,9 +227,11 @@ class Arch(Crackable):
             StructureWarning,
             stacklevel=4,
         )
-        hinges, motion = self._hinge_sections, self.linkage.motion(0.0)
+        hinges = self._hinge_sections
+        motion = self.linkage.motion(0.0)
         edges = self._split(-hinges)
-        parts, middles = self._bars(edges), (edges[1:] + edges[:-1]) / 2
+        parts = self._bars(edges)
+        middles = (edges[1:] + edges[:-1]) / 2
 
         def velocities(sections: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             bar = np.searchsorted(hinges, sections) - 1
@@ -262,7 +266,8 @@ class Arch(Crackable):
         return -self.embrace_angle / 2, self.embrace_angle / 2
 
     def _dimensions(self) -> dict[str, Path]:
-        half, inner = self.embrace_angle / 2, self.radius - self.thickness / 2
+        half = self.embrace_angle / 2
+        inner = self.radius - self.thickness / 2
         outer = inner + self.thickness
         aside = np.array([np.sin(half / 2), np.cos(half / 2)])
         return {
@@ -279,7 +284,8 @@ class Arch(Crackable):
 
         On piers it starts and ends with a point more, at the foot of each.
         """
-        ring, onset = self.ring, self.onset
+        ring = self.ring
+        onset = self.onset
         sections = np.unique([*ring.ends, *np.linspace(*self._ends, count)])
         unknowns = np.array([*onset.reaction, onset.multiplier, 1.0])
         contacts = [np.full(sections.shape, contact) for contact in (INTRADOS, EXTRADOS)]
@@ -326,7 +332,8 @@ class ArchOnPiers(Arch):
     def ring(self) -> Ring:
         """Arch and piers with a centreline radius of 1."""
         ring = super().ring
-        width, height = self.pier_width / self.radius, self.pier_height / self.radius
+        width = self.pier_width / self.radius
+        height = self.pier_height / self.radius
         springing = complex(ring.contact_points(np.array(self.embrace_angle / 2), INTRADOS))
         mass = self.pier_density_ratio * width * height / ring.thickness
         return replace(ring, piers=Piers(springing, width, height, mass))
@@ -354,7 +361,8 @@ class ArchOnPiers(Arch):
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         """The piers, then the parts of the arch."""
-        feet, right = self.ring.feet(self._hinge_sections), self._right_pier
+        feet = self.ring.feet(self._hinge_sections)
+        right = self._right_pier
         piers = [(0 if feet[0] else STILL, -right.conj()), (2 if feet[-1] else STILL, right)]
         return piers + super()._parts()
 

@@ -31,7 +31,10 @@ class FourBar(Linkage):
     def __init__(
         self, hinges: np.ndarray, bars: Bars, radius: float, mass: float, joints: np.ndarray
     ) -> None:
-        self.hinges, self._mass, self._joints, self.unit = hinges, mass, joints, radius
+        self.hinges = hinges
+        self._mass = mass
+        self._joints = joints
+        self.unit = radius
         self.masses, self.rest, self.inertias = bars
         self._at_rest = np.diff(hinges)
         self._branch = float(np.sign(cross(hinges[3] - hinges[1], self._at_rest[1])))
@@ -67,7 +70,8 @@ class FourBar(Linkage):
         """AB, BC and CD at `rotation`: AB is turned, C is where the circles about B and D meet."""
         ab = self._at_rest[0] * np.exp(-1j * rotation)
         diagonal = self.hinges[3] - self.hinges[0] - ab
-        length, (_, bc, cd) = np.abs(diagonal), np.abs(self._at_rest)
+        length = np.abs(diagonal)
+        _, bc, cd = np.abs(self._at_rest)
         along = (length**2 + bc**2 - cd**2) / (2 * length)
         across = self._branch * np.sqrt(bc**2 - along**2)
         to_c = (along + 1j * across) * diagonal / length
@@ -145,21 +149,24 @@ def static_onset(ring: Ring) -> Onset:
 
     Raises TooThin when no thrust line fits, NoMechanism when no four alternating hinges limit the multiplier.
     """
-    sections, contacts = np.tile(ring.sections(), 2), np.repeat([INTRADOS, EXTRADOS], ring.sections().size)
+    sections = np.tile(ring.sections(), 2)
+    contacts = np.repeat([INTRADOS, EXTRADOS], ring.sections().size)
     for _ in range(_ROUNDS):
         rows = ring.gaps(sections, contacts)
         touching = _weakest(rows)
         touching = touching[np.argsort(sections[touching], kind="stable")]
         if not np.array_equal(contacts[touching], PATTERN):
             raise NoMechanism
-        hinges, unknowns = sections[touching], _touching_line(rows[touching])
+        hinges = sections[touching]
+        unknowns = _touching_line(rows[touching])
         if ring.voussoirs is None:
             hinges, unknowns = _slide_to_tangency(ring, hinges)
         if np.any(np.diff(hinges) < _APART):
             raise NoMechanism
         if ring.voussoirs is not None or (rows @ unknowns).min() > -_CLEARANCE:
             break
-        sections, contacts = np.append(sections, hinges), np.append(contacts, PATTERN)
+        sections = np.append(sections, hinges)
+        contacts = np.append(contacts, PATTERN)
     if not unknowns[3] > 0:
         raise TooThin
     return Onset(float(unknowns[3]), hinges + ring.embrace_angle / 2, unknowns[:3])
@@ -189,7 +196,8 @@ def other_hinges(ring: Ring, onset: Onset, count: int) -> list[np.ndarray]:
     Hinges open at voussoir joints, or in a continuous ring at sections of which there are _SOUGHT; of two mechanisms
     some hinge is at least one of these apart. λ is the dual of the linear programme: by virtual work.
     """
-    static, sections = onset.hinges - ring.embrace_angle / 2, ring.sections()
+    static = onset.hinges - ring.embrace_angle / 2
+    sections = ring.sections()
     coarse = sections[:: -(-sections.size // _SOUGHT)]
     sections = np.unique(np.concatenate([coarse, sections[-1:], static]))
     spacing = 0.99 * np.diff(coarse).max()
@@ -197,7 +205,8 @@ def other_hinges(ring: Ring, onset: Onset, count: int) -> list[np.ndarray]:
     at_each = [ring.gaps(sections, np.full(sections.shape, contact)) for contact in PATTERN]
     rows = np.stack([each[places[:, k]] for k, each in enumerate(at_each)], axis=1)
     regular = np.abs(np.linalg.det(rows[..., :4])) > _CLEARANCE
-    rows, hinges = rows[regular], sections[places[regular]]
+    rows = rows[regular]
+    hinges = sections[places[regular]]
 
     turns = np.linalg.solve(rows[..., :4].transpose(0, 2, 1), _DOWN[None, :, None])[..., 0]
     multipliers = (turns * rows[..., 4]).sum(axis=1)

@@ -36,9 +36,11 @@ class Fill:
         Per t·r of the ring, whose centreline radius is 1 and thickness `thickness`.
         """
         outer = 1 + thickness / 2
-        level, factor = outer + self.depth, self.density * outer / thickness
+        level = outer + self.depth
+        factor = self.density * outer / thickness
         v = np.clip(section, -np.pi / 2, np.pi / 2)
-        sine, cosine = np.sin(v), np.cos(v)
+        sine = np.sin(v)
+        cosine = np.cos(v)
         square = v / 2 + sine * cosine / 2  # ∫ cos²
         total = factor * np.stack(
             [
@@ -51,8 +53,10 @@ class Fill:
         return total, weight * np.stack([np.ones_like(sine), outer * sine, outer * cosine])
 
 
-INTRADOS, EXTRADOS = 1.0, -1.0
-"""Sign of a contact: the thrust line stays above the intrados and below the extrados."""
+INTRADOS = 1.0
+"""Sign of a contact at the intrados, above which the thrust line stays."""
+EXTRADOS = -1.0
+"""Sign of a contact at the extrados, below which it stays."""
 
 PATTERN = np.array([INTRADOS, EXTRADOS, INTRADOS, EXTRADOS])
 """Contacts of the hinges A, B, C, D when the inertia forces act to the right."""
@@ -87,7 +91,8 @@ class Piers:
     @property
     def corners(self) -> np.ndarray:
         """The corners of the right pier, (4,) complex: inner and outer foot, outer and inner head."""
-        inner, top = self.springing.real, self.springing.imag
+        inner = self.springing.real
+        top = self.springing.imag
         return rectangle(inner, inner + self.width, top - self.height, top)
 
     @property
@@ -150,7 +155,8 @@ class Ring:
         points = (1 - contact * self.thickness / 2) * 1j * np.exp(-1j * section)
         if self.piers is None:
             return points
-        foot, (inner, outer) = self.feet(section), self.piers.corners[:2]
+        foot = self.feet(section)
+        inner, outer = self.piers.corners[:2]
         corner = np.where(contact > 0, inner.real, outer.real)
         return np.where(foot == 0, points, foot * corner + 1j * inner.imag)
 
@@ -175,7 +181,8 @@ class Ring:
             centroids = moments / np.where(masses > 0, masses, 1.0)
             about_centre = about_centre + weight * (1 + self.thickness / 2) ** 2
         if self.piers is not None:
-            at_ends, centre = np.zeros((2, masses.size)), self.piers.centre
+            at_ends = np.zeros((2, masses.size))
+            centre = self.piers.centre
             at_ends[[0, 1], [0, -1]] = np.abs(self.feet(edges)[[0, -1]]) * self.piers.mass
             moments = masses * centroids + at_ends[0] * -centre.conjugate() + at_ends[1] * centre
             masses = masses + at_ends.sum(axis=0)
@@ -186,17 +193,22 @@ class Ring:
 
     def loads(self, section: np.ndarray) -> Loads:
         """Return what lies left of `section`; at a foot with its pier, and without change."""
-        at, start, radius = self.on_arch(section), -self.embrace_angle / 2, self.centroid_radius
-        sine, cosine = np.sin(at), np.cos(at)
+        at = self.on_arch(section)
+        start = -self.embrace_angle / 2
+        radius = self.centroid_radius
+        sine = np.sin(at)
+        cosine = np.cos(at)
         total = np.stack([at - start, radius * (np.cos(start) - cosine), radius * (sine - np.sin(start))])
         rate = np.stack([np.ones_like(sine), radius * sine, radius * cosine])
         if self.fill is not None:
             (filled, more), (before, _) = (
                 self.fill.loads(self.thickness, np.asarray(each)) for each in (at, start)
             )
-            total, rate = total + (filled.T - before).T, rate + more
+            total = total + (filled.T - before).T
+            rate = rate + more
         if self.piers is not None:
-            foot, centre = self.feet(section), self.piers.centre
+            foot = self.feet(section)
+            centre = self.piers.centre
             one = np.ones_like(foot)
             total = total + self.piers.mass * np.stack(
                 [foot, one * np.abs(foot) * centre.real, foot * centre.imag]
@@ -226,6 +238,7 @@ class Ring:
 
 def _moment(one: float, point: np.ndarray, load: np.ndarray) -> np.ndarray:
     """(k, 5) moments about points of M₀, V, H, of the loads times λ and of the loads; one: 0 for derivatives."""
-    x, y = point.real, point.imag
+    x = point.real
+    y = point.imag
     weight, of_x, of_y = load
     return np.stack([np.full_like(x, one), -x, y, y * weight - one * of_y, x * weight - one * of_x], axis=-1)

@@ -60,7 +60,8 @@ class Block(Structure):
     ) -> "Block":
         """Return the block of that breadth and height [m]; the others as for the class."""
         cls.check_values("of_size", breadth=breadth, height=height)
-        half, slenderness = np.hypot(breadth, height) / 2, np.arctan2(breadth, height)
+        half = np.hypot(breadth, height) / 2
+        slenderness = np.arctan2(breadth, height)
         return cls(half, slenderness, restitution, one_sided, restitution_range=restitution_range)
 
     @property
@@ -91,7 +92,9 @@ class Block(Structure):
         return [(0, rectangle(-self.breadth / 2, self.breadth / 2, 0.0, self.height))]
 
     def _dimensions(self) -> dict[str, Path]:
-        half, height, apart = self.breadth / 2, self.height, 0.06 * self.height
+        half = self.breadth / 2
+        height = self.height
+        apart = 0.06 * self.height
         foot = np.array([half, 0.0])
         return {
             "breadth": span([-half, height], [half, height], [0.0, apart]),
@@ -146,7 +149,8 @@ class RigidBody(Structure):
 
     def _linkage(self, mirrored: bool) -> Turning:
         """Until the centre of mass is level with the corner."""
-        corner, centre = self.left if mirrored else self.right, 1j * self.centre_height
+        corner = self.left if mirrored else self.right
+        centre = 1j * self.centre_height
         end = np.arctan2(corner, self.centre_height) + np.pi / 2
         return Turning(corner, [1.0], [centre], [self.inertia], end_rotation=float(end))
 
@@ -168,7 +172,8 @@ class RigidBody(Structure):
         return [(0, np.array([-self.left, self.right, self.left + top, -self.right + top]))]
 
     def _dimensions(self) -> dict[str, Path]:
-        apart, centre = np.array([0.0, -0.12 * self.centre_height]), [0.0, self.centre_height]
+        apart = np.array([0.0, -0.12 * self.centre_height])
+        centre = [0.0, self.centre_height]
         return {
             "left": span([-self.left, 0.0], [0.0, 0.0], apart),
             "right": span([0.0, 0.0], [self.right, 0.0], 2 * apart),
@@ -316,13 +321,16 @@ class Spire(CrackedAtHeight):
         return replace(self, crack_height=height)
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
-        base, half, crack = self.width / 2, self.half_width, 1j * self.crack_height
+        base = self.width / 2
+        half = self.half_width
+        crack = 1j * self.crack_height
         top = np.array([-half + crack, half + crack, 1j * self.height])
         still = np.array([-base, base, half + crack, -half + crack])
         return [(STILL, still), (0, top)][0 if self.crack_height else 1 :]
 
     def _dimensions(self) -> dict[str, Path]:
-        half, apart = self.width / 2, 0.06 * self.height
+        half = self.width / 2
+        apart = 0.06 * self.height
         paths = {
             "width": span([-half, 0.0], [half, 0.0], [0.0, -apart]),
             "height": span([-half, 0.0], [-half, self.height], [-apart, 0.0]),

@@ -119,7 +119,9 @@ class RotationMap:
         pieces = self._pieces
         place = arc / self.end * len(pieces)
         index = min(int(place), len(pieces) - 1)
-        x, later, latest = 2 * (place - index) - 1, 0.0, 0.0
+        x = 2 * (place - index) - 1
+        later = 0.0
+        latest = 0.0
         first, *others = pieces[index]
         for coefficient in reversed(others):
             later, latest = coefficient + 2 * x * later - latest, later
@@ -188,7 +190,9 @@ def _evaluated(coefficients: np.ndarray, share: np.ndarray) -> np.ndarray:
     place = np.clip(share * count, 0, count)
     piece = np.minimum(place.astype(int), count - 1)
     x = 2 * (place - piece) - 1
-    twice, later, latest = 2 * x, np.zeros_like(x), np.zeros_like(x)
+    twice = 2 * x
+    later = np.zeros_like(x)
+    latest = np.zeros_like(x)
     for row in coefficients[:0:-1]:
         later, latest = row[piece] + twice * later - latest, later
     result: np.ndarray = coefficients[0][piece] + x * later - latest

@@ -122,7 +122,9 @@ class Facade(Tied):
             self.candidates()  # and one that is with another crack
 
     def _check_storeys(self) -> None:
-        heights, thicknesses, loads = self.storey_heights, self.thicknesses, self.floor_loads
+        heights = self.storey_heights
+        thicknesses = self.thicknesses
+        loads = self.floor_loads
         if len(heights) > _MOST_STOREYS:
             raise StructureError(
                 f"storey_heights has {len(heights)} values, but must have {_MOST_STOREYS} at most."
@@ -194,7 +196,8 @@ class Facade(Tied):
 
     def _linkage(self, mirrored: bool) -> Turning:
         """The storeys above the crack about their outer toe, or in the mirror about the inner one."""
-        base, outwards = self._lowest_storey, -1.0 if mirrored else 1.0
+        base = self._lowest_storey
+        outwards = -1.0 if mirrored else 1.0
         thicknesses = np.array(self.thicknesses)[base:]
         feet = np.maximum(self.levels[base:-1], self.crack_position)
         heights = self.levels[base + 1 :] - feet
@@ -214,7 +217,8 @@ class Facade(Tied):
 
     def _hung(self, mirrored: bool) -> list[Hung]:
         outwards = -1.0 if mirrored else 1.0
-        hung, last = [], len(self.floor_loads) - 1
+        hung = []
+        last = len(self.floor_loads) - 1
         for storey, load in enumerate(self.floor_loads):
             if storey < self._lowest_storey or not load:
                 continue
@@ -242,9 +246,11 @@ class Facade(Tied):
             body = list(self._storey_courses(counted_courses(courses)))
         held: list[Held] = []
         slabs: tuple[Course, ...] = ()
-        foot, last = body[0].base, len(self.floor_loads) - 1
+        foot = body[0].base
+        last = len(self.floor_loads) - 1
         for storey, load in enumerate(self.floor_loads):
-            level, thickness = float(self.levels[storey + 1]), self.thicknesses[storey]
+            level = float(self.levels[storey + 1])
+            thickness = self.thicknesses[storey]
             if not load or level <= foot:
                 continue
             point = (-thickness / 2 - self.eccentricity, level)

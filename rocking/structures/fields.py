@@ -154,7 +154,8 @@ class Form:
 
         Such a method hands on, besides, the options of the constructor.
         """
-        parameters, hints = dict(signature(kind).parameters), get_type_hints(kind, include_extras=True)
+        parameters = dict(signature(kind).parameters)
+        hints = get_type_hints(kind, include_extras=True)
         if make:
             method = getattr(kind, make)
             hints = get_type_hints(method, include_extras=True) | hints

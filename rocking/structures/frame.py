@@ -79,17 +79,21 @@ class Frame(Structure):
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         """Columns 0.6 of their height apart, and a beam of their material and breadth as deep as its mass asks."""
-        half, height = self.column.breadth / 2, self.column.height
+        half = self.column.breadth / 2
+        height = self.column.height
         column = rectangle(-half, half, 0.0, height)
         outlines = [(n, column + x) for n, x in enumerate(self._axes)]
-        left, right = self._axes[0] - half, self._axes[-1] + half
+        left = self._axes[0] - half
+        right = self._axes[-1] + half
         depth = self.beam_mass_ratio * self.columns * 2 * half * height / (right - left)
         if self.beam_mass_ratio:
             outlines.append((self.columns, rectangle(left, right, height, height + depth)))
         return outlines
 
     def _dimensions(self) -> dict[str, Path]:
-        first, half, height = self._axes[0], self.column.breadth / 2, self.column.height
+        first = self._axes[0]
+        half = self.column.breadth / 2
+        height = self.column.height
         apart = 0.06 * height
         return {
             "column_breadth": span([first - half, 0.0], [first + half, 0.0], [0.0, -apart]),
@@ -109,8 +113,11 @@ class FrameLinkage(Turning):
     """
 
     def __init__(self, column: Block, axes: np.ndarray, beam_mass_ratio: float) -> None:
-        half, height, number = column.breadth / 2, column.height, axes.size
-        self._apart, self._head = axes - axes[0], axes[0] - half + 1j * height
+        half = column.breadth / 2
+        height = column.height
+        number = axes.size
+        self._apart = axes - axes[0]
+        self._head = axes[0] - half + 1j * height
         super().__init__(
             axes[0] + half,
             [number],
@@ -124,7 +131,8 @@ class FrameLinkage(Turning):
     def motion(self, rotation: np.ndarray) -> Motion:
         """Return the first column and the beam; hinges at the feet and the heads of all columns, in two runs."""
         first = super().motion(rotation)
-        foot, head = self.corner, self.corner + (self._head - self.corner) * np.exp(-1j * rotation)
+        foot = self.corner
+        head = self.corner + (self._head - self.corner) * np.exp(-1j * rotation)
         runs = [np.add.outer(self._apart, start + 0 * rotation) for start in (foot, head)]
         return replace(first, hinges=np.concatenate(runs))
 

@@ -250,7 +250,8 @@ class Linkage(ABC):
         falls = np.flatnonzero(self.gravity(places) <= 0)
         if not falls.size:
             return None
-        before, after = places[falls[0] - 1], places[falls[0]]
+        before = places[falls[0] - 1]
+        after = places[falls[0]]
         # Where a tie breaks, a rotation alone may be rounded otherwise than in a row.
         while bends and self.gravity(before) <= 0:
             before, after = np.nextafter(before, 0.0), before
@@ -263,10 +264,12 @@ class Linkage(ABC):
 
     def dalembert(self, state: MotionState) -> tuple[np.ndarray, np.ndarray]:
         """Return weight, inertia and what hangs on each part in motion: forces (k, n), complex, and couples (k, n)."""
-        motion, furthest = self.motion(state.rotation), self.motion(state.largest)
+        motion = self.motion(state.rotation)
+        furthest = self.motion(state.largest)
         centre = motion.accelerations * state.velocity**2 + motion.velocities * state.acceleration
         spin = motion.spin_slopes * state.velocity**2 + motion.spins * state.acceleration
-        forces, couples = -self.masses[:, None] * (centre + state.pull), -self.inertias[:, None] * spin
+        forces = -self.masses[:, None] * (centre + state.pull)
+        couples = -self.inertias[:, None] * spin
         for each, point in self._hanging(state.rotation):
             force: np.ndarray = each.force * state.pull.imag
             if each.tie:
@@ -295,7 +298,8 @@ class Turning(Linkage):
         slenderness: float | None = None,
         end_rotation: float = np.pi / 2,
     ) -> None:
-        self.corner, self.end_rotation = corner, end_rotation
+        self.corner = corner
+        self.end_rotation = end_rotation
         self._hang(masses, centres, inertias, hung)
         moment = complex(self.masses @ (self.rest - corner))
         self.unit = abs(moment)
@@ -373,6 +377,7 @@ def momentum_balance(
     masses, inertias (about each centre of mass): (k,). arriving, leaving: complex velocities of the centres and spins
     (k,) each for φ' = 1 on the one side and, seen in the mirror, on the other.
     """
-    (u, turn), (v, turn_after) = arriving, leaving
+    u, turn = arriving
+    v, turn_after = leaving
     shared = masses @ (u * v).real + inertias @ (turn * turn_after)
     return float(shared / (masses @ np.abs(v) ** 2 + inertias @ turn_after**2))

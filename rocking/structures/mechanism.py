@@ -35,7 +35,8 @@ from rocking.structures.equivalent_block import (
 )
 from rocking.structures.equivalent_block import EquivalentBlock as EquivalentBlock
 
-_ARC_ACCURACY, _MAP_ACCURACY = 2e-14, 1e-14
+_ARC_ACCURACY = 2e-14
+_MAP_ACCURACY = 1e-14
 CUTS = (0.0, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.2, 0.4)
 """Shares that may be cut off beyond φ_cr, where a mechanism locks and its inertia has no bound."""
 _DEFECT_SAMPLES = 401
@@ -280,7 +281,8 @@ class Side:
     def block_defects(self) -> BlockDefects:
         """The defects of the block exact at rest."""
         arc, _ = self.arc
-        steps, bends = np.linspace(0.0, self.critical_rotation, _DEFECT_SAMPLES), np.array(self.bends)
+        steps = np.linspace(0.0, self.critical_rotation, _DEFECT_SAMPLES)
+        bends = np.array(self.bends)
         rotation = np.unique([*steps, *bends * (1 - 1e-12), *bends])  # before a tie breaks, and after
         x = arc.at(rotation) / arc.at(self.critical_rotation)
         stretch = arc.stretch(rotation)

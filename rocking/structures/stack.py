@@ -62,7 +62,8 @@ class Course:
     @property
     def corners(self) -> np.ndarray:
         """The corners (4, 2) at rest from the lower left one, counterclockwise, m."""
-        low, high = self.base, self.base + self.height
+        low = self.base
+        high = self.base + self.height
         left, right = self.bottom
         return np.array([[left, low], [right, low], [self.top[1], high], [self.top[0], high]])
 
@@ -133,7 +134,8 @@ class Stack:
     @property
     def height(self) -> float:
         """From the foot of the lowest course to the top of the uppermost one, m."""
-        first, last = self.courses[0], self.courses[-1]
+        first = self.courses[0]
+        last = self.courses[-1]
         return last.base + last.height - first.base
 
     @cached_property
@@ -199,7 +201,8 @@ def loaded(course: Course, masses: Sequence[PointMass]) -> Course:
 
 def joined(courses: Sequence[Course]) -> Course:
     """Return courses that stay together as one body."""
-    first, last = courses[0], courses[-1]
+    first = courses[0]
+    last = courses[-1]
     masses = np.array([each.mass for each in courses])
     places = np.array([each.centre for each in courses])
     centre = masses @ places / masses.sum()
@@ -261,8 +264,11 @@ def _trapezium(
     weights = np.array([5, 8, 5]) / 18 * height
     left = lower[0] + nodes * (upper[0] - lower[0])
     right = lower[1] + nodes * (upper[1] - lower[1])
-    width, middle, z = right - left, (right + left) / 2, nodes * height
+    width = right - left
+    middle = (right + left) / 2
+    z = nodes * height
     area = float(weights @ width)
-    across, up = float(weights @ (width * middle)) / area, float(weights @ (width * z)) / area
+    across = float(weights @ (width * middle)) / area
+    up = float(weights @ (width * z)) / area
     squares = weights @ (width * ((middle - across) ** 2 + width**2 / 12 + (z - up) ** 2))
     return area, (across, up), float(squares)

@@ -22,9 +22,13 @@ GROUND = "ground"
 """The support of a structure unless the list says otherwise."""
 PERIODS = 9
 """Periods into which a range is divided, at equal steps of the logarithm."""
-ELASTIC_DAMPING, YIELDING_DAMPING = 0.05, 0.10
-"""Damping ratio where none is given: of a building that stays elastic, and the lower end, which is the safe one, of the
-10 to 20 % of a masonry building at the ultimate limit state (Circolare 7/2019, C7.2.3)."""
+ELASTIC_DAMPING = 0.05
+"""Damping ratio of a building that stays elastic, where none is given."""
+YIELDING_DAMPING = 0.10
+"""Damping ratio of a masonry building at the ultimate limit state, where none is given.
+
+The lower end, which is the safe one, of the 10 to 20 % of the Circolare 7/2019, C7.2.3.
+"""
 YIELDING_STRETCH = (1.5, 2.0)
 """The factors on the first period of a masonry building at the ultimate limit state (the same place)."""
 HEAVY = 0.01

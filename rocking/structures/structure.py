@@ -252,7 +252,8 @@ class Structure(metaclass=PlainlyMade):
         turn = np.broadcast_to(np.asarray(angular_acceleration, dtype=float), phi.shape)
         state = MotionState(sign, phi * sign, velocity * sign, turn * sign, push * sign, lift, so_far)
         positive, *_, negative = (each.contacts(state) for each in (self.linkages * 2)[:2])
-        names, there = positive.names, sign > 0
+        names = positive.names
+        there = sign > 0
         unknown = np.where(resting & (len(names) > 1), np.nan, 0.0)
         return Contacts(
             names,
@@ -272,9 +273,11 @@ class Structure(metaclass=PlainlyMade):
 
     def dimensions(self) -> tuple[Dimension, ...]:
         """Return the dimension lines of the sizes it was described by, at rest; of a list, one for each value."""
-        lines, paths = [], self._dimensions()
+        lines = []
+        paths = self._dimensions()
         for each, _, text in self._values:
-            letter, path = each.value.letter, paths.get(each.name, [])
+            letter = each.value.letter
+            path = paths.get(each.name, [])
             if not isinstance(path, list):
                 lines.append(Dimension(letter, text + each.suffix, *path))
                 continue

@@ -108,7 +108,8 @@ class Tied(CrackedAtHeight):
         return Hung("load", start, part, -1j * load) if weight_only else Hung("load", start, part, mass=load)
 
     def tie_events(self, rotation: float) -> str:
-        tie, events = self._tie, []
+        tie = self._tie
+        events = []
         heights = [each.start.imag for each in self.linkage.hung if each.tie]
         for height, side_tie in zip(heights, self.linkage.ties, strict=True):
             stretch = float(side_tie.stretch(np.asarray(max(rotation, 0.0))))
@@ -123,7 +124,9 @@ class Tied(CrackedAtHeight):
 
     def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
         linkage, motion = self._posed(rotation)
-        mirrored, size, marks = rotation < 0, 0.15 * self.height, []
+        mirrored = rotation < 0
+        size = 0.15 * self.height
+        marks = []
         anchorage = float(np.vstack(self.outline())[:, 0].min()) - 2 * size
         for each in self._hung(mirrored):
             shift = 0j if each.part == STILL else linkage.carried(each.part, each.start, motion).moved
@@ -146,7 +149,9 @@ class Tied(CrackedAtHeight):
 
     def _check_ties(self) -> None:
         """Refuse ties that do not hang together."""
-        stiffness, pretension, strength = self.tie_stiffness, self.tie_pretension, self.tie_strength
+        stiffness = self.tie_stiffness
+        pretension = self.tie_pretension
+        strength = self.tie_strength
         for height in self.tie_heights:
             check_inside("tie_heights", height, self.height)
         if 0 < stiffness < _LEAST_STIFFNESS:

@@ -59,7 +59,8 @@ class WallLinkage(Linkage):
         The lower block turns clockwise about its right bottom corner, the upper one back about the left edge.
         """
         # S and C of the lower half diagonal, ψ' and ψ''
-        sine, cosine = np.sin(rotation), np.cos(rotation)
+        sine = np.sin(rotation)
+        cosine = np.cos(rotation)
         across = self._half_thickness * cosine - self._lower_half * sine
         up = self._lower_half * cosine + self._half_thickness * sine
         # R₂² − S² = (h₂/2)² + (b − S)(b + S), without the cancellation of a flat upper block
@@ -67,7 +68,8 @@ class WallLinkage(Linkage):
         upper_up = np.sqrt(self._upper_half**2 + offset * (self._half_thickness + across))
         ratio = up / upper_up
         curvature = across * (1 - ratio**2) / upper_up
-        lower, upper = -across + 1j * up, across + 1j * up / ratio
+        lower = -across + 1j * up
+        upper = across + 1j * up / ratio
         base = self._half_thickness + np.zeros_like(lower)
         psi = self._upper_slenderness - np.arctan2(upper.real, upper.imag)
         one = np.ones_like(across)
@@ -236,12 +238,17 @@ class CrackedWall(CrackedAtHeight):
         return replace(self, lower_height=height, upper_height=self.height - height)
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
-        half, hinge = self.thickness / 2, self.lower_height
+        half = self.thickness / 2
+        hinge = self.lower_height
         return [(0, rectangle(-half, half, 0.0, hinge)), (1, rectangle(-half, half, hinge, self.height))]
 
     def _dimensions(self) -> dict[str, Path]:
-        half, crack, top, apart = self.thickness / 2, self.lower_height, self.height, 0.06 * self.height
-        left, right = np.array([-apart, 0.0]), np.array([apart, 0.0])
+        half = self.thickness / 2
+        crack = self.lower_height
+        top = self.height
+        apart = 0.06 * self.height
+        left = np.array([-apart, 0.0])
+        right = np.array([apart, 0.0])
         return {
             "height": span([-half, 0.0], [-half, top], left),
             "hinge_height": span([half, 0.0], [half, crack], right),
@@ -406,7 +413,8 @@ class LoadedWall(CrackedWall, Tied):
         """Return its two blocks where the hinge is known, else so many courses, below the slab or the bearing."""
         free_to_both_sides(self)
         wall = self._wall_courses(courses, self.unit_weight / GRAVITY)
-        half, top = self.thickness / 2, (-self.eccentricity, self.height)
+        half = self.thickness / 2
+        top = (-self.eccentricity, self.height)
         ties = tuple(
             Held(course_at(wall, height), (half, height), tie=self._tie) for height in self.tie_heights
         )
@@ -427,7 +435,8 @@ class LoadedWall(CrackedWall, Tied):
         return Stack((*wall, floor), ties)
 
     def _hung(self, mirrored: bool) -> list[Hung]:
-        half, outwards = self.thickness / 2, -1.0 if mirrored else 1.0
+        half = self.thickness / 2
+        outwards = -1.0 if mirrored else 1.0
         hung = []
         if self.top_load:
             across = half if self.top_slab == "flat" else -outwards * self.eccentricity

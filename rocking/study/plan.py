@@ -28,7 +28,8 @@ JOBS = REMEMBERED / "rocking_jobs.lock"
 _HASHES = REMEMBERED / "rocking_hashes.json"
 """Beside what snakemake remembers of a study; it may be removed at any time."""
 _SOURCE = {".py", ".csv", ".json", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
-_MOST_JOBS, _MANY = 8, 200
+_MOST_JOBS = 8
+_MANY = 200
 _FEW = {True: 12, False: 24}
 """Records worth a job with and without reports: a start costs as much as twenty records without them."""
 

@@ -52,7 +52,8 @@ def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: flo
     found = catalogue_of_folder(
         folder, unit=unit, time_step=time_step, standing=standing, keeps_readings=True
     )
-    files, rows = found.files, found.new
+    files = found.files
+    rows = found.new
     if not rows and not standing:
         reasons = "; ".join(f"{file.file}: {file.refusal}" for file in files) or "it holds no file"
         raise RecordError(f"{folder}: no accelerogram was read ({reasons}).")

@@ -572,7 +572,8 @@ def support_rows(result: "RecordResult", identities: Mapping[str, ComponentRow])
             mode = standing.support.modes[0] if standing.support else None
             pulse = floor.analysis.evidence.pulse if floor.analysis else None
             peak = floor.accelerogram.peak_acceleration
-            own, by_code = math.nan, math.nan
+            own = math.nan
+            by_code = math.nan
             if standing.support is not None:
                 own = spectrum_of(floor.accelerogram)(standing.period, FLOOR_DAMPING)
             if standing.support is not None and has_code_spectrum(standing.support):

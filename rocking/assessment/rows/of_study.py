@@ -92,7 +92,8 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow
         if not side.can_overturn:
             yield _held_row(name, structure)
             continue
-        linearised, uplift = mechanism.equivalent_block("linearised"), mechanism.equivalent_block("uplift")
+        linearised = mechanism.equivalent_block("linearised")
+        uplift = mechanism.equivalent_block("uplift")
         yield StructureRow(
             structure=name,
             type=structure.type_name,

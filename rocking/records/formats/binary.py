@@ -74,7 +74,8 @@ def _check_blocks(content: bytes) -> set[str]:
     leaps = np.flatnonzero((np.diff(numbers) != 1) & (numbers[1:] != 1))
     if not 0 < 2 * leaps.size < numbers.size - 1:
         return set()
-    before, after = numbers[leaps[0]], numbers[leaps[0] + 1]
+    before = numbers[leaps[0]]
+    after = numbers[leaps[0] + 1]
     return {f"Block number {after} follows number {before}: blocks are missing, repeated or overwritten."}
 
 
@@ -87,8 +88,10 @@ _STEEP = 45.0
 """Degrees out of the horizontal from which on a component is vertical."""
 _BURIED = 5.0
 """m below the surface from which on a sensor stands in a borehole."""
-_VERSION, _SAMPLES = 304, 316
-"""Bytes at which the header's version and number of samples stand (SAC manual, words 76 and 79)."""
+_VERSION = 304
+"""Byte at which the header's version stands (SAC manual, word 76)."""
+_SAMPLES = 316
+"""Byte at which its number of samples stands (word 79)."""
 
 
 def _is_sac(content: bytes) -> bool:
@@ -161,7 +164,8 @@ def _check_sac(header: dict[str, float], data: np.ndarray, step: float) -> None:
         if allowed and key in header and not abs(header[key] - value) <= allowed:
             stated = f"the header states {key.upper()} = {header[key]:g}, but the samples reach {value:g}"
             raise RecordError(f"{stated}; the file is damaged or its header another's; fetch it again.")
-    begin, end = header.get("b", 0.0), header.get("e", 0.0)
+    begin = header.get("b", 0.0)
+    end = header.get("e", 0.0)
     # Single precision keeps seven digits of the times.
     allowed = 0.5 * step + 3e-7 * max(abs(begin), abs(end))
     if {"b", "e"} <= header.keys() and begin != end and abs(end - begin - step * (data.size - 1)) > allowed:
@@ -195,7 +199,8 @@ def _read_evt(content: bytes, options: Options) -> list[Accelerogram]:
 
 def _check_frames(content: bytes) -> None:
     """Check the sum of each frame, and that one follows another by a tenth of a second."""
-    at, before = 0, None
+    at = 0
+    before = None
     while content[at : at + 1] == b"K" and at + _TAG.size <= len(content):
         _, _, _, _, kind, head, body, _, checksum = _TAG.unpack_from(content, at)
         frame = content[at + _TAG.size : at + _TAG.size + head + body]

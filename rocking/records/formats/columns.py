@@ -19,9 +19,14 @@ from rocking.records.instrument import refuse_by_name, refuse_other_quantity
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
 _EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
 _DECIMALS = re.compile(r"[.]?(\d*)(?:[eE][+-]?\d+)?\s*$")
-_HEAD, _REMARKS, _TAIL = 12, 80, 4000
-"""Lines of numbers and of remarks that are looked at, at the beginning, and bytes at the end."""
-_BLANK, _LINE_END = 32, 10
+_HEAD = 12
+"""Lines of numbers that are looked at, at the beginning."""
+_REMARKS = 80
+"""Lines of remarks that are looked at there."""
+_TAIL = 4000
+"""Bytes that are looked at, at the end."""
+_BLANK = 32
+_LINE_END = 10
 _COMMENTED_FORMAT = re.compile(rb"\s*#(Earthquake Information|StationCode\s*:)")
 """CWB's headers, which look like comments above columns."""
 _MARKS = "#", "%", "$", "!", "//"
@@ -84,7 +89,8 @@ def _below_text(above: list[str], remarks: Sequence[str], width: int, start: int
     names = _labels(above[-1])
     rest = above[:-1]
     if len(above) > 1 and len(names) == width and _are_units(names):
-        names, rest = _with_units(_labels(above[-2]), names), above[:-2]
+        names = _with_units(_labels(above[-2]), names)
+        rest = above[:-2]
     if len(names) != width:
         return None
     labels = tuple(map(ColumnLabel, names))

@@ -276,7 +276,8 @@ def typed_magnitude(text: str) -> dict[str, Any]:
 
 
 _ANGLE = r"(\d{1,3}(?:\.\d+)?)(?:[ °]+(\d\d?)[ ']+(\d\d?))?[ °\"]*(?:LAT\.? *|LONG?\.? *)?"
-_POLE, _SIDE = r"([NS])(?:orth|orte|outh|ur)?\b", r"([EWO])(?:ast|est|este|ste)?\b"
+_POLE = r"([NS])(?:orth|orte|outh|ur)?\b"
+_SIDE = r"([EWO])(?:ast|est|este|ste)?\b"
 _COORDINATES = re.compile(rf"{_ANGLE}{_POLE}[\s.,;:/-]*{_ANGLE}{_SIDE}", re.I)
 
 

@@ -32,8 +32,11 @@ _DYNA = Layout("", keyed(
 _DYNA_END = re.compile(r"(?!AAD_|[A-Z][A-Z0-9_/^]*:)")
 _DYNA_FIRST = re.compile(r"(?:AAD_.*\n)*EVENT_NAME:(?:.*\n){1,100}?SAMPLING_INTERVAL_S:")
 """AFAD puts lines AAD_ above a header after filtering the samples anew (Kahramanmaraş 2023)."""
-_DYNA_HEADER, _AFAD_HEADER, _RESORCE_HEADER, _CWB_HEADER, _UNAM_HEADER = 200, 40, 20, 60, 160
-"""Lines of the longest headers."""
+_DYNA_HEADER = 200  # lines of the longest header, of this format and of the next four
+_AFAD_HEADER = 40
+_RESORCE_HEADER = 20
+_CWB_HEADER = 60
+_UNAM_HEADER = 160
 _WORD = r"([\w/^*]*)"
 
 
@@ -179,7 +182,8 @@ def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tupl
     surplus = len(table) - declared
     if not 1 <= surplus <= _REPEATED or declared < 2:
         return table, ()
-    last, before = table[declared:], table[declared - surplus : declared]
+    last = table[declared:]
+    before = table[declared - surplus : declared]
     if not (np.array_equal(last, before) or np.all(last == table[declared - 1])):
         return table, ()
     what = "line repeats the end and is" if surplus == 1 else "lines repeat the end and are"
@@ -273,7 +277,10 @@ _GEONET = Layout("mm/s2", {
 }, mandatory=("peak",), half_digit=0.05, code="NZ")  # fmt: skip
 _GEONET_BLOCK = re.compile(r"(Un)?corrected accelerogram\s", re.I)
 _GEONET_FIRST = re.compile(rf"(?i:{_GEONET_BLOCK.pattern}).*\nSite ")
-_TEXT, _HEADER, _PER_LINE, _WIDTH = 16, 26, 10, 8
+_TEXT = 16
+_HEADER = 26
+_PER_LINE = 10
+_WIDTH = 8
 _PREPENDED = 31
 """Place in the integer header of the number of samples put before the first digitised one, from which times count.
 
@@ -313,10 +320,14 @@ _SMC_FIRST = re.compile(
 )
 """The first line, and below ten more the first one of integers."""
 _SMC_TEXT = 11
-_SMC_INTEGERS, _SMC_REALS = 6, 16  # lines below the text at which each part of the header ends
-_COMMENTS, _SAMPLES = 15, 16
-_RATE, _LARGEST, _SMALLEST, _CORNER = 1, 29, 31, 32
-"""Places in the integer and in the real header; the time of an extreme stands before its value."""
+_SMC_INTEGERS = 6  # lines below the text at which the integers of the header end
+_SMC_REALS = 16  # and the reals
+_COMMENTS = 15
+_SAMPLES = 16
+_RATE = 1  # places in the real header; the time of an extreme stands before its value
+_LARGEST = 29
+_SMALLEST = 31
+_CORNER = 32
 _PLACE = slice(10, 13)  # places in the real header of latitude, longitude and elevation of the station
 _MISSING = 1.69e38
 

@@ -81,7 +81,8 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     values, warnings = whole(numbers(after_lines(content, len(head))), declared, per_line=8)
     title = head[1] if len(head) > 1 else ""
     parts = [part.strip() for part in title.split(",")]
-    poles, points = _POLES.findall(text), _FILTER_POINTS.search(text)
+    poles = _POLES.findall(text)
+    points = _FILTER_POINTS.search(text)
     corner = points[1] if points else poles[1][1] if len(poles) > 1 and poles[1][0] != "0" else "0"
     facts: dict[str, Any] = {"component": _component(title), "processed": True, "warnings": warnings}
     if re.search(r"\bmatched\b", head[0], re.I):

@@ -34,10 +34,15 @@ _DATA = re.compile(
 )
 _REALS = re.compile(r"^\s*(\d+)\s+Real-header values follow on\s+(\d+)\s+lines.*?\d+[FE](\d+)", re.I)
 _END = re.compile(r"\s*(End-of-data|/&)", re.I)
-_ELEVATION, _DISTANCE, _RECORDER_STEP, _STEP, _LENGTH, _PEAK, _PEAK_TIME, _RMS = 2, 16, 33, 61, 62, 63, 64, 83
-"""Places in the real header (COSMOS format 1.20): elevation of the station, m, and its distance from the epicentre, km;
-step of the recorder, s, which is not that of a resampled series; of the series, step in ms, length, s, largest value
-and its time; of a raw one its root mean square."""
+# Places in the real header (COSMOS format 1.20).
+_ELEVATION = 2  # of the station, m
+_DISTANCE = 16  # of the station from the epicentre, km
+_RECORDER_STEP = 33  # s, which is not that of a resampled series
+_STEP = 61  # of the series, ms
+_LENGTH = 62  # of the series, s
+_PEAK = 63  # its largest value
+_PEAK_TIME = 64  # and its time
+_RMS = 83  # root mean square of a raw series
 _UNKNOWN = -999.0
 _CODES = {"02": "g", "2": "g", "04": "cm/s2", "4": "cm/s2"}
 """Units of acceleration by their code in the format."""
@@ -64,7 +69,8 @@ def _cosmos(block: list[str], options: Options, total: int) -> Accelerogram | No
     reals = _reals(block[:at])
     step = reals[_STEP] / 1000 if 0 < reals[_STEP] < 1e4 else reals[_RECORDER_STEP]
     values = text.filled(block[at + 1 : end], text.count("number of points", data["n"]), per_line, width)
-    length, lasts = reals[_LENGTH], values.size * step
+    length = reals[_LENGTH]
+    lasts = values.size * step
     wrong = 0 < length < 1e5 and abs(length - lasts) > 1.5 * step + 5e-4  # not all agencies fill it
     stated = [None if abs(real - _UNKNOWN) < 1e-3 else real for real in reals]
     note = f"The header gives the series a length of {length:g} s, but its samples last {lasts:g} s."
@@ -96,7 +102,9 @@ def _component(head: str) -> str:
     return code if direction.lower() in ("", "other") and code else direction
 
 
-_HEADER, _REALS_AT, _RATE = 27, 20, 8
+_HEADER = 27
+_REALS_AT = 20
+_RATE = 8
 _TEXT = 13
 _DURATION = r"NO\. OF POINTS\s*=\s*\S+\s+(?:DURATION|RECORD LENGTH)\s*=\s*([\d.]+)"
 _SIZE = {"samples": r"NO\. OF POINTS\s*=\s*(\S+)"}
