@@ -78,21 +78,24 @@ def _draw_mark(axes: Axes, mark: Mark, where: Transform, left: float | None) -> 
         axes.plot(*tail, alpha=0, transform=where)  # arrows do not widen the limits of the axes
     if left is not None and mark.kind == "tie":
         text = mark.text.replace(", ", " \n") + " "
-        axes.text(left, tail[1], text, ha="right", va="bottom", transform=where)
+        axes.text(left, tail[1], text, ha="right", va="top", transform=where)  # a thrust is told above it
     elif left is not None:
         ha, va = _SIDES[mark.kind]
-        axes.text(tail[0], tail[1], f" {mark.text} ", ha=ha, va=va, transform=where)
+        axes.text(tail[0], tail[1], f" {mark.text} ", ha=ha, va=va, zorder=4, bbox=_PAPER, transform=where)
 
 
-def draw_dimensions(axes: Axes, dimensions: Sequence[Dimension]) -> None:
-    """Draw dimension lines with their letters."""
+def draw_dimensions(axes: Axes, dimensions: Sequence[Dimension], *, values: bool = False) -> None:
+    """Draw dimension lines with their letters. values: write the value of each behind its letter."""
     for each in dimensions:
         axes.plot(*each.line.T, **_THIN)  # type: ignore[arg-type]
         for end, before in ((0, 1), (-1, -2)):
             axes.annotate("", tuple(each.line[end]), tuple(each.line[before]), arrowprops=_HEAD)
             axes.plot(*np.stack([each.feet[end], each.line[end]], axis=1), **_THIN)  # type: ignore[arg-type]
         place, ha, va = _beside(each.line.T, each.feet.T)
-        axes.text(place[0], place[1], f" {each.letter} ", ha=ha, va=va, zorder=4, bbox=_PAPER)
+        text = f"{each.letter} = {each.text}" if values else each.letter
+        if values and each.line.shape[0] > 2:
+            va = "top"  # within the arc, clear of the radius
+        axes.text(place[0], place[1], f" {text} ", ha=ha, va=va, zorder=4, bbox=_PAPER)
 
 
 def _beside(line: np.ndarray, feet: np.ndarray) -> tuple[np.ndarray, str, str]:

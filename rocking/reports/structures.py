@@ -22,10 +22,13 @@ from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.drawings import draw_dimensions, draw_structure
 from rocking.reports.panels import ZERO, plot
-from rocking.reports.printing import Cell, number, percent, quantity, table
+from rocking.reports.printing import Cell, number, percent, plain, quantity, table, words
 from rocking.reports.style import PREDICTED, PULSE, new_figure, panel_at, picture, styled
 from rocking.reports.units import displaying, unit_of
 from rocking.structures import Structure
+
+_FIGURE_HEIGHT = 112.0
+"""mm; with it the page of a structure is full, and the tallest drawing can still be read."""
 
 _TURNED = 0.5
 """Share of the critical rotation at which a mechanism is drawn."""
@@ -38,9 +41,9 @@ _QUANTILE = 1.645
 class CheckedStructure:
     """The content of the page of one structure.
 
-    checked: None where it could not be checked, and `refusal` then says why. overturning_share: mean over the records
-    of the study, nan without any; stations: how many records. reserves: under each record of the study under which one
-    was sought; reserve_doubts: what may make them too high.
+    checked: None where it could not be checked, and `refusal` then says why. overturning_share: mean over the stations
+    of the study, of each the mean over its records, nan without any; records, stations: how many there are. reserves:
+    under each record of the study under which one was sought; reserve_doubts: what may make them too high.
     """
 
     name: str
@@ -48,6 +51,7 @@ class CheckedStructure:
     checked: StructureCheck | None
     refusal: str = ""
     overturning_share: float = math.nan
+    records: int = 0
     stations: int = 0
     reserves: Sequence[Reserve] = ()
     reserve_doubts: Sequence[Doubt] = ()
@@ -86,17 +90,46 @@ def _data(
     notices: Sequence[str],
 ) -> dict[str, object]:
     spectra = []
+    motions: dict[str, object] = {"rows": []}
     if selection is not None:
         alt = "Spectra of the set of records and their mean beside the design spectrum."
-        spectra = [picture(_selection_figure(selection), alt) | {"caption": selection.words}]
+        spectra = [picture(_selection_figure(selection), alt) | {"caption": f"{selection.words}."}]
+        motions = _motion_table(selection)
     return {
         "title": "Checks at the design level",
         **printing.settings_texts(settings),
         "spectrum": spectrum.words,
         "notices": list(notices),
         "spectra": spectra,
+        "motions": motions,
         "pages": [_page(each, spectrum) for each in structures],
     }
+
+
+def _motion_table(selection: Selection) -> dict[str, object]:
+    """The records of the chosen set, each with its factor and its peak when scaled."""
+    peak = unit_of("m/s²")
+    heads = [
+        ("Record", "1.6", "l"),
+        ("Earthquake and station", "1.6", "l"),
+        ("Components", "auto", "r"),
+        ("Factor [-]", "auto", "r"),
+        (f"Peak when scaled [{peak.name}]", "auto", "r"),
+    ]
+    lines: list[list[Cell]] = []
+    for place in selection.chosen:
+        motions = selection.scaled(int(place))
+        facts = [each for each in (motions[0].event, motions[0].station) if each]
+        lines.append(
+            [
+                selection.names[place],
+                words(facts),
+                plain(len(motions)),
+                number(float(selection.factors[place])),
+                number(max(each.peak_acceleration for each in motions) / peak.size),
+            ]
+        )
+    return table(heads, lines)
 
 
 def _page(each: CheckedStructure, spectrum: DesignSpectrum) -> dict[str, object]:
@@ -164,6 +197,7 @@ def _sentences(checked: StructureCheck) -> list[str]:
             f"d_{state.name} = {quantity(point.displacement, 'm')} ({point.reason}), "
             f"a = {quantity(point.acceleration, 'm/s²')}, T_{state.name} = {number(point.period)} s."
         )
+    lines += _terms(mechanism)
     dynamic = checked.dynamic
     if dynamic is not None:
         said = f"Dynamic check under {counted(dynamic.motions, 'motion')}: {dynamic.sentence}"
@@ -175,14 +209,29 @@ def _sentences(checked: StructureCheck) -> list[str]:
     return lines
 
 
+def _terms(mechanism: LocalMechanism) -> list[str]:
+    """The terms that the check was given beside the structure, in sentences."""
+    terms = []
+    if mechanism.elastic_period:
+        terms.append(
+            f"It is free to vibrate with T₀ = {number(mechanism.elastic_period)} s, as given (C8.7.1.7)."
+        )
+    if math.isfinite(mechanism.support_loss):
+        terms.append(
+            f"What it carries falls at a displacement of {quantity(mechanism.support_loss, 'm')} of the corner that "
+            "moves farthest, as given."
+        )
+    return terms
+
+
 def _share(each: CheckedStructure) -> str:
     if not each.stations:
         return "No record of the study tells whether it overturns."
     low, high = share_interval(each.overturning_share, each.stations)
     share = (
-        f"Under the {counted(each.stations, 'record')} of the study, uncertain inputs considered, it overturns with a "
-        f"share of {percent(each.overturning_share)} % (90 % interval over records: {percent(low)} to "
-        f"{percent(high)} %)."
+        f"Under the {counted(each.records, 'record')} of {counted(each.stations, 'station')} of the study, uncertain "
+        f"inputs considered, it overturns with a share of {percent(each.overturning_share)} % (90 % interval over "
+        f"stations: {percent(low)} to {percent(high)} %)."
     )
     return f"{share} {_reserve(each)}"
 
@@ -212,7 +261,7 @@ def _reserve(each: CheckedStructure) -> str:
 
 
 def share_interval(share: float, count: int) -> tuple[float, float]:
-    """Return the 90 % interval of a share of `count` records after Wilson (1927)."""
+    """Return the 90 % interval of a share of `count` stations after Wilson (1927)."""
     squared = _QUANTILE**2 / count
     centre = (share + squared / 2) / (1 + squared)
     half = math.sqrt(share * (1 - share) * squared + squared**2 / 4) / (1 + squared)
@@ -222,12 +271,12 @@ def share_interval(share: float, count: int) -> tuple[float, float]:
 @styled
 def _structure_figure(structure: Structure, checked: StructureCheck) -> Figure:
     """Three panels: the structure with sizes and loads, its mechanism, and the capacity curve."""
-    figure = new_figure(76.0)
+    figure = new_figure(_FIGURE_HEIGHT)
     mechanism = checked.governing
-    drawn = panel_at(figure, 2, 6, 46, 68)
-    draw_structure(drawn, structure)
-    draw_dimensions(drawn, structure.dimensions())
-    turned = panel_at(figure, 50, 6, 46, 68)
+    drawn = panel_at(figure, 2, 4, 60, _FIGURE_HEIGHT - 10)
+    draw_structure(drawn, structure, values=True)
+    draw_dimensions(drawn, structure.dimensions(), values=True)
+    turned = panel_at(figure, 62, 4, 36, _FIGURE_HEIGHT - 10)
     critical = mechanism.static.side.critical_rotation
     draw_structure(turned, mechanism.body, mechanism.sign * _TURNED * critical)
     for axes, title in ((drawn, "sizes and loads"), (turned, "mechanism")):
@@ -236,7 +285,7 @@ def _structure_figure(structure: Structure, checked: StructureCheck) -> Figure:
         axes.margins(0.08)
         axes.autoscale_view()
         axes.set_axis_off()
-    _draw_capacity(panel_at(figure, 112, 6, 56, 56), mechanism)
+    _draw_capacity(panel_at(figure, 112, 4, 56, _FIGURE_HEIGHT - 13), mechanism)
     return figure
 
 

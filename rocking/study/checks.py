@@ -1,12 +1,12 @@
 """The checks of every structure of a study at its design level: their table, and the page of each."""
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
 from rocking.assessment.dynamic_check import StructureCheck, check
 from rocking.assessment.rows.of_check import KINDS, CodeCheckRow, code_check_rows
-from rocking.assessment.rows.of_record import VerdictRow
+from rocking.assessment.rows.of_record import RecordRow, VerdictRow
 from rocking.assessment.verdict import Doubt
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records import load_catalogue
@@ -34,10 +34,11 @@ def write_checks(study: Study, folder: Path, tell: Callable[[str], None] = lambd
         )
     selection, notices = _sets(study)
     verdicts = read_table(VerdictRow, folder)
+    station_of = {each.record: _station(each) for each in read_table(RecordRow, folder)}
     pages = []
     for name, structure in study.structures.items():
         own = [each for each in verdicts if each.structure == name]
-        page = _checked(name, structure, design, spectrum, selection, own)
+        page = _checked(name, structure, design, spectrum, selection, own, station_of)
         pages.append(page)
         tell(f"{name}: {page.refusal or _told(page.checked)}")
     rows: Iterable[CodeCheckRow] = (
@@ -55,8 +56,12 @@ def _checked(
     spectrum: DesignSpectrum,
     selection: Selection | None,
     verdicts: Sequence[VerdictRow],
+    station_of: Mapping[str, str],
 ) -> CheckedStructure:
-    """The checks of one structure beside its verdicts in the study; where it cannot be checked, why."""
+    """The checks of one structure beside its verdicts in the study; where it cannot be checked, why.
+
+    station_of: the station of each record, by its identifier.
+    """
     checked: StructureCheck | None = None
     refusal = ""
     try:
@@ -73,18 +78,35 @@ def _checked(
         )
     except RockingError as error:
         refusal = f"It could not be checked: {error}"
-    shares = [each.overturning_share for each in verdicts]
-    known = [share for share in shares if not math.isnan(share)]
+    known = [each for each in verdicts if not math.isnan(each.overturning_share)]
+    shares = shares_by_station(known, station_of)
     return CheckedStructure(
         name=name,
         structure=structure,
         checked=checked,
         refusal=refusal,
-        overturning_share=sum(known) / len(known) if known else math.nan,
-        stations=len(known),
+        overturning_share=sum(shares) / len(shares) if shares else math.nan,
+        records=len(known),
+        stations=len(shares),
         reserves=[each.reserve for each in verdicts if each.reserve is not None],
         reserve_doubts=_reserve_doubts(structure, verdicts),
     )
+
+
+def shares_by_station(verdicts: Iterable[VerdictRow], station_of: Mapping[str, str]) -> list[float]:
+    """Return the share that overturns under each station, the mean over its records: these are not independent.
+
+    station_of: the station of each record, by its identifier.
+    """
+    shares: dict[str, list[float]] = {}
+    for each in verdicts:
+        shares.setdefault(station_of[each.record], []).append(each.overturning_share)
+    return [sum(own) / len(own) for own in shares.values()]
+
+
+def _station(record: RecordRow) -> str:
+    """The station in one earthquake that a record is of; the record itself where its file names none."""
+    return f"{record.event}, {record.station}" if record.station else record.record
 
 
 def _reserve_doubts(structure: Structure, verdicts: Iterable[VerdictRow]) -> list[Doubt]:

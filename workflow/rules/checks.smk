@@ -4,6 +4,7 @@
 rule checks:
     input:
         f"{SUMMARY}/verdicts.csv",
+        f"{SUMMARY}/record.csv",
     output:
         table=f"{SUMMARY}/code_checks.csv",
         description=f"{SUMMARY}/code_checks.json",

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from rocking.assessment.code_check import Check
 from rocking.assessment.dynamic_check import DynamicCheck, StructureCheck
 from rocking.assessment.rows.of_record import STRUCTURE
+from rocking.quantities import counted
 from rocking.tables import Row, column, row
 
 KINDS = {
@@ -101,9 +102,10 @@ def _where_it_is(displacement: float) -> float:
 def disagreement(checked: StructureCheck, overturning_share: float, stations: int) -> str:
     """Return the sentence on where the formulas and the dynamics disagree, with both figures; "" where they do not.
 
-    overturning_share: of the records of the study; nan where there are none. Formulas that are met disagree with a
-    dynamic check that is not, or with a structure that overturns under more than a tenth of the records; those that are
-    not met, with a dynamic check that is and a structure that never overturns.
+    overturning_share: of the records of the study; nan where there are none. stations: how many these are of.
+    Formulas that are met disagree with a dynamic check that is not or that depends on the set, or with a structure that
+    overturns under more than a tenth of the records; those that are not met, with a dynamic check that is and a
+    structure that never overturns.
     """
     formulas = [each for each in checked.checks if not isinstance(each, DynamicCheck)]
     met = [each for each in formulas if each.passed]
@@ -150,7 +152,7 @@ def _against_failed(dynamic: DynamicCheck | None, overturning_share: float, stat
 
 def _of_records(overturning_share: float, stations: int) -> str:
     share = f"{100 * overturning_share:.0f} %"
-    return f"under the {stations} records of the study it overturns with a share of {share}"
+    return f"under the records of the study, of {counted(stations, 'station')}, it overturns with a share of {share}"
 
 
 _OFTEN = 0.1

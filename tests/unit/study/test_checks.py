@@ -10,11 +10,11 @@ import pytest
 from rocking import Block, DesignSpectrum, Facade, check
 from rocking.assessment.dynamic_check import DynamicCheck
 from rocking.assessment.rows.of_check import CodeCheckRow, disagreement
-from rocking.assessment.rows.of_record import VerdictRow
+from rocking.assessment.rows.of_record import RecordRow, VerdictRow
 from rocking.errors import ConfigurationError
 from rocking.reports.structures import share_interval, structures_data
 from rocking.structures import load_structures
-from rocking.study.checks import write_checks
+from rocking.study.checks import shares_by_station, write_checks
 from rocking.study.job import Study
 from rocking.study.plan import structures_sha256
 from rocking.study.settings import Settings, read_settings
@@ -46,7 +46,7 @@ def study(tmp_path):
         writer = csv.DictWriter(stream, list(rows[0]))
         writer.writeheader()
         writer.writerows(rows)
-    write_tables({VerdictRow: []}, tmp_path)
+    write_tables({VerdictRow: [], RecordRow: []}, tmp_path)
     settings = {"catalogue": str(tmp_path / "catalogue.csv"), "processing": {"apply": "never"}}
     return settings, tmp_path
 
@@ -199,19 +199,33 @@ def test_the_interval_of_a_share_is_that_of_wilson():
     assert share_interval(0.0, 20)[0] == 0 and share_interval(1.0, 20)[1] == 1
 
 
+def test_records_of_one_station_count_once():
+    """Two components of one station, of which one lets it fall, and two other stations: a half, 0 and 1."""
+    shares = {"a_ns": 1.0, "a_ew": 0.0, "b": 0.0, "c": 1.0}
+    stations = {"a_ns": "quake, a", "a_ew": "quake, a", "b": "quake, b", "c": "c"}
+    verdicts = [SimpleNamespace(record=name, overturning_share=share) for name, share in shares.items()]
+    assert shares_by_station(verdicts, stations) == [0.5, 0.0, 1.0]
+
+
 def test_the_page_names_the_client_and_what_the_checks_rest_on():
     from rocking.reports.structures import CheckedStructure
 
     spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
     checked = check(STRUCTURES["parapet"], spectrum)
     page = CheckedStructure(
-        name="parapet", structure=STRUCTURES["parapet"], checked=checked, overturning_share=0.5, stations=4
+        name="parapet",
+        structure=STRUCTURES["parapet"],
+        checked=checked,
+        overturning_share=0.5,
+        records=6,
+        stations=4,
     )
     settings = Settings(client="The town").mapping()
     data = structures_data([page], spectrum, settings)
     assert data["about"]["client"] == "The town"
     (text,) = data["pages"]
-    assert "50 %" in text["share"] and text["figure"][0]["svg"].startswith("<?xml")
+    assert "6 records of 4 stations" in text["share"] and "50 %" in text["share"]
+    assert text["figure"][0]["svg"].startswith("<?xml")
     assert f"T_SLV = {checked.limit.period:.3g}" in " ".join(text["sentences"])
     assert [line[0] for line in text["checks"]["rows"]] == ["linear", "nonlinear"]
 
