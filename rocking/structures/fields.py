@@ -86,6 +86,11 @@ class Field(Described):
         """The unit as it follows a number."""
         return self.unit if self.unit in ("", "°") else f" {self.unit}"
 
+    @property
+    def is_as_typed(self) -> bool:
+        """Whether the attribute has the unit of the file."""
+        return self.unit not in _SI
+
     def inward(self, value: object) -> object:
         """Return a value of the file as the constructor takes it: in SI and radians, a list as a tuple."""
         if isinstance(value, list | tuple):

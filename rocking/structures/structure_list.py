@@ -70,9 +70,22 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
         form.keys[key].name: form.keys[key].inward(value) for key, value in values.items()
     }
     make: Callable[..., Structure] = getattr(TYPES[kind], form.make) if form.make else TYPES[kind]
-    structure = make(**arguments)
+    try:
+        structure = make(**arguments)
+    except StructureError as error:
+        raise type(error)(_by_key(str(error), form, values, arguments)) from None
     structure.typed(values, {key: typed_text(value) for key, value in values.items()} | dict(texts or {}))
     return structure
+
+
+def _by_key(sentence: str, form: Form, values: Mapping[str, object], arguments: Mapping[str, object]) -> str:
+    """Return a sentence on an attribute as one on the key of the file, and its value as it was typed."""
+    for key, value in values.items():
+        field = form.keys[key]
+        begin = f"{field.name} is {shown(arguments[field.name])}"
+        if field.is_as_typed and sentence.startswith(begin):
+            return f"{key} is {shown(value)}{sentence.removeprefix(begin)}"
+    return sentence
 
 
 def _form(kind: str, values: Mapping[str, object], keys_typed: Iterable[str]) -> Form:
@@ -106,6 +119,8 @@ def _form(kind: str, values: Mapping[str, object], keys_typed: Iterable[str]) ->
     return form
 
 
+_LONGEST_NAME = 200
+"""Characters of the name of a structure: what a table and a page still show."""
 _LONGEST_KEY = 80
 """Characters of a key that is compared with those that exist, and repeated as it is."""
 
@@ -197,6 +212,10 @@ def load_structures(path: str | Path) -> dict[str, Structure]:
         where = f"{path}: structure {number}" + (f" ({_repeated(name)})" if name else "")
         if not isinstance(name, str) or not name.strip():
             defects.append(f"{where}: name is {shown(name)}, but must be a text of its own.")
+        elif len(name) > _LONGEST_NAME:
+            defects.append(
+                f"{where}: name has {len(name)} characters, but may have {_LONGEST_NAME}; shorten it."
+            )
         elif name in names:
             defects.append(f"{where}: the name is already taken by another structure; give each its own.")
         names.append(name)

@@ -31,7 +31,17 @@ def read_yaml(
         node = loader.get_single_node()
         return (None if node is None else loader.construct_document(node)), node
     except (yaml.YAMLError, ValueError) as defect:
-        raise error(f"{path}: the {what} is not valid YAML ({' '.join(str(defect).split())}).") from None
+        raise error(f"{path}: the {what} is not valid YAML{_where_and_why(defect)}.") from None
+
+
+def _where_and_why(defect: yaml.YAMLError | ValueError) -> str:
+    """Return the line of a defect and the defect itself, as the end of a sentence."""
+    mark = getattr(defect, "problem_mark", None)
+    problem = getattr(defect, "problem", None) or " ".join(str(defect).split())
+    where = "" if mark is None else f" in line {mark.line + 1}"
+    if r"'\t'" in problem:
+        return f"{where}: a tab stands where the line begins; indent with blanks"
+    return f"{where}: {problem}"
 
 
 def scalar_value(text: str) -> Any:
@@ -72,7 +82,7 @@ class _StrictLoader(yaml.SafeLoader):  # type: ignore[misc]
             if not isinstance(key, yaml.ScalarNode):
                 raise _refused("a key must be a text", key.start_mark)
             if key.value in keys:
-                raise _refused(f"key {shown(key.value)} is given twice", node.start_mark)
+                raise _refused(f"key {shown(key.value)} is given twice; give it once", key.start_mark)
             keys.add(key.value)
         result: dict[object, object] = super().construct_mapping(node, deep)
         return result
