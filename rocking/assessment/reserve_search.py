@@ -24,11 +24,11 @@ from rocking.assessment.settings import EnsembleSettings
 from rocking.motion.forcing import forcing_of
 from rocking.structures import Mechanism
 
-RUNGS = 512
-"""Rungs within a factor of e: 51 within an amplitude of ± 5 %."""
+RUNGS = 1024
+"""Rungs within a factor of e: 102 within an amplitude of ± 5 %."""
 LATTICE = 1024
 """Points of the lattice that the rungs take their other causes from, one after the other and again from the first."""
-COARSE = 8
+COARSE = 16
 """Every so many rungs are followed first, over the whole ladder: a structure may stand again where it fell before."""
 SHARES = (0.05, 0.5, 0.95)
 """Shares of the members that overturn at the low, the median and the high factor."""
@@ -47,15 +47,18 @@ class Stage(NamedTuple):
     """One stage of the search: the rungs that are followed beside what is known.
 
     spacing: every so many of them. beside: how far beyond the amplitudes that tell of a crossing, and around: how far
-    from a run that falls below the median factor or stands above it, both in the logarithm of the amplitude.
+    from a run that falls below the median factor or stands above it, both in the logarithm of the amplitude. shares:
+    the places in SHARES of those whose crossings count.
     """
 
     spacing: int
     beside: float
     around: float
+    shares: tuple[int, ...] = (0, 1, 2)
 
 
-STAGES = (Stage(4, 0.1, 0.2), Stage(1, 0.05, 0.0))
+STAGES = (Stage(8, 0.1, 0.2), Stage(2, 0.05, 0.0), Stage(1, 0.05, 0.0, shares=(2,)))
+"""The high factor asks for twice the rungs: there the share rises most slowly, and a few runs that stand move it."""
 
 
 def reserve(
@@ -149,7 +152,7 @@ class _Ladder:
         """Return which rungs (n,) a stage asks for."""
         wanted = np.zeros(self.falls.size, dtype=bool)
         crossings = self.crossings()
-        for crossing in crossings:
+        for crossing in (crossings[place] for place in stage.shares):
             if not math.isnan(crossing):
                 first = math.log(crossing * (1 - self.width)) - stage.beside
                 last = math.log(crossing * (1 + self.width)) + stage.beside

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import rocking
-from rocking.assessment.causes import lattice
+from rocking.assessment.causes import CAUSES, lattice
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.reserve_search import reserve
@@ -42,7 +42,7 @@ def _rising(shares: list[float]) -> list[float]:
 
 def _scanned(block: Block, record: Accelerogram, settings: EnsembleSettings) -> list[float]:
     """The factors by following every member through every level, one member after the other."""
-    first, second = lattice(64)[:, 0], lattice(64)[:, 1]
+    first, second = lattice(128)[:, 0], lattice(128)[:, 1]
     amplitudes = 1 + settings.amplitude_range * (2 * first - 1)
     offsets = settings.restitution_range * (2 * second - 1)
     lowest = np.tan(block.slenderness) * 9.80665 / record.peak_acceleration / amplitudes.max()
@@ -60,18 +60,21 @@ def _scanned(block: Block, record: Accelerogram, settings: EnsembleSettings) -> 
 
 
 def test_it_is_what_a_scan_of_every_member_at_every_level_gives():
-    """The scan follows 64 members at every level; the reserve, few. Where a structure stands again between two levels
-    that few meet, the upper factors may differ; of them all, so many must agree as of two halves of an ensemble do."""
+    """The scan follows 128 members at every level; the reserve, few. Single samples of either scatter by some 4 % at the
+    low factor and by more at the high one, where a structure stands again between levels: the mean of eight is compared,
+    which leaves the scatter of one scan, within 10 % in nine of ten."""
     settings = EnsembleSettings(reserve=6.0)
-    shipped = rocking.read("records/20161113_110259_WTMC_20.V2A")[:2]
-    found, expected = [], []
-    for record in (*(_record(3.0, seed) for seed in range(4)), *shipped):
-        own = reserve(BLOCK.mechanism(), GroundMotions.of(record), settings)
-        found.append([own.low, own.median, own.high])
-        expected.append(_scanned(BLOCK, record, settings))
-    ratios = np.array(found) / np.array(expected)
-    assert ratios[:, 0] == pytest.approx(1.0, abs=0.06), "the low factor, to a step of the levels"
-    assert np.mean(np.abs(np.log(ratios)) < np.log(1.1)) >= 0.85
+    shifts = np.random.default_rng(1).random((8, len(CAUSES)))
+    for record in (
+        _record(3.0, 0),
+        _record(3.0, 1),
+        *rocking.read("records/20161113_110259_WTMC_20.V2A")[:2],
+    ):
+        motions = GroundMotions.of(record)
+        samples = [reserve(BLOCK.mechanism(), motions, settings, shift=shift) for shift in shifts]
+        mean = np.exp(np.mean(np.log([(each.low, each.median, each.high) for each in samples]), axis=0))
+        ratios = mean / np.array(_scanned(BLOCK, record, settings))
+        assert np.abs(np.log(ratios)) == pytest.approx(0.0, abs=np.log(1.1))
 
 
 def test_where_one_amplitude_divides_falls_from_the_rest_it_is_that_of_the_uniform_distribution():

@@ -107,6 +107,11 @@ def test_all_defects_of_a_list_stand_in_one_message(load):
         ("- {name: a, type: block, height_m: 1, height_m: 4}", "key 'height_m' is given twice"),
         ("- !!python/object/apply:os.getcwd []", "not valid YAML"),
         ("- &a {name: a, type: block, breadth_m: 1, height_m: 4}", "an anchor or an alias is not read here"),
+        (
+            "- {name: a,\n   type: block, height_m: 1,\n   height_m: 4}",
+            "in line 3: key 'height_m' is given twice",
+        ),
+        ("- name: a\n\ttype: block\n", "in line 2: a tab stands where the line begins; indent with blanks"),
         ("[" * 1000 + "]" * 1000, "nested too deeply"),
         *((f'- {{name: "a{mark}b"}}', "printable") for mark in ("\u202e", r"\u202e", r"\0", r"\ud800")),
         ("# " + "x" * 1_000_000, "larger than 1000000 bytes"),
@@ -116,6 +121,26 @@ def test_all_defects_of_a_list_stand_in_one_message(load):
 def test_a_file_that_is_no_list_is_refused(load, text, message):
     with pytest.raises(ConfigurationError, match=message):
         load(text)
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        ("3.9 m", "height_m is '3.9 m', but must be a number"),
+        ("[3.9]", r"height_m is \[3.9\], but must be a number"),
+        ("-3.9", "height_m is -3.9 m, but must be a number"),
+    ],
+)
+def test_a_value_is_refused_by_the_key_and_as_it_was_typed(load, value, said):
+    with pytest.raises(ConfigurationError, match=rf"structure 1 \(w\): {said}"):
+        load(f"- {{name: w, type: wall, height_m: {value}, thickness_m: 0.4}}")
+
+
+def test_a_name_ends_somewhere(load):
+    text = "- {{name: {name}, type: block, breadth_m: 1, height_m: 4}}"
+    assert list(load(text.format(name="a" * 200))) == ["a" * 200]
+    with pytest.raises(ConfigurationError, match="name has 201 characters, but may have 200; shorten it"):
+        load(text.format(name="a" * 201))
 
 
 def test_sizes_are_said_as_they_were_typed(load):
