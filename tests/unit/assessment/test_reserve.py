@@ -63,7 +63,7 @@ def test_it_is_what_a_scan_of_every_member_at_every_level_gives():
     """The scan follows 128 members at every level; the reserve, few.
 
     Single samples of either scatter by some 4 % at the low factor and by more at the high one, where a structure stands
-    again between levels: the mean of eight is compared, which leaves the scatter of one scan, within 10 % in nine of ten.
+    again between levels: the mean of eight is compared, which leaves the scatter of one scan, 10 % in nine of ten.
     """
     settings = EnsembleSettings(reserve=6.0)
     shifts = np.random.default_rng(1).random((8, len(CAUSES)))
