@@ -41,6 +41,9 @@ LEAST_DAMPING_FACTOR = 0.55
 LONGEST_FIRST_PERIOD = 0.05
 """s; what a spectrum by its points must reach down to, so that its first ordinate may stand for the peak."""
 
+LARGEST_LEVEL = 3 * GRAVITY
+"""m/s²; a design level above it is a number in another unit."""
+
 _LARGEST_FILE = 2**20
 _SOUGHT = 401
 """Periods at which the largest displacement of a spectrum by its points is sought, beside the points."""
@@ -84,6 +87,7 @@ class DesignSpectrum(ABC):
         >>> float(spectrum.acceleration(0.2))
         3.75
         """
+        _check_level("ag", ag)
         return NtcSpectrum(damping=damping, ag=ag, f0=f0, tc_star=tc_star, soil=soil, topography=topography)
 
     @staticmethod
@@ -94,6 +98,7 @@ class DesignSpectrum(ABC):
         """
         periods, accelerations = _read_points(Path(path))
         try:
+            _check_level("the first acceleration", accelerations[0] if accelerations else 1.0)
             return PointSpectrum(damping, tuple(periods), tuple(accelerations))
         except ConfigurationError as error:
             raise ConfigurationError(f"{path}: {error}") from None
@@ -319,6 +324,15 @@ class PointSpectrum(DesignSpectrum):
         return np.asarray(scaled * (1 + share * (reduction - 1)))
 
 
+def _check_level(name: str, level: float) -> None:
+    """Refuse a level that stands in another unit."""
+    if positive(ConfigurationError, name, level, "m/s²") > LARGEST_LEVEL:
+        raise ConfigurationError(
+            f"{name} is {level:g} m/s², which is {level / GRAVITY:.3g} g, but must be {LARGEST_LEVEL:.3g} m/s² or "
+            "less; check the unit."
+        )
+
+
 def _check_points(periods: Sequence[float], accelerations: Sequence[float]) -> None:
     if len(periods) < 2 or len(periods) != len(accelerations):
         raise ConfigurationError(
@@ -358,8 +372,10 @@ def _read_points(path: Path) -> tuple[list[float], list[float]]:
         )
     column = given[0]
     periods = [_number(path, line, "period_s", row["period_s"]) for line, row in rows]
-    accelerations = [_ACCELERATIONS[column] * _number(path, line, column, row[column]) for line, row in rows]
-    return periods, accelerations
+    typed = [_number(path, line, column, row[column]) for line, row in rows]
+    for (line, _), number in zip(rows, typed, strict=True):
+        positive(ConfigurationError, f"{path}, line {line}: {column}", number)
+    return periods, [_ACCELERATIONS[column] * number for number in typed]
 
 
 def _number(path: Path, line: int, name: str, cell: str | None) -> float:

@@ -32,6 +32,27 @@ def test_the_branches_meet_and_have_the_shape_of_the_code(soil, ag):
     assert spectrum.displacement(3 * t_d) == pytest.approx(spectrum.displacement(t_d), rel=ROUNDING)
 
 
+def test_ordinates_at_the_corners_by_hand():
+    """a_g = .2 g, F0 = 2.4, T_C* = .3 s on soil C: S_S = 1.7 − .6 · 2.4 · .2 = 1.412, T_D = 4 · .2 + 1.6 = 2.4 s."""
+    g = 9.80665
+    spectrum = DesignSpectrum.ntc(0.2 * g, 2.4, 0.3, "C")
+    constant = 1.05 * 0.3 ** (1 - 0.33)
+    ground = 0.2 * g * 1.412
+    by_hand = {
+        0.0: ground,
+        constant / 3: ground * 2.4,
+        constant: ground * 2.4,
+        1.0: ground * 2.4 * constant,
+        2.4: ground * 2.4 * constant / 2.4,
+        4.0: ground * 2.4 * constant * 2.4 / 16,
+    }
+    for period, expected in by_hand.items():
+        assert spectrum.acceleration(period) == pytest.approx(expected, rel=ROUNDING)
+    damped = math.sqrt(10 / 13)  # 8 %
+    assert spectrum.acceleration(constant, 0.08) == pytest.approx(ground * 2.4 * damped, rel=ROUNDING)
+    assert spectrum.displacement(4.0) == pytest.approx(spectrum.displacement(2.4), rel=ROUNDING)
+
+
 def test_displacement_is_acceleration_over_the_square_of_the_frequency():
     spectrum = DesignSpectrum.ntc(2.0, 2.5, 0.35, "C")
     periods = np.geomspace(0.01, 6, 50)
@@ -98,7 +119,14 @@ def test_points_of_a_file_and_the_lines_between_them(tmp_path):
     [
         ("period_s,acceleration_g\n0,0.2\n2,0.1\n1,0.3\n", "period 1 s follows 2 s, but periods must ascend"),
         ("period_s,acceleration_g\n-1,0.2\n2,0.1\n", "period is -1.0 s, but must be 0 or more"),
-        ("period_s,acceleration_g\n0,0.2\n2,-0.1\n", "but must be greater than 0"),
+        (
+            "period_s,acceleration_g\n0,0.2\n2,-0.1\n",
+            "line 3: acceleration_g is -0.1, but must be greater than 0.",
+        ),
+        (
+            "period_s,acceleration_m_s2\n0,150\n2,90\n",
+            "the first acceleration is 150 m/s², which is 15.3 g, but",
+        ),
         ("period_s,acceleration_g\n0,0.2\n2,\n", "line 3: acceleration_g is '', but must be a number"),
         ("period_s,acceleration_g\n0,0.2\n", "has 1 periods and 1 accelerations, but must have at least 2"),
         ("period,sa\n0,0.2\n", "columns are period, sa, but must be period_s and one of"),
@@ -116,6 +144,7 @@ def test_a_file_that_is_no_spectrum_is_refused_in_a_sentence(tmp_path, text, sen
     [
         ({"soil": "F"}, "soil is 'F', but must be one of A, B, C, D, E."),
         ({"ag": -1.0}, "ag is -1.0 m/s², but must be greater than 0."),
+        ({"ag": 150.0}, "ag is 150 m/s², which is 15.3 g, but must be 29.4 m/s² or less; check the unit."),
         ({"f0": None}, "f0 is None, but must be a number."),
         ({"tc_star": 0}, "tc_star is 0 s, but must be greater than 0."),
         ({"topography": 2.0}, "topography is 2.0, but must lie between 1 and 1.4."),
