@@ -7,6 +7,7 @@ would have said.
 """
 
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -30,6 +31,9 @@ BELOW = 0.10
 """The allowed deviation of the mean spectrum below the target (NTC 2018, 3.2.3.6)."""
 ABOVE = 0.30
 """The allowed deviation above it (the same place)."""
+
+_LETTERS = 4
+"""First letters in which the names of one earthquake are alike, whatever follows: Northridge-01, NORTHRIDGE EQ."""
 
 _CHUNK = 2000
 _PERIODS_PER_DOUBLING = 8
@@ -137,8 +141,8 @@ def select(
 ) -> Selection:
     """Return sets of `stations` records whose mean spectrum lies within the limits about `spectrum`.
 
-    records: the horizontal components of each, by name; those of one station, by what its files call it, do not meet in
-    a set. periods: shortest and longest of the range that counts, s; the longest should be twice the secant period of
+    records: the horizontal components of each, by name; those of one station, by what its files call it and as far
+    as the shorter name goes, do not meet in a set. periods: shortest and longest of the range that counts, s; the longest should be twice the secant period of
     the structure where that is more than 2 s. factors: least and largest. below, above: shares. sets: how many are
     drawn beside the chosen one. tries: most sets that are drawn. seed: the same one gives the same sets.
     Raises ConfigurationError for fewer stations than asked for, a range or limits that are none, and where no set meets
@@ -161,7 +165,7 @@ def select(
     means = [_mean_spectrum(pair, grid, spectrum.damping) for pair in records.values()]
     own = np.array(means).reshape(-1, count)
     names = tuple(records)
-    places = tuple(_station(name, pair) for name, pair in records.items())
+    places = _stations(records, own)
     scaling = np.clip(np.exp(np.log(target / own).mean(axis=1)), *factors)
     spectra = own * scaling[:, None]
     found, chosen, drawn = search(
@@ -202,10 +206,35 @@ def _mean_spectrum(pair: Sequence[Accelerogram], periods: np.ndarray, damping: f
     return mean
 
 
-def _station(name: str, pair: Sequence[Accelerogram]) -> str:
-    """The identity of a station: network and code as the file gives them, else the name of the record."""
-    first = pair[0]
-    return f"{first.network}.{first.station}".strip(".") or name
+def _stations(records: Mapping[str, Sequence[Accelerogram]], spectra: np.ndarray) -> tuple[str, ...]:
+    """The identities of the stations of a pool: network and code as the files give them, else the name of the record.
+
+    Catalogues differ in how much they add to a name. Of two records of one earthquake, alike in its first letters, those are
+    of one station whose names begin with the same words, as far as the shorter one goes; so are two whose spectra
+    (m, k) are the same, as the motion is.
+    """
+    told: list[tuple[str, list[str], str]] = []
+    of_motion: dict[bytes, str] = {}
+    identities = []
+    for (name, (first, *_)), spectrum in zip(records.items(), spectra, strict=True):
+        event = "".join(re.findall(r"[a-z]+", first.event.lower()))[:_LETTERS]
+        words = re.findall(r"\w+", first.station.lower())
+        identity = f"{first.network}.{first.station}".strip(".") or name
+        if event and words:
+            alike = (
+                earlier
+                for of_event, of_station, earlier in told
+                if of_event == event and _begin_alike(of_station, words)
+            )
+            identity = next(alike, identity)
+            told.append((event, words, identity))
+        identities.append(of_motion.setdefault(np.round(np.log(spectrum), 9).tobytes(), identity))
+    return tuple(identities)
+
+
+def _begin_alike(one: Sequence[str], other: Sequence[str]) -> bool:
+    """Whether the longer list of words begins with the shorter one."""
+    return all(first == second for first, second in zip(one, other, strict=False))
 
 
 # Whole on purpose: one loop draws, judges and remembers, and a reader has to see all it carries from draw to draw.

@@ -1,5 +1,7 @@
 """Sets of records for a design level: their limits by another routine, their stations, their seed, what is refused."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -59,6 +61,36 @@ def test_every_set_has_one_pair_a_station_and_is_another_one(pool, selection):
     for places in (several.chosen, *several.sets):
         assert len(set(stations[places])) == 10
     assert len({tuple(places) for places in selection.sets}) == len(selection.sets) == 40
+
+
+def test_a_station_under_two_names_is_one(pool):
+    """Two catalogues that name an earthquake and a station otherwise; a number that differs is another station."""
+    names = {
+        "one": ("Northridge-01 1994-01-17", "Rinaldi Receiving Sta RRS"),
+        "again": ("NORTHRIDGE EQ 1/17/94", "Rinaldi Receiving Sta"),
+        "elsewhere": ("Kobe", "Rinaldi Receiving Sta X"),
+        "array 1": ("Northridge-01", "El Centro Array #1"),
+        "array 10": ("Northridge-01", "El Centro Array #10"),
+        "unnamed": ("", ""),
+    }
+    records = {
+        name: [replace(each, event=event, station=station, network="") for each in pair]
+        for (name, (event, station)), pair in zip(names.items(), pool.values(), strict=False)
+    }
+    one, again, *others = select(records, SPECTRUM, 1, below=0.9, above=9.0).stations
+    assert one == again
+    assert len({one, *others}) == 5
+
+
+def test_one_motion_under_two_names_is_one_station(pool):
+    """A file that two catalogues list, here as another station, does not count twice; another one does."""
+    first, second, *_ = pool.values()
+    renamed = [replace(each, event="Manjil", station="Abbar") for each in first]
+    named = [replace(each, event="MANJIL 06/20/90", station="MANJIL") for each in first]
+    stations = select(
+        {"one": renamed, "again": named, "other": second}, SPECTRUM, 1, below=0.9, above=9.0
+    ).stations
+    assert stations[0] == stations[1] != stations[2]
 
 
 def test_the_same_seed_gives_the_same_sets(pool, selection):
