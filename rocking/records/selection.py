@@ -141,10 +141,11 @@ def select(
 ) -> Selection:
     """Return sets of `stations` records whose mean spectrum lies within the limits about `spectrum`.
 
-    records: the horizontal components of each, by name; those of one station, by what its files call it and as far
-    as the shorter name goes, do not meet in a set. periods: shortest and longest of the range that counts, s; the longest should be twice the secant period of
-    the structure where that is more than 2 s. factors: least and largest. below, above: shares. sets: how many are
-    drawn beside the chosen one. tries: most sets that are drawn. seed: the same one gives the same sets.
+    records: the horizontal components of each, by name; those of one station, by what its files call it and as far as
+    the shorter name goes, do not meet in a set. periods: shortest and longest of the range that counts, s; the
+    longest should be twice the secant period of the structure where that is more than 2 s. factors: least and
+    largest. below, above: shares. sets: how many are drawn beside the chosen one. tries: most sets that are drawn.
+    seed: the same one gives the same sets.
     Raises ConfigurationError for fewer stations than asked for, a range or limits that are none, and where no set meets
     the limits: it says how near the best one came.
 
@@ -209,9 +210,9 @@ def _mean_spectrum(pair: Sequence[Accelerogram], periods: np.ndarray, damping: f
 def _stations(records: Mapping[str, Sequence[Accelerogram]], spectra: np.ndarray) -> tuple[str, ...]:
     """The identities of the stations of a pool: network and code as the files give them, else the name of the record.
 
-    Catalogues differ in how much they add to a name. Of two records of one earthquake, alike in its first letters, those are
-    of one station whose names begin with the same words, as far as the shorter one goes; so are two whose spectra
-    (m, k) are the same, as the motion is.
+    Catalogues differ in how much they add to a name. Of two records of one earthquake, alike in its first letters,
+    those are of one station whose names begin with the same words, as far as the shorter one goes; so are two whose
+    spectra (m, k) are the same, as the motion is.
     """
     told: list[tuple[str, list[str], str]] = []
     of_motion: dict[bytes, str] = {}
