@@ -291,10 +291,15 @@ def _plot_selection(selection: "Selection", axes: Axes) -> None:
     axes.plot(
         selection.periods, selection.mean, color=RECORD, label=f"mean of {selection.chosen.size} records"
     )
+    _set_over_periods(axes, "spectral acceleration [m/s²]")
+
+
+def _set_over_periods(axes: Axes, quantity: str) -> None:
+    """Set the axes of a spectrum: periods from end to end of its curves, and `quantity` with its unit from 0."""
     plain_logarithmic(axes, "x")
     axes.set_ylim(bottom=0)
     axes.margins(x=0)
-    axes.set(xlabel="period [s]", ylabel="spectral acceleration [m/s²]")
+    axes.set(xlabel="period [s]", ylabel=quantity)
     axes.legend()
 
 
@@ -303,11 +308,7 @@ def _plot_response_spectrum(spectrum: "ResponseSpectrum", axes: Axes) -> None:
     axes.plot(
         spectrum.periods, spectrum.pseudo_acceleration, color=RECORD, label=f"damping {spectrum.damping:.0%}"
     )
-    plain_logarithmic(axes, "x")
-    axes.set_ylim(bottom=0)
-    axes.margins(x=0)
-    axes.set(xlabel="period [s]", ylabel="pseudo-acceleration [m/s²]")
-    axes.legend()
+    _set_over_periods(axes, "pseudo-acceleration [m/s²]")
 
 
 def _plot_structure(

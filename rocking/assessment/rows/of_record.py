@@ -42,6 +42,8 @@ COMPONENT = "Component of the ground motion, as the file names it"
 STRUCTURE = "Name of the structure in the structure list"
 SCALE_FACTOR = "Factor of the catalogue on the accelerations of the file"
 RECORD_SHA256 = "SHA-256 of the file the record was read from"
+VERDICT = "stands, overturns, undecided, unknown (a component failed), or cannot overturn"
+OVERTURNING_SHARE = "Share of the members, never of stacks, that overturn; of a single run 0 or 1"
 PEAK_SIDE = "Side of the largest rotation or of the overturning: 1, -1, or 0 without uplift"
 
 
@@ -83,14 +85,10 @@ class CaseRow(ComponentRow):
 class MembersRow(CaseRow):
     """A row about the members of the ensemble that speaks for a case."""
 
-    verdict: Verdict = column(
-        "stands, overturns, undecided, unknown (a component failed), or cannot overturn"
-    )
+    verdict: Verdict = column(VERDICT)
     overturning_members: int = column("Number of members that overturn")
     members: int = column("Number of members; 0 without an ensemble")
-    overturning_share: float = column(
-        "Share of the members, never of stacks, that overturn; of a single run 0 or 1"
-    )
+    overturning_share: float = column(OVERTURNING_SHARE)
     crack: str = column("Crack that governs, to which the numbers belong; empty where only one may form")
     statics_crack: str = column(
         "Crack of statics where another governs; beside a crack that is given, the worst other"
@@ -286,12 +284,8 @@ class SupportRow(CaseRow):
     )
     floor_pulse_amplitude_m_s2: float = column("Signed amplitude of the dominant sine on the support")
     floor_pulse_period_s: float = column("Period of the dominant sine on the support")
-    verdict: Verdict = column(
-        "stands, overturns, undecided, unknown (a component failed), or cannot overturn"
-    )
-    overturning_share: float = column(
-        "Share of the members, never of stacks, that overturn; of a single run 0 or 1"
-    )
+    verdict: Verdict = column(VERDICT)
+    overturning_share: float = column(OVERTURNING_SHARE)
 
 
 @row("variations")

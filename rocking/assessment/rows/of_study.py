@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from enum import StrEnum
 from itertools import product
 from typing import TYPE_CHECKING
@@ -87,33 +88,28 @@ class SpectrumRow(Row):
 def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow]:
     """Yield the row of each structure."""
     for name, structure in structures.items():
+        held = _held_row(name, structure)
         mechanism = structure.mechanism()
         side = mechanism.positive
         if not side.can_overturn:
-            yield _held_row(name, structure)
+            yield held
             continue
         linearised = mechanism.equivalent_block("linearised")
         uplift = mechanism.equivalent_block("uplift")
-        yield StructureRow(
-            structure=name,
-            type=structure.type_name,
-            geometry=structure.description,
-            crack=structure.crack_name,
+        yield replace(
+            held,
             frequency_parameter_rad_s=side.frequency_parameter,
             critical_rotation_rad=side.critical_rotation,
-            uplift_multiplier=mechanism.uplift_multiplier,
-            static_multiplier=structure.static_multiplier,
             acceleration_scale_linearised=linearised.acceleration_scale,
             acceleration_scale_uplift=uplift.acceleration_scale,
             linearised_over_true_uplift=linearised.uplift_multiplier / side.uplift_multiplier,
-            restitution=side.restitution,
             restoring_defect=mechanism.block_defects.restoring,
             forcing_defect=mechanism.block_defects.forcing,
         )
 
 
 def _held_row(name: str, structure: Structure) -> StructureRow:
-    """The row of a structure that cannot overturn to the positive side, and so is no block there."""
+    """Return the row of a structure without the figures of its equivalent block, which only what overturns has."""
     mechanism = structure.mechanism()
     return StructureRow(
         structure=name,

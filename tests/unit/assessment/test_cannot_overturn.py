@@ -11,19 +11,8 @@ from rocking.assessment.verdict import ORDER, Verdict
 from rocking.errors import StructureError
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
-from rocking.structures import LoadedWall
+from tests.made_structures import HELD
 
-HELD = LoadedWall.hinged_at(
-    3.2,
-    1.9,
-    0.25,
-    20e3,
-    tie_heights=(1.6,),
-    tie_stiffness=5e7,
-    one_sided=True,
-    restitution=0.7,
-    crack="known",
-)
 FREE_INWARDS = replace(HELD, one_sided=False)
 SPECTRUM = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
 

@@ -19,16 +19,8 @@ from rocking.study.job import Study
 from rocking.study.plan import structures_sha256
 from rocking.study.settings import Settings, read_settings
 from rocking.tables import read_table, write_tables
-from tests.made_pools import made_pool
+from tests.made_pools import DESIGN, made_pool
 
-DESIGN = {
-    "ag_g": 0.2,
-    "f0": 2.5,
-    "tc_star_s": 0.4,
-    "stations": 3,
-    "shortest_period_s": 0.6,
-    "longest_period_s": 0.9,
-}
 STRUCTURES = {
     "parapet": Block.of_size(0.45, 3.0),
     "front": Facade((3.5, 3.0), (0.6, 0.5), 20e3, floor_loads=(12e3, 6e3)),

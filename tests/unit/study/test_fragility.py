@@ -12,11 +12,12 @@ from rocking.errors import ConfigurationError
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.reports.fragility import write_fragility_report
-from rocking.structures import Block, LoadedWall, Spire
+from rocking.structures import Block, Spire
 from rocking.study.job import Study
 from rocking.study.settings import Settings, StudyFragility
 from rocking.study.summary import write_fragility
 from rocking.tables import read_rows
+from tests.made_structures import HELD
 
 STRUCTURES = {"slender": Block.of_size(0.5, 3.0), "stout": Block.of_size(1.0, 3.0), "spire": Spire(1.0, 6.0)}
 
@@ -37,25 +38,14 @@ def _records(folder: Path, count: int) -> list[CatalogueRecord]:
 
 
 def test_what_cannot_overturn_is_left_out_and_said(tmp_path):
-    held = LoadedWall.hinged_at(
-        3.2,
-        1.9,
-        0.25,
-        20e3,
-        tie_heights=(1.6,),
-        tie_stiffness=5e7,
-        one_sided=True,
-        restitution=0.7,
-        crack="known",
-    )
     records = _records(tmp_path, 2)
-    both = replace(_study(), structures={"held": held, "slender": STRUCTURES["slender"]})
+    both = replace(_study(), structures={"held": HELD, "slender": STRUCTURES["slender"]})
     (unused,) = write_fragility(records, both, tmp_path / "out")
     assert unused.startswith("held: it cannot overturn, and has no fragility: it lifts at 0.263 g")
     rows = read_rows(FragilitySummaryRow, tmp_path / "out" / FragilitySummaryRow.table.file_name)
     assert {row.structure for row in rows} == {"slender"}
     with pytest.raises(ConfigurationError, match="no structure of the list can overturn"):
-        write_fragility(records, replace(both, structures={"held": held}), tmp_path / "none")
+        write_fragility(records, replace(both, structures={"held": HELD}), tmp_path / "none")
     assert not (tmp_path / "none").exists()
 
 

@@ -11,16 +11,7 @@ from rocking.records import load_catalogue, open_record
 from rocking.study.cli import main
 from rocking.study.selection import joined_by_station
 from rocking.study.settings import read_settings
-from tests.made_pools import made_pool
-
-DESIGN = {
-    "ag_g": 0.2,
-    "f0": 2.5,
-    "tc_star_s": 0.4,
-    "stations": 3,
-    "shortest_period_s": 0.6,
-    "longest_period_s": 0.9,
-}
+from tests.made_pools import DESIGN, made_pool
 
 
 @pytest.fixture
