@@ -25,7 +25,7 @@ ROOT = Path(__file__).parents[2]
 IGNORED = shutil.ignore_patterns(".*", "results", "benchmarks")
 MOST_SECONDS = 240.0
 """Of the tests of one mutant, in seconds of the code as it is; the others are left out, and it is said."""
-KERNELS = ("linear_kernel", "nonlinear_kernel", "kernel", "scan")
+KERNELS = ("linear_kernel", "nonlinear_kernel", "stack_kernel", "kernel", "scan")
 LOOKS = {
     "alpha", "dpi", "fontsize", "hspace", "labelpad", "linewidth", "linewidths", "markeredgewidth", "markersize",
     "mutation_scale", "pad", "size", "wspace", "zorder",

@@ -7,6 +7,7 @@ import pytest
 
 import rocking
 from rocking import Block, DesignSpectrum, Mechanism, Members, Mode, Support, integrate_members, select
+from rocking.assessment import dynamic_check
 from tests.made_pools import made_pool
 
 SPECTRUM = DesignSpectrum.ntc(2.0, 2.5, 0.4)
@@ -128,3 +129,14 @@ def test_the_interval_of_the_share_covers_what_sets_of_other_stations_say():
         for each, share in zip(found, fresh, strict=True)
     ]
     assert sum(held) >= 9, [(each.share, each.interval) for each in found]
+
+
+def test_it_is_called_met_from_ninety_five_sets_of_a_hundred_on(records, monkeypatch):
+    """Of 200 sets 190 are just enough, and 189 are not."""
+    block = Block.of_size(2.5, 3.0)
+    for met, is_called in ((190, True), (189, False)):
+        monkeypatch.setattr(
+            dynamic_check, "_met", lambda use, falls, sets, met=met: np.arange(len(sets)) < met
+        )
+        found = rocking.check(block, SPECTRUM, records=replace(records, sets=records.sets[:200])).dynamic
+        assert found.share == met / 200 and found.passed is is_called

@@ -10,7 +10,15 @@ from rocking.assessment import fidelity
 from rocking.assessment.assess import assess_case
 from rocking.assessment.component import component_of
 from rocking.assessment.ensemble import ensemble
-from rocking.assessment.fidelity import NUDGES, Tier, cheapest_answer, estimated, read_tiers, stays_at_rest
+from rocking.assessment.fidelity import (
+    NUDGES,
+    Tier,
+    TierFit,
+    cheapest_answer,
+    estimated,
+    read_tiers,
+    stays_at_rest,
+)
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.verdict import Method, Verdict
@@ -156,3 +164,23 @@ def test_a_structure_is_like_those_behind_it_within_a_twentieth_of_their_range(n
 def test_a_block_that_stays_up_counts_as_turned_to_twice_its_critical_rotation_at_most():
     at, beyond = (fidelity.from_nudged(np.array([0.1, 0.2, each, 0.3, each])) for each in (2.0, 2.5))
     assert at == beyond and at["block"] == at["block_high"] == pytest.approx(math.log(2.0), rel=1e-12)
+
+
+def test_an_estimate_is_the_logistic_curve_with_its_ends_on_either_side():
+    """By hand: log odds 0.4 + 1.5 (3 − 2)/0.5 = 3.4, of which the variance is 0.04 + 2 · 2 · 0.01 + 4 · 0.09 = 0.44."""
+    tier = Tier.PEAK_VELOCITY
+    terms = len(tier.terms)
+    centre, spread = np.full(terms, 2.0), np.full(terms, 0.5)
+    slopes, covariance = np.zeros(terms + 1), np.zeros((terms + 1, terms + 1))
+    slopes[:2] = 0.4, 1.5
+    covariance[:2, :2] = [[0.04, 0.01], [0.01, 0.09]]
+    fit = TierFit(tier, centre, spread, slopes, covariance, {}, lapse=0.1)
+    measures = dict.fromkeys(tier.terms, 2.0) | {tier.terms[0]: 3.0}
+    found = fit.estimate(measures)
+    reach = 1.6448536269514722 * math.sqrt(0.44)
+    share, low, high = (1 / (1 + math.exp(-(3.4 + side * reach))) for side in (0, -1, 1))
+    assert found.share == pytest.approx(0.9 * share, rel=1e-12)
+    # The quantile of the normal distribution has five digits.
+    assert (found.low, found.high) == pytest.approx((0.9 * low, high), rel=1e-5)
+    outside = TierFit(tier, centre, spread, slopes, covariance, {tier.terms[0]: (1.0, 1.5)})
+    assert outside.estimate(measures) is None

@@ -18,6 +18,7 @@ from rocking.assessment.settings import EnsembleSettings
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate
 from rocking.motion.batch import integrate_batch
+from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Block
 
@@ -329,3 +330,26 @@ def test_what_curve_and_hazard_leave_out_is_said():
     falling = fragility_of(np.array([0.1, 0.2]), np.ones((4, 2)), list("abcd"))
     # between 0.1 and 0.5, which the hazard curve does not reach, there occurs 0.8 − 0.16
     assert annual_rate(falling, points)["annual_rate_remainder"] == pytest.approx(0.64, rel=0.02)
+
+
+def test_of_statics_or_of_what_governs_as_it_is_asked():
+    """Of two records the crack of statics overturns under one, and the worst crack under both."""
+    levels = np.array([1.0, 2.0])
+    statics = np.array([[[0.1], [np.inf]], [[0.1], [0.2]]])
+    worst = np.array([[[0.1], [np.inf]], [[np.inf], [np.inf]]])
+    measure = INTENSITY_MEASURES["pga"]
+    analysis = IncrementalDynamicAnalysis(measure, levels, statics, np.ones(2), ("a", "b"), worst)
+    assert analysis.fragility().probability.tolist() == [0.0, 0.5]
+    assert analysis.fragility(governing=True).probability.tolist() == [0.5, 1.0]
+    alone = replace(analysis, governing_ratios=None)
+    assert alone.fragility(governing=True).probability.tolist() == [0.0, 0.5]
+
+
+def test_a_level_at_the_largest_factor_itself_is_reached():
+    """Quotients are rounded: a record that needs the largest factor but for rounding does not leave the level."""
+    records = [_record(period, str(k)) for k, period in enumerate((0.7, 0.9, 1.3))]
+    scaled = [each.scaled(0.1 * GRAVITY / each.peak_acceleration) for each in records]
+    levels = 0.1 * 7 * np.array([0.5, 1 + 5e-10, 1 + 1e-6])
+    curve = fragility(scaled, BLOCK, intensity_measure="pga", levels=levels, largest_factor=7.0)
+    assert curve.levels.tolist() == levels[:2].tolist()
+    assert not np.isnan(curve.analysis.rotation_ratios).any()
