@@ -26,6 +26,9 @@ CONFIDENCE_FACTOR = 1.35
 BEHAVIOUR_FACTOR = 2.0
 """q of the linear check where no better one is known (C8.7.1.2.1.7)."""
 
+_LARGE_RATIO = 100.0
+"""A ratio beyond which a reader learns nothing from its digits."""
+
 _SAME = 1e-9
 """Relative difference below which two levels are one but for rounding: the mechanism that is named first decides."""
 
@@ -60,6 +63,11 @@ class Check:
     def passed(self) -> bool:
         """Whether the check is met."""
         return not self.refusal and self.capacity >= self.demand
+
+    @property
+    def ratio_in_words(self) -> str:
+        """The ratio to three digits; that of a structure that hardly moves says no more than that it is large."""
+        return f"{self.ratio:#.3g}" if self.ratio <= _LARGE_RATIO else f"> {_LARGE_RATIO:g}"
 
     @property
     def outcome(self) -> str:

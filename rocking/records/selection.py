@@ -35,6 +35,9 @@ ABOVE = 0.30
 _LETTERS = 4
 """First letters in which the names of one earthquake are alike, whatever follows: Northridge-01, NORTHRIDGE EQ."""
 
+_PATIENCE = 100_000
+"""Sets none of which lay within the limits after which no more are drawn."""
+
 _CHUNK = 2000
 _PERIODS_PER_DOUBLING = 8
 
@@ -136,7 +139,7 @@ def select(
     below: float = BELOW,
     above: float = ABOVE,
     sets: int = SETS,
-    tries: int = 100_000,
+    tries: int = 1_000_000,
     seed: int = 0,
 ) -> Selection:
     """Return sets of `stations` records whose mean spectrum lies within the limits about `spectrum`.
@@ -247,13 +250,14 @@ def search(
     below: float = BELOW,
     above: float = ABOVE,
     sets: int = SETS,
-    tries: int = 100_000,
+    tries: int = 1_000_000,
     seed: int = 0,
 ) -> tuple[np.ndarray, np.ndarray, int]:
     """Return sets (s, count) of places whose mean ratio lies within the limits, the nearest one, and how many it drew.
 
     ratios: (m, k), spectrum over target. All `tries` are drawn unless twice as many sets as asked for were within the
-    limits; the nearest one is the least in the mean square of its logarithms. Raises ConfigurationError as `select`.
+    limits, or of the first 100 000 none; the nearest one is the least in the mean square of its
+    logarithms. Raises ConfigurationError as `select`.
     """
     names = np.unique(np.asarray(stations))
     if names.size < count:
@@ -280,7 +284,7 @@ def search(
         distances.append((np.log(means[within_limits]) ** 2).mean(axis=1))
         drawn += len(places)
         number += int(within_limits.sum())
-        if number > 2 * sets:
+        if number > 2 * sets or (not number and drawn >= _PATIENCE):
             break
     if not number:
         raise ConfigurationError(

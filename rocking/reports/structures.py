@@ -166,7 +166,7 @@ def _check_table(checked: StructureCheck) -> dict[str, object]:
             each.clause,
             _valued(each, each.capacity),
             _valued(each, each.demand),
-            number(each.ratio),
+            each.ratio_in_words,
             {"text": each.outcome, "strong": True},
             each.mechanism,
         ]

@@ -120,7 +120,7 @@ def _reserve_doubts(structure: Structure, verdicts: Iterable[VerdictRow]) -> lis
 def _told(checked: StructureCheck | None) -> str:
     """The checks in a line."""
     checks = checked.checks if checked else ()
-    words = ", ".join(f"{KINDS[each.clause]} {each.outcome} ({each.ratio:.3g})" for each in checks)
+    words = ", ".join(f"{KINDS[each.clause]} {each.outcome} ({each.ratio_in_words})" for each in checks)
     return f"{words}. {checked.remark}" if checked and checked.remark else words
 
 

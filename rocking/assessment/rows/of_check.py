@@ -123,7 +123,7 @@ def disagreement(checked: StructureCheck, overturning_share: float, stations: in
 def _with_ratios(checks: Sequence[Check], outcome: str) -> str:
     """The checks of one outcome with their ratios: "The linear check is met with a ratio of 1.08"."""
     names = " and the ".join(KINDS[each.clause] for each in checks)
-    ratios = " and ".join(f"{each.ratio:.3g}" for each in checks)
+    ratios = " and ".join(f"{each.ratio_in_words}" for each in checks)
     if len(checks) == 1:
         return f"The {names} check is {outcome} with a ratio of {ratios}"
     return f"The {names} check are {outcome} with ratios of {ratios}"
@@ -146,7 +146,7 @@ def _against_met(dynamic: DynamicCheck | None, overturning_share: float, station
 def _against_failed(dynamic: DynamicCheck | None, overturning_share: float, stations: int) -> str:
     """The finding of the dynamics that speaks against formulas that are not met; "" where there is none."""
     if dynamic is not None:
-        return f"the dynamic check is with one of {dynamic.ratio:.3g}" if dynamic.passed else ""
+        return f"the dynamic check is with one of {dynamic.ratio_in_words}" if dynamic.passed else ""
     return _of_records(overturning_share, stations) if overturning_share == 0 else ""
 
 

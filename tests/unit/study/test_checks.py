@@ -134,7 +134,7 @@ def test_formulas_and_dynamics_that_disagree_are_told_with_both_figures():
         checks = tuple(each for each in (checked.linear, checked.nonlinear, dynamic) if each)
         return disagreement(SimpleNamespace(dynamic=dynamic, checks=checks), share, 20)
 
-    ratios = f"{formulas.linear.ratio:.3g} and {formulas.nonlinear.ratio:.3g}"
+    ratios = f"{formulas.linear.ratio_in_words} and {formulas.nonlinear.ratio_in_words}"
     assert said(found(True)) == said(None) == ""
     assert said(found(False, 3)).startswith(
         f"The linear and the nonlinear check are met with ratios of {ratios}, but the dynamic check is not: "
@@ -144,12 +144,12 @@ def test_formulas_and_dynamics_that_disagree_are_told_with_both_figures():
     assert "overturns with a share of 25 %" in said(None, 0.25)
     weak = check(Block.of_size(0.1, 2.0), spectrum)
     assert "are not met with ratios of" in said(found(True), checked=weak)
-    assert "but the dynamic check is with one of 2" in said(found(True), checked=weak)
+    assert "but the dynamic check is with one of 2.00" in said(found(True), checked=weak)
     one_of_each = check(
         Block.of_size(0.3, 1.6), DesignSpectrum.ntc(1.2, 2.45, 0.33, "B"), elastic_period=0.11
     )
     assert not one_of_each.linear.passed and one_of_each.nonlinear.passed
-    passed = f"{one_of_each.linear.ratio:.3g}, but the dynamic check is with one of 2"
+    passed = f"{one_of_each.linear.ratio_in_words}, but the dynamic check is with one of 2.00"
     assert said(found(True), checked=one_of_each) == f"The linear check is not met with a ratio of {passed}."
 
 
@@ -266,3 +266,8 @@ def test_the_report_of_a_record_draws_the_design_level_beside_its_spectra(study)
     target = next(line for line in axes.lines if line.get_label() == "design level")
     assert target.get_ydata() == pytest.approx(level.acceleration(target.get_xdata()))
     assert DesignSettings.told({}).spectrum() is None
+
+
+def test_a_ratio_of_what_hardly_moves_says_that_it_is_large():
+    assert found(True, demand=1e-9).ratio_in_words == found(True, demand=0.0).ratio_in_words == "> 100"
+    assert found(True, demand=0.05).ratio_in_words == "2.00"
