@@ -8,9 +8,8 @@ from typing import Any
 import rocking
 from docs.paper.report import equation_rows, equivalence_figures
 from docs.site.drawings import forms
+from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, HistoryRow, SpectrumRow
 from rocking.assessment.rows.of_check import CodeCheckRow
-from rocking.assessment.rows.of_record import RECORD_TABLES, HistoryRow
-from rocking.assessment.rows.of_study import SUMMARY_TABLES, SpectrumRow
 from rocking.described import described_values, parts_of
 from rocking.pulses import PULSE_METHODS
 from rocking.quantities import ACCELERATION_UNITS

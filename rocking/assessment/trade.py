@@ -11,7 +11,7 @@ import numpy as np
 
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.ground_motions import GroundMotions
-from rocking.assessment.rows.of_study import TradeMethod, TradeRow
+from rocking.assessment.rows import TradeMethod, TradeRow
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.verdict import Agreement, agreement, ratio, rests
 from rocking.errors import PulseError, RockingError

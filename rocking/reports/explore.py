@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rocking.assessment.case import RecordResult, StationResult
-from rocking.assessment.rows.of_record import ComparisonRow, RecordRows
+from rocking.assessment.rows import ComparisonRow, RecordRows
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict
 from rocking.motion.response import Response
 from rocking.quantities import GRAVITY, counted

@@ -13,15 +13,16 @@ import numpy as np
 from rocking.assessment.case import RecordResult, StationResult, swept_over
 from rocking.assessment.causes import Origin
 from rocking.assessment.deciding import CRACK, deciding
-from rocking.assessment.rows.of_record import (
+from rocking.assessment.rows import (
     RATIO_COLUMNS,
     ComparisonRow,
     PulseRow,
     RecordRow,
     RecordRows,
+    StructureRow,
     VerdictRow,
+    structure_rows,
 )
-from rocking.assessment.rows.of_study import StructureRow, structure_rows
 from rocking.assessment.settings import DesignSettings
 from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Verdict, agreement
 from rocking.pulses import Flag

@@ -16,7 +16,7 @@ from matplotlib.transforms import Affine2D
 
 from rocking.assessment.case import StationResult
 from rocking.assessment.reserve import Reserve
-from rocking.assessment.rows.of_record import RATIO_COLUMNS, ComparisonRow
+from rocking.assessment.rows import RATIO_COLUMNS, ComparisonRow
 from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Method, Verdict, rests
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY, counted

@@ -9,8 +9,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from rocking.assessment.rows.of_record import (
+from rocking.assessment.rows import (
     RATIO_COLUMNS,
+    AgreementRow,
     ComparisonRow,
     FailureRow,
     PulseRow,
@@ -18,7 +19,6 @@ from rocking.assessment.rows.of_record import (
     SupportRow,
     VerdictRow,
 )
-from rocking.assessment.rows.of_study import AgreementRow
 from rocking.assessment.verdict import (
     ORDER,
     Agreement,

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from rocking.assessment.rows.of_study import TradeMethod, TradeRow
+from rocking.assessment.rows import TradeMethod, TradeRow
 from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.style import new_figure, picture, plain_logarithmic, powers_of_ten, styled, svg

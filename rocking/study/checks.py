@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
 from rocking.assessment.dynamic_check import StructureCheck, check
+from rocking.assessment.rows import RecordRow, VerdictRow
 from rocking.assessment.rows.of_check import KINDS, CodeCheckRow, code_check_rows
-from rocking.assessment.rows.of_record import RecordRow, VerdictRow
 from rocking.assessment.verdict import Doubt
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records import load_catalogue

@@ -228,7 +228,7 @@ def _assess(options: argparse.Namespace) -> None:
 def _spectrum(options: argparse.Namespace) -> None:
     import numpy as np
 
-    from rocking.assessment.rows.of_study import SpectrumRow, spectrum_rows
+    from rocking.assessment.rows import SpectrumRow, spectrum_rows
     from rocking.tables import write_rows
 
     axes = np.geomspace(0.5, 10, 40), np.geomspace(0.02, 1, 40)  # p in rad/s, and uplift multiplier

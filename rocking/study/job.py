@@ -14,7 +14,7 @@ from typing import Any
 from rocking.assessment.assess import Clock, Extent, Store, assess_record, with_histories
 from rocking.assessment.case import Failure, RecordResult
 from rocking.assessment.compilation import compile_all
-from rocking.assessment.rows.of_record import HistoryRow, RecordRows, history_rows, rows_of_record
+from rocking.assessment.rows import HistoryRow, RecordRows, history_rows, rows_of_record
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.store import RecordStore, computation_version
 from rocking.errors import ConfigurationError, RecordError, RockingError, about

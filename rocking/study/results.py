@@ -11,9 +11,8 @@ from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, RecordRows, TimingRow, TradeRow
 from rocking.assessment.rows.of_check import CodeCheckRow
-from rocking.assessment.rows.of_record import RECORD_TABLES, RecordRows, TimingRow
-from rocking.assessment.rows.of_study import SUMMARY_TABLES, TradeRow
 from rocking.errors import RockingError
 from rocking.tables import Row, csv_lines, frame, rows_written, whole, write_whole, written_together
 from rocking.tables.csv_rows import check_columns, readable

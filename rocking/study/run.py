@@ -13,7 +13,7 @@ from pathlib import Path
 from threading import Thread
 from typing import Any, TextIO
 
-from rocking.assessment.rows.of_record import FailureRow, VerdictRow
+from rocking.assessment.rows import FailureRow, VerdictRow
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted, shown
 from rocking.study import close_doors

@@ -9,13 +9,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rocking.assessment.cracks import cracks
-from rocking.assessment.rows.of_record import RECORD_TABLES, ComparisonRow, TimingRow
-from rocking.assessment.rows.of_study import (
+from rocking.assessment.rows import (
     AGREEMENT_COLUMNS,
+    RECORD_TABLES,
     SUMMARY_TABLES,
     AgreementRow,
     CapacityRow,
+    ComparisonRow,
     StructureRow,
+    TimingRow,
     agreement_rows,
     capacity_rows,
     structure_rows,

@@ -14,7 +14,7 @@ from types import TracebackType
 from typing import BinaryIO, TextIO
 
 from rocking.assessment.over_periods import OverPeriods
-from rocking.assessment.rows.of_record import FailureRow, VerdictRow
+from rocking.assessment.rows import FailureRow, VerdictRow
 from rocking.assessment.verdict import ORDER, Judgement, Verdict, rocks, worst_first
 from rocking.errors import RecordError, RockingError
 from rocking.quantities import counted, escaped

@@ -7,7 +7,7 @@ from itertools import chain
 from pathlib import Path
 
 from rocking.assessment.case import StationResult
-from rocking.assessment.rows.of_study import CapacityRow, StructureRow, capacity_rows, structure_rows
+from rocking.assessment.rows import CapacityRow, StructureRow, capacity_rows, structure_rows
 from rocking.errors import ConfigurationError, RecordError
 from rocking.quantities import counted
 from rocking.records import Accelerogram

@@ -126,6 +126,22 @@ def test_what_is_imported_upwards_is_so_within_methods_and_through_the_root():
         assert at_root and within.issuperset(at_root), f"{module} imports the package root at its top"
 
 
+def test_rows_are_imported_from_their_package():
+    """So that a file of rows may move; those whose methods take a while to load are imported by themselves."""
+    root = PACKAGE.parent
+    behind = {"rocking.assessment.rows.of_record", "rocking.assessment.rows.of_study"}
+    folders = [PACKAGE, root / "tests", root / "docs", root / "workflow"]
+    callers = {
+        path.relative_to(root).as_posix()
+        for folder in folders
+        for path in folder.rglob("*")
+        if path.suffix in (".py", ".smk") and any(name in path.read_text(encoding="utf-8") for name in behind)
+    }
+    within = {path for path in callers if path.startswith("rocking/assessment/rows/")}
+    assert callers - within == {"tests/contracts/test_imports.py"}
+    assert "rocking/assessment/rows/__init__.py" in within
+
+
 def test_heavy_libraries_stay_in_their_place():
     for module, path in MODULES.items():
         place = path.relative_to(PACKAGE).as_posix()

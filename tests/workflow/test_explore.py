@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.signal import detrend
 
-from rocking.assessment.rows.of_record import VerdictRow
+from rocking.assessment.rows import VerdictRow
 from rocking.motion.integration import integrate
 from rocking.pulses import extract_pulses
 from rocking.records.catalogue import load_catalogue

@@ -13,7 +13,7 @@ import pytest
 import yaml
 
 import rocking
-from rocking.assessment.rows.of_study import SUMMARY_TABLES
+from rocking.assessment.rows import SUMMARY_TABLES
 from rocking.study.cli import main
 
 ROOT = Path(rocking.__file__).parents[1]

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rocking.assessment.rows.of_study import TradeRow
+from rocking.assessment.rows import TradeRow
 from rocking.assessment.trade import trade
 from rocking.errors import RockingError
 from rocking.reports.trade import write_trade_report

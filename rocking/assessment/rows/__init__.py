@@ -1,1 +1,36 @@
-"""The rows of the result tables: each class says what its columns are, and a function beside it fills them."""
+"""The rows of the result tables: each class says what its columns are, and a function beside it fills them.
+
+Rows about a record and about a study are imported from here. Those about checks by the code and about fragility are
+imported from their files, for they ask the methods themselves, which take a quarter of a second to load.
+"""
+
+from rocking.assessment.rows.of_record import RATIO_COLUMNS as RATIO_COLUMNS
+from rocking.assessment.rows.of_record import RECORD_TABLES as RECORD_TABLES
+from rocking.assessment.rows.of_record import ComparisonRow as ComparisonRow
+from rocking.assessment.rows.of_record import FailureRow as FailureRow
+from rocking.assessment.rows.of_record import HistoryRow as HistoryRow
+from rocking.assessment.rows.of_record import PulseRow as PulseRow
+from rocking.assessment.rows.of_record import RecordRow as RecordRow
+from rocking.assessment.rows.of_record import RecordRows as RecordRows
+from rocking.assessment.rows.of_record import SupportRow as SupportRow
+from rocking.assessment.rows.of_record import TimingRow as TimingRow
+from rocking.assessment.rows.of_record import VerdictRow as VerdictRow
+from rocking.assessment.rows.of_record import comparison_row as comparison_row
+from rocking.assessment.rows.of_record import history_rows as history_rows
+from rocking.assessment.rows.of_record import identity_of as identity_of
+from rocking.assessment.rows.of_record import pulse_rows as pulse_rows
+from rocking.assessment.rows.of_record import record_row as record_row
+from rocking.assessment.rows.of_record import rows_of_record as rows_of_record
+from rocking.assessment.rows.of_record import verdict_row as verdict_row
+from rocking.assessment.rows.of_study import AGREEMENT_COLUMNS as AGREEMENT_COLUMNS
+from rocking.assessment.rows.of_study import SUMMARY_TABLES as SUMMARY_TABLES
+from rocking.assessment.rows.of_study import AgreementRow as AgreementRow
+from rocking.assessment.rows.of_study import CapacityRow as CapacityRow
+from rocking.assessment.rows.of_study import SpectrumRow as SpectrumRow
+from rocking.assessment.rows.of_study import StructureRow as StructureRow
+from rocking.assessment.rows.of_study import TradeMethod as TradeMethod
+from rocking.assessment.rows.of_study import TradeRow as TradeRow
+from rocking.assessment.rows.of_study import agreement_rows as agreement_rows
+from rocking.assessment.rows.of_study import capacity_rows as capacity_rows
+from rocking.assessment.rows.of_study import spectrum_rows as spectrum_rows
+from rocking.assessment.rows.of_study import structure_rows as structure_rows

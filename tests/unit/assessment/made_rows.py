@@ -14,7 +14,7 @@ from rocking.assessment.case import CaseResult, Failure, StationResult
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer
-from rocking.assessment.rows.of_record import ComparisonRow, FailureRow, VerdictRow, identity_of, verdict_row
+from rocking.assessment.rows import ComparisonRow, FailureRow, VerdictRow, identity_of, verdict_row
 from rocking.assessment.settings import EnsembleSettings
 from rocking.assessment.verdict import BOTH_COMPONENTS, Method
 from rocking.errors import StructureError

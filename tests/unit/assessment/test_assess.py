@@ -12,14 +12,14 @@ from scipy.constants import g
 from rocking.assessment.assess import Extent, assess_case, assess_record, predict, with_histories
 from rocking.assessment.case import CaseResult
 from rocking.assessment.component import Component, HorizontalMotion, component_of, horizontal_motions
-from rocking.assessment.rows.of_record import (
+from rocking.assessment.rows import (
     RATIO_COLUMNS,
+    capacity_rows,
     comparison_row,
     identity_of,
     pulse_rows,
     record_row,
 )
-from rocking.assessment.rows.of_study import capacity_rows
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings, PredictingPulse
 from rocking.assessment.verdict import NEGLIGIBLE, Method, agreement, ratio, rests, within_factor_two
 from rocking.motion import integrate

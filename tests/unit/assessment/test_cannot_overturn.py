@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import rocking
-from rocking.assessment.rows.of_study import structure_rows
+from rocking.assessment.rows import structure_rows
 from rocking.assessment.verdict import ORDER, Verdict
 from rocking.errors import StructureError
 from rocking.pulses import Pulse

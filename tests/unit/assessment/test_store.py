@@ -12,7 +12,7 @@ import pytest
 from rocking.assessment import assess, store
 from rocking.assessment.assess import Extent, assess_record, with_histories
 from rocking.assessment.case import RecordResult
-from rocking.assessment.rows.of_record import TimingRow, rows_of_record
+from rocking.assessment.rows import TimingRow, rows_of_record
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.store import RecordStore
 from rocking.pulses import Pulse

@@ -7,7 +7,7 @@ import pytest
 
 from rocking.assessment.assess import Extent, assess_record, with_histories
 from rocking.assessment.fragility import fragility
-from rocking.assessment.rows.of_record import rows_of_record
+from rocking.assessment.rows import rows_of_record
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.motion.integration import integrate
 from rocking.records import Accelerogram

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import rocking
-from rocking.assessment.rows.of_study import TradeRow
+from rocking.assessment.rows import TradeRow
 from rocking.assessment.trade import TradeMethod
 from rocking.reports.trade import write_trade_report
 from rocking.tables import write_tables

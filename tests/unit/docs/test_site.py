@@ -21,8 +21,7 @@ from obspy.core.inventory.response import InstrumentSensitivity
 import rocking
 from docs.site.drawings import drawing, forms
 from docs.site.pages import FOLDER, filled, python_blocks, written_pages
-from rocking.assessment.rows.of_record import RECORD_TABLES
-from rocking.assessment.rows.of_study import SUMMARY_TABLES
+from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES
 from rocking.errors import ConfigurationError
 from rocking.records.formats import FORMATS
 from rocking.study.cli import _parser

@@ -11,16 +11,19 @@ import pytest
 
 from rocking.assessment.assess import Extent, assess_record
 from rocking.assessment.case import StationResult
-from rocking.assessment.rows.of_record import (
+from rocking.assessment.rows import (
+    AgreementRow,
     ComparisonRow,
     FailureRow,
     PulseRow,
     RecordRow,
     RecordRows,
+    StructureRow,
     VerdictRow,
+    agreement_rows,
     rows_of_record,
+    structure_rows,
 )
-from rocking.assessment.rows.of_study import AgreementRow, StructureRow, agreement_rows, structure_rows
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.verdict import Verdict
 from rocking.pulses import Pulse

@@ -4,7 +4,7 @@ import itertools
 
 import pytest
 
-from rocking.assessment.rows.of_record import RecordRows
+from rocking.assessment.rows import RecordRows
 from rocking.reports.document import compile_document
 from rocking.reports.summary import summary_report
 

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from rocking.assessment.rows.of_record import PulseRow, VerdictRow
+from rocking.assessment.rows import PulseRow, VerdictRow
 from rocking.assessment.verdict import Verdict
 from rocking.reports import printing
 from tests.unit.assessment.made_rows import filled

@@ -6,7 +6,7 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 
-from rocking.assessment.rows.of_study import structure_rows
+from rocking.assessment.rows import structure_rows
 from rocking.assessment.verdict import Agreement, Doubt, Verdict
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing

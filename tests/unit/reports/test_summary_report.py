@@ -10,16 +10,16 @@ import pytest
 
 import rocking
 from rocking.assessment.intensity import INTENSITY_MEASURES
-from rocking.assessment.rows.of_fragility import FragilityRow, FragilitySummaryRow
-from rocking.assessment.rows.of_record import (
+from rocking.assessment.rows import (
     ComparisonRow,
     FailureRow,
     RecordRow,
     RecordRows,
     TimingRow,
     VerdictRow,
+    agreement_rows,
 )
-from rocking.assessment.rows.of_study import agreement_rows
+from rocking.assessment.rows.of_fragility import FragilityRow, FragilitySummaryRow
 from rocking.assessment.verdict import (
     Agreement,
     Method,

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assess import Extent, assess_record
-from rocking.assessment.rows.of_record import rows_of_record
+from rocking.assessment.rows import rows_of_record
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.records import Accelerogram
 from rocking.reports.record import RecordReport

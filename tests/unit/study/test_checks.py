@@ -9,8 +9,8 @@ import pytest
 
 from rocking import Block, DesignSpectrum, Facade, check
 from rocking.assessment.dynamic_check import DynamicCheck
+from rocking.assessment.rows import RecordRow, VerdictRow
 from rocking.assessment.rows.of_check import CodeCheckRow, disagreement
-from rocking.assessment.rows.of_record import RecordRow, VerdictRow
 from rocking.errors import ConfigurationError
 from rocking.reports.structures import share_interval, structures_data
 from rocking.structures import load_structures

@@ -12,15 +12,16 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assess import assess
-from rocking.assessment.rows.of_record import (
+from rocking.assessment.rows import (
     RECORD_TABLES,
     ComparisonRow,
     FailureRow,
     HistoryRow,
     PulseRow,
     RecordRows,
+    TradeMethod,
+    TradeRow,
 )
-from rocking.assessment.rows.of_study import TradeMethod, TradeRow
 from rocking.motion import integrate
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord

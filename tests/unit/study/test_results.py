@@ -5,8 +5,7 @@ from pathlib import Path
 import pytest
 
 import rocking
-from rocking.assessment.rows.of_record import RECORD_TABLES, TimingRow
-from rocking.assessment.rows.of_study import SUMMARY_TABLES, StructureRow
+from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, StructureRow, TimingRow
 from rocking.errors import RockingError
 from rocking.study.cli import main
 from rocking.study.results import part
