@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 
 from rocking.assessment.code_check import Check
 from rocking.assessment.dynamic_check import DynamicCheck, StructureCheck
-from rocking.assessment.rows.of_record import STRUCTURE
+from rocking.assessment.rows.meanings import STRUCTURE
 from rocking.quantities import counted
 from rocking.tables import Row, column, row
 

@@ -14,7 +14,7 @@ from rocking.assessment.intensity import (
     IntensityMeasure,
     peak_velocity,
 )
-from rocking.assessment.rows.of_record import RECORD, STRUCTURE
+from rocking.assessment.rows.meanings import RECORD, STRUCTURE
 from rocking.errors import ConfigurationError
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism

@@ -9,6 +9,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rocking.assessment.reserve import Reserve
+from rocking.assessment.rows.meanings import (
+    COMPONENT,
+    OVERTURNING_SHARE,
+    PEAK_SIDE,
+    RECORD,
+    RECORD_SHA256,
+    SCALE_FACTOR,
+    STRUCTURE,
+    VERDICT,
+)
 from rocking.assessment.verdict import (
     BOTH_COMPONENTS,
     POLARITIES,
@@ -36,15 +46,6 @@ if TYPE_CHECKING:  # else who reads a table would load numba
     from rocking.assessment.cracks import CrackEnsembles
     from rocking.assessment.variations import Variation
     from rocking.motion.response import Response
-
-RECORD = "Identifier of the record in the catalogue"
-COMPONENT = "Component of the ground motion, as the file names it"
-STRUCTURE = "Name of the structure in the structure list"
-SCALE_FACTOR = "Factor of the catalogue on the accelerations of the file"
-RECORD_SHA256 = "SHA-256 of the file the record was read from"
-VERDICT = "stands, overturns, undecided, unknown (a component failed), or cannot overturn"
-OVERTURNING_SHARE = "Share of the members, never of stacks, that overturn; of a single run 0 or 1"
-PEAK_SIDE = "Side of the largest rotation or of the overturning: 1, -1, or 0 without uplift"
 
 
 @row()

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rocking.assessment.rows import of_record as rows
+from rocking.assessment.rows.meanings import COMPONENT, RECORD_SHA256, SCALE_FACTOR, STRUCTURE
 from rocking.records import Accelerogram
 from rocking.structures import Structure
 from rocking.tables import Row, column, row
@@ -27,7 +28,7 @@ CAPACITY_POINTS = 21
 class StructureRow(Row):
     """One row per structure: its mechanism and its equivalent block."""
 
-    structure: str = column(rows.STRUCTURE)
+    structure: str = column(STRUCTURE)
     type: str = column("Type of the structure, as in the structure list")
     geometry: str = column("Sizes of the structure with their units")
     crack: str = column("Hinge or crack, whose place is open; empty where none is")
@@ -47,7 +48,7 @@ class StructureRow(Row):
 class CapacityRow(Row):
     """One row per structure, side and rotation: the static load multiplier against displacement."""
 
-    structure: str = column(rows.STRUCTURE)
+    structure: str = column(STRUCTURE)
     side: str = column("Side of the rotation: positive or negative")
     rotation_rad: float = column("Rotation")
     multiplier: float = column("Horizontal acceleration in g that holds the balance", equation="G/B")
@@ -76,13 +77,13 @@ class AgreementRow(Row):
 class SpectrumRow(Row):
     """One row per component and equivalent block under the whole record; written by rocking spectrum."""
 
-    component: str = column(rows.COMPONENT)
+    component: str = column(COMPONENT)
     frequency_parameter_rad_s: float = column(_P, equation="Eq. 11")
     uplift_multiplier: float = column("Uplift acceleration of the equivalent block in g", equation="Eq. 12")
     restitution: float = column(_ETA, equation="Eq. 2")
     rotation_ratio: float = column("Largest rotation over critical rotation; INF if it overturns")
-    scale_factor: float = column(rows.SCALE_FACTOR)
-    record_sha256: str = column(rows.RECORD_SHA256)
+    scale_factor: float = column(SCALE_FACTOR)
+    record_sha256: str = column(RECORD_SHA256)
 
 
 def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow]:

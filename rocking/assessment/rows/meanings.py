@@ -1,0 +1,10 @@
+"""Meanings of columns that several tables share, so that one name of a column means one quantity."""
+
+RECORD = "Identifier of the record in the catalogue"
+COMPONENT = "Component of the ground motion, as the file names it"
+STRUCTURE = "Name of the structure in the structure list"
+SCALE_FACTOR = "Factor of the catalogue on the accelerations of the file"
+RECORD_SHA256 = "SHA-256 of the file the record was read from"
+VERDICT = "stands, overturns, undecided, unknown (a component failed), or cannot overturn"
+OVERTURNING_SHARE = "Share of the members, never of stacks, that overturn; of a single run 0 or 1"
+PEAK_SIDE = "Side of the largest rotation or of the overturning: 1, -1, or 0 without uplift"
