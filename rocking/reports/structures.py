@@ -133,7 +133,11 @@ def _motion_table(selection: Selection) -> dict[str, object]:
 
 
 def _page(each: CheckedStructure, spectrum: DesignSpectrum) -> dict[str, object]:
-    head = {"name": each.name, "description": f"{each.structure.description}."}
+    head = {
+        "name": each.name,
+        "description": f"{each.structure.description}.",
+        "comparison": _comparison(each.structure),
+    }
     if each.checked is None:
         return head | {"refusal": each.refusal, "figure": [], "sentences": [], "finding": "", "share": ""}
     checked = each.checked
@@ -144,7 +148,7 @@ def _page(each: CheckedStructure, spectrum: DesignSpectrum) -> dict[str, object]
         "refusal": "",
         "figure": [picture(_structure_figure(each.structure, checked), alt)],
         "checks": _check_table(checked),
-        "sentences": _sentences(checked),
+        "sentences": [*_support(each.structure), *_sentences(checked)],
         "share": _share(each),
         "finding": disagreement(checked, each.overturning_share, each.stations),
     }
@@ -197,7 +201,7 @@ def _sentences(checked: StructureCheck) -> list[str]:
             f"d_{state.name} = {quantity(point.displacement, 'm')} ({point.reason}), "
             f"a = {quantity(point.acceleration, 'm/s²')}, T_{state.name} = {number(point.period)} s."
         )
-    lines += _terms(mechanism)
+    lines += _terms(checked)
     dynamic = checked.dynamic
     if dynamic is not None:
         said = f"Dynamic check under {counted(dynamic.motions, 'motion')}: {dynamic.sentence}"
@@ -209,8 +213,9 @@ def _sentences(checked: StructureCheck) -> list[str]:
     return lines
 
 
-def _terms(mechanism: LocalMechanism) -> list[str]:
-    """The terms that the check was given beside the structure, in sentences."""
+def _terms(checked: StructureCheck) -> list[str]:
+    """The terms that the check was given beside the structure, and what it leaves unchecked, in sentences."""
+    mechanism = checked.governing
     terms = []
     if mechanism.elastic_period:
         terms.append(
@@ -221,7 +226,37 @@ def _terms(mechanism: LocalMechanism) -> list[str]:
             f"What it carries falls at a displacement of {quantity(mechanism.support_loss, 'm')} of the corner that "
             "moves farthest, as given."
         )
+    ties = [tie.tie for each in checked.mechanisms for tie in each.static.side.ties]
+    if any(math.isinf(tie.strength) for tie in ties):
+        terms.append(
+            "A tie has no strength of its own: it is taken never to break, and its force is not checked."
+        )
     return terms
+
+
+def _support(structure: Structure) -> list[str]:
+    """The sentence on the support on which a structure stands, if it does."""
+    standing = structure.standing
+    if standing is None or standing.support is None:
+        return []
+    modes = " and ".join(
+        f"{number(mode.period)} s with Γψ = {number(mode.participation)}" for mode in standing.support.modes
+    )
+    return [
+        f"It stands on {standing.place}, a support of period {modes}: the demands are those there (C7.2.5 to C7.2.10), "
+        "and the dynamic check follows the motion there."
+    ]
+
+
+def _comparison(structure: Structure) -> str:
+    """The warning above the page of a structure that stands on a support and is taken on the ground; "" elsewhere."""
+    standing = structure.standing
+    if standing is None or standing.support is not None:
+        return ""
+    return (
+        f"For comparison only: {standing.structure} stands on a support, and this page takes it on the ground; "
+        "sign the pages of its support."
+    )
 
 
 def _share(each: CheckedStructure) -> str:

@@ -271,3 +271,33 @@ def test_the_report_of_a_record_draws_the_design_level_beside_its_spectra(study)
 def test_a_ratio_of_what_hardly_moves_says_that_it_is_large():
     assert found(True, demand=1e-9).ratio_in_words == found(True, demand=0.0).ratio_in_words == "> 100"
     assert found(True, demand=0.05).ratio_in_words == "2.00"
+
+
+def test_a_page_says_on_what_its_structure_stands_and_what_is_not_checked(tmp_path):
+    """On a support its modes; on the ground beside it that the page is no page to sign; of endless ties their force."""
+    from rocking.reports.structures import CheckedStructure
+
+    listed = tmp_path / "structures.yaml"
+    listed.write_text(
+        "- {name: roof, type: support, period_s: 0.25, participation: 1.3}\n"
+        "- {name: parapet, type: block, breadth_m: 0.45, height_m: 3.0, stands_on: roof}\n"
+        "- {name: plain, type: block, breadth_m: 0.45, height_m: 3.0}\n"
+        "- {name: tied, type: facade, storey_heights_m: [3.0], thicknesses_m: [0.5], unit_weight_kN_m3: 20, "
+        "tie_heights_m: [2.9], tie_stiffness_kN_m2: 40}\n"
+    )
+    spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
+    pages = [
+        CheckedStructure(
+            name=name,
+            structure=each,
+            checked=check(each, spectrum, support=each.standing.support if each.standing else None),
+        )
+        for name, each in load_structures(listed).items()
+    ]
+    data = structures_data(pages, spectrum, Settings().mapping())
+    page = {each["name"]: each for each in data["pages"]}
+    assert "stands on roof, a support of period 0.25" in " ".join(page["parapet, T_b 0.25 s"]["sentences"])
+    assert page["parapet, on the ground"]["comparison"].startswith("For comparison only: parapet stands on")
+    assert page["plain"]["comparison"] == page["parapet, T_b 0.25 s"]["comparison"] == ""
+    assert "its force is not checked" in " ".join(page["tied"]["sentences"])
+    assert not any("strength" in text for text in page["plain"]["sentences"])
