@@ -99,6 +99,7 @@ class RecordReport:
             "subtitle": _subtitle(self.tables.record),
             "key": [_key_numbers(row) for row in self.tables.record],
             "headlines": headlines(self.stations),
+            "advice": _advice(self),
             "sentences": _sentences(self),
             "notices": [notice.data for notice in _notices(self)],
             "pulse-sentences": [
@@ -266,7 +267,7 @@ def _sentences(report: RecordReport) -> list[str]:
     carried = (standing_of(station) for station in report.stations)
     heavy = dict.fromkeys(each.warning for each in carried if each and each.warning)
     notes = [*_cautions(report), *([remark] if depends else []), *heavy]
-    return [*_advice(report), *notes, *warnings_of(report.tables)]
+    return [*notes, *warnings_of(report.tables)]
 
 
 def _cautions(report: RecordReport) -> list[str]:

@@ -101,7 +101,7 @@ def _component(name: str) -> str:
 @styled
 def ground_figure(motions: Sequence[Trace]) -> Figure:
     """Draw the acceleration of each component with its dominant pulse, one below the other."""
-    height = 19.0
+    height = 19.0 if len(motions) == 1 else 15.0  # a page holds the verdicts and the reserve as well
     figure = new_figure(height * len(motions) + 8)
     begins, ends = zip(*(motion.span for motion in motions), strict=True)
     for place, motion in enumerate(motions):
@@ -200,7 +200,7 @@ def reserve_figure(stations: Sequence[StationResult], labels: Mapping[str, str])
     arrow goes on beyond the largest factor that was tried.
     """
     reserves = [(station, station.reserve) for station in stations if station.reserve is not None]
-    height = 3.9 * len(reserves) + 9.0
+    height = 3.3 * len(reserves) + 9.0
     figure = new_figure(height, margins=(0, 0, 0, 0))
     panel = panel_at(figure, 46, 0.5, TEXT_WIDTH - 82, height - 9)
     limit = max(reserve.limit for _, reserve in reserves)

@@ -250,3 +250,14 @@ def test_a_report_in_g_and_centimetres_prints_the_same_numbers_in_them(example):
             ((second, other),) = printed_numbers(new)
             assert abs(second * size - first) <= 1.001 * (half + other * size), (head, old, new)
     assert example.data() == plain, "the units are those of one report"
+
+
+def test_page_one_says_what_to_do_and_by_how_much_the_record_may_be_stronger():
+    """The courses of a spire that rocks may be thrown, which contact dynamics tells."""
+    structures = {"spire": Spire(3.0, 15.0, 0.25, crack_height=5.0), "block": Block.of_size(1.0, 4.0)}
+    report = assessed("two", [shaken("NS", scale_factor=3.0), shaken("EW", scale_factor=2.0)], structures)
+    assert report.data()["advice"] == [
+        "To learn more of spire: follow it by contact dynamics (fidelity: contact)."
+    ]
+    first = "".join(word[4] for word in pages(report.pdf())[0])
+    assert "followitbycontactdynamics" in first and "Byhowmuchtherecordmaybestronger" in first
