@@ -18,7 +18,6 @@ from rocking.motion.batch import rocking_spectrum
 from rocking.motion.nonlinear_kernel import rock
 from rocking.pulses import Pulse, extract_pulses
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.processing import UNPROCESSED_DEFAULT, process
 from rocking.sine_pulse import overturning_amplitudes, predict_maxima, predict_maximum
 from rocking.structures import Block
 
@@ -63,7 +62,6 @@ def _source() -> str:
     for part in ("motion", "pulses", "sine_pulse"):
         for path in sorted((package / part).glob("*.py")):
             digest.update(path.read_bytes())
-    digest.update((package / "records" / "filters.py").read_bytes())
     return digest.hexdigest()
 
 
@@ -90,13 +88,12 @@ def _compile(say: Callable[[str], None]) -> None:
 
 
 def compile_mechanisms() -> None:
-    """Compile the search for pulses, the integration of mechanisms and the filters."""
+    """Compile the search for pulses and the integration of mechanisms."""
     record = _record()
     block = Block(2.0, 0.2)
     integrate(block, record)
     integrate_members(block, record, Members([1.0]))
     extract_pulses(record)
-    process(record, UNPROCESSED_DEFAULT)
 
 
 def compile_blocks() -> None:

@@ -150,14 +150,14 @@ def _butterworth(
     values: np.ndarray, time_step: float, kind: str, corner: float, order: int, margin: int
 ) -> np.ndarray:
     """Return `values` (n,) run both ways through a filter, its end values continued over `margin` samples."""
-    from rocking.records import filters  # numba comes with it, and no record that is only read needs that
+    from scipy import signal  # takes half a second to import, and no record that is only read needs it
 
     nyquist = 0.5 / time_step
     if not corner < nyquist:
         raise RecordError(f"the {kind} corner is {corner!r} Hz, but must be below {nyquist:g} Hz (Nyquist).")
-    sections = filters.butterworth(order, corner / nyquist, high_pass=kind == "highpass")
+    sections = signal.butter(order, corner / nyquist, kind, output="sos")
     whole = np.pad(values, margin, mode="edge")
-    filtered = filters.both_ways(sections, whole)
+    filtered: np.ndarray = signal.sosfiltfilt(sections, whole, padtype=None)
     return filtered[margin : margin + values.size]
 
 

@@ -175,9 +175,7 @@ class _Ringing:
 
     @classmethod
     def under(cls, mode: Mode, record: Accelerogram) -> "_Ringing":
-        from rocking.records import (
-            filters,
-        )  # numba comes with it, and what stands on the ground needs that not
+        from scipy import signal  # which takes half a second to import
 
         step = record.time_step
         pole = mode.circular_frequency * complex(-mode.damping_ratio, math.sqrt(1 - mode.damping_ratio**2))
@@ -186,7 +184,7 @@ class _Ringing:
         gained = np.empty(slope.size + 1, dtype=complex)
         gained[0] = -record.acceleration[0]
         np.multiply(slope, -np.expm1(pole * step) / pole, out=gained[1:])
-        excess = filters.recursion(np.exp(pole * step), gained)
+        excess = signal.lfilter([1.0], [1.0, -np.exp(pole * step)], gained)
         excess *= pole
         excess[:-1] -= slope
         excess *= mode.participation / pole.imag

@@ -29,7 +29,7 @@ FLOORS = [
 ONLY_IN = {
     "pydantic": ("described.py",),
     "obspy": ("records/",),
-    "numba": ("motion/", "pulses/", "sine_pulse/", "records/filters.py"),
+    "numba": ("motion/", "pulses/", "sine_pulse/"),
     "matplotlib": ("reports/",),
     "typst": ("reports/",),
     "snakemake": ("study/",),
