@@ -180,6 +180,9 @@ class StaticCapacity:
             return 0.0
         if gravity(critical) >= 0:
             return critical
+        exact = self.linkage.untied_zero
+        if exact is not None and not lasting:
+            return exact
         return float(brentq(gravity, 0.0, critical, xtol=1e-16, rtol=1e-14))
 
 

@@ -192,6 +192,11 @@ class Linkage(ABC):
         ]
         return self.weight(rotation) - sum(powers, np.zeros(())) / self.unit
 
+    @property
+    def untied_zero(self) -> float | None:
+        """The rotation at which G without the ties vanishes, rad, where it has a formula; else None."""
+        return None
+
     def gravity_slope(self, rotation: ArrayLike) -> np.ndarray:
         """dG/dφ; of a tie between yield and rupture that of the force it keeps."""
         slopes = []
@@ -350,6 +355,11 @@ class Turning(Linkage):
     def weight(self, rotation: ArrayLike) -> np.ndarray:
         """sin(α − φ)."""
         return np.sin(self.slenderness - np.asarray(rotation))
+
+    @property
+    def untied_zero(self) -> float | None:
+        """The zero of G(0) cos φ + G(π/2) sin φ: weights and forces on a body that turns give nothing else."""
+        return float(np.arctan2(self.untied_gravity(0.0), -self.untied_gravity(np.pi / 2)))
 
     def ground(self, rotation: ArrayLike) -> np.ndarray:
         """cos(α − φ)."""

@@ -20,7 +20,21 @@ sys.path.append(str(Path(__file__).parents[1] / "unit" / "motion"))
 from conftest import assessed, shaken
 from oracle import Oracle
 
-from rocking import Accelerogram, Arch, Block, Mode, Pulse, Spire, Support, Wall, follow_stack, integrate
+from rocking import (
+    Accelerogram,
+    Arch,
+    Block,
+    DesignSpectrum,
+    Facade,
+    Mode,
+    Pulse,
+    Spire,
+    Support,
+    Wall,
+    follow_stack,
+    integrate,
+)
+from rocking.assessment.code_check import kinematic_check
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.pulses import extract_pulses
@@ -45,7 +59,11 @@ def parts(folder: Path) -> dict[str, object]:
     draw = np.random.default_rng(1)
     floor = Support((Mode(0.3, 0.05, 1.3),))
     pulses = [Pulse(float(a), float(w)) for a, w in draw.uniform((0.5, 1), (12, 30), (10_000, 2))]
+    front = Facade((3.5, 3.0), (0.6, 0.5), 20e3, floor_loads=(12e3, 6e3))
+    front.candidates()
+    level = DesignSpectrum.ntc(1.2, 2.45, 0.33, "B")
     return {
+        "kinematic checks of a façade of 24 mechanisms that are there": lambda: kinematic_check(front, level),
         "read a file of 40 s at 200 Hz": lambda: read(path),
         "numpy.loadtxt of the same file": lambda: np.loadtxt(path, skiprows=4),
         "dominant pulses of 40 s at 200 Hz": lambda: extract_pulses(record),
