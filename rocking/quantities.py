@@ -29,6 +29,12 @@ def shown(value: object) -> str:
     return f"{text[:_LONGEST_VALUE]}… ({len(text)} characters)"
 
 
+def kind_of(value: object) -> str:
+    """Return the type of `value` as a sentence says it: "an int"."""
+    name = type(value).__name__
+    return f"an {name}" if name[0] in "aeiouAEIOU" else f"a {name}"
+
+
 def escaped(text: str) -> str:
     """Return `text` for a terminal: what is not printable as its escape sequence; ends of lines and tabs stay."""
     return UNPRINTABLE.sub(lambda mark: mark[0] if mark[0] in "\n\t" else ascii(mark[0])[1:-1], text)

@@ -35,7 +35,7 @@ from rocking.errors import ConfigurationError, RecordError, RockingError
 from rocking.motion.integration import integrate
 from rocking.motion.response import UNKNOWN, Response, check_model
 from rocking.pulses import PulseEvidence, predicting_pulse
-from rocking.quantities import GRAVITY
+from rocking.quantities import GRAVITY, kind_of
 from rocking.records import Accelerogram, aligned
 from rocking.records.support import Support
 from rocking.sine_pulse import predict_maximum, printed_maximum
@@ -780,7 +780,7 @@ def assess(
         ("settings", settings, AssessmentSettings, "AssessmentSettings"),
     ):
         if not isinstance(value, allowed):
-            raise ConfigurationError(f"{name} is a {type(value).__name__}, but must be {words}.")
+            raise ConfigurationError(f"{name} is {kind_of(value)}, but must be {words}.")
     number = settings.ensemble.members if members is None else members
     varied = replace(settings.ensemble, members=number or EnsembleSettings().members)
     fidelity: Literal["full", "contact"] = "contact" if settings.fidelity == "contact" else "full"
@@ -801,7 +801,7 @@ def _checked_records(record: object) -> list[Accelerogram]:
     """The horizontal components. Raises ConfigurationError unless they are one or two accelerograms."""
     records = [record] if isinstance(record, Accelerogram) else record
     if isinstance(records, str | bytes) or not isinstance(records, Sequence):
-        wrong = f"is a {type(record).__name__}, but must be an accelerogram, or two horizontal ones; "
+        wrong = f"is {kind_of(record)}, but must be an accelerogram, or two horizontal ones; "
         wrong += "rocking.read gives those of a file"
     elif odd := [each for each in records if not isinstance(each, Accelerogram)]:
         wrong = f"holds a {type(odd[0]).__name__}, but must hold accelerograms"

@@ -14,7 +14,7 @@ import numpy as np
 from rocking.assessment.crossings import Crossings
 from rocking.assessment.local_mechanism import LIMIT_STATES, LimitPoint, LimitState, LocalMechanism
 from rocking.errors import ConfigurationError, StructureError
-from rocking.quantities import GRAVITY, finite, positive
+from rocking.quantities import GRAVITY, finite, kind_of, positive
 from rocking.records.design_spectrum import DesignSpectrum
 from rocking.records.floor_demand import FloorDemand
 from rocking.records.support import Support
@@ -260,7 +260,7 @@ def _opening(structure: Structure) -> Iterator[tuple[str, int, Structure]]:
     """
     if not isinstance(structure, Structure):
         raise StructureError(
-            f"the structure is a {type(structure).__name__}, which has no capacity curve; give a structure with a "
+            f"the structure is {kind_of(structure)}, which has no capacity curve; give a structure with a "
             "geometry, as rocking.Block or rocking.Facade."
         )
     candidates = structure.candidates()

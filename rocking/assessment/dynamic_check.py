@@ -23,7 +23,7 @@ from rocking.assessment.code_check import (
 from rocking.assessment.local_mechanism import LIMIT_STATES, LimitState, LocalMechanism
 from rocking.errors import ConfigurationError
 from rocking.motion.members import Members, integrate_members
-from rocking.quantities import counted
+from rocking.quantities import counted, kind_of
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.design_spectrum import DesignSpectrum
 from rocking.records.selection import SETS, Selection
@@ -160,7 +160,7 @@ def check(
         ("records", records, Selection | None, "sets of records, as rocking.select gives them, or None"),
     ):
         if not isinstance(value, allowed):
-            raise ConfigurationError(f"{name} is a {type(value).__name__}, but must be {words}.")
+            raise ConfigurationError(f"{name} is {kind_of(value)}, but must be {words}.")
     by_formula = kinematic_check(
         structure,
         spectrum,

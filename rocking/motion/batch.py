@@ -21,7 +21,7 @@ from rocking.motion.integration import (
     solvable_exactly,
 )
 from rocking.motion.members import Members, concluded, follow_factors
-from rocking.quantities import within
+from rocking.quantities import kind_of, within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import EquivalentBlock
 
@@ -54,7 +54,7 @@ def integrate_batch(
     tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
     if not isinstance(structures, Sequence) or isinstance(structures, str):
         raise MotionError(
-            f"structures is a {type(structures).__name__}, but must be a list of structures; integrate follows one."
+            f"structures is {kind_of(structures)}, but must be a list of structures; integrate follows one."
         )
     factors = Members(scale_factors).scale_factor
     forcing = forcing_of(record, vertical)
@@ -136,7 +136,7 @@ def rocking_spectrum(
     """
     if not isinstance(accelerogram, Accelerogram):
         raise MotionError(
-            f"accelerogram is a {type(accelerogram).__name__}, but must be an Accelerogram; "
+            f"accelerogram is {kind_of(accelerogram)}, but must be an Accelerogram; "
             "pulse_spectrum takes a pulse."
         )
     frequencies = _positive("frequency_parameters", frequency_parameters)

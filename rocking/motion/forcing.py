@@ -9,7 +9,7 @@ import numpy as np
 from rocking.errors import MotionError
 from rocking.motion.nonlinear_kernel import Ground
 from rocking.pulses.pulse import Pulse
-from rocking.quantities import GRAVITY
+from rocking.quantities import GRAVITY, kind_of
 from rocking.records.accelerogram import Accelerogram
 
 GroundMotion = Accelerogram | Pulse
@@ -50,9 +50,7 @@ def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Fo
     Raises MotionError when `motion` is neither, or `vertical` does not fit it sample by sample.
     """
     if not isinstance(motion, Accelerogram | Pulse):
-        raise MotionError(
-            f"the ground motion is a {type(motion).__name__}, but must be an Accelerogram or a Pulse."
-        )
+        raise MotionError(f"the ground motion is {kind_of(motion)}, but must be an Accelerogram or a Pulse.")
     if vertical is None:
         return _forcing(motion, None)
     if isinstance(motion, Pulse):
@@ -60,7 +58,7 @@ def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Fo
             "vertical is given with a pulse, but needs a record of the same samples; leave it out."
         )
     if not isinstance(vertical, Accelerogram):
-        raise MotionError(f"vertical is a {type(vertical).__name__}, but must be an Accelerogram.")
+        raise MotionError(f"vertical is {kind_of(vertical)}, but must be an Accelerogram.")
     if vertical.acceleration.size != motion.acceleration.size:
         raise MotionError(
             f"vertical has {vertical.acceleration.size} samples, but must have the {motion.acceleration.size} of the "

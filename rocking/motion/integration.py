@@ -13,7 +13,7 @@ from rocking.motion import linear_kernel, nonlinear_kernel, runs
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
 from rocking.motion.response import Response
 from rocking.motion.table import SideTable, Table, linear_table, table_of
-from rocking.quantities import GRAVITY, finite, within
+from rocking.quantities import GRAVITY, finite, kind_of, within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import Outcome
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
@@ -106,7 +106,7 @@ def reduce(structure: Rocking) -> Mechanism | EquivalentBlock:
         return structure
     if not hasattr(structure, "mechanism"):
         raise MotionError(
-            f"the structure is a {type(structure).__name__}, but must be a Mechanism, an EquivalentBlock, "
+            f"the structure is {kind_of(structure)}, but must be a Mechanism, an EquivalentBlock, "
             "or have a mechanism() method."
         )
     return structure.mechanism()

@@ -11,7 +11,7 @@ from rocking.motion import runs
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
 from rocking.motion.integration import TOLERANCES, Rocking, failure, follow, reduce, solvable_exactly
 from rocking.motion.table import SideTable
-from rocking.quantities import within
+from rocking.quantities import kind_of, within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
 
@@ -130,9 +130,7 @@ def integrate_members(
     [False, False, True]
     """
     if not isinstance(members, Members):
-        raise MotionError(
-            f"members is a {type(members).__name__}, but must be Members, as Members([0.9, 1.0, 1.1])."
-        )
+        raise MotionError(f"members is {kind_of(members)}, but must be Members, as Members([0.9, 1.0, 1.1]).")
     tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
     forcing = forcing_of(motion, vertical)
     lift = np.where(members.vertical, members.scale_factor, 0.0) if forcing.vertical else None

@@ -17,7 +17,7 @@ import numpy as np
 from rocking import sine_pulse
 from rocking.errors import PulseError, StructureError
 from rocking.pulses.pulse import Pulse
-from rocking.quantities import GRAVITY, finite, positive, within
+from rocking.quantities import GRAVITY, finite, kind_of, positive, within
 from rocking.structures import Outcome
 from rocking.structures.mechanism import EquivalentBlock
 
@@ -161,12 +161,12 @@ def sides_under(block: EquivalentBlock, pulse: Pulse) -> list["sine_pulse.kernel
     """
     if not isinstance(block, EquivalentBlock):
         raise StructureError(
-            f"equivalent_block is a {type(block).__name__}, but must be an EquivalentBlock; a structure's is "
+            f"equivalent_block is {kind_of(block)}, but must be an EquivalentBlock; a structure's is "
             "structure.mechanism().equivalent_block()."
         )
     if not isinstance(pulse, Pulse):
         raise PulseError(
-            f"pulse is a {type(pulse).__name__}, but must be a Pulse; that of a record is "
+            f"pulse is {kind_of(pulse)}, but must be a Pulse; that of a record is "
             "extract_pulses(record).dominant."
         )
     sides = []
