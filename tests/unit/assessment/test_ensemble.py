@@ -268,7 +268,7 @@ def test_a_mechanism_is_assessed_as_its_structure_and_members_are_those_asked_fo
         (([1.0, 2.0], BLOCK), "record holds a float, but must hold accelerograms"),
         ((3, BLOCK), "record is an int, but must be an accelerogram"),
         ((_record(4.0), [BLOCK]), "structure is a list, but must be a structure or a mechanism"),
-        ((_record(4.0), BLOCK.mechanism().equivalent_block("rest")), "structure is a EquivalentBlock, but"),
+        ((_record(4.0), BLOCK.mechanism().equivalent_block("rest")), "structure is an EquivalentBlock, but"),
     ],
 )
 def test_wrong_types_are_one_sentence(arguments, sentence):
