@@ -184,3 +184,8 @@ def test_an_estimate_is_the_logistic_curve_with_its_ends_on_either_side():
     assert (found.low, found.high) == pytest.approx((0.9 * low, high), rel=1e-5)
     outside = TierFit(tier, centre, spread, slopes, covariance, {tier.terms[0]: (1.0, 1.5)})
     assert outside.estimate(measures) is None
+
+
+def test_the_block_is_tried_evenly_on_both_sides_of_the_motion_as_given():
+    """The fit that is shipped was made at these factors: its terms are those of as many responses."""
+    assert np.diff(NUDGES) == pytest.approx(0.125) and NUDGES[len(NUDGES) // 2] == 1.0

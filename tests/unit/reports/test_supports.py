@@ -9,6 +9,7 @@ from rocking.assessment.rows import rows_of_record
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.records import Accelerogram
 from rocking.reports.record import RecordReport
+from rocking.reports.style import PREDICTED
 from rocking.reports.supports import support_panels, supports_figure
 from rocking.structures import Block
 from rocking.structures.standing import support_from_config
@@ -53,6 +54,9 @@ def test_the_figure_draws_the_cells_of_the_table(report):
     assert list(line.get_ydata()) == [row.overturning_share for row in rows]
     assert len(rows) == 10
     ground, first, *_ = spectra.get_lines()
+    # ground, three floors, the code's spectrum of each, and the entry of the legend
+    code = [line for line in spectra.get_lines() if line.get_color() == PREDICTED and len(line.get_xdata())]
+    assert len(code) == 3 and len(spectra.get_lines()) == 1 + 3 + 3 + 1
     # at long periods a floor moves as the ground does
     assert first.get_ydata()[-1] == pytest.approx(ground.get_ydata()[-1], rel=0.1)
     plt.close(figure)
