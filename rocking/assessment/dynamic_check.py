@@ -127,6 +127,7 @@ class StructureCheck(CodeCheck):
 
 
 # Whole on purpose: half of it are the arguments of a public name.
+# Whole on purpose: half of it are the arguments of a public name and what it hands on.
 def check(
     structure: Structure,
     spectrum: DesignSpectrum,
