@@ -103,6 +103,11 @@ class Plan:
         return sha256_of(*self.params().items(), self.settings.fragility)
 
     @property
+    def trade_made_from(self) -> str:
+        """One hash for everything on which the trade of accuracy for time depends."""
+        return sha256_of(*self.params().items(), self.settings.trade)
+
+    @property
     def summary_made_from(self) -> str:
         """One hash for everything on which the files over all records depend."""
         return sha256_of(*self.params().items(), self.settings)

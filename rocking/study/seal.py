@@ -17,6 +17,8 @@ from rocking.tables import read_whole, write_whole
 
 SEAL = "seal.json"
 """The name of a seal."""
+TRADE_SEAL = "trade_seal.json"
+"""The name of the seal of the trade, which stands in the folder of the summary."""
 _UNSEALED = ("timings.csv",)
 """The tables of a run about itself; they differ from run to run."""
 _LARGEST = 100_000_000
@@ -31,7 +33,7 @@ def write_seal(path: Path, made_from: str, files: Iterable[Path], results: Path)
     sealed = {
         file.relative_to(results).as_posix(): [file.stat().st_size, hashes.of(file)]
         for file in sorted(set(files))
-        if file.is_file() and file.name not in (SEAL, *_UNSEALED)
+        if file.is_file() and file.name not in (SEAL, TRADE_SEAL, *_UNSEALED)
     }
     content = {"made_from": made_from, "files": sealed}
     write_whole(path, (json.dumps(content, indent=1) + "\n").encode())
@@ -50,12 +52,17 @@ def remove_broken_seals(plan: Plan) -> Iterator[str]:
     seals = {part(results, job) / SEAL: plan.made_from(job) for job in plan.jobs}
     seals[results / "summary" / SEAL] = plan.summary_made_from
     hashes = ContentHashes(_HASHES)
-    seals[results / "fragility" / SEAL] = plan.fragility_made_from
+    fragility, trade = results / "fragility" / SEAL, results / "summary" / TRADE_SEAL
+    seals |= {fragility: plan.fragility_made_from, trade: plan.trade_made_from}
+    by_hand = {}
+    if not plan.settings.fragility.in_every_run:
+        by_hand[fragility] = "snakemake fragility makes it again"
+    if not plan.settings.trade.in_summary:
+        by_hand[trade] = "snakemake trade makes it again"
     for path, made_from in seals.items():
         if path.exists() and (why := _why_broken(path, made_from, results, hashes)):
             path.unlink()
-            by_hand = path.parent.name == "fragility" and not plan.settings.fragility.in_every_run
-            yield f"{why}; snakemake fragility makes it again." if by_hand else f"{why}; it is made again."
+            yield f"{why}; {by_hand.get(path, 'it is made again')}."
     hashes.save()
 
 

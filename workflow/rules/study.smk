@@ -12,7 +12,7 @@ from rocking.study.hashes import sha256_of
 from rocking.study.plan import check_config_file, config_file, make_plan
 from rocking.study.results import PAGE, part
 from rocking.study.run import begin
-from rocking.study.seal import SEAL, remove_broken_seals
+from rocking.study.seal import SEAL, TRADE_SEAL, remove_broken_seals
 from rocking.study.terminal import check_any_read, tell
 from snakemake.utils import update_config
 

@@ -32,7 +32,7 @@ if not ALONE:
     rule summarise:
         input:
             parts=[path for job in PLAN.jobs for path in part_of(job)],
-            trade=f"{SUMMARY}/trade.csv" if SETTINGS.trade.in_summary else [],
+            trade=[f"{SUMMARY}/trade.csv", f"{SUMMARY}/{TRADE_SEAL}"] if SETTINGS.trade.in_summary else [],
             fragility=FRAGILITY if SETTINGS.fragility.in_every_run else [],
         output:
             SUMMARIES,

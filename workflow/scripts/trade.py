@@ -9,6 +9,7 @@ from rocking.assessment.trade import trade
 from rocking.errors import RockingError
 from rocking.reports.trade import write_trade_report
 from rocking.study.job import begin_job
+from rocking.study.seal import write_seal
 from rocking.study.terminal import line_writer
 from rocking.tables import write_tables
 
@@ -36,3 +37,5 @@ if __name__ == "__main__":
     rows = trade(components(study, records, tell), on_the_ground, settings=study.settings, tell=tell)
     write_tables({TradeRow: rows}, folder, "rocking-trade", "trade.json")
     write_trade_report(folder, Path(output.pdf), Path(output.svg))
+    made = [Path(file) for file in output if file != output.seal]
+    write_seal(Path(output.seal), snakemake.params.made_from, made, folder.parent)

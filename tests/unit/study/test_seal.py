@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from rocking.study.results import part
-from rocking.study.seal import SEAL, beside, remove_broken_seals, write_seal
+from rocking.study.seal import SEAL, TRADE_SEAL, beside, remove_broken_seals, write_seal
 from rocking.study.settings import Settings
 
 
@@ -30,22 +30,29 @@ def plan(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> SimpleNamespace:
         made_from=lambda job: "origin",
         summary_made_from="all",
         fragility_made_from="scaled",
+        trade_made_from="timed",
     )
 
 
-def test_an_edited_fragility_loses_its_seal_and_says_what_makes_it_again(plan: SimpleNamespace) -> None:
-    folder = Path("results", "fragility")
-    folder.mkdir()
-    (folder / "fragility_summary.csv").write_text("median\n")
-    write_seal(folder / SEAL, "scaled", [folder / "fragility_summary.csv"], Path("results"))
+@pytest.mark.parametrize(
+    ("file", "seal", "origin", "target"),
+    [
+        ("fragility/fragility_summary.csv", f"fragility/{SEAL}", "scaled", "fragility"),
+        ("summary/trade.csv", f"summary/{TRADE_SEAL}", "timed", "trade"),
+    ],
+)
+def test_what_was_measured_once_and_is_edited_loses_its_seal_and_says_what_makes_it_again(
+    plan: SimpleNamespace, file: str, seal: str, origin: str, target: str
+) -> None:
+    table, path = Path("results", file), Path("results", seal)
+    table.parent.mkdir(exist_ok=True)
+    table.write_text("median\n")
+    write_seal(path, origin, [table], Path("results"))
     assert list(remove_broken_seals(plan)) == []
-    (folder / "fragility_summary.csv").write_text("edited\n")
+    table.write_text("edited\n")
     (told,) = remove_broken_seals(plan)
-    assert (
-        told
-        == f"{folder / 'fragility_summary.csv'} is not as it was written; snakemake fragility makes it again."
-    )
-    assert not (folder / SEAL).exists()
+    assert told == f"{table} is not as it was written; snakemake {target} makes it again."
+    assert not path.exists() and Path("results", "summary", SEAL).exists()
 
 
 def test_a_seal_holds_while_nothing_changes_but_the_times(plan: SimpleNamespace) -> None:
