@@ -71,9 +71,9 @@ class DesignSpectrum(ABC):
 
     @staticmethod
     def ntc(
-        ag: float,
-        f0: float,
-        tc_star: float,
+        ag: float | None = None,
+        f0: float | None = None,
+        tc_star: float | None = None,
         soil: str = "A",
         topography: float = 1.0,
         damping: float = 0.05,
@@ -81,12 +81,19 @@ class DesignSpectrum(ABC):
         """Return the horizontal elastic spectrum of NTC 2018, 3.2.3.2.
 
         ag: a_g on rock, m/s². f0: F0. tc_star: T_C*, s. soil: A to E. topography: S_T. damping: a share.
-        Raises ConfigurationError for what is out of range.
+        The code tabulates the first three for each site: none has a default. Raises ConfigurationError for one that is
+        missing or out of range.
 
         >>> spectrum = rocking.DesignSpectrum.ntc(ag=1.5, f0=2.5, tc_star=0.3)
         >>> float(spectrum.acceleration(0.2))
         3.75
         """
+        if ag is None or f0 is None or tc_star is None:
+            values = {"ag": ag, "f0": f0, "tc_star": tc_star}
+            missing = [name for name, value in values.items() if value is None]
+            raise ConfigurationError(
+                f"{', '.join(missing)} of the design spectrum is missing; give it as the code has it for the site."
+            )
         _check_level("ag", ag)
         return NtcSpectrum(damping=damping, ag=ag, f0=f0, tc_star=tc_star, soil=soil, topography=topography)
 
