@@ -145,7 +145,7 @@ def test_a_file_that_is_no_spectrum_is_refused_in_a_sentence(tmp_path, text, sen
         ({"soil": "F"}, "soil is 'F', but must be one of A, B, C, D, E."),
         ({"ag": -1.0}, "ag is -1.0 m/s², but must be greater than 0."),
         ({"ag": 150.0}, "ag is 150 m/s², which is 15.3 g, but must be 29.4 m/s² or less; check the unit."),
-        ({"f0": None}, "f0 of the design spectrum is missing"),
+        ({"f0": "2.5"}, "f0 is '2.5', but must be a number."),
         ({"tc_star": 0}, "tc_star is 0 s, but must be greater than 0."),
         ({"topography": 2.0}, "topography is 2.0, but must lie between 1 and 1.4."),
         ({"damping": 5}, "damping is 5, but must lie between 0 and 0.5."),
