@@ -1,10 +1,14 @@
 """What a report says of structures on supports: the first lines, the share by period, the spectra."""
 
+import math
+from dataclasses import replace
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
 from rocking.assessment.assess import Extent, assess_record
+from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import rows_of_record
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.records import Accelerogram
@@ -42,6 +46,23 @@ def test_the_first_lines_say_it_once_for_all_periods(report):
     assert sentence == report.result.swept[0].sentence
     assert sentence.startswith("parapet on roof ")
     assert all("parapet" not in line["names"] for line in lines if line["verdict"] != "On a support")
+
+
+def test_the_reserve_stands_on_a_scale_of_its_own_for_each_period(report):
+    """A factor that is not reached leaves a gap."""
+    (panel,) = support_panels(report.result, report.result.swept)
+    (structure,) = panel.structures
+    names = [standing.name for standing in structure.standings]
+    factors = [math.nan, *np.linspace(0.4, 2.0, len(names) - 1)]
+    reserves = {
+        name: Reserve(0.3, factor, math.nan, 3.0) for name, factor in zip(names, factors, strict=True)
+    }
+    figure = supports_figure([replace(panel, reserves=reserves)])
+    (line,) = [line for axes in figure.axes for line in axes.get_lines() if line.get_marker() == "x"]
+    assert list(line.get_xdata()) == list(structure.periods)
+    np.testing.assert_array_equal(line.get_ydata(), factors)
+    assert line.axes.get_ylim() == (0.0, 3.0)
+    plt.close(figure)
 
 
 def test_the_figure_draws_the_cells_of_the_table(report):

@@ -1,0 +1,19 @@
+"""What the page to explore is told of one record: the numbers of its tables, rounded for JSON."""
+
+import json
+import math
+
+import pytest
+
+from rocking.reports.explore import record_content
+
+
+def test_numbers_are_those_of_the_result_to_six_digits_and_nothing_stands_for_nan(example):
+    content = record_content(example.result, example.tables, example.structures)
+    json.dumps(content, allow_nan=False)
+    cases = content["cases"]
+    for station in example.stations:
+        share = station.overturning_share
+        told = cases[station.structure]["share"]
+        assert told == (None if math.isnan(share) else pytest.approx(share, rel=5e-6))
+    assert any(case["share"] is not None for case in cases.values())
