@@ -22,7 +22,6 @@ from rocking.assessment.code_check import (
 )
 from rocking.assessment.local_mechanism import LIMIT_STATES, LimitState, LocalMechanism
 from rocking.errors import ConfigurationError
-from rocking.motion.members import Members, integrate_members
 from rocking.quantities import counted, kind_of
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.design_spectrum import DesignSpectrum
@@ -302,6 +301,9 @@ class _Body:
 
     def answer(self, motions: Sequence[Accelerogram]) -> tuple[float, int]:
         """Return the mean over the motions of the largest d over its limit, and under how many d_0 is exceeded."""
+        # numba comes with it, and the scheduler of a study, which imports the rows of this check, needs it for nothing
+        from rocking.motion.members import Members, integrate_members
+
         members = Members(polarity=self.polarities)
         uses: list[float] = []
         exceeded = 0
