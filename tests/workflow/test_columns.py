@@ -49,7 +49,7 @@ def test_every_column_is_filled_somewhere(tmp_path: Path) -> None:
     alone = replace(settings, fidelity="auto", histories=False, ensemble=EnsembleSettings(members=0))
     contact = replace(settings, fidelity="contact", histories=False)
     spire = {"spire": study.structures["spire"]}
-    run_job([records[1]], Study(spire, contact), tmp_path / "contact", tmp_path)
+    run_job([pulse], Study(spire, contact), tmp_path / "contact", tmp_path)
     failing = {"facade": study.structures["facade"], "impossible": Impossible()}
     run_job(
         [records[1], replace(pulse, scale_factor=6.0)], Study(failing, alone), tmp_path / "auto", tmp_path
