@@ -153,3 +153,12 @@ def test_of_three_channels_without_directions_one_may_be_vertical_and_is_asked_f
     upright = open_station(table(["A", "B", "UP"]))
     assert [channel.component for channel in upright.horizontal] == ["A", "B"]
     assert upright.vertical.component == "UP"
+
+
+@pytest.mark.parametrize(("second", "told"), [("90", False), ("95", False), ("96", True), ("84", True)])
+def test_components_more_than_five_degrees_off_a_right_angle_are_told(tmp_path, second, told):
+    _written(tmp_path, "a.asc", "000", VALUES, "10.00")
+    _written(tmp_path, "b.asc", second, np.roll(VALUES, 5), "10.00")
+    _, (row,) = list_folder(tmp_path)
+    said = "Components 000 and" in row["note"] and "84° apart, not at right angles" in row["note"]
+    assert said is told

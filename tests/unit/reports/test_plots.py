@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import rocking
-from rocking.reports.panels import draw_rotation, rotation_ratios
+from rocking.reports.panels import draw_energy_map, draw_rotation, rotation_ratios
 from rocking.reports.style import plain_logarithmic, powers_of_ten
 from rocking.reports.summary import prediction_scatter
 
@@ -199,3 +199,23 @@ def test_frames_hold_the_numbers_under_names_with_units():
     pulses = PLOTTED["analysis"].frame()
     assert len(pulses) == len(PLOTTED["analysis"].ranked)
     assert pulses.period_s[0] == pytest.approx(0.9, rel=1e-6)
+
+
+def test_the_map_of_energy_spans_the_onsets_and_periods_that_it_shows():
+    """In seconds from left to right, and in the logarithm of the period from below."""
+    axes = Figure().subplots()
+    onsets, periods = np.linspace(2.0, 9.0, 8), np.geomspace(5.0, 0.2, 6)
+    gains = np.outer(np.arange(8.0), np.ones(6))
+    draw_energy_map(axes, onsets, periods, gains, [PULSE])
+    (image,) = axes.images
+    assert image.get_extent() == pytest.approx([2.0, 9.0, np.log10(0.2), np.log10(5.0)])
+    (mark,) = axes.lines
+    assert [float(each[0]) for each in mark.get_data()] == pytest.approx(
+        [PULSE.start_time, np.log10(PULSE.period)]
+    )
+
+
+def test_the_thickness_of_a_hollow_spire_is_drawn_level_at_its_base_and_inwards():
+    spire = rocking.Spire(width=3.0, height=15.0, wall_thickness=0.25)
+    (thickness,) = (each for each in spire.dimensions() if each.text.startswith("0.25"))
+    assert thickness.feet[:, 0] == pytest.approx([1.25, 1.5]) and thickness.feet[:, 1] == pytest.approx(0.0)

@@ -14,7 +14,7 @@ from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.records import Accelerogram
 from rocking.reports.record import RecordReport
 from rocking.reports.style import PREDICTED
-from rocking.reports.supports import support_panels, supports_figure
+from rocking.reports.supports import shares_by_period_figure, support_panels, supports_figure
 from rocking.structures import Block
 from rocking.structures.standing import support_from_config
 
@@ -111,3 +111,13 @@ def test_a_support_without_damping_has_no_spectrum_of_the_code():
     assert rows.supports[-1].floor_spectral_acceleration_m_s2 > 0
     settings = {"tolerance": 1e-6, "acceleration_scale": "linearised", "friction_coefficient": 0.6}
     assert RecordReport(result, rows, structures, settings).data()["supports"]
+
+
+def test_the_mean_share_over_the_records_stands_over_the_period_from_zero_on(report):
+    rows = report.tables.supports
+    figure = shares_by_period_figure(rows)
+    (axes,) = figure.axes
+    (line,) = axes.get_lines()
+    assert list(line.get_xdata()) == sorted({row.support_period_s for row in rows})
+    assert axes.get_ylim() == (0.0, 1.0) and axes.get_xlim()[0] == 0.0
+    plt.close(figure)
