@@ -33,6 +33,11 @@ TARGETS_OF_RESEARCH = {
         REAL_RECORDS,
         ["floors.csv"],
     ),
+    "fronts": (
+        "Hold fronts that rock both ways beside fronts that floors throw back",
+        REAL_RECORDS,
+        ["fronts.csv"],
+    ),
     "code_check": (
         "Hold the formulas of the Italian code beside records of the design level",
         REAL_RECORDS,

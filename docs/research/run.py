@@ -12,6 +12,7 @@ def main(name, catalogues, mirror, structures, folder, tell):
         ensembles,
         floors,
         fragilities,
+        fronts,
         rates,
         stacks,
         tiers,
@@ -27,7 +28,7 @@ def main(name, catalogues, mirror, structures, folder, tell):
         campaign = Campaign.open(Path(catalogues[0]), mirror and Path(mirror))
         validation.validate(Target(folder, tell), campaign)
         return
-    modules = (tiers, ensembles, fragilities, rates, cracks, code_checks, stacks, floors, table)
+    modules = (tiers, ensembles, fragilities, rates, cracks, code_checks, stacks, floors, fronts, table)
     run = next(getattr(each, name) for each in modules if hasattr(each, name))
     motions = [motions_of(load_catalogue(Path(each)), mirror, tell) for each in catalogues]
     listed = load_structures(Path(structures))

@@ -191,7 +191,8 @@ class Facade(Tied):
             return ""
         return (
             "It rocks inwards as freely as outwards, though the floors that it carries or is tied to stand behind it: "
-            "with one_sided: true and the restitution of its impact on them it rocks outwards only"
+            "with one_sided: true and the restitution of its impact on them it rocks outwards only; neither is the "
+            "safe side in every case, so follow both"
         )
 
     def _linkage(self, mirrored: bool) -> Turning:

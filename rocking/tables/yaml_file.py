@@ -40,7 +40,7 @@ def _where_and_why(defect: yaml.YAMLError | ValueError) -> str:
     problem = getattr(defect, "problem", None) or " ".join(str(defect).split())
     where = "" if mark is None else f" in line {mark.line + 1}"
     if r"'\t'" in problem:
-        return f"{where}: a tab stands where the line begins; indent with blanks"
+        return f"{where}: a tab stands where only blanks may; write blanks"
     return f"{where}: {problem}"
 
 

@@ -111,7 +111,7 @@ def test_all_defects_of_a_list_stand_in_one_message(load):
             "- {name: a,\n   type: block, height_m: 1,\n   height_m: 4}",
             "in line 3: key 'height_m' is given twice",
         ),
-        ("- name: a\n\ttype: block\n", "in line 2: a tab stands where the line begins; indent with blanks"),
+        ("- name: a\n\ttype: block\n", "in line 2: a tab stands where only blanks may; write blanks"),
         ("[" * 1000 + "]" * 1000, "nested too deeply"),
         *((f'- {{name: "a{mark}b"}}', "printable") for mark in ("\u202e", r"\u202e", r"\0", r"\ud800")),
         ("# " + "x" * 1_000_000, "larger than 1000000 bytes"),
