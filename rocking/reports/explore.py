@@ -21,7 +21,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.processing import displacement
 from rocking.reports.drawings import fallen_rotation
 from rocking.reports.panels import moving_span, rotation_ratios
-from rocking.reports.printing import LOOKS, band_text, cell_text, ratio
+from rocking.reports.printing import LOOKS, band_text, cell_text, fill_of, ratio
 from rocking.reports.record import warnings_of, worst_cases
 from rocking.structures import Mechanism, Structure
 
@@ -116,6 +116,7 @@ def _case(
     case: Content = {
         "verdict": str(station.verdict),
         "cell": cell_text(station),
+        "fill": fill_of(station),
         "text": f"{station.verdict}: {station.why}. Largest rotation over critical rotation: "
         f"{ratio(station.rotation_ratio, 2)} as given{band}, {closed} by the closed form.{crack}{reserve}",
         "share": _number(station.overturning_share),

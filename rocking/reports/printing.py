@@ -29,6 +29,8 @@ LOOKS: dict[Verdict, tuple[str, str, str, str]] = {
     Verdict.CANNOT_OVERTURN: ("■", "#c5d9ec", "#000000", ""),
 }
 """Sign, colour, colour of letters on it, and pattern of each verdict: in print without colour the others tell it."""
+_FEW_FALL, _MANY_FALL = (252, 226, 176), (229, 134, 26)
+"""Red, green and blue of an undecided case of which no member falls, and of one of which all do."""
 METHODS = {
     Method.PRINTED: "Eq. 15 as printed",
     Method.CLOSED_FORM: "Closed form",
@@ -105,6 +107,16 @@ def to_spread(value: float, judgement: "Judgement") -> str:
         return number(value, 2)
     digits = math.floor(math.log10(value)) - math.floor(math.log10(spread)) + 2
     return number(value, min(max(digits, 1), 3))
+
+
+def fill_of(judgement: "Judgement | None") -> str:
+    """Return the colour of a case: that of its verdict, of an undecided one the deeper the more of its members fall."""
+    verdict = judgement.verdict if judgement else Verdict.UNKNOWN
+    share = judgement.overturning_share if judgement else math.nan
+    if verdict is not Verdict.UNDECIDED or math.isnan(share):
+        return LOOKS[verdict][1]
+    mixed = (round(few + share * (many - few)) for few, many in zip(_FEW_FALL, _MANY_FALL, strict=True))
+    return "#" + "".join(f"{part:02x}" for part in mixed)
 
 
 def cell_text(judgement: "Judgement | None") -> str:

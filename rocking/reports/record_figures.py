@@ -24,7 +24,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.measures import record_measures
 from rocking.reports.drawings import draw_structure, fallen_rotation, round_length
 from rocking.reports.panels import draw_energy_map, draw_motion, draw_rotation, moving_span
-from rocking.reports.printing import LOOKS, number, ratio, to_spread
+from rocking.reports.printing import LOOKS, fill_of, number, ratio, to_spread
 from rocking.reports.style import PREDICTED, PULSE, TEXT_WIDTH, elided, new_figure, panel_at, styled
 from rocking.reports.units import unit_of
 from rocking.structures import Structure
@@ -208,7 +208,7 @@ def reserve_figure(stations: Sequence[StationResult], labels: Mapping[str, str])
     least = min([0.5, *(0.8 * each for each in found)])
     panel.axvline(1.0, color="black", linewidth=0.8)
     for place, (station, reserve) in enumerate(reserves):
-        _, colour, _, _ = LOOKS[station.verdict]
+        colour = fill_of(station)
         low = limit if math.isnan(reserve.low) else reserve.low
         high = limit if math.isnan(reserve.high) else reserve.high
         bar: dict[str, Any] = {
@@ -252,7 +252,8 @@ def _reserve_in_numbers(reserve: Reserve) -> str:
 
 def _draw_state(axes: Axes, structure: Structure, station: StationResult, middle: float, top: float) -> None:
     """Draw a structure with the crack of its verdict in a column of the strip, at its `middle` and `top` [mm]."""
-    sign, colour, ink, hatch = LOOKS[station.verdict]
+    sign, _, ink, hatch = LOOKS[station.verdict]
+    colour = fill_of(station)
     cracked = (each.structure for each in structure.candidates() if each.description == station.crack)
     structure = next(cracked, structure)
     rotation = drawn_rotation(structure, station)

@@ -317,8 +317,8 @@ def severity_map(verdicts: Sequence[VerdictRow], records: "DataFrame") -> dict[s
 
 def _cell(verdict_row: VerdictRow | None) -> dict[str, str]:
     verdict = verdict_row.verdict if verdict_row else Verdict.UNKNOWN
-    _, fill, ink, _ = printing.LOOKS[verdict]
-    return {"text": printing.cell_text(verdict_row), "fill": fill, "ink": ink}
+    _, _, ink, _ = printing.LOOKS[verdict]
+    return {"text": printing.cell_text(verdict_row), "fill": printing.fill_of(verdict_row), "ink": ink}
 
 
 def structure_table(verdicts: Sequence[VerdictRow]) -> dict[str, object]:

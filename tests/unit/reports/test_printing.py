@@ -84,3 +84,29 @@ def test_a_ratio_has_no_more_digits_than_a_tenth_of_its_spread(value, spread, pr
 def test_the_number_of_a_cell_has_the_form_of_what_it_counts(verdict, numbers, printed):
     row = filled(VerdictRow, record="a", structure="pier", verdict=verdict, **numbers)
     assert printing.cell_text(row).replace("\u00a0", " ") == printed
+
+
+def _contrast(one: str, other: str) -> float:
+    """The contrast of two colours, 1 to 21 (WCAG 2)."""
+
+    def luminance(colour: str) -> float:
+        parts = [int(colour[at : at + 2], 16) / 255 for at in (1, 3, 5)]
+        linear = [part / 12.92 if part <= 0.03928 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
+        return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+    low, high = sorted(map(luminance, (one, other)))
+    return (high + 0.05) / (low + 0.05)
+
+
+def test_an_undecided_case_is_the_deeper_in_colour_the_more_of_its_members_fall():
+    def fill(verdict, share):
+        row = filled(VerdictRow, record="a", structure="pier", verdict=verdict, overturning_share=share)
+        return printing.fill_of(row)
+
+    fills = [fill(Verdict.UNDECIDED, share) for share in (0.0, 0.25, 0.5, 0.75, 1.0)]
+    on_white = [_contrast(each, "#ffffff") for each in fills]
+    assert on_white == sorted(on_white) and on_white[-1] > 2 * on_white[0]
+    assert all(_contrast(each, "#000000") >= 4.5 for each in fills), "a number on it is read"
+    assert fill(Verdict.STANDS, 0.02) == printing.LOOKS[Verdict.STANDS][1]
+    assert fill(Verdict.UNDECIDED, math.nan) == printing.LOOKS[Verdict.UNDECIDED][1]
+    assert printing.fill_of(None) == printing.LOOKS[Verdict.UNKNOWN][1]
