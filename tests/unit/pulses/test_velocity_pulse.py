@@ -42,6 +42,17 @@ def test_a_planted_wavelet_is_found(scale, angle):
     assert found.pulse_like
 
 
+@pytest.mark.parametrize("delay", [2.5, 7.0])
+def test_the_centre_is_a_time_that_moves_with_the_motion(delay):
+    """In seconds: within the wavelet where it was planted, and later by as much as the motion is."""
+    first, second = (
+        velocity_pulse(from_velocity(np.interp((TIMES - at) / 1.6 + 3.5, PLACES, WAVELET, left=0, right=0)))
+        for at in (20.0, 20.0 + delay)
+    )
+    assert abs(first.centre_time - 20.0) < first.period
+    assert second.centre_time - first.centre_time == pytest.approx(delay, abs=STEP)
+
+
 @pytest.mark.parametrize("amplitude", [1.0, 2.0])
 def test_what_the_pulse_leaves_counts_as_a_share_of_the_peak(amplitude):
     """Beside the wavelet stands a second one of 0.3 of its size: that is left, and 0.3² of 1.09 of the energy."""
