@@ -1,5 +1,6 @@
 """The source paper's figures redrawn: panels of curves in one style, and the structures beside them."""
 
+from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
@@ -11,33 +12,68 @@ from rocking.reports.style import new_figure, plain_logarithmic, styled
 from rocking.structures.arch import Arch
 
 _PANEL_WIDTH, _PANEL_HEIGHT = 85.0, 54.0
+_LEGEND_ROW = 6.0
+"""Height of a legend below all panels, mm."""
+_LABELLED_AMPLITUDE = 2.0
+"""Amplitude over uplift acceleration at which the lines of the pulse map carry their numbers."""
+_FEW_CURVES = 4
+"""Curves of a panel whose legend finds room beside them."""
 _LINES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)), (0, (1, 2)))
 """Line styles in turn, so that curves are told apart without colour."""
 
 
 @styled
 def panels(curves: Sequence[Curve], columns: int = 2) -> Figure:
-    """Draw each panel's curves, told apart by line style; a curve with its own style keeps it."""
+    """Draw each panel's curves, told apart by line style; a curve with its own style keeps it.
+
+    Panels of many curves of the same names share one legend, which stands where no curve is: in the place of a panel
+    that is free, or in a row of its own below all.
+    """
     names = list(dict.fromkeys(curve.panel for curve in curves))
+    by_panel = {name: [curve for curve in curves if curve.panel == name] for name in names}
+    shared = _shared_labels(list(by_panel.values()))
     rows = -(-len(names) // columns)
-    figure = new_figure(_PANEL_HEIGHT * rows, _PANEL_WIDTH * columns, margins=(13, 3, 9, 5))
+    free = rows * columns - len(names)
+    below = _LEGEND_ROW if shared and not free else 0.0
+    figure = new_figure(_PANEL_HEIGHT * rows + below, _PANEL_WIDTH * columns, margins=(13, 3, 9 + below, 5))
     figure.subplots_adjust(wspace=0.22, hspace=0.3)
     axes = figure.subplots(rows, columns, squeeze=False).ravel()
     for panel, name in zip(axes, names, strict=False):
-        _panel(panel, name, [curve for curve in curves if curve.panel == name])
+        _panel(panel, name if len(names) > 1 else "", by_panel[name], shared)
     for panel in axes[len(names) :]:
-        panel.remove()
+        panel.set_axis_off()
+    if shared:
+        first = next(place for place, each in enumerate(by_panel.values()) if _labels(each) == shared)
+        lines, labels = axes[first].get_legend_handles_labels()
+        if free:
+            axes[len(names)].legend(lines, labels, loc="center left")
+        else:
+            figure.legend(lines, labels, loc="lower center", ncols=len(labels))
     return figure
 
 
-def _panel(panel: Axes, name: str, curves: Sequence[Curve]) -> None:
+def _labels(curves: Sequence[Curve]) -> tuple[str, ...]:
+    return tuple(curve.label for curve in curves)
+
+
+def _shared_labels(by_panel: Sequence[Sequence[Curve]]) -> tuple[str, ...]:
+    """Return the names of the curves that most panels draw alike; () where no two panels of many curves do."""
+    counts = Counter(_labels(each) for each in by_panel if len(each) > _FEW_CURVES)
+    labels, count = max(counts.items(), key=lambda item: item[1], default=((), 0))
+    return labels if count > 1 else ()
+
+
+def _panel(panel: Axes, name: str, curves: Sequence[Curve], shared: tuple[str, ...] = ()) -> None:
+    """Draw the curves of one panel; its legend too, unless that of all panels, of the names `shared`, tells them."""
     for place, curve in enumerate(curves):
         style = curve.style or _LINES[place % len(_LINES)]
         panel.plot(curve.x, curve.y, linestyle=style, color=f"C{place % 6}", label=curve.label)
-    panel.set_title(f"({name})")
+    panel.set_title(f"({name})" if name else "")
     panel.set_xlabel(curves[0].x_quantity)
     panel.set_ylabel(curves[0].y_quantity)
     panel.margins(y=0.06)
+    if _labels(curves) == shared:
+        return
     if curves[0].y_quantity == ROTATION:  # which leaves no room of its own for a legend
         low, high = panel.get_ylim()
         panel.set_ylim(low - 0.45 * (high - low), high)
@@ -90,7 +126,12 @@ def pulse_map(frequency_ratios: np.ndarray, amplitude_ratios: np.ndarray, ratios
     lines = panel.contour(
         frequency_ratios, amplitude_ratios, shown, levels=levels, colors="black", linewidths=0.5
     )
-    panel.clabel(lines, levels[1::2], fontsize=7, fmt="%g")
+    # On one amplitude, where the lines lie apart: near the uplift acceleration they lie on top of each other.
+    row = shown[np.abs(amplitude_ratios - _LABELLED_AMPLITUDE).argmin()]
+    places = [
+        (frequency_ratios[np.flatnonzero(row >= level)[-1]], _LABELLED_AMPLITUDE) for level in levels[1::2]
+    ]
+    panel.clabel(lines, levels[1::2], fontsize=7, fmt="%g", manual=places)
     field = overturns.T.astype(float)
     panel.contourf(
         frequency_ratios, amplitude_ratios, field, levels=[0.5, 1.5], colors="0.85", hatches=["///"]
