@@ -31,6 +31,10 @@ TIME = "time [s]"
 ACCELERATION = "ground acceleration [m/s²]"
 ZERO: dict[str, Any] = {"color": "0.8", "linewidth": 0.6, "zorder": 0}
 _POINTS = 400
+_CLOSE = 0.08, 0.16
+"""Share of the map's width and height within which the ranks of pulses would stand on each other."""
+_PAPER = {"facecolor": "white", "edgecolor": "none", "pad": 0.4, "alpha": 0.85}
+"""Behind a text that stands on a dark picture."""
 _STILL = 0.01
 """Share of its largest rotation up to which a structure is still."""
 
@@ -138,10 +142,16 @@ def moving_span(histories: Iterable[tuple[np.ndarray, np.ndarray]]) -> tuple[flo
 
 
 def draw_energy_map(
-    axes: Axes, onsets: np.ndarray, periods: np.ndarray, gains: np.ndarray, pulses: Sequence["Pulse"]
+    axes: Axes,
+    onsets: np.ndarray,
+    periods: np.ndarray,
+    gains: np.ndarray,
+    pulses: Sequence["Pulse"],
+    span: tuple[float, float],
 ) -> None:
     """Draw energy gains (n, m) [m²/s³] over onset (n,) [s] and period (m,) [s], darker for more, with ranked pulses.
 
+    span: the onsets that are shown, s.
     The periods stand in equal steps of their logarithm, which makes the map a picture of (n, m) pixels.
     """
     share = np.sqrt(gains / max(float(gains.max()), np.finfo(float).tiny))  # the root shows the weaker maxima
@@ -149,13 +159,35 @@ def draw_energy_map(
     rising = share.T if periods[0] < periods[-1] else share.T[::-1]
     look: dict[str, Any] = {"cmap": "Greys", "vmin": 0, "vmax": 1.25, "aspect": "auto", "origin": "lower"}
     axes.imshow(rising, extent=(onsets[0], onsets[-1], low, high), interpolation="none", **look)
-    for rank, pulse in enumerate(pulses, start=1):
-        place = pulse.start_time, math.log10(pulse.period)
-        axes.plot(*place, "o", color=PULSE, markersize=3.5, fillstyle="none")
-        axes.annotate(str(rank), place, (3, 2), textcoords="offset points", fontsize=7, color=PULSE)
+    axes.set_xlim(*span)
+    _draw_ranks(axes, pulses)
     ticks = [tick for tick in (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0) if low <= math.log10(tick) <= high]
     axes.set_yticks([math.log10(tick) for tick in ticks], [f"{tick:g}" for tick in ticks])
     axes.set(xlabel="onset of the pulse [s]", ylabel="period [s]")
+
+
+def _draw_ranks(axes: Axes, pulses: Sequence["Pulse"]) -> None:
+    """Draw a circle and the rank of each pulse; ranks of pulses that lie together stand in one text: "1, 2, 3"."""
+    reach = np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())
+    together: list[tuple[tuple[float, float], list[int]]] = []
+    for rank, pulse in enumerate(pulses, start=1):
+        place = pulse.start_time, math.log10(pulse.period)
+        axes.plot(*place, "o", color=PULSE, markersize=3.5, fillstyle="none")
+        near = (
+            ranks
+            for (x, y), ranks in together
+            if abs(x - place[0]) < _CLOSE[0] * reach[0] and abs(y - place[1]) < _CLOSE[1] * reach[1]
+        )
+        ranks = next(near, None)
+        if ranks is None:
+            together.append((place, [rank]))
+        else:
+            ranks.append(rank)
+    for place, ranks in together:
+        text = ", ".join(map(str, ranks))
+        look: dict[str, Any] = {"fontsize": 7, "color": PULSE, "bbox": _PAPER}
+        farthest = max(pulses[rank - 1].start_time for rank in ranks)
+        axes.annotate(text, (farthest, place[1]), (4, 3), textcoords="offset points", **look)
 
 
 def draw_probability(

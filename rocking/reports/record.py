@@ -93,7 +93,7 @@ class RecordReport:
     def _data(self) -> dict[str, object]:
         return {
             "title": f"Rocking assessment: {self.record}",
-            "running": f"{self.record}.{self.scale_note}",
+            "running": f"{self.record}.{self.scale_note}" if self.scale_note else self.record,
             "scale-note": self.scale_note,
             **printing.settings_texts(self.settings),
             "subtitle": _subtitle(self.tables.record),
@@ -336,7 +336,7 @@ def _notices(report: RecordReport) -> list[Notice]:
         notices.append(Notice(text))
     if not tables.comparison:
         notices.append(Notice("No structure could be assessed under this record."))
-    failing = list(dict.fromkeys(_contact_failures(report)))
+    failing = list(_contact_failures(report))
     if failing:
         names = printing.listed(failing)
         notices.append(Notice(f"The model does not hold, because a contact fails, for {names}."))
@@ -348,15 +348,17 @@ def _notices(report: RecordReport) -> list[Notice]:
 
 
 def _contact_failures(report: RecordReport) -> Iterator[str]:
-    """Yield each structure whose contacts fail under a component, with what they do."""
+    """Yield each structure whose contacts fail, with what they do under any component."""
+    of_structure: dict[str, set[str]] = {}
     for row in report.tables.comparison:
-        kinds = []
+        kinds = of_structure.setdefault(report.called(row.structure), set())
         if row.slides:
-            kinds.append("slides")
+            kinds.add("slides")
         if row.bounces:
-            kinds.append("bounces")
+            kinds.add("bounces")
+    for name, kinds in of_structure.items():
         if kinds:
-            yield f"{report.called(row.structure)} ({' and '.join(kinds)})"
+            yield f"{name} ({' and '.join(sorted(kinds, reverse=True))})"
 
 
 def _subtitle(rows: Sequence[RecordRow]) -> str:
@@ -560,19 +562,19 @@ def facts_table(rows: Sequence[RecordRow]) -> dict[str, object]:
 
 
 VERDICT_COLUMNS: list[Column] = [
-    *columns_of(VerdictRow, "structure=1.3"),
+    *columns_of(VerdictRow, "structure=1.4"),
     (
         "Verdict",
         "0.7",
         "l",
         lambda station: strong(str(station.verdict), not station.verdict.stays_up),
     ),
-    ("Members that overturn", "0.8", "l", lambda station: words(station.count)),
+    ("Members that overturn", "0.75", "l", lambda station: words(station.count)),
     ("As given", "0.7", "l", lambda station: printing.to_spread(station.rotation_ratio, station)),
-    ("5 %", "0.75", "r", lambda station: printing.to_spread(station.rotation_ratio_low, station)),
-    ("50 %", "0.75", "r", lambda station: printing.to_spread(station.rotation_ratio_median, station)),
-    ("95 %", "0.75", "r", lambda station: printing.to_spread(station.rotation_ratio_high, station)),
-    *columns_of(VerdictRow, "direction=0.9 polarity=0.9"),
+    ("5 %", "0.65", "r", lambda station: printing.to_spread(station.rotation_ratio_low, station)),
+    ("50 %", "0.65", "r", lambda station: printing.to_spread(station.rotation_ratio_median, station)),
+    ("95 %", "0.65", "r", lambda station: printing.to_spread(station.rotation_ratio_high, station)),
+    *columns_of(VerdictRow, "direction=1.1 polarity=0.75"),
 ]
 STRUCTURE_COLUMNS: list[Column] = [
     (

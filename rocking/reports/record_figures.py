@@ -41,6 +41,8 @@ _LINE = 3.2
 """Height of a line below a drawing, mm."""
 _LETTERS = 26
 """Letters of such a line."""
+_NO_BREAK = "\u00a0"
+"""A space at which no line ends: between a number and its unit."""
 _HISTORIES = 160.0
 """Height of all histories together, mm."""
 _HIGHEST_ROW = 30.0
@@ -51,6 +53,8 @@ _ZOOM = 1.5
 """Periods of the pulse that are drawn before and after it."""
 _MAP_COLUMNS = 240
 """Columns of the map of energy, at most twice as many."""
+_BESIDE_CASES = 29
+"""Small letters that stand beside a case of the comparison."""
 _SMALLEST = 1e-3
 """Rotation ratio at the left end of the comparison."""
 _FALLEN = 3.0
@@ -91,8 +95,8 @@ class History:
 
 
 def _component(name: str) -> str:
-    """The name of a component as a figure has room for it."""
-    return elided(name or "component", 12)
+    """The name of a component as a figure has room for it; one of digits alone would be read as a number."""
+    return elided(f"comp. {name}" if name.isdigit() else name or "component", 12)
 
 
 # The ground ------------------------------------------------------------------------------------------------
@@ -140,12 +144,12 @@ def pulses_figure(motions: Sequence[Trace]) -> Figure:
     """Draw of each component the dominant pulse in the record, and the energy of a pulse over onset and period."""
     from rocking.pulses import energy_map  # which loads the compiled scan
 
-    height = 36.0
+    height = 32.0
     figure = new_figure(height * len(motions))
     for place, motion in enumerate(motions):
         accelerogram = motion.accelerogram
         pulse = motion.pulses[0]
-        near, energy = (panel_at(figure, left, 3 + place * height, 69, 24) for left in (14, 100))
+        near, energy = (panel_at(figure, left, 2 + place * height, 69, 21) for left in (14, 100))
         zoom = _ZOOM * pulse.period
         span = max(pulse.start_time - zoom, 0.0), min(pulse.end_time + zoom, accelerogram.duration)
         _draw_ground(near, motion, span, last=True)
@@ -153,7 +157,7 @@ def pulses_figure(motions: Sequence[Trace]) -> Figure:
         gains, onsets, frequencies = energy_map(accelerogram)
         starts = np.arange(0, gains.shape[0], max(1, gains.shape[0] // _MAP_COLUMNS))
         gains = np.maximum.reduceat(gains, starts, axis=0)
-        draw_energy_map(energy, onsets[starts], 1 / frequencies, gains, motion.pulses)
+        draw_energy_map(energy, onsets[starts], 1 / frequencies, gains, motion.pulses, motion.span)
         _fixed_ticks(energy, "x", *motion.span, 6)
     return figure
 
@@ -183,8 +187,8 @@ def strip_figure(
         for column, place in enumerate(row):
             middle = (column + 0.5) * TEXT_WIDTH / _COLUMNS
             station = stations[place]
-            label = elided(labels[station.structure], 23)
-            axes.text(middle, top - 1, label, ha="center", va="top", fontweight="bold")
+            label = elided(labels[station.structure], 20)
+            axes.text(middle, top - 1, label, ha="center", va="top", fontsize=7, fontweight="bold")
             _draw_state(axes, structures[station.structure], station, middle, top)
             below = middle, top - _DRAWN[1] - 16.5, "\n".join(lines[place])
             axes.text(*below, ha="center", va="top", fontsize=7, linespacing=1.25)
@@ -224,7 +228,8 @@ def reserve_figure(stations: Sequence[StationResult], labels: Mapping[str, str])
             panel.plot([reserve.median] * 2, [-place - 0.3, -place + 0.3], color="black", linewidth=1.2)
         if math.isnan(reserve.high):
             panel.plot(limit, -place, ">", color="0.25", markersize=3.5, clip_on=False)
-        panel.text(least, -place, elided(labels[station.structure], 26) + "  ", ha="right", va="center")
+        label = elided(labels[station.structure], 27)
+        panel.text(-0.01, -place, label, ha="right", va="center", transform=panel.get_yaxis_transform())
         panel.text(1.06 * limit, -place, _reserve_in_numbers(reserve), ha="left", va="center", fontsize=7)
     panel.set(xscale="log", xlim=(least, limit), ylim=(-len(reserves) + 0.4, 0.6), yticks=[])
     ticks = [
@@ -307,8 +312,8 @@ def _lines(structure: Structure, station: StationResult, peak_acceleration: floa
     if station.statics_members:
         count = f"{station.statics_overturning_members} of {station.statics_members}"
         whose = "else" if station.body_crack_is_given else "by statics"
-        lines.append(f"{whose} {_short(station.statics_crack)}: {count}")
-    return [part for line in lines for part in wrap(line, _LETTERS)]
+        lines.append(f"{whose} {_short(station.statics_crack)}: {count.replace(' ', _NO_BREAK)}")
+    return [part for line in lines for part in wrap(line.replace(" m", _NO_BREAK + "m"), _LETTERS)]
 
 
 def _short(crack: str) -> str:
@@ -369,7 +374,7 @@ def _draw_history(panel: Axes, history: History, level: int, label: str, several
         f"closed form: {ratio(predicted, 2)}"
     )
     beside: dict[str, Any] = {"transform": panel.get_yaxis_transform(), "va": "center", "fontsize": 7}
-    panel.text(-0.02, level, f"{elided(label, 22)}\n± {reach:.2g}", ha="right", linespacing=1.3, **beside)
+    panel.text(-0.02, level, f"{elided(label, 24)}\n± {reach:.2g}", ha="right", linespacing=1.3, **beside)
     panel.text(1.01, level, remark, ha="left", linespacing=1.3, **beside)
 
 
@@ -397,8 +402,8 @@ def comparison_figure(cases: Sequence[ComparisonRow], labels: Mapping[str, str],
     panel.plot(whole, rows, "o", color="black", markersize=3.5, label="mechanism, whole record")
     names = []
     for place, case in enumerate(cases):
-        name = labels[case.structure]
-        names.append(f"{elided(name, 18)}, {_component(case.component)}" if several else elided(name, 30))
+        component = f", {_component(case.component)}" if several else ""
+        names.append(elided(labels[case.structure], _BESIDE_CASES - len(component)) + component)
         remark = case.prediction_in_words
         panel.text(1.02, place, remark, transform=panel.get_yaxis_transform(), va="center", fontsize=7)
     panel.set(xscale="log", xlim=(0.7 * _SMALLEST, 1.5 * _FALLEN), ylim=(len(cases) - 0.5, -0.5))

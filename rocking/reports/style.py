@@ -4,6 +4,7 @@ import io
 import math
 from collections.abc import Callable, Sequence
 from functools import cache
+from itertools import accumulate
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +23,8 @@ PULSE = "#D55E00"
 """Colour of its sine pulse."""
 PREDICTED = "#0072B2"
 """Colour of a closed form."""
+SMALL_LETTER = 0.6
+"""Width of a usual small letter of the figures over the size of the font."""
 MOST_POINTS = 4000
 """Points of a trace; a longer one keeps the least and the largest value of each stretch."""
 FONT_FOLDER = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
@@ -115,14 +118,24 @@ def glyphs() -> frozenset[int]:
     return frozenset(FT2Font(str(FONT_FOLDER / "DejaVuSans.ttf")).get_charmap())
 
 
+@cache
+def _width(letter: str) -> float:
+    """Return the width of a letter of the figures' font over that of a usual small one, SMALL_LETTER."""
+    font = FT2Font(str(FONT_FOLDER / "DejaVuSans.ttf"))
+    font.set_size(100, 72)  # an em of 100 pixels
+    advance: int = font.load_char(ord(letter)).linearHoriAdvance  # 65536ths of a pixel
+    return advance / 65536 / 100 / SMALL_LETTER
+
+
 def elided(text: str, length: float) -> str:
-    """Return `text` as a figure can show it: cut to the width of about `length` small letters, the last one an
-    ellipsis if something was cut, and a box for each character that no font of the figure holds.
+    """Return `text` as a figure can show it: cut to the width of `length` small letters, the last one an ellipsis if
+    something was cut, and a box for each character that no font of the figure holds.
+
+    A small letter is SMALL_LETTER of the size of the font wide.
     """
-    width = 0.0
     readable = "".join(letter if ord(letter) in glyphs() else "□" for letter in text)
-    for place, letter in enumerate(readable):
-        width += 1.0 if letter.isascii() and not letter.isupper() else 1.6
-        if width > length:
-            return readable[: max(place - 1, 0)] + "…"
-    return readable
+    ends = list(accumulate(map(_width, readable)))
+    if not ends or ends[-1] <= length:
+        return readable
+    room = length - _width("…")
+    return readable[: sum(end <= room for end in ends)] + "…"

@@ -74,7 +74,7 @@ MOST_NAMED = 8
 """Structures that a sentence names."""
 _BESIDE = 30
 """Letters of a name beside a bar."""
-_HEAD = 20
+_HEAD = 26
 """Letters of a name above a column of the map; the table of the structures holds it whole."""
 
 

@@ -113,7 +113,7 @@ def _draw_shares(axes: Axes, structures: Sequence[OverPeriods]) -> None:
     axes.set(ylim=(-0.05, 1.05), xlabel="period T_b of the support [s], 0: the ground")
     axes.set_ylabel("share that overturns [-]")
     axes.set_title(elided(f"on {structures[0].place}", 40), loc="left")
-    axes.legend(loc="best", fontsize=6.5)
+    axes.legend(loc="best")
 
 
 def _draw_reserves(axes: Axes, panel: SupportPanel) -> None:
@@ -149,7 +149,7 @@ def _draw_spectra(axes: Axes, panel: SupportPanel) -> None:
     axes.set(xlim=(_PERIODS[0], _PERIODS[-1]), ylim=(0, None), xlabel="period of what stands there [s]")
     axes.set_ylabel("5 % spectrum [g]")
     axes.set_title(elided(f"component {record.component or 'not named'}", 30), loc="left")
-    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.05), fontsize=6.5)
+    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.05))
 
 
 @styled
@@ -169,7 +169,7 @@ def shares_by_period_figure(rows: Sequence[SupportRow]) -> Figure:
         axes.plot(ordered, means, style, linewidth=0.9, markersize=4, clip_on=False, label=label)
     axes.set(xlabel="period T_b of the support [s], 0: the ground", ylim=(0, 1), xlim=(0, None))
     axes.set_ylabel("mean share that overturns [-]")
-    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=6.5)
+    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
     return figure
 
 

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 import rocking
 from rocking.reports.panels import draw_energy_map, draw_rotation, rotation_ratios
-from rocking.reports.style import plain_logarithmic, powers_of_ten
+from rocking.reports.style import elided, plain_logarithmic, powers_of_ten
 from rocking.reports.summary import prediction_scatter
 
 TIMES = np.arange(3000) * 0.01
@@ -206,13 +206,31 @@ def test_the_map_of_energy_spans_the_onsets_and_periods_that_it_shows():
     axes = Figure().subplots()
     onsets, periods = np.linspace(2.0, 9.0, 8), np.geomspace(5.0, 0.2, 6)
     gains = np.outer(np.arange(8.0), np.ones(6))
-    draw_energy_map(axes, onsets, periods, gains, [PULSE])
+    draw_energy_map(axes, onsets, periods, gains, [PULSE], (2.0, 9.0))
     (image,) = axes.images
     assert image.get_extent() == pytest.approx([2.0, 9.0, np.log10(0.2), np.log10(5.0)])
     (mark,) = axes.lines
     assert [float(each[0]) for each in mark.get_data()] == pytest.approx(
         [PULSE.start_time, np.log10(PULSE.period)]
     )
+
+
+def test_ranks_of_pulses_that_lie_together_stand_in_one_text():
+    axes = Figure().subplots()
+    together = [rocking.Pulse(4.0, 2 * np.pi / 0.9, start) for start in (3.0, 3.1)]
+    apart = rocking.Pulse(4.0, 2 * np.pi / 0.9, 7.0)
+    onsets, periods = np.linspace(2.0, 9.0, 8), np.geomspace(5.0, 0.2, 6)
+    pulses = [together[0], apart, together[1]]
+    draw_energy_map(axes, onsets, periods, np.ones((8, 6)), pulses, (2.0, 9.0))
+    assert [each.get_text() for each in axes.texts] == ["1, 3", "2"]
+    assert len(axes.lines) == 3
+
+
+def test_a_name_is_cut_by_its_width_and_not_by_its_letters():
+    """By the widths of the font: i and l are half as wide as n, W as wide as one and a half."""
+    assert elided("illi" * 5, 12) == "illi" * 5
+    assert elided("WWWW" * 5, 12).endswith("…")
+    assert len(elided("n" * 20, 12)) < 12 < len(elided("i" * 40, 12))
 
 
 def test_the_thickness_of_a_hollow_spire_is_drawn_level_at_its_base_and_inwards():
