@@ -102,7 +102,7 @@ class Described:
     def refusal(self, value: object) -> str:
         """Return the end of the sentence on a `value` that is not allowed."""
         unit = f" {self.unit}" if self.unit and type(value) in (int, float) else ""
-        return f"{shown(value)}{unit}, but must be {self.must}{comma_hint(value)}."
+        return f"{shown(value)}{unit}, but must be {self.must}{number_hint(value)}."
 
 
 def described(
@@ -233,14 +233,23 @@ def kind_in_words(value: object) -> str:
     return kinds.get(type(value), "a number")
 
 
-def comma_hint(value: object) -> str:
-    """Return the end of a sentence on a text that is a number with a decimal comma, "" for another value."""
-    if isinstance(value, str) and _WITH_COMMA.fullmatch(value.strip()):
-        return f"; a number is written with a point, {value.strip().replace(',', '.')}"
+def number_hint(value: object) -> str:
+    """Return the end of a sentence on a text that is a number with a decimal comma or a unit, "" for another value."""
+    if not isinstance(value, str):
+        return ""
+    text = value.strip()
+    if _WITH_COMMA.fullmatch(text):
+        return f"; a number is written with a point, {text.replace(',', '.')}"
+    # Not the number itself: that of "300 cm" would be read in another unit.
+    if with_unit := _WITH_UNIT.fullmatch(text):
+        return f"; write the number alone, without {with_unit['unit']!r}, in the unit asked for"
     return ""
 
 
 _WITH_COMMA = re.compile(r"[-+]?\d{1,12},\d{1,12}([eE][-+]?\d{1,3})?")
+_WITH_UNIT = re.compile(
+    r"[-+]?(\d{1,12}([.,]\d{0,12})?|[.,]\d{1,12})([eE][-+]?\d{1,3})?\s?(?P<unit>[a-zA-Zµ°%][a-zA-Zµ°%²³/^*0-9-]{0,9})"
+)
 _LONGEST_NAME = 80
 """Characters of a name that is compared with those that exist, and repeated as it is."""
 

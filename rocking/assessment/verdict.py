@@ -150,6 +150,23 @@ class Judgement(ABC):
         """Members that overturn, of how many: "12 of 64"; "" without an ensemble."""
         return f"{self.overturning_members} of {self.members}" if self.members else ""
 
+    @property
+    def one_crack_falls(self) -> bool:
+        """Whether every member falls with the crack that governs, and that of statics leaves it undecided."""
+        all_fall = self.members > 0 and self.overturning_members == self.members
+        return self.verdict is Verdict.UNDECIDED and all_fall and bool(self.statics_members)
+
+    @property
+    def counts(self) -> str:
+        """Members that overturn, of each crack where `count` alone would contradict the verdict.
+
+        "64 of 64 with the hinge at 5.16 m, 28 of 256 with the hinge at 5.7 m".
+        """
+        if not self.one_crack_falls:
+            return self.count
+        of_statics = f"{self.statics_overturning_members} of {self.statics_members}"
+        return f"{self.count} with the {self.crack}, {of_statics} with the {self.statics_crack}"
+
 
 def worst_first(judgements: Iterable[tuple[str, Judgement]]) -> list[str]:
     """Return the names, of records or structures, by the shares of members that overturn, summed over all of a name."""

@@ -9,7 +9,7 @@ from io import StringIO
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from rocking.described import comma_hint, described, described_values
+from rocking.described import described, described_values, number_hint
 from rocking.errors import CatalogueError, RockingError
 from rocking.quantities import acceleration_factor, shown
 from rocking.records.formats.format import plain
@@ -271,7 +271,7 @@ def _record(row: Mapping[str, str], folder: Path) -> CatalogueRecord:
     for name, each in described_values(CatalogueRecord).items():
         if cell := (row.get(each.key) or "").strip():
             if each.kind is not str and not is_number(cell):
-                raise CatalogueError(f"{each.key} is {shown(cell)}, but must be a number{comma_hint(cell)}.")
+                raise CatalogueError(f"{each.key} is {shown(cell)}, but must be a number{number_hint(cell)}.")
             values[name] = float(cell) if each.kind is not str else plain(cell) if name in _PROSE else cell
     return CatalogueRecord(**values)
 

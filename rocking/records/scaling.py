@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rocking.described import comma_hint
+from rocking.described import number_hint
 from rocking.errors import RecordError
 from rocking.quantities import acceleration_factor, shown
 from rocking.records.accelerogram import Accelerogram
@@ -61,7 +61,7 @@ class ScalingTarget:
         number = match[2]
         unit = match[3].strip()
         if not is_number(number) or not 0 < float(number) < math.inf:
-            must = f"must be finite and above 0{comma_hint(number)}"
+            must = f"must be finite and above 0{number_hint(number)}"
             raise RecordError(f"scale_to is {shown(text)}, but its number {must}; give {FORM}.")
         if measure == "pgv" and unit not in _SPEEDS:
             raise RecordError(

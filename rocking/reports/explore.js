@@ -26,6 +26,7 @@
 
   // Matrix ----------------------------------------------------------------------------------------------
   const matrix = at("matrix");
+  const LONG = 24; // letters from which on a name has a wider column
   const SHOWN = "button:not([hidden])";
   const caseOf = (record, structure) => record.cases[structure.name];
 
@@ -65,7 +66,9 @@
     const head = add(add(matrix, "thead"), "tr");
     const body = add(matrix, "tbody");
     const heading = (by, text, title) => {
-      add(add(head, "th", { scope: "col", title, "data-by": by }), "button", { type: "button" }, text);
+      const cell = add(head, "th", { scope: "col", title, "data-by": by });
+      cell.classList.toggle("long", text.length > LONG);
+      add(cell, "button", { type: "button" }, text);
     };
     heading("record", "Record", "order of the catalogue");
     heading("pga", "PGA [g]", "order by peak acceleration");

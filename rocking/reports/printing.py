@@ -123,11 +123,15 @@ def cell_text(judgement: "Judgement | None") -> str:
     """Return a case in a map: its sign, and the number behind it, whose form says which it is.
 
     "5/6": stacks of courses that fall, of those that contact dynamics followed. "12 %": share of the members that
-    overturn. "0.4": rotation ratio of a single run.
+    overturn. "11–100 %": that of two cracks, where all fall with one and not with the other. "0.4": rotation ratio of a
+    single run.
     """
     sign = LOOKS[judgement.verdict if judgement else Verdict.UNKNOWN][0]
     if judgement is not None and judgement.stack_runs:
         return f"{sign} {judgement.stack_falls}/{judgement.stack_runs}"
+    if judgement is not None and judgement.one_crack_falls:
+        other = (judgement.statics_overturning_members or 0) / (judgement.statics_members or 1)
+        return f"{sign} {percent(other)}–{percent(judgement.overturning_share)}\u00a0%"
     if judgement is not None and judgement.members and judgement.verdict is Verdict.UNDECIDED:
         # What contacts leave undecided though no member overturns has no share to print.
         return (

@@ -298,8 +298,11 @@ def _lines(structure: Structure, station: StationResult, peak_acceleration: floa
     static = structure.static_multiplier
     two_sides = not (rests(station.rotation_ratio) or structure.symmetric)
     side = f" {structure.side_names[station.peak_side < 0]}" if two_sides and station.peak_side else ""
+    members = f"{station.count} overturn" if station.members else "one run"
+    if station.one_crack_falls:
+        members = f"{station.count} overturn with {_short(station.crack)}"
     lines = [
-        f"{station.count} overturn" if station.members else "one run",
+        members,
         f"as given {to_spread(station.rotation_ratio, station)}{side}",
     ]
     if station.members and not rests(station.rotation_ratio_high) and station.rotation_ratio_low < math.inf:
@@ -308,7 +311,8 @@ def _lines(structure: Structure, station: StationResult, peak_acceleration: floa
         )
         lines.append(f"5–95 %: {low} to {'falling' if high == 'overturns' else high}")
     lines.append(f"static {number(static, 2)} g, PGA {number(peak_acceleration / static, 2)} ×")
-    lines.append(_short(station.crack))
+    if not station.one_crack_falls:
+        lines.append(_short(station.crack))
     if station.statics_members:
         count = f"{station.statics_overturning_members} of {station.statics_members}"
         whose = "else" if station.body_crack_is_given else "by statics"

@@ -52,7 +52,7 @@ def record_line(
     for each in sorted(alone, key=lambda each: each.severity, reverse=True):
         number = f" {each.rotation_ratio:.2g}" if rocks(each.rotation_ratio) else ""
         if each.verdict is Verdict.UNDECIDED:
-            number = f" ({each.count or each.crack})"
+            number = f" ({each.counts or each.crack})"
         parts[each.verdict].append(each.structure + number)
     if len(undecided := parts[Verdict.UNDECIDED]) > _FEW:
         parts[Verdict.UNDECIDED] = [str(len(undecided)), f"in {VerdictRow.table.file_name}"]

@@ -7,7 +7,7 @@ from dataclasses import MISSING, dataclass, replace
 from enum import Enum, StrEnum
 from typing import Any, ClassVar, TypeVar, dataclass_transform
 
-from rocking.described import Described, comma_hint, described, described_values
+from rocking.described import Described, described, described_values, number_hint
 from rocking.quantities import shown
 
 _UNITS = {
@@ -136,4 +136,4 @@ def value_of(each: Described, text: str) -> Any:
         allowed = {bool: "true or false", int: "a whole number"}.get(holds, "a number")
         if issubclass(holds, StrEnum):
             allowed = ", ".join(holds)
-        raise ValueError(f"column {each.name}: {shown(text)} must be {allowed}{comma_hint(text)}") from None
+        raise ValueError(f"column {each.name}: {shown(text)} must be {allowed}{number_hint(text)}") from None

@@ -11,6 +11,7 @@ from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.variations import Variation
 from rocking.assessment.verdict import Verdict
 from rocking.records import Accelerogram
+from rocking.reports.printing import cell_text
 from tests.unit.assessment.made_rows import broken, case, members, station, verdicts
 
 
@@ -72,6 +73,24 @@ def test_the_worst_crack_gives_every_number_and_statics_stands_beside_it():
     assert result.decided_by.startswith("nothing decides by itself, most which crack opens (")
     (row,) = verdicts([result])
     assert (row.crack, row.overturning_members, row.statics_members) == ("crack at 8.5 m", 40, 64)
+    assert row.counts == row.count == "40 of 64"
+
+
+def test_where_all_fall_with_one_crack_an_undecided_case_says_which_crack_disagrees():
+    """ "undecided, 64 of 64" would contradict itself."""
+    static, worse = (
+        FollowedCrack(f"crack at {height} m", height, members(falls))
+        for height, falls in ((3.0, 16), (8.5, 64))
+    )
+    result = station(replace(case("EW", 0.3), ensembles=CrackEnsembles((static, worse))))
+    (row,) = verdicts([result])
+    for judgement in (result, row):
+        assert (judgement.verdict, judgement.count) == (Verdict.UNDECIDED, "64 of 64")
+        assert judgement.counts == "64 of 64 with the crack at 8.5 m, 16 of 64 with the crack at 3.0 m"
+        assert cell_text(judgement) == "? 25–100\u00a0%"
+    both = CrackEnsembles((replace(static, ensemble=members(64)),))
+    (fallen,) = verdicts([station(replace(case("EW", 0.3), ensembles=both))])
+    assert (fallen.verdict, fallen.counts) == (Verdict.OVERTURNS, "64 of 64")
 
 
 @pytest.mark.parametrize(

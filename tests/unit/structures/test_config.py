@@ -126,7 +126,14 @@ def test_a_file_that_is_no_list_is_refused(load, text, message):
 @pytest.mark.parametrize(
     ("value", "said"),
     [
-        ("3.9 m", "height_m is '3.9 m', but must be a number"),
+        (
+            "3.9 m",
+            "height_m is '3.9 m', but must be a number .*; write the number alone, without 'm', in the unit",
+        ),
+        (
+            "390 cm",
+            "height_m is '390 cm', but must be a number .*; write the number alone, without 'cm', in the unit",
+        ),
         ("[3.9]", r"height_m is \[3.9\], but must be a number"),
         ("-3.9", "height_m is -3.9 m, but must be a number"),
     ],
