@@ -72,31 +72,39 @@ def directed(fields: dict[str, Any]) -> dict[str, Any]:
 
 def direction_warnings(component: str, along: float | None, vertical: bool) -> tuple[str, ...]:
     """Return a warning when nothing says where a component points: neither its header, nor its name."""
-    name = component.strip()
-    if (
-        vertical
-        or along is not None
-        or not name
-        or _RELATIVE.fullmatch(name)
-        or _BAND.fullmatch(name.upper())
-    ):
-        return ()
-    is_beyond = name.isdigit() and int(name) > 360
-    is_combined = re.match(r"(?i)rot|srss|gm|geo", name)
-    if (
-        re.search(r"\d\d", name) and not is_beyond and not is_combined
-    ):  # an angle to which a program has written more
+    if not _names_no_direction(component, along, vertical):
         return ()
     return (
-        f"The direction of the component {name} is unknown: its name is neither a direction nor an angle, and it is "
-        "taken as horizontal; leave it out in the catalogue if it is not.",
+        f"The direction of the component {component.strip()} is unknown: its name is neither a direction nor an angle, "
+        "and it is taken as horizontal; leave it out in the catalogue if it is not.",
     )
 
 
+def _names_no_direction(component: str, along: float | None, vertical: bool) -> bool:
+    """Whether a component has a name, and neither it nor the header says where the component points."""
+    name = component.strip()
+    if vertical or along is not None or not name:
+        return False
+    if _RELATIVE.fullmatch(name) or _BAND.fullmatch(name.upper()):
+        return False
+    is_beyond = name.isdigit() and int(name) > 360
+    is_combined = re.match(r"(?i)rot|srss|gm|geo", name) is not None
+    is_longer_angle = re.search(r"\d\d", name) is not None  # an angle to which a program has written more
+    return is_beyond or is_combined or not is_longer_angle
+
+
 def vertical_doubt(components: Sequence[str], along: Sequence[float | None], vertical: Sequence[bool]) -> str:
-    """Return a sentence where three channels or more stand together and nothing says which of them is vertical."""
+    """Return a sentence where a channel may be vertical, and nothing says whether it is.
+
+    That is so of three channels or more without directions, and of a lone one with a name that is no direction. A
+    channel that is called after its place in the file, or not at all, has no name.
+    """
+    if any(vertical):
+        return ""
+    if len(components) == 1:
+        return _lone_doubt(components[0], along[0])
     of_unknown = [name for name, azimuth in zip(components, along, strict=True) if azimuth is None]
-    if len(components) < _OF_A_STATION or any(vertical) or not of_unknown:
+    if len(components) < _OF_A_STATION or not of_unknown:
         return ""
     return (
         f"Of the {len(components)} channels {', '.join(of_unknown[:_OF_A_STATION])} may be vertical, for nothing says "
@@ -104,6 +112,18 @@ def vertical_doubt(components: Sequence[str], along: Sequence[float | None], ver
     )
 
 
+def _lone_doubt(component: str, along: float | None) -> str:
+    if _PLACE.fullmatch(component) or not _names_no_direction(component, along, vertical=False):
+        return ""
+    return (
+        f"The direction of the component {component.strip()} is unknown, for its name is neither a direction nor an "
+        "angle, and it may be vertical: if it is horizontal, name it in the column component of the catalogue, or as "
+        "--component."
+    )
+
+
+_PLACE = re.compile(r"channel \d+")
+"""Name of a channel that stands for its place in the file."""
 _OF_A_STATION = 3
 """Channels of a station that recorded every direction."""
 _STRUCTURE = re.compile(

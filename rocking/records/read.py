@@ -285,13 +285,15 @@ def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
     for place, record in enumerate(records, 1):
         name = record.component or f"channel {place}"
         name += f" (channel {place})" if shared[record.component] > 1 else ""
+        directions_in_doubt: tuple[str, ...] = (upwards,)
+        if not upwards:
+            directions_in_doubt = direction_warnings(record.component, record.azimuth, record.vertical)
         doubts = (
             *record.warnings,
             *channel_warnings(record.component),
             *site_warnings(record.station),
             *site_warnings(record.component),
-            *filter(None, [upwards]),
-            *direction_warnings(record.component, record.azimuth, record.vertical),
+            *directions_in_doubt,
         )
         channels.append(replace(record, component=name, warnings=tuple(dict.fromkeys(doubts))))
     return channels

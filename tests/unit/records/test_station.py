@@ -132,7 +132,7 @@ def test_it_is_still_after_its_end_and_cut_at_the_end_of_the_other():
     assert aligned(long, short).acceleration.tolist() == [0.0] * 5
 
 
-def test_of_three_channels_without_directions_one_may_be_vertical_and_is_asked_for(tmp_path):
+def test_a_channel_that_may_be_vertical_is_asked_for(tmp_path):
     """Two, or three whose names say which is upright, are taken; a row that names components decides."""
     waves = np.random.default_rng(1).normal(size=(3, 300))
 
@@ -150,6 +150,14 @@ def test_of_three_channels_without_directions_one_may_be_vertical_and_is_asked_f
     named = open_station(replace(table("ABC"), component="A;C"))
     assert [channel.component for channel in named.horizontal] == ["A", "C"] and named.vertical is None
     assert len(open_station(table("AB")).horizontal) == 2
+    with pytest.raises(
+        RecordError,
+        match=r"t\.csv: The direction of the component QQX is unknown.*may be vertical.*column component",
+    ):
+        open_station(table(["QQX"]))
+    (alone,) = open_station(replace(table(["QQX"]), component="QQX")).horizontal
+    assert alone.component == "QQX"
+    assert len(open_station(table(["X"])).horizontal) == 1
     upright = open_station(table(["A", "B", "UP"]))
     assert [channel.component for channel in upright.horizontal] == ["A", "B"]
     assert upright.vertical.component == "UP"
