@@ -51,7 +51,7 @@ bench: $(TOOLS)
 check: $(TOOLS)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	$(BIN)/mypy rocking
+	$(BIN)/mypy rocking docs/research
 	$(BIN)/snakefmt --check Snakefile workflow
 
 # What the package's own fields say, written where the workflow reads it; a test compares.

@@ -11,16 +11,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from docs.research import scores
 from docs.research.comparison.bodies import BASE_DEPTH, RigidBodies, rectangle
-from docs.research.comparison.codes import ask
+from docs.research.comparison.codes import Question, ask
 from docs.research.comparison.lmgc90 import FALLEN, follow
-from docs.research.report import Target
+from docs.research.report import Tables, Target
 from docs.research.sites import Trial, draw_of, independent, lifting_factor, one_of_each
 from rocking import Accelerogram, LoadedWall, Mechanism, RigidBody, Verdict
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
@@ -198,7 +197,7 @@ def govern(target: Target) -> None:
         rows += read_rows(CrackRow, path)
         target.tell(f"{name}: {len(rows)} trials")
     subtitle = "Stacks of courses beside the mechanism of every joint, one component of each site."
-    tables = {CrackRow: rows, scores.Score: list(crack_scores(rows))}
+    tables: Tables = {CrackRow: rows, scores.Score: list(crack_scores(rows))}
     target.publish("Which crack governs", subtitle, tables)
 
 
@@ -265,11 +264,17 @@ def falls_in_lmgc90(member: Member, motion: Accelerogram) -> bool | None:
     return None if turn is None else turn > TURN
 
 
-def _case(member: Member, motion: Accelerogram) -> dict[str, Any]:
+class MemberQuestion(Question):
+    """A question on a member by its kind and its number of courses."""
+
+    member: tuple[str, int]
+
+
+def _case(member: Member, motion: Accelerogram) -> MemberQuestion:
     """The stack as the codes take it."""
     mechanisms = member.mechanisms.values()
     return {
-        "member": [member.kind, member.courses],
+        "member": (member.kind, member.courses),
         "acceleration": motion.acceleration.tolist(),
         "time_step": motion.time_step,
         "critical_rotation": TURN / FALLEN,

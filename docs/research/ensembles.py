@@ -16,7 +16,7 @@ import numpy as np
 import pandas as pd
 
 from docs.research import scores, sites
-from docs.research.report import Target
+from docs.research.report import Tables, Target
 from rocking.assessment.causes import CAUSES, lattice
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack, cracks, ensemble_over_cracks
 from rocking.assessment.ensemble import drawn, ensemble
@@ -75,9 +75,10 @@ class ScreeningTrial(sites.Trial):
 
 def calibrate_ensemble(target: Target) -> None:
     """Hold ensembles under near-fault and other records against random draws."""
-    trials = list(try_ensembles(*target.catalogues, target.structures))
+    near_fault, others = target.catalogues
+    trials = list(try_ensembles(near_fault, others, target.structures))
     subtitle = f"Shares of few members beside {DRAWS} random draws of the same causes."
-    tables = {EnsembleTrial: trials, scores.Score: list(ensemble_scores(trials))}
+    tables: Tables = {EnsembleTrial: trials, scores.Score: list(ensemble_scores(trials))}
     target.publish("How right the share of an ensemble is", subtitle, tables)
 
 
@@ -115,9 +116,10 @@ def _trial(
     scaled = [each.scaled(factor) for each in components]
     motions = everywhere = GroundMotions.of(scaled[0])
     if len(scaled) > 1:
-        motions = GroundMotions.of(*scaled)
-        angles = np.pi * np.arange(ALL_DIRECTIONS) / ALL_DIRECTIONS
-        everywhere = GroundMotions({(str(each), ""): rotate(*scaled, angle=each) for each in angles.tolist()})
+        first, second = scaled
+        motions = GroundMotions.of(first, second)
+        angles = (np.pi * np.arange(ALL_DIRECTIONS) / ALL_DIRECTIONS).tolist()
+        everywhere = GroundMotions({(str(angle), ""): rotate(first, second, angle) for angle in angles})
     many = drawn(mechanism, everywhere, draw.random((DRAWS, len(CAUSES))), settings)
     whole, ratios = ensemble(mechanism, motions, settings), many.rotation_ratios
     inside = (ratios >= whole.rotation_ratio_low) & (ratios <= whole.rotation_ratio_high)
@@ -153,8 +155,13 @@ def ensemble_scores(trials: Sequence[EnsembleTrial]) -> Iterator[scores.Score]:
         for more, limit in ((BEYOND, f" by more than {BEYOND} (0 is asked)"), (0.0, "")):
             measures[f"share of verdicts beyond their risk{limit}"] = (opposite > risk + more).where(decided)
         measures["share of draws inside the 5-95 % band (0.87 to 0.93 is asked)"] = own.inside_band
-        measures["verdicts"] = lambda rows, decided=decided: float(decided.to_numpy()[rows].sum())
+        measures["verdicts"] = number_of(decided.to_numpy())
         yield from scores.scored("ensemble", str(half), measures, own.site.tolist())
+
+
+def number_of(which: np.ndarray) -> scores.Measure:
+    """Return the number of cases of which `which` (n,) is true, as a measure."""
+    return lambda rows: float(which[rows].sum())
 
 
 def screen(target: Target) -> None:
@@ -163,7 +170,7 @@ def screen(target: Target) -> None:
     for name, site, record in sites.one_of_each(sites.independent(target.records)):
         trials += screening_trials(name, site, record, target.structures)
         target.tell(name)
-    tables = {ScreeningTrial: trials, scores.Score: list(screening_scores(trials))}
+    tables: Tables = {ScreeningTrial: trials, scores.Score: list(screening_scores(trials))}
     target.publish("What the verdict over all cracks misses", f"{len(trials)} cases.", tables)
 
 

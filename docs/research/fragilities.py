@@ -14,9 +14,16 @@ import numpy as np
 from docs.research import scores, sites
 from docs.research.report import Target
 from rocking import Accelerogram, Block, EquivalentBlock, Pulse, integrate_batch, predict_maxima
-from rocking.assessment.fragility import Fragility, crossing, fragility, fragility_of
+from rocking.assessment.fragility import (
+    Fragility,
+    IncrementalDynamicAnalysis,
+    crossing,
+    fragility,
+    fragility_of,
+)
+from rocking.assessment.rows import TradeMethod
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.assessment.trade import TradeMethod, best_sines
+from rocking.assessment.trade import best_sines
 from rocking.structures import Structure
 
 ALL_LEVELS: dict[str, Any] = {"over_cracks": False, "largest_factor": np.inf}
@@ -57,7 +64,8 @@ def method_scores(
 ) -> Iterator[scores.Score]:
     """Yield the scores of every method for one structure, against the mechanism at TIGHT. sines: best first."""
     follow = partial(fragility, records, structure, intensity_measure="pgv", **ALL_LEVELS)
-    reference = follow(tolerance=TIGHT).analysis
+    with_ensemble = partial(follow, ensemble=EnsembleSettings())
+    reference = responses_behind(follow(tolerance=TIGHT))
     levels, exact = reference.levels, np.isinf(reference.rotation_ratios).mean(axis=2)
     factors = levels / reference.intensities[:, None]
     _, curve_s = sites.timed(reference.fragility)
@@ -71,10 +79,8 @@ def method_scores(
         TradeMethod.ONE_SINE: lambda: _by_sines(block, [each[:1] for each in sines], factors),
         TradeMethod.SINES: lambda: _by_sines(block, sines, factors),
         TradeMethod.BLOCK: on_block,
-        TradeMethod.MECHANISM: lambda: follow(levels=levels).analysis.rotation_ratios,
-        TradeMethod.ENSEMBLE: lambda: (
-            follow(levels=levels, ensemble=EnsembleSettings()).analysis.rotation_ratios
-        ),
+        TradeMethod.MECHANISM: lambda: responses_behind(follow(levels=levels)).rotation_ratios,
+        TradeMethod.ENSEMBLE: lambda: responses_behind(with_ensemble(levels=levels)).rotation_ratios,
     }
     for method, run in runs.items():
         ratios, cpu_s = sites.timed(run)
@@ -83,6 +89,12 @@ def method_scores(
         shares = np.isinf(ratios).mean(axis=2)
         measures = _errors(levels, shares, exact) | {"processor time of all, s": np.full(len(shares), cpu_s)}
         yield from scores.scored(method, name, measures, reference.stations)
+
+
+def responses_behind(curve: Fragility) -> IncrementalDynamicAnalysis:
+    """Return the responses of a curve that `fragility` made, which has them."""
+    assert curve.analysis is not None
+    return curve.analysis
 
 
 def median_of(levels: np.ndarray, shares: np.ndarray) -> float:
@@ -117,9 +129,7 @@ def cover(target: Target) -> None:
     rows: list[scores.Score] = []
     for name, curve, pool in real_sites(target):
         whence = f"of {len(pool)} real ones"
-        rows += _scores(
-            name, whence, curve.levels, pool.mean(axis=0), lambda rng, n, pool=pool: rng.choice(pool, n)
-        )
+        rows += _scores(name, whence, curve.levels, pool.mean(axis=0), scores.drawn_from(pool))
         target.tell(name)
     for name in POPULATIONS:
         rows += population_scores(name)
@@ -134,8 +144,7 @@ def real_sites(target: Target) -> Iterator[tuple[str, Fragility, np.ndarray]]:
     tried = {name: each for name, each in sites.structures_tried().items() if name in TRIED}
     for name, structure in {"stone pier, 2 by 9 m": Block.of_size(2.0, 9.0), **tried}.items():
         curve = fragility(motions, structure, stations=labels, **ALL_LEVELS)
-        assert curve.analysis is not None
-        shares = np.isinf(curve.analysis.rotation_ratios).mean(axis=2)
+        shares = np.isinf(responses_behind(curve).rotation_ratios).mean(axis=2)
         pool = np.array([shares[np.array(labels) == site].mean(axis=0) for site in dict.fromkeys(labels)])
         yield name, curve, pool
 
@@ -157,10 +166,15 @@ def _scores(
         over = np.array([median_of(levels, draw(rng, count)) for _ in range(ESTIMATES)]) / truth
         ends = [fragility_of(levels, draw(rng, count), names).interval for _ in range(TRIALS)]
         covers = [low <= truth <= high for low, high in ends]
-        bias = {"bias of the median": lambda rows, over=over: float(np.median(over[rows])) - 1}
+        bias = {"bias of the median": bias_of(over)}
         part = f"{count} stations {whence}"
         yield from scores.scored(name, part, {"intervals that hold the median": covers}, range(TRIALS))
         yield from scores.scored(name, part, bias, range(ESTIMATES), replicates=200)
+
+
+def bias_of(over: np.ndarray) -> scores.Measure:
+    """Return the bias of medians (n,) over their truth, as a measure."""
+    return lambda rows: float(np.median(over[rows])) - 1
 
 
 def population_shares(name: str, rng: np.random.Generator, count: int) -> np.ndarray:

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from docs.research import scores
-from docs.research.report import Target
+from docs.research.report import Tables, Target
 from docs.research.sites import Trial, draw_of, independent, lifting_factor
 from rocking import Facade, integrate
 from rocking.records import Accelerogram
@@ -54,7 +54,7 @@ def fronts(target: Target) -> None:
     subtitle = (
         f"{len(trials)} fronts with floors under components of {count} sites, free both ways and one-sided."
     )
-    tables = {scores.Score: list(front_scores(trials)), FrontTrial: trials}
+    tables: Tables = {scores.Score: list(front_scores(trials)), FrontTrial: trials}
     target.publish("Fronts with floors", subtitle, tables)
 
 
@@ -63,9 +63,18 @@ def front(draw: np.random.Generator, is_tied: bool) -> Facade:
     storeys = int(draw.integers(2, 4))
     heights = tuple(draw.uniform(2.8, 4.0, storeys).tolist())
     thicknesses = tuple(np.linspace(draw.uniform(0.5, 0.8), draw.uniform(0.35, 0.5), storeys).tolist())
-    ties = {"tie_heights": (heights[0],), "tie_stiffness": float(np.exp(draw.uniform(*np.log([5e3, 5e4]))))}
+    stiffness = float(np.exp(draw.uniform(*np.log([5e3, 5e4]))))
     loads = tuple(draw.uniform(2e3, 15e3, storeys).tolist())
-    return Facade(heights, thicknesses, UNIT_WEIGHT, floor_loads=loads, **(ties if is_tied else {}))
+    if not is_tied:
+        return Facade(heights, thicknesses, UNIT_WEIGHT, floor_loads=loads)
+    return Facade(
+        heights,
+        thicknesses,
+        UNIT_WEIGHT,
+        floor_loads=loads,
+        tie_heights=(heights[0],),
+        tie_stiffness=stiffness,
+    )
 
 
 def front_trial(name: str, site: str, record: Accelerogram, place: int) -> FrontTrial:

@@ -86,7 +86,8 @@ class Mixture:
     def probability(self, overturns: np.ndarray) -> np.ndarray:
         """P' of overturning, (n,), of tests whose verdicts by candidate are `overturns`, (n, m)."""
         share = with_unexplained(overturns @ self.weights, self.unexplained)
-        return expit(self.sharpness * logit(share))
+        probability: np.ndarray = expit(self.sharpness * logit(share))
+        return probability
 
     def ranges(self) -> Mapping[str, tuple[float, float, float]]:
         """Return 5 %, 50 % and 95 % of PARAMETERS over the population."""

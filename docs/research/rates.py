@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
+from typing import Protocol
 
 import numpy as np
 from scipy.special import ndtri
@@ -29,8 +30,13 @@ MANY = 4_000_000
 """Stations whose mean is the truth of a population."""
 DISPERSIONS = (0.3, 0.4, 0.5, 0.7)
 """Of the lognormals for which the least reach is told."""
-Draw = Callable[[np.random.Generator, int, float], np.ndarray]
-"""Rates (n,) of so many stations under a hazard of a slope that is 1 at the level 1."""
+
+
+class Draw(Protocol):
+    """Rates (n,) of so many stations under a hazard of a slope that is 1 at the level 1."""
+
+    def __call__(self, rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
+        """Return the rates (count,)."""
 
 
 def cover_rate(target: Target) -> None:
@@ -45,9 +51,7 @@ def cover_rate(target: Target) -> None:
         for slope in SLOPES:
             rates = rates_of_sites(curve, pool, slope)
             subject = f"{name}, {len(pool)} real sites"
-            rows += interval_scores(
-                subject, slope, rates.mean(), lambda rng, n, own=rates: rng.choice(own, n)
-            )
+            rows += interval_scores(subject, slope, rates.mean(), scores.drawn_from(rates))
         target.tell(name)
     subtitle = f"{TRIALS} intervals each; slope: of the logarithm of the hazard."
     target.publish("What the interval of an annual rate covers", subtitle, {scores.Score: rows})
@@ -68,7 +72,7 @@ def interval_scores(
             "intervals that hold the rate": (low <= truth) & (truth <= high),
             "rate above the interval": truth > high,
             "rate below the interval": truth < low,
-            "high end over rate": lambda rows, reach=reach: float(np.nanmedian(reach[rows])),
+            "high end over rate": scores.mean(reach, np.median),
         }
         yield from scores.scored(subject, f"slope {slope:g}, {count} stations", measures, range(TRIALS), 200)
 
@@ -151,7 +155,8 @@ def _plateau(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
 
 def _log_uniform(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:
     """Levels from one half to two, and none beyond."""
-    return np.exp(-slope * np.log(2.0) * rng.uniform(-1.0, 1.0, count))
+    rates: np.ndarray = np.exp(-slope * np.log(2.0) * rng.uniform(-1.0, 1.0, count))
+    return rates
 
 
 def _dip(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:

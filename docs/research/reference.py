@@ -5,7 +5,7 @@ Written from the equation of motion (theory: section 1, "One standard form"); it
 
 import math
 from collections.abc import Callable
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -52,7 +52,8 @@ class _Run:
         self, mechanism: Mechanism, record: Accelerogram, method: str, tolerance: float, restart: bool
     ) -> None:
         self.method, self.tolerance, self.restart = method, tolerance, restart
-        self.ground, self.step = record.acceleration.tolist(), record.time_step
+        self.ground: list[float] = record.acceleration.tolist()
+        self.step = record.time_step
         self.duration = record.duration
         self.sides = {1: mechanism.positive}
         if not mechanism.one_sided:
@@ -121,9 +122,9 @@ class _Run:
             pull = push + side.at("gravity", rotation) * GRAVITY + slowing
             return [velocity, -pull / side.at("inertia", rotation)]
 
-        landing = _event(lambda time, y: y[0] if time > now else side.critical_rotation, True, -1)
-        turn = _event(lambda _, y: y[1], False, -1)
-        end = _event(lambda _, y: y[0] - side.end_rotation, True, 0)
+        landing = _Event(lambda time, y: y[0] if time > now else side.critical_rotation, True, -1)
+        turn = _Event(lambda _, y: y[1], False, -1)
+        end = _Event(lambda _, y: y[0] - side.end_rotation, True, 0)
         solved = solve_ivp(
             slope,
             (now, until),
@@ -145,8 +146,13 @@ class _Run:
         return until, (float(solved.y[0, -1]), rate), False
 
 
-def _event(value: Callable[[float, np.ndarray], float], terminal: bool, direction: int) -> Any:
-    """Return `value` as an event of `solve_ivp`: where it crosses 0 in a direction; terminal: it ends."""
-    value.terminal = terminal
-    value.direction = direction
-    return value
+@dataclass(frozen=True)
+class _Event:
+    """An event of `solve_ivp`: where `value` crosses 0 in a direction; terminal: the integration ends there."""
+
+    value: Callable[[float, np.ndarray], float]
+    terminal: bool
+    direction: int
+
+    def __call__(self, time: float, state: np.ndarray) -> float:
+        return self.value(time, state)

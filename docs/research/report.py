@@ -16,6 +16,9 @@ from rocking.reports.style import new_figure, picture, styled
 from rocking.structures import Structure
 from rocking.tables import Row, write_tables, write_whole
 
+Tables = Mapping[type[Row], Sequence[Row]]
+"""The rows of each table that a target writes."""
+
 
 @dataclass(frozen=True)
 class Target:
@@ -34,9 +37,7 @@ class Target:
         """The records of all catalogues, one catalogue after the other."""
         return chain.from_iterable(self.catalogues)
 
-    def publish(
-        self, title: str, subtitle: str, tables: Mapping[type[Row], Sequence[Row]], text: str = ""
-    ) -> None:
+    def publish(self, title: str, subtitle: str, tables: Tables, text: str = "") -> None:
         """Write `tables`, datapackage.json and report.pdf into the folder. text: stands before the scores."""
         write_tables(tables, self.folder, f"rocking-{self.folder.name}")
         scores = pd.DataFrame(tables[Score])

@@ -1,11 +1,23 @@
 """Run one target of the research: snakemake.* onto docs.research."""
 
 import sys
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from snakemake.iocontainers import Snakemake
+
+    from docs.research.report import Target
+    from docs.research.sites import NamedRecord
+    from rocking.records import CatalogueRecord
+
+    snakemake: Snakemake
+    """What snakemake puts into the namespace of a script."""
 
 
-def main(name, catalogues, mirror, structures, folder, tell):
-    """Run the target `name`, which is a function of that name, and write its tables and its report into `folder`."""
+def targets() -> "dict[str, Callable[[Target], None]]":
+    """Return the function of each target that reads the accelerograms of catalogues, by the name of its rule."""
     from docs.research import (
         code_checks,
         cracks,
@@ -16,27 +28,54 @@ def main(name, catalogues, mirror, structures, folder, tell):
         rates,
         stacks,
         tiers,
-        validation,
     )
     from docs.research.comparison import table
+
+    return {
+        "calibrate": tiers.calibrate,
+        "calibrate_ensemble": ensembles.calibrate_ensemble,
+        "trade_fragility": fragilities.trade_fragility,
+        "cover": fragilities.cover,
+        "cover_rate": rates.cover_rate,
+        "govern": cracks.govern,
+        "stand": stacks.stand,
+        "screen": ensembles.screen,
+        "floors": floors.floors,
+        "fronts": fronts.fronts,
+        "code_check": code_checks.code_check,
+        "code_sets": code_checks.code_sets,
+        "compare": table.compare,
+    }
+
+
+def main(
+    name: str,
+    catalogues: Sequence[str],
+    mirror: str | None,
+    structures: str,
+    folder: Path,
+    tell: Callable[[str], None],
+) -> None:
+    """Run the target of the rule `name`, and write its tables and its report into `folder`."""
+    from docs.research import validation
     from docs.research.report import Target
     from docs.research.shake_table import Campaign
     from rocking.records import load_catalogue
     from rocking.structures import load_structures
 
     if name == "validate":
-        campaign = Campaign.open(Path(catalogues[0]), mirror and Path(mirror))
+        campaign = Campaign.open(Path(catalogues[0]), Path(mirror) if mirror else None)
         validation.validate(Target(folder, tell), campaign)
         return
-    modules = (tiers, ensembles, fragilities, rates, cracks, code_checks, stacks, floors, fronts, table)
-    run = next(getattr(each, name) for each in modules if hasattr(each, name))
     motions = [motions_of(load_catalogue(Path(each)), mirror, tell) for each in catalogues]
     listed = load_structures(Path(structures))
     on_the_ground = {name: each for name, each in listed.items() if each.standing is None}
-    run(Target(folder, tell, motions, on_the_ground))
+    targets()[name](Target(folder, tell, motions, on_the_ground))
 
 
-def motions_of(catalogue, mirror, tell):
+def motions_of(
+    catalogue: "Sequence[CatalogueRecord]", mirror: str | None, tell: Callable[[str], None]
+) -> "Iterator[NamedRecord]":
     """Yield identifier and accelerogram of every component of the records, after a line for each record."""
     from rocking.records import open_record
 

@@ -46,12 +46,21 @@ def scored(
     """Yield every measure of the cases at `sites` (n,), with its interval."""
     draws = resampled(sites, replicates)
     every = np.arange(len(sites))
-    counts = {"subject": subject, "part": part, "cases": every.size, "sites": len(set(sites))}
+    independent = len(set(sites))
     for name, each in measures.items():
         measure = each if callable(each) else mean(each)
         values = [value for rows in draws if not math.isnan(value := measure(rows))]
         low, high = np.quantile(values, LEVELS).tolist() if values else (math.nan, math.nan)
-        yield Score(measure=name, value=measure(every), value_low=low, value_high=high, **counts)
+        yield Score(
+            subject=subject,
+            part=part,
+            measure=name,
+            value=measure(every),
+            value_low=low,
+            value_high=high,
+            cases=every.size,
+            sites=independent,
+        )
 
 
 def reliability(
@@ -90,6 +99,11 @@ def resampled(labels: Labels, replicates: int) -> list[np.ndarray]:
     rng = np.random.default_rng(0)
     drawn = (rng.integers(names.size, size=names.size) for _ in range(replicates))
     return [np.concatenate([rows[k] for k in each]) for each in drawn]
+
+
+def drawn_from(pool: np.ndarray) -> Callable[[np.random.Generator, int], np.ndarray]:
+    """Return what draws so many of the stations whose values or curves (n, ...) are `pool`, with repetition."""
+    return lambda rng, count: rng.choice(pool, count)
 
 
 def mean(values: Sequence[float] | np.ndarray, statistic: Callable[..., float] = np.mean) -> Measure:

@@ -4,7 +4,7 @@ import re
 import zlib
 from collections.abc import Callable, Iterable, Iterator
 from time import process_time
-from typing import Any
+from typing import TypeVar
 
 import numpy as np
 
@@ -12,6 +12,8 @@ from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Arch, Block, Structure, Wall
 from rocking.tables import Row, column, row
+
+T = TypeVar("T")
 
 MOST_COMPONENTS = 2
 """Of a site that count."""
@@ -54,7 +56,7 @@ def independent(records: Records) -> Iterator[SiteRecord]:
     with all those of the other: catalogues differ in how much they add. What comes first names the site; a file of
     another catalogue for the same site, or of a direction that is there already, does not count.
     """
-    sites: list[tuple[str, list[str], str, set]] = []
+    sites: list[tuple[str, list[str], str, set[object]]] = []
     for name, record in records:
         event = "".join(re.findall(r"[a-z]+", record.event.lower()))[:4]
         words = re.findall(r"[a-z0-9]+", record.station.lower())
@@ -97,7 +99,7 @@ def draw_of(name: str, *place: int) -> np.random.Generator:
     return np.random.default_rng([zlib.crc32(name.encode()), *place])
 
 
-def timed(run: Callable[[], Any]) -> tuple[Any, float]:
+def timed(run: Callable[[], T]) -> tuple[T, float]:
     """Return what `run` returns, and the processor time that it took, s."""
     started = process_time()
     return run(), process_time() - started

@@ -8,10 +8,12 @@ and that tapering members need a stack of many courses on the odd one.
 
 import warnings
 import zlib
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from time import process_time
+from typing import ClassVar, Literal
 
 import numpy as np
 import pandas as pd
@@ -31,6 +33,7 @@ from rocking.motion.stacks import follow_stack
 from rocking.quantities import GRAVITY
 from rocking.structures import Structure
 from rocking.structures.stack import Stack
+from rocking.structures.structure import Crackable
 from rocking.tables import column, read_rows, row, write_rows
 
 COURSES = (6, 8, 10, 13)
@@ -81,18 +84,21 @@ class Judged:
         return self.contact.verdict if self.contact is not None else self.without
 
 
-class Case:
+class Case(ABC):
     """A member under motions: the uplift multiplier of statics, what the package says, and the true stack."""
 
-    multiplier: float
+    @property
+    @abstractmethod
+    def multiplier(self) -> float:
+        """Uplift multiplier of statics: ground acceleration over g."""
 
+    @abstractmethod
     def judged(self, motion: Accelerogram) -> Judged:
         """Return what the package says."""
-        raise NotImplementedError
 
+    @abstractmethod
     def stack(self, courses: int | None = None) -> Stack:
         """Return the member as courses."""
-        raise NotImplementedError
 
     def begins_storey(self, height: float) -> bool | None:
         """Return whether a storey begins at `height` [m] above the foot; None of what has no storeys."""
@@ -106,7 +112,7 @@ class Shipped(Case):
     structure: Structure
 
     @property
-    def multiplier(self) -> float:  # type: ignore[override]
+    def multiplier(self) -> float:
         """The least over its cracks."""
         return self.structure.static_multiplier
 
@@ -116,8 +122,9 @@ class Shipped(Case):
         return Judged(case.verdict, case.doubt, case.contact)
 
     def stack(self, courses: int | None = None) -> Stack:
-        known = getattr(self.structure, "crack", "") == "known"
-        return self.structure.stack(None if known else courses)
+        if isinstance(self.structure, Crackable) and self.structure.crack == "known":
+            return self.structure.stack()
+        return self.structure.stack(courses)
 
     def begins_storey(self, height: float) -> bool | None:
         if not isinstance(self.structure, Facade):
@@ -134,7 +141,8 @@ class Made(Case):
 
     kind: str
     size: float
-    symmetric = True
+    symmetric: ClassVar[bool] = True
+    courses_are_given: ClassVar[bool] = False
 
     def _member(self, courses: int) -> Member:
         plain = members(courses)[self.kind]
@@ -159,7 +167,7 @@ class Made(Case):
         return min(self.mechanisms, key=lambda joint: self.mechanisms[joint].uplift_multiplier)
 
     @property
-    def multiplier(self) -> float:  # type: ignore[override]
+    def multiplier(self) -> float:
         """The least over its joints."""
         return self.mechanisms[self.static].uplift_multiplier
 
@@ -170,7 +178,7 @@ class Made(Case):
         judged = Judged(alone, doubt, None)
         if judged.without is not Verdict.UNDECIDED:
             return judged
-        share = contact_share(self, GroundMotions.of(motion), SETTINGS)  # type: ignore[arg-type]
+        share = contact_share(self, GroundMotions.of(motion), SETTINGS)
         return replace(judged, contact=share)
 
     def stack(self, courses: int | None = None) -> Stack:
@@ -181,8 +189,9 @@ def spire(draw: np.random.Generator) -> Case:
     """Solid or hollow, round or square, of a slope of 1 in 6 to 1 in 12."""
     width = float(draw.uniform(1.0, 4.0))
     wall = None if draw.random() < 0.3 else float(draw.uniform(0.1, 0.25) * width / 2)
-    plan = "circular" if draw.random() < 0.5 else "square"
-    return Shipped(Spire(width, float(width * draw.uniform(3.0, 6.0)), wall, plan))  # type: ignore[arg-type]
+    plan: Literal["circular", "square"] = "circular" if draw.random() < 0.5 else "square"
+    height = float(width * draw.uniform(3.0, 6.0))
+    return Shipped(Spire(width, height, wall, plan))
 
 
 def loaded_wall(draw: np.random.Generator) -> Case:

@@ -104,7 +104,8 @@ def left_out(tier: Tier, cases: pd.DataFrame) -> np.ndarray:
     def estimates(others: np.ndarray, own: np.ndarray) -> np.ndarray:
         without = fit(tier, cases.iloc[others])
         odds = without.design(_terms(tier, cases.iloc[own])) @ without.coefficients
-        return (1 - without.lapse) * expit(odds)
+        stated: np.ndarray = (1 - without.lapse) * expit(odds)
+        return stated
 
     return scores.left_out(cases.site.to_numpy(), estimates)
 
@@ -135,7 +136,7 @@ def try_answers(records: Iterable[sites.SiteRecord], cases: pd.DataFrame) -> Ite
     for _, site, record in first:
         fits = {tier: fit(tier, cases[cases.site != site]) for tier in Tier}
         for motion in map(record.scaled, ANSWERED_FACTORS):
-            _, velocity_s = sites.timed(lambda motion=motion: peak_velocity(motion))
+            _, velocity_s = sites.timed(partial(peak_velocity, motion))
             for mechanism in mechanisms:
                 trial = _answer_trial(mechanism, motion, fits, velocity_s / len(mechanisms))
                 yield {"site": site, **trial}

@@ -9,7 +9,7 @@ from scipy.special import expit, logit
 
 from docs.research import scores
 from docs.research.identification import BlockPrior, fit_mixture, two_sided_block
-from docs.research.report import Target
+from docs.research.report import Tables, Target
 from docs.research.shake_table import SPECIMENS, Campaign
 from rocking import Pulse, PulseError, extract_pulses, integrate_batch, predict_maxima
 from rocking.records.processing import Processing, process, velocity
@@ -34,6 +34,10 @@ ABOUT = (
     "left out, the baselines included. The settings among which it chooses, and those of the published verdicts, were "
     "chosen on these tests. Gains are paired; one is sure where its interval lies above 0."
 )
+
+
+Method = Callable[[np.ndarray, np.ndarray, np.ndarray], np.ndarray]
+"""Probabilities (k,) of unseen facts (k, ...), from facts (n, ...) and outcomes (n,) that are known."""
 
 
 @row("predictions", "One row per specimen, method and test, its motion left out of the fit")
@@ -67,7 +71,7 @@ def validate(target: Target, campaign: Campaign) -> None:
     measured = measure(campaign, PRIOR, target.tell)
     tests = measured.tests
     motions = tests.motion.tolist()
-    counts = {"cases": len(motions), "sites": len(set(motions))}
+    independent = len(set(motions))
     rows: list[scores.Score] = []
     predictions: list[PredictionRow] = []
     for specimen in SPECIMENS:
@@ -82,14 +86,22 @@ def validate(target: Target, campaign: Campaign) -> None:
         rows += scores.reliability(part, "motions left out", ours, outcomes, motions, EDGES)
         population = fit_mixture(measured.parameters, measured.overturns, outcomes, motions)
         for name, (low, middle, high) in population.ranges().items():
-            about = {"subject": name, "part": f"{part}, 5 to 95 % of the population of all motions"}
-            ends = {"value": middle, "value_low": low, "value_high": high}
-            rows.append(scores.Score(measure="median of the population", **about, **ends, **counts))
+            median = scores.Score(
+                subject=name,
+                part=f"{part}, 5 to 95 % of the population of all motions",
+                measure="median of the population",
+                value=middle,
+                value_low=low,
+                value_high=high,
+                cases=len(motions),
+                sites=independent,
+            )
+            rows.append(median)
     subtitle = (
-        f"{len(tests)} tests of two granite specimens under {counts['sites']} input motions, each motion left out of "
+        f"{len(tests)} tests of two granite specimens under {independent} input motions, each motion left out of "
         "the fit that predicts it."
     )
-    tables = {scores.Score: rows, PredictionRow: predictions}
+    tables: Tables = {scores.Score: rows, PredictionRow: predictions}
     target.publish("Validation against shake-table tests", subtitle, tables, ABOUT)
 
 
@@ -124,7 +136,11 @@ def left_out(measured: Measured, specimen: int) -> Mapping[str, np.ndarray]:
         fit = measured.parameters, measured.overturns[others], outcomes[others], motions[others].tolist()
         return fit_mixture(*fit).probability(measured.overturns[own])
 
-    beaten: dict[str, tuple[Callable[..., np.ndarray], np.ndarray]] = {
+    def beside(method: Method, facts: np.ndarray) -> scores.Prediction:
+        """Return `method` on the facts (n, ...) of the tests as a prediction by index."""
+        return lambda others, own: method(facts[others], outcomes[others], facts[own])
+
+    beaten: dict[str, tuple[Method, np.ndarray]] = {
         "one block on the record": (best_block, measured.overturns),
         "closed form on the dominant pulse": (best_block, measured.pulse_overturns),
         "threshold on peak velocity, nominal": (threshold, tests.nominal_peak_velocity.to_numpy()),
@@ -134,12 +150,7 @@ def left_out(measured: Measured, specimen: int) -> Mapping[str, np.ndarray]:
     }
     probability = {IDENTIFIED: scores.left_out(motions, population)}
     for name, (method, facts) in beaten.items():
-        probability[name] = scores.left_out(
-            motions,
-            lambda others, own, method=method, facts=facts: method(
-                facts[others], outcomes[others], facts[own]
-            ),
-        )
+        probability[name] = scores.left_out(motions, beside(method, facts))
     start = f"specimen_{specimen}_"
     for name in tests.columns[tests.columns.str.startswith(start)]:  # not fitted here
         probability[f"published {name.removeprefix(start).replace('_', ' ')}"] = tests[name].to_numpy(float)
@@ -158,7 +169,8 @@ def threshold(values: np.ndarray, outcomes: np.ndarray, unseen: np.ndarray) -> n
     ranked = np.sort(values)
     limits = np.r_[ranked[0] / 2, np.sqrt(ranked[1:] * ranked[:-1]), 2 * ranked[-1]]
     best = limits[np.argmax([np.sum((values > limit) == outcomes) for limit in limits])]
-    return (unseen > best).astype(float)
+    exceeds: np.ndarray = unseen > best
+    return exceeds.astype(float)
 
 
 def logistic(values: np.ndarray, outcomes: np.ndarray, unseen: np.ndarray) -> np.ndarray:
@@ -167,7 +179,8 @@ def logistic(values: np.ndarray, outcomes: np.ndarray, unseen: np.ndarray) -> np
     design = np.column_stack([np.ones(logs.size), logs - centre])
     ridge = 2e-4 / logs.size  # keeps the fit finite where the outcomes separate
     (offset, slope), _ = scores.logistic(design, outcomes, np.arange(logs.size), ridge)
-    return expit(offset + slope * (np.log(unseen) - centre))
+    probability: np.ndarray = expit(offset + slope * (np.log(unseen) - centre))
+    return probability
 
 
 def _measures(values: np.ndarray, ours: np.ndarray, outcomes: np.ndarray) -> Mapping[str, scores.Measured]:

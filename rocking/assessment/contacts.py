@@ -7,6 +7,7 @@ bounds (theory: section 11). "Stands" is then not said. Falls are, because what 
 
 from dataclasses import dataclass
 from itertools import product
+from typing import Protocol
 
 import numpy as np
 
@@ -27,6 +28,25 @@ AMPLITUDES = (0.9, 1.0, 1.1)
 its outcome is a draw, which several amplitudes show."""
 STEPS = (STEP, STEP / 2)
 """Time steps of contact dynamics, s, at each of which every case is followed."""
+
+
+class Laid(Protocol):
+    """A member that can be laid in rigid courses; see `Structure` for each of these."""
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether both sides are alike."""
+
+    @property
+    def tapers(self) -> bool:
+        """Whether its courses grow smaller upwards."""
+
+    @property
+    def courses_are_given(self) -> bool:
+        """Whether it says how many courses it has."""
+
+    def stack(self, courses: int | None = None) -> Stack:
+        """Return it as rigid courses."""
 
 
 def doubt(
@@ -70,7 +90,7 @@ def _directions(motions: GroundMotions) -> list[Accelerogram]:
     return list(first.values())
 
 
-def _signs(structure: Structure, settings: AssessmentSettings) -> tuple[float, ...]:
+def _signs(structure: Laid, settings: AssessmentSettings) -> tuple[float, ...]:
     """Both signs of the motion where the sides differ and the sign varies."""
     return (1.0,) if structure.symmetric or not settings.ensemble.polarity else (1.0, -1.0)
 
@@ -121,7 +141,7 @@ class ContactShare:
 
 
 def contact_share(
-    structure: Structure, motions: GroundMotions, settings: AssessmentSettings | None = None
+    structure: Laid, motions: GroundMotions, settings: AssessmentSettings | None = None
 ) -> ContactShare:
     """Return how many stacks of the structure fall, at AMPLITUDES and STEPS.
 
@@ -156,12 +176,12 @@ def contact_share(
     return ContactShare(int(np.sum(falls)), len(falls))
 
 
-def _stacks(structure: Structure) -> list[Stack]:
+def _stacks(structure: Laid) -> list[Stack]:
     """The stacks to follow: where a member tapers and does not say how many courses it has, of a few and of many.
 
     The more courses, the smaller is the topmost one, which is thrown first.
     """
-    if structure.tapers and getattr(structure, "courses", None) is None:
+    if structure.tapers and not structure.courses_are_given:
         return [structure.stack(COURSES), structure.stack(MANY_COURSES)]
     return [structure.stack()]
 

@@ -280,6 +280,10 @@ class Spire(CrackedAtHeight):
         moments = np.array([1.0, height / 4, height**2 / 10, _SPREAD[self.plan] * half_width**2])
         return half_width**2 * height * moments
 
+    @property
+    def courses_are_given(self) -> bool:
+        return self.courses is not None
+
     def stack(self, courses: int | None = None) -> Stack:
         """Return the courses above the crack where it is known, else all of them; their number as given, or its own."""
         free_to_both_sides(self)

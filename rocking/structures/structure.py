@@ -261,6 +261,11 @@ class Structure(metaclass=PlainlyMade):
             np.where(there, positive.tangential, negative.tangential) + unknown,
         )
 
+    @property
+    def courses_are_given(self) -> bool:
+        """Whether its description says in how many courses it is laid."""
+        return False
+
     def stack(self, courses: int | None = None) -> Stack:
         """Return it as rigid courses for contact dynamics; raises StructureError where that has no meaning.
 

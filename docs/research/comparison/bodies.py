@@ -126,4 +126,5 @@ def rectangle(left: float, right: float, low: float, high: float) -> np.ndarray:
 def _turned(polygon: np.ndarray, angle: float) -> np.ndarray:
     """Counterclockwise about the origin."""
     sine, cosine = math.sin(angle), math.cos(angle)
-    return polygon @ np.array([[cosine, sine], [-sine, cosine]])
+    turned: np.ndarray = polygon @ np.array([[cosine, sine], [-sine, cosine]])
+    return turned

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, NotRequired, TypedDict
 
 import numpy as np
 
@@ -23,7 +23,6 @@ from docs.research import reference
 from docs.research.sites import timed
 from rocking import Accelerogram, Arch, Block, Frame, Mechanism, Pulse, Response, integrate
 from rocking.quantities import GRAVITY
-from rocking.structures import Structure
 
 SEED = 20
 """Of the drawn pulses and scales."""
@@ -50,7 +49,7 @@ ANOTHER_MODEL = frozenset({("arch", LMGC90)})
 """What solves a motion other than the reference's: hinges open where they like, and its shocks are its own."""
 
 
-def structures() -> dict[str, Structure]:
+def structures() -> dict[str, Block | Frame | Arch]:
     """Return the structures by name: m, rad."""
     return {
         "block": Block.of_size(breadth=0.6, height=3.0),
@@ -127,6 +126,26 @@ class Answer:
 Code = Callable[[CodeCase], Answer]
 
 
+class Question(TypedDict):
+    """What a code in a process of its own is asked: the motion, and the scales of rotation [rad] and time [rad/s].
+
+    acceleration: of the ground, m/s², at every time_step [s]. settled: the turn [rad] below which, for a second on
+    still ground, nothing more is expected; left out, a motion is followed to its end.
+    """
+
+    acceleration: list[float]
+    time_step: float
+    critical_rotation: float
+    frequency_parameter: float
+    settled: NotRequired[float]
+
+
+class StructureQuestion(Question):
+    """A question on one of `structures`, by its name."""
+
+    structure: str
+
+
 def inner_codes() -> Mapping[str, Code]:
     """Return this package and scipy, which take every case."""
     ours = {f"rocking, tolerance {tolerance:.0e}": partial(_ours, tolerance) for tolerance in TOLERANCES}
@@ -144,7 +163,8 @@ def landings_of(response: Response) -> np.ndarray:
     if response.times is None or response.rotation is None:
         return np.empty(0)
     same = (np.diff(response.times) == 0) & (response.rotation[:-1] == 0) & (response.rotation[1:] == 0)
-    return response.times[:-1][same]
+    times: np.ndarray = response.times[:-1][same]
+    return times
 
 
 def _ours(tolerance: float, case: CodeCase) -> Answer:
@@ -161,7 +181,7 @@ def _scipy(method: str, case: CodeCase) -> Answer:
 
 
 def _outer(module: str, case: CodeCase) -> Answer:
-    question = {
+    question: StructureQuestion = {
         "structure": case.structure,
         "critical_rotation": case.mechanism.critical_rotation,
         "frequency_parameter": case.mechanism.positive.frequency_parameter,
@@ -175,7 +195,7 @@ def _outer(module: str, case: CodeCase) -> Answer:
     return Answer(**answer, landings=None if landings is None else np.array(landings))
 
 
-def ask(module: str, question: Mapping[str, object], timeout: float = TIMEOUT) -> tuple[Any, str]:
+def ask(module: str, question: Question, timeout: float = TIMEOUT) -> tuple[Any, str]:
     """Return what a driver answers to a case, in a process of its own; or None, and why there is no answer."""
     try:
         done = subprocess.run(
@@ -189,13 +209,14 @@ def ask(module: str, question: Mapping[str, object], timeout: float = TIMEOUT) -
         return None, (done.stderr.strip().splitlines() or ["It said nothing."])[-1]
 
 
-def serve(run: Callable[[dict, float], Answer], settings: Sequence[float], reason: str) -> None:
+def serve(run: Callable[[StructureQuestion, float], Answer], settings: Sequence[float], reason: str) -> None:
     """Answer the case on standard input in JSON, on the last line of standard output, with the limit of three runs.
 
     reason: why the largest rotation has none, if so. Where the limit of a small rotation would be negative, the last
     run stands, with the bar of the extrapolation.
     """
-    case, start = json.load(sys.stdin), time.process_time()
+    case: StructureQuestion = json.load(sys.stdin)
+    start = time.process_time()
     runs = [run(case, setting) for setting in settings]
     ratio, bar = limit_of([each.rotation_ratio for each in runs])
     eta, eta_bar = limit_of([each.restitution for each in runs])
@@ -209,7 +230,11 @@ def serve(run: Callable[[dict, float], Answer], settings: Sequence[float], reaso
 
 
 def run_of(
-    case: dict, times: np.ndarray, rotation: np.ndarray, energy: np.ndarray, outside_hinges: float = math.nan
+    case: Question,
+    times: np.ndarray,
+    rotation: np.ndarray,
+    energy: np.ndarray,
+    outside_hinges: float = math.nan,
 ) -> Answer:
     """Return what a history (n,) that stays up says of the case `case`; energy (n,) as for `restitution`."""
     critical, still = case["critical_rotation"], still_from(case)
@@ -221,7 +246,7 @@ def run_of(
     )
 
 
-def still_from(case: dict) -> float:
+def still_from(case: Question) -> float:
     """Return when the ground of a case comes to rest, s."""
     return (len(case["acceleration"]) - 1) * case["time_step"]
 
@@ -248,7 +273,8 @@ def landings(times: np.ndarray, rotation: np.ndarray) -> np.ndarray:
     before, after = rotation[:-1], rotation[1:]
     at = np.flatnonzero(np.sign(before) * np.sign(after) < 0)
     share = before[at] / (before[at] - after[at])
-    return times[at] + share * (times[at + 1] - times[at])
+    crossed: np.ndarray = times[at] + share * (times[at + 1] - times[at])
+    return crossed
 
 
 def restitution(

@@ -5,12 +5,23 @@ of angular momentum keeps. The method is of first order: three time steps are ru
 """
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
 from docs.research.comparison.bodies import RigidBodies, rigid_bodies
-from docs.research.comparison.codes import STILL, Answer, landings, run_of, serve, still_from, structures
+from docs.research.comparison.codes import (
+    STILL,
+    Answer,
+    Question,
+    StructureQuestion,
+    landings,
+    run_of,
+    serve,
+    still_from,
+    structures,
+)
 from rocking.motion.stack_kernel import ALERT
 from rocking.quantities import GRAVITY
 from rocking.structures.stack import FRICTION
@@ -21,7 +32,7 @@ FALLEN = 6.0
 """Turn of a body, in critical rotations, from which nothing comes back."""
 
 
-def run(case: dict, step: float) -> Answer:
+def run(case: StructureQuestion, step: float) -> Answer:
     """Return the run of a case with a time step."""
     bodies = rigid_bodies(structures()[case["structure"]])
     times, turns, centres = follow(case, bodies, step)
@@ -40,7 +51,7 @@ def run(case: dict, step: float) -> Answer:
     return run_of(case, times, rotation, energy, bodies.outside_hinges(turns[largest]))
 
 
-def follow(case: dict, bodies: RigidBodies, step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def follow(case: Question, bodies: RigidBodies, step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Times (n,), counterclockwise turns (n, bodies) and centres of mass (n, bodies, 2), until the end or a fall."""
     from compas_lmgc90.solver import Solver
 
@@ -73,7 +84,7 @@ def follow(case: dict, bodies: RigidBodies, step: float) -> tuple[np.ndarray, np
     return times[: len(turns)], np.array(turns), np.array(centres)[:, :, [0, 2]]
 
 
-def base_speed(case: dict, step: float) -> tuple[np.ndarray, np.ndarray]:
+def base_speed(case: Question, step: float) -> tuple[np.ndarray, np.ndarray]:
     """Return times [s] and velocity [m/s] of the base (n,), the acceleration linear between its samples."""
     acceleration, sample = np.array(case["acceleration"]), case["time_step"]
     velocity = cumulative_trapezoid(acceleration, dx=sample, initial=0.0)
@@ -85,7 +96,7 @@ def base_speed(case: dict, step: float) -> tuple[np.ndarray, np.ndarray]:
     return times, velocity[place] + inside * (acceleration[place] + slope * inside / 2)
 
 
-def _prism(polygon: np.ndarray, depth: float) -> dict:
+def _prism(polygon: np.ndarray, depth: float) -> dict[str, Sequence[Sequence[float]]]:
     """The polygon as a body of some depth [m], its faces wound outwards."""
     count = len(polygon)
     corners = [[x, y, z] for y in (-depth / 2, depth / 2) for x, z in polygon.tolist()]

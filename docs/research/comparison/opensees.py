@@ -10,11 +10,22 @@ import importlib.util
 import math
 import time
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
-from docs.research.comparison.codes import STILL, Answer, landings, run_of, serve, still_from, structures
+from docs.research.comparison.codes import (
+    STILL,
+    Answer,
+    StructureQuestion,
+    landings,
+    run_of,
+    serve,
+    still_from,
+    structures,
+)
+from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
 from rocking.structures import Block
 
@@ -35,10 +46,14 @@ _WATCHED = 12
 _LIBRARIES = ("libquadmath.so.0", "libgfortran.so.4", "libblas.so.3", "liblapack.so.3")
 
 
-def run(case: dict, strain: float) -> Answer:
+def run(case: StructureQuestion, strain: float) -> Answer:
     """Return the run of a case at a flexibility."""
     ops = _opensees()
     structure = structures()[case["structure"]]
+    if not isinstance(structure, Block):
+        raise StructureError(
+            f"structure is {case['structure']!r}, but RockingBC follows a block only; ask for that."
+        )
     _build(ops, structure, strain)
     ops.timeSeries("Path", 200, "-dt", case["time_step"], "-values", *case["acceleration"])
     ops.pattern("UniformExcitation", 300, 1, "-accel", 200)
@@ -60,7 +75,7 @@ def run(case: dict, strain: float) -> Answer:
     return run_of(case, times, rotation, np.interp(np.abs(rotation), grid, potential))
 
 
-def _follow(ops, still: float, end: float) -> np.ndarray | None:
+def _follow(ops: ModuleType, still: float, end: float) -> np.ndarray | None:
     """Times and rotations (2, n), until it overturned, reversed often enough, or all the time; None: to no end."""
     step, good, reversals, start = LONGEST, 0, 0, time.process_time()
     history = [(0.0, 0.0)]
@@ -80,7 +95,7 @@ def _follow(ops, still: float, end: float) -> np.ndarray | None:
     return np.array(history).T
 
 
-def _build(ops, block: Block, strain: float) -> None:
+def _build(ops: ModuleType, block: Block, strain: float) -> None:
     """A column that rocks at its foot (node 11); all mass is in its middle (12), above which nothing rocks."""
     breadth, height = block.breadth, block.height
     modulus, mass = DENSITY * GRAVITY * height / strain, DENSITY * breadth * height
@@ -110,7 +125,7 @@ def _build(ops, block: Block, strain: float) -> None:
     ops.rayleigh(0, 2 * DAMPING / math.sqrt(ops.eigen("-fullGenLapack", 1)[0]), 0, 0)
 
 
-def _solver(ops, test: tuple) -> None:
+def _solver(ops: ModuleType, test: tuple[str, float, int]) -> None:
     ops.constraints("Transformation")
     ops.numberer("RCM")
     ops.system("UmfPack")
@@ -118,16 +133,15 @@ def _solver(ops, test: tuple) -> None:
     ops.algorithm("Newton")
 
 
-def _opensees():
+def _opensees() -> ModuleType:
     """Import OpenSees; its own libraries first, which it does not find by itself."""
     package = importlib.util.find_spec("openseespylinux")
-    for name in _LIBRARIES if package else ():
-        path = Path(str(package.origin)).parent / "lib" / name
-        if path.is_file():
-            ctypes.CDLL(str(path), mode=ctypes.RTLD_GLOBAL)
-    import openseespy.opensees as ops
-
-    return ops
+    if package is not None:
+        folder = Path(str(package.origin)).parent / "lib"
+        for path in (folder / name for name in _LIBRARIES):
+            if path.is_file():
+                ctypes.CDLL(str(path), mode=ctypes.RTLD_GLOBAL)
+    return importlib.import_module("openseespy.opensees")
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ import pandas as pd
 
 from docs.research import reference, scores
 from docs.research.comparison import codes
-from docs.research.report import Target
+from docs.research.report import Tables, Target
 from docs.research.sites import timed
 from rocking import Mechanism, integrate
 from rocking.assessment.cracks import cracks
@@ -63,7 +63,8 @@ def compare(target: Target) -> None:
     of_each = groupby(target.records, key=itemgetter(0))
     first = [next(components)[1] for _, components in islice(of_each, codes.RECORDS // 3)]
     cases = [*codes.pulse_cases(), *codes.record_cases(first)]
-    slow, rows = slow_cases(cases), []
+    slow = slow_cases(cases)
+    rows: list[CodeRow] = []
     for case in cases:
         rows += code_rows(case, {**codes.inner_codes(), **slow.get(case.name, {})})
         target.tell(case.name)
@@ -72,7 +73,7 @@ def compare(target: Target) -> None:
         f"{pulses} pulses and {len(cases) - pulses} stretches of records on a block, a frame and an arch of seven "
         "voussoirs; the reference is DOP853 of scipy at 1e-12, restarted at every sample and impact."
     )
-    tables = {CodeRow: rows, scores.Score: list(code_scores(rows))}
+    tables: Tables = {CodeRow: rows, scores.Score: list(code_scores(rows))}
     target.publish("Work against precision", subtitle, tables, COMPARED)
 
 
