@@ -62,6 +62,10 @@ def code_check_rows(structure: str, checked: StructureCheck) -> Iterator[CodeChe
     for each in checked.checks:
         dynamic = each if isinstance(each, DynamicCheck) else None
         low, high = dynamic.interval if dynamic else (math.nan, math.nan)
+        level_capacity = _of(each, "m/s²", each.capacity)
+        level_demand = _of(each, "m/s²", each.demand)
+        displacement_capacity = _of(each, "m", each.capacity)
+        displacement_demand = _of(each, "m", each.demand)
         yield CodeCheckRow(
             structure=structure,
             check=KINDS[each.clause],
@@ -70,10 +74,10 @@ def code_check_rows(structure: str, checked: StructureCheck) -> Iterator[CodeChe
             mechanism=each.mechanism,
             passed=each.passed,
             ratio=each.ratio,
-            level_capacity_m_s2=_of(each, "m/s²", each.capacity),
-            level_demand_m_s2=_of(each, "m/s²", each.demand),
-            displacement_capacity_m=_of(each, "m", each.capacity),
-            displacement_demand_m=_of(each, "m", each.demand),
+            level_capacity_m_s2=level_capacity,
+            level_demand_m_s2=level_demand,
+            displacement_capacity_m=displacement_capacity,
+            displacement_demand_m=displacement_demand,
             exceeding_motions=dynamic.exceeding if dynamic else None,
             motions=dynamic.motions if dynamic else None,
             sets=dynamic.sets if dynamic else None,

@@ -227,19 +227,21 @@ def ida_rows(
             ratios = analysis.rotation_ratios[place, step]
             if np.isnan(ratios).all():
                 continue  # the record does not reach the level within the largest factor
+            scale_factor = level / float(analysis.intensities[place])
+            governing_overturning_share = math.nan
+            if worst is not None:
+                governing_overturning_share = float(np.isinf(worst[place, step]).mean())
             yield IdaRow(
                 structure=structure,
                 record=name,
                 station=station,
                 intensity_measure=analysis.measure.name,
                 level=level,
-                scale_factor=level / float(analysis.intensities[place]),
+                scale_factor=scale_factor,
                 members=ratios.size,
                 rotation_ratio_median=float(np.sort(ratios)[(ratios.size - 1) // 2]),
                 overturning_share=float(np.isinf(ratios).mean()),
-                governing_overturning_share=math.nan
-                if worst is None
-                else float(np.isinf(worst[place, step]).mean()),
+                governing_overturning_share=governing_overturning_share,
             )
 
 
@@ -267,9 +269,12 @@ def fragility_summary_row(
 ) -> FragilitySummaryRow:
     """Return what a curve comes down to. hazard: of its intensity measure."""
     rates = annual_rate(curve, hazard) if hazard else {}
+    records = len(curve.stations)  # the station of each is named
     at_the_top = np.isfinite(curve.exceedance[:, -1])
     reaching = {name for name, each in zip(curve.stations, at_the_top, strict=True) if each}
     stations_out = curve.independent - len(reaching)
+    median_low, median_high = curve.interval
+    reversals = int((curve.reversals > 0).sum())
     largest = math.nan
     if curve.analysis is not None:
         factors = curve.levels / curve.analysis.intensities[:, None]
@@ -279,17 +284,17 @@ def fragility_summary_row(
         governing=governing,
         intensity_measure=curve.measure,
         threshold=curve.threshold,
-        records=len(curve.stations),
+        records=records,
         stations=curve.independent,
         stations_out=stations_out,
         largest_scale_factor=largest,
         median=curve.median,
-        median_low=curve.interval[0],
-        median_high=curve.interval[1],
+        median_low=median_low,
+        median_high=median_high,
         lognormal_median=curve.lognormal_median,
         dispersion=curve.dispersion,
         misfit=curve.misfit,
-        reversals=int((curve.reversals > 0).sum()),
+        reversals=reversals,
         annual_rate=rates.get("annual_rate", math.nan),
         annual_rate_low=rates.get("annual_rate_low", math.nan),
         annual_rate_high=rates.get("annual_rate_high", math.nan),
@@ -312,6 +317,7 @@ def intensity_measure_rows(
         for figure, values in _figures(records).items():
             both = np.isfinite(logs) & np.isfinite(values)
             stations = np.array(analysis.stations)[both].tolist()
+            records_with_both = len(stations)
             if len(set(stations)) < 2:
                 continue
             levels = logs[both, None] + factors[both]
@@ -321,7 +327,7 @@ def intensity_measure_rows(
                 intensity_measure=measure.name,
                 efficiency=explained["efficiency"],
                 figure=figure,
-                records=len(stations),
+                records=records_with_both,
                 stations=len(set(stations)),
                 slope=explained.get("slope", math.nan),
                 p_value=explained.get("p_value", math.nan),

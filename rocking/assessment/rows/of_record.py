@@ -413,6 +413,7 @@ def pulse_rows(identity: ComponentRow, component: "Component") -> Iterator[Pulse
         for rank, evidence in enumerate(pulses, start=1):
             dominant = evidence is analysis.evidence and kind == "alternative"
             pulse = evidence.pulse
+            same_outcome_share = worth(evidence.explained_energy)
             yield PulseRow(
                 record=identity.record,
                 component=identity.component,
@@ -425,7 +426,7 @@ def pulse_rows(identity: ComponentRow, component: "Component") -> Iterator[Pulse
                 gain_m2_s3=evidence.gain,
                 gain_ratio=evidence.gain / analysis.evidence.gain,
                 explained_energy=evidence.explained_energy,
-                same_outcome_share=worth(evidence.explained_energy),
+                same_outcome_share=same_outcome_share,
                 effective_length_m=evidence.effective_length,
                 flags=analysis.flags if dominant else (),
                 scale_factor=identity.scale_factor,
@@ -440,7 +441,11 @@ def comparison_row(identity: ComponentRow, case: "CaseResult", friction_coeffici
     assert case.answer is not None
     predicted = case.predicted_rotation_ratio
     integrated = case.integrated_rotation_ratio
+    prediction_over_integration = ratio(predicted, integrated)
+    prediction_in_words = ratio_in_words(predicted, integrated)
     by_method = {method: response.rotation_ratio for method, response in case.responses.items()}
+    block_on_record = by_method.get(Method.BLOCK_ON_RECORD, math.nan)
+    mechanism_on_pulse = by_method.get(Method.MECHANISM_ON_PULSE, math.nan)
     prediction = case.prediction
     response = case.response
     estimate = case.overturning_estimate
@@ -450,14 +455,14 @@ def comparison_row(identity: ComponentRow, case: "CaseResult", friction_coeffici
         structure=case.structure,
         predicted_rotation_ratio=predicted,
         integrated_rotation_ratio=integrated,
-        prediction_over_integration=ratio(predicted, integrated),
-        prediction_in_words=ratio_in_words(predicted, integrated),
+        prediction_over_integration=prediction_over_integration,
+        prediction_in_words=prediction_in_words,
         within_factor_two=within_factor_two(predicted, integrated),
         agreement=agreement(predicted, integrated),
         regime=prediction.maximum.regime if prediction else None,
         printed_rotation_ratio=prediction.printed_rotation_ratio if prediction else math.nan,
-        block_on_record_rotation_ratio=by_method.get(Method.BLOCK_ON_RECORD, math.nan),
-        mechanism_on_pulse_rotation_ratio=by_method.get(Method.MECHANISM_ON_PULSE, math.nan),
+        block_on_record_rotation_ratio=block_on_record,
+        mechanism_on_pulse_rotation_ratio=mechanism_on_pulse,
         pulse_rank=prediction.pulse_rank if prediction else None,
         amplitude_ratio=prediction.amplitude_ratio if prediction else math.nan,
         frequency_ratio=prediction.frequency_ratio if prediction else math.nan,
@@ -567,13 +572,16 @@ def support_rows(result: "RecordResult", identities: Mapping[str, ComponentRow])
             mode = standing.support.modes[0] if standing.support else None
             pulse = floor.analysis.evidence.pulse if floor.analysis else None
             peak = floor.accelerogram.peak_acceleration
-            own = math.nan
-            by_code = math.nan
+            amplification = peak / ground.peak_acceleration if ground.peak_acceleration else math.nan
+            floor_spectral_acceleration = math.nan
+            code_spectral_acceleration = math.nan
             if standing.support is not None:
-                own = spectrum_of(floor.accelerogram)(standing.period, FLOOR_DAMPING)
+                spectrum = spectrum_of(floor.accelerogram)
+                floor_spectral_acceleration = spectrum(standing.period, FLOOR_DAMPING)
             if standing.support is not None and has_code_spectrum(standing.support):
                 places = np.array([standing.period])
-                by_code = floor_spectrum(standing.support, places, FLOOR_DAMPING, spectrum_of(ground))[0]
+                by_code = floor_spectrum(standing.support, places, FLOOR_DAMPING, spectrum_of(ground))
+                code_spectral_acceleration = by_code[0]
             yield SupportRow(
                 record=identity.record,
                 component=identity.component,
@@ -585,9 +593,9 @@ def support_rows(result: "RecordResult", identities: Mapping[str, ComponentRow])
                 support_participation=mode.participation if mode else math.nan,
                 support_modes=len(standing.support.modes) if standing.support else 0,
                 floor_peak_acceleration_m_s2=peak,
-                amplification=peak / ground.peak_acceleration if ground.peak_acceleration else math.nan,
-                floor_spectral_acceleration_m_s2=own,
-                code_spectral_acceleration_m_s2=by_code,
+                amplification=amplification,
+                floor_spectral_acceleration_m_s2=floor_spectral_acceleration,
+                code_spectral_acceleration_m_s2=code_spectral_acceleration,
                 floor_pulse_amplitude_m_s2=pulse.amplitude if pulse else math.nan,
                 floor_pulse_period_s=pulse.period if pulse else math.nan,
                 verdict=station.verdict,

@@ -172,17 +172,21 @@ def agreement_rows(comparison: "DataFrame") -> Iterator[AgreementRow]:
     compared = comparison[ratios.notna().all(axis="columns")]
     for structure, cases in [("", compared), *compared.groupby("structure", sort=False)]:
         predicted, integrated = np.isinf(cases[list(ratios)].to_numpy()).T
+        overturning_hits = int((predicted & integrated).sum())
+        overturning_misses = int((integrated & ~predicted).sum())
+        overturning_false_alarms = int((predicted & ~integrated).sum())
+        where_both_rock = cases["prediction_over_integration"]
         yield AgreementRow(
             structure=str(structure),
             records=cases["record"].nunique(),
             cases=len(cases),
-            both_rock=int(cases["prediction_over_integration"].count()),
+            both_rock=int(where_both_rock.count()),
             within_factor_two=int(cases["within_factor_two"].sum()),
-            median_ratio=float(cases["prediction_over_integration"].median()),
+            median_ratio=float(where_both_rock.median()),
             overturning=int(integrated.sum()),
-            overturning_hits=int((predicted & integrated).sum()),
-            overturning_misses=int((integrated & ~predicted).sum()),
-            overturning_false_alarms=int((predicted & ~integrated).sum()),
+            overturning_hits=overturning_hits,
+            overturning_misses=overturning_misses,
+            overturning_false_alarms=overturning_false_alarms,
         )
 
 

@@ -21,6 +21,22 @@ def within(name: str, longer: str) -> bool:
     return f"_{name}_" in f"_{longer}_"
 
 
+def names_in(value: ast.expr) -> set[str]:
+    """The names of what a value is made from: `high` of `reserve.high`, `p_value` of `explained.get("p_value")`."""
+    match value:
+        case ast.Attribute(attr=name) | ast.Name(id=name) | ast.Constant(value=str(name)):
+            return {name}
+        case ast.IfExp(body=one, orelse=other) | ast.BinOp(left=one, right=other):
+            return names_in(one) | names_in(other)
+        case ast.Subscript(value=whole, slice=ast.Constant(value=str(name))):
+            return {name}
+        case ast.Subscript(value=whole):
+            return names_in(whole)
+        case ast.Call(func=function, args=arguments):
+            return names_in(function) | {name for each in arguments for name in names_in(each)}
+    return set()
+
+
 def misplaced(source: str) -> Iterator[str]:
     """Yield the columns that are filled from what another column of the same row is named after."""
     for call in ast.walk(ast.parse(source)):
@@ -28,11 +44,11 @@ def misplaced(source: str) -> Iterator[str]:
             continue
         columns = {each.arg for each in call.keywords if each.arg}
         for each in call.keywords:
-            value = each.value.body if isinstance(each.value, ast.IfExp) else each.value
-            if not isinstance(value, ast.Attribute) or not each.arg:
+            if not each.arg:
                 continue
-            is_named_otherwise = any(within(value.attr, column) for column in columns)
-            if is_named_otherwise and not within(value.attr, each.arg):
+            names = names_in(each.value)
+            is_named_otherwise = any(within(name, column) for name in names for column in columns)
+            if is_named_otherwise and not any(within(name, each.arg) for name in names):
                 yield each.arg
 
 
@@ -48,6 +64,9 @@ def test_a_column_is_filled_from_what_it_is_named_after(path):
         "reserve_low=reserve.high, reserve_high=reserve.low",
         "critical_rotation_rad=side.uplift_multiplier, uplift_multiplier=side.critical_rotation",
         "low=some.high if some else None, high=some.low if some else None",
+        "low=float(some.high[0]), high=float(some.low[0])",
+        "low=made(high), high=made(low)",
+        "slope=explained.get('p_value', nan), p_value=explained['slope']",
     ],
 )
 def test_two_columns_that_change_places_are_seen(arguments):
