@@ -2,17 +2,24 @@
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pytest
+from scipy.signal import lsim
 
 from rocking.assessment.intensity import INTENSITY_MEASURES
-from rocking.assessment.rows.of_fragility import FRAGILITY_TABLES, FragilitySummaryRow
+from rocking.assessment.rows.of_fragility import FRAGILITY_TABLES, FragilitySummaryRow, IdaRow
 from rocking.errors import ConfigurationError
+from rocking.motion import integrate
+from rocking.quantities import GRAVITY
+from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.reports.fragility import write_fragility_report
 from rocking.structures import Block, Spire
+from rocking.structures.standing import support_from_config
 from rocking.study.job import Study
 from rocking.study.settings import Settings, StudyFragility
 from rocking.study.summary import write_fragility
@@ -109,3 +116,84 @@ def test_a_hazard_curve_gives_annual_rates(tmp_path):
     assert all(0 <= row.annual_rate_low <= row.annual_rate <= row.annual_rate_high <= 0.1 for row in rows)
     by_threshold = [row.annual_rate for row in rows if row.structure == "slender"]
     assert by_threshold == sorted(by_threshold, reverse=True), "the larger the rotation the rarer"
+
+
+DAMPING, PARTICIPATION = 0.05, 1.3
+PERIODS = (0.25, 0.6)
+FINER = 5
+BODY = Block.of_size(0.5, 2.0)
+
+
+def _floor(ground: Accelerogram, period: float) -> Accelerogram:
+    """The floor of one mode by scipy's state space, a_g + Γψ u'' with u'' = −a_g − 2ξωu' − ω²u, and as it rings on.
+
+    The ground is a straight line between its samples; the floor is not, and is sampled more finely.
+    """
+    if period == 0:
+        return ground
+    omega = 2 * math.pi / period
+    stiffness, damping = omega**2, 2 * DAMPING * omega
+    times = np.arange(0, ground.duration + 20 * period, ground.time_step / FINER)
+    samples = np.append(ground.acceleration, 0.0)
+    acceleration = np.interp(times, ground.time_step * np.arange(samples.size), samples)
+    system = ([[0, 1], [-stiffness, -damping]], [[0], [-1]], [[-stiffness, -damping]], [[-1]])
+    _, relative, _ = lsim(system, acceleration, times)
+    floor = acceleration + PARTICIPATION * relative
+    return replace(ground, acceleration=floor, time_step=ground.time_step / FINER)
+
+
+def _by_hand(curve: list[tuple[float, float]], scale: float, slope: float) -> float:
+    """Return ∫ P |dν| = ∫ ν dP under ν = k x⁻ˢ, for P that rises from 0 at the first level in straight lines of ln x.
+
+    Between levels a and b the mean of ν over ln x is k (a⁻ˢ − b⁻ˢ) / (s ln(b/a)).
+    """
+    first, start = curve[0]
+    rate = start * scale * first**-slope
+    for (a, before), (b, after) in pairwise(curve):
+        mean = scale * (a**-slope - b**-slope) / (slope * math.log(b / a))
+        rate += (after - before) * mean
+    return rate
+
+
+def test_the_rate_of_each_period_of_a_support_is_the_one_by_hand(tmp_path):
+    """Who falls where is followed on floors of scipy's, and what a year brings of it is a sum of closed integrals."""
+    scale, slope, lowest, highest = 2e-4, 2.5, 0.02, 10.0
+    hazard = tmp_path / "hazard.csv"
+    points = [f"{level},{scale * level**-slope}" for level in (lowest, highest)]
+    hazard.write_text("\n".join(["intensity,annual_rate", *points]))
+    carried = {}
+    for period in PERIODS:
+        facts = {"period_s": period, "damping_ratio": DAMPING, "participation": PARTICIPATION}
+        support = support_from_config({"name": f"roof {period}", **facts})
+        carried |= {each.name: BODY.standing_on(each) for each in support.standings("parapet")}
+    assert [each.standing.period for each in carried.values()] == [0.0, *PERIODS]
+    study = replace(_study(hazard=str(hazard), intensity_measure="pga"), structures=carried)
+    records = _records(tmp_path, 3)
+    assert write_fragility(records, study, tmp_path / "out") == []
+
+    outcomes = list(read_rows(IdaRow, tmp_path / "out" / "ida.csv"))
+    summaries = read_rows(FragilitySummaryRow, tmp_path / "out" / "fragility_summary.csv")
+    told = {row.structure: row.annual_rate for row in summaries if math.isinf(row.threshold)}
+    by_hand = {}
+    widths: list[float] = []
+    for name, structure in carried.items():
+        rates = []
+        for record in records:
+            (ground,), _ = study.open(record)
+            floor = _floor(ground, structure.standing.period)
+            own = [
+                row for row in outcomes if row.structure == name and row.station == f"made; {record.station}"
+            ]
+            factors = [row.level * GRAVITY / ground.peak_acceleration for row in own]
+            falls = [math.isinf(integrate(BODY, floor.scaled(each)).rotation_ratio) for each in factors]
+            assert [row.overturning_share for row in own] == falls
+            curve = [(row.level, row.overturning_share) for row in own]
+            widths += [math.log(after.level / before.level) for before, after in pairwise(own)]
+            rates.append(_by_hand(curve, scale, slope))
+        by_hand[name] = sum(rates) / len(rates)
+    # Of 400 equal steps in ln x, each counts the curve at its middle: a kink within one, where the curve begins or ends
+    # to rise by 1 over the width of two levels, is missed by at most step² / (8 width) of what ν changes by.
+    step = math.log(highest / lowest) / 400
+    assert told == pytest.approx(by_hand, rel=2 * slope * step**2 / (8 * min(widths)))
+    ground, stiff, soft = told.values()
+    assert ground < 0.9 * stiff < 0.5 * soft, "so that no rate could stand in the row of another period"
