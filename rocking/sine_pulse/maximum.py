@@ -101,6 +101,29 @@ class _Peak(NamedTuple):
     ratio: float
     impacts: int
 
+    @property
+    def overturns(self) -> bool:
+        """Whether the block does not come back."""
+        return self.ratio == math.inf
+
+
+class _SideRow(NamedTuple):
+    """One side of a block as the kernel reads it: p [rad/s], gλ [m/s²], η, velocity scale, end, and if it rocks so."""
+
+    frequency_parameter: float
+    uplift_acceleration: float
+    restitution: float
+    velocity_scale: float
+    end: float
+    exists: bool
+
+
+class _Followed(NamedTuple):
+    """Blocks (m) under pulses (n): the largest x of both sides, (m, n, 2), positive first, and the margins (m, n)."""
+
+    peaks: np.ndarray
+    margins: np.ndarray
+
 
 def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
     """Return the exact largest rotation of `equivalent_block` under `pulse`, with the regime that it belongs to.
@@ -117,41 +140,52 @@ def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
     """
     sides = sides_under(equivalent_block, pulse)
     course = sine_pulse.kernel.course(*sides)
-    then = course.peak_impacts
     if course.unresolved:
         return Maximum(math.nan, Outcome.FAILED, Regime.UNRESOLVED, course.impacts, 0, math.nan)
-    if max(then) < 0:
+    peaks = _peaks(equivalent_block, pulse, course)
+    if not peaks:
         return Maximum(0.0, Outcome.NO_UPLIFT, Regime.NO_UPLIFT)
+
     # Of the two sides the one whose peak came first counts, unless the other's is larger.
-    first_sign = 1 if pulse.amplitude < 0 else -1
-    peaks = [
-        _Peak(sign, equivalent_block.sides[0 if sign > 0 else -1].rotation_ratio(rotation), impacts)
-        for sign, rotation, impacts in zip((first_sign, -first_sign), course.peaks, then, strict=True)
-        if impacts >= 0  # else this side never lifts
-    ]
     earliest = min(peaks, key=lambda peak: peak.impacts)
     largest = max(peaks, key=lambda peak: peak.ratio)
     peak = largest if largest.ratio > earliest.ratio * _EQUAL else earliest
-    impacts = peak.impacts
-    overturns = peak.ratio == math.inf
-    if overturns:
-        regime = Regime.OVERTURNS_AFTER_IMPACTS if impacts else Regime.OVERTURNS_WITHOUT_IMPACT
-    elif course.contacts:
-        regime = Regime.CONTACT_DURING_PULSE
-    elif not impacts:
-        regime = Regime.BEFORE_FIRST_IMPACT
-    else:
-        # Eq. 15 takes for granted that the first half lifts the block and that what it lands on next is the same.
-        as_printed = equivalent_block.other_side is None and sides[0].exists
-        regime = Regime.PRINTED_EXACT if as_printed else Regime.AFTER_FIRST_IMPACT
+
+    # Eq. 15 takes for granted that the first half lifts the block and that what it lands on next is the same.
+    is_as_printed = equivalent_block.other_side is None and sides[0].exists
     return Maximum(
         rotation_ratio=peak.ratio,
-        outcome=Outcome.OVERTURNS if overturns else Outcome.ROCKS,
-        regime=regime,
-        impacts=impacts,
+        outcome=Outcome.OVERTURNS if peak.overturns else Outcome.ROCKS,
+        regime=_regime(peak, course.contacts, is_as_printed),
+        impacts=peak.impacts,
         peak_side=peak.side,
         overturning_margin=course.margin,
     )
+
+
+def _peaks(block: EquivalentBlock, pulse: Pulse, course: "sine_pulse.kernel.Course") -> list[_Peak]:
+    """The largest rotation to each side that lifts, the side that the pulse's first half lifts first."""
+    first_side = 1 if pulse.amplitude < 0 else -1
+    peaks = []
+    for side, rotation, impacts in zip(
+        (first_side, -first_side), course.peaks, course.peak_impacts, strict=True
+    ):
+        never_lifts = impacts < 0
+        if not never_lifts:
+            own = block.sides[0 if side > 0 else -1]
+            peaks.append(_Peak(side, own.rotation_ratio(rotation), impacts))
+    return peaks
+
+
+def _regime(peak: _Peak, touches_ground_in_pulse: bool, is_as_printed: bool) -> Regime:
+    """The regime of a block that lifts. is_as_printed: whether block and pulse are what Eq. 15 is written for."""
+    if peak.overturns:
+        return Regime.OVERTURNS_AFTER_IMPACTS if peak.impacts else Regime.OVERTURNS_WITHOUT_IMPACT
+    if touches_ground_in_pulse:
+        return Regime.CONTACT_DURING_PULSE
+    if not peak.impacts:
+        return Regime.BEFORE_FIRST_IMPACT
+    return Regime.PRINTED_EXACT if is_as_printed else Regime.AFTER_FIRST_IMPACT
 
 
 def sides_under(block: EquivalentBlock, pulse: Pulse) -> list["sine_pulse.kernel.Side"]:
@@ -170,21 +204,32 @@ def sides_under(block: EquivalentBlock, pulse: Pulse) -> list["sine_pulse.kernel
             "extract_pulses(record).dominant."
         )
     sides = []
-    for frequency, uplift, restitution, scale, end, exists in _rows_of(block):
-        ratios = pulse.circular_frequency / frequency, abs(pulse.amplitude) / uplift
-        check_ratios(*ratios)
-        sides.append(sine_pulse.kernel.Side(*ratios, restitution, scale, end, exists))
+    for row in _rows_of(block):
+        frequency_ratio = pulse.circular_frequency / row.frequency_parameter
+        amplitude_ratio = abs(pulse.amplitude) / row.uplift_acceleration
+        check_ratios(frequency_ratio, amplitude_ratio)
+        side = sine_pulse.kernel.Side(
+            frequency_ratio, amplitude_ratio, row.restitution, row.velocity_scale, row.end, row.exists
+        )
+        sides.append(side)
     return sides[::-1] if pulse.amplitude > 0 else sides
 
 
 @lru_cache(maxsize=4096)
-def _rows_of(block: EquivalentBlock) -> list[tuple[float, float, float, float, float, bool]]:
-    """p, gλ, η, velocity scale, end and existence of the positive and of the negative side."""
+def _rows_of(block: EquivalentBlock) -> tuple[_SideRow, _SideRow]:
+    """The positive and the negative side, which are the same one where they do not differ."""
     rows = [
-        (s.frequency_parameter, GRAVITY * s.uplift_multiplier, s.restitution, s.velocity_scale, s.end)
-        for s in block.sides
+        _SideRow(
+            frequency_parameter=side.frequency_parameter,
+            uplift_acceleration=GRAVITY * side.uplift_multiplier,
+            restitution=side.restitution,
+            velocity_scale=side.velocity_scale,
+            end=side.end,
+            exists=True,
+        )
+        for side in block.sides
     ]
-    return [(*rows[0], True), (*rows[-1], not block.one_sided)]
+    return rows[0], rows[-1]._replace(exists=not block.one_sided)
 
 
 def check_ratios(frequency_ratio: float, amplitude_ratio: float) -> None:
@@ -212,12 +257,12 @@ def predict_maxima(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse]) -
     >>> predict_maxima([block], [Pulse(1.0, 9.0), Pulse(9.0, 3.0)]).tolist()
     [[0.0, inf]]
     """
-    peaks, _ = _followed(blocks, pulses)
+    peaks = _followed(blocks, pulses).peaks
     ratios = np.empty(peaks.shape[:2])
-    for block, row, own in zip(blocks, ratios, peaks, strict=True):
-        np.maximum(
-            block.sides[0].rotation_ratios(own[:, 0]), block.sides[-1].rotation_ratios(own[:, 1]), out=row
-        )
+    for place, block in enumerate(blocks):
+        to_positive = block.sides[0].rotation_ratios(peaks[place, :, 0])
+        to_negative = block.sides[-1].rotation_ratios(peaks[place, :, 1])
+        ratios[place] = np.maximum(to_positive, to_negative)
     return ratios
 
 
@@ -229,7 +274,7 @@ def overturning_margins(blocks: Sequence[EquivalentBlock], pulses: Sequence[Puls
     >>> (overturning_margins([block], [Pulse(3.0, 9.0), Pulse(9.0, 3.0)]) < 0).tolist()
     [[False, True]]
     """
-    return _followed(blocks, pulses)[1]
+    return _followed(blocks, pulses).margins
 
 
 def overturning_amplitudes(
@@ -260,8 +305,8 @@ def overturning_amplitudes(
     return amplitudes
 
 
-def _followed(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse]) -> tuple[np.ndarray, np.ndarray]:
-    """The largest x of both sides, (m, n, 2), positive first, and the margins (m, n)."""
+def _followed(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse]) -> _Followed:
+    """Follow every block under every pulse."""
     frequencies = np.array([pulse.circular_frequency for pulse in pulses])
     amplitudes = np.array([pulse.amplitude for pulse in pulses])
     rows = _rows(blocks, frequencies, np.abs(amplitudes))
@@ -270,16 +315,21 @@ def _followed(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse]) -> tup
     # A positive ground acceleration rocks the block to its negative side.
     signs = np.where(amplitudes < 0, 1, -1)
     sine_pulse.kernel.courses(rows, signs, frequencies, np.abs(amplitudes), peaks, margins)
-    return peaks, margins
+    return _Followed(peaks, margins)
 
 
 def _rows(blocks: Sequence[EquivalentBlock], frequencies: np.ndarray, amplitudes: np.ndarray) -> np.ndarray:
     """(m, 2, 6) `_rows_of` each block, checked under all pulses."""
-    rows = np.array([_rows_of(block) for block in blocks], dtype=float).reshape(-1, 2, 6)
+    of_blocks = [_rows_of(block) for block in blocks]
+    rows = np.array(of_blocks, dtype=float).reshape(-1, 2, len(_SideRow._fields))
     if rows.size and frequencies.size:
-        largest = float(amplitudes.max() / rows[..., 1].min())
-        check_ratios(float(frequencies.min() / rows[..., 0].max()), largest)
-        check_ratios(float(frequencies.max() / rows[..., 0].min()), largest)
+        sides = [side for both in of_blocks for side in both]
+        stiffest = max(side.frequency_parameter for side in sides)
+        softest = min(side.frequency_parameter for side in sides)
+        weakest = min(side.uplift_acceleration for side in sides)
+        largest_amplitude_ratio = float(amplitudes.max()) / weakest
+        check_ratios(float(frequencies.min()) / stiffest, largest_amplitude_ratio)
+        check_ratios(float(frequencies.max()) / softest, largest_amplitude_ratio)
     return rows
 
 
@@ -342,6 +392,7 @@ def printed_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> float:
     if drop > 1:
         return math.nan
     root = math.sqrt(1 - drop)
+    # Of a small drop 1 − √(1 − drop) would lose its digits.
     maximum = drop / (1 + root) if drop > -1 else 1 - root
     own = equivalent_block.sides[-1 if first.exists and pulse.amplitude >= 0 else 0]
     return own.rotation_ratio(maximum) if maximum > 0 else maximum
