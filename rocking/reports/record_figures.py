@@ -339,7 +339,7 @@ def histories_figure(
     row = min(_HIGHEST_ROW, _HISTORIES / len(histories))
     below = 20.0
     left = 38.0
-    width = TEXT_WIDTH - 77
+    width = TEXT_WIDTH - 84  # what happened stands at the right
     figure = new_figure(row * len(histories) + below * len(motions) + 9)
     panel = panel_at(figure, left, 1, width, row * len(histories))
     for place, history in enumerate(histories):
