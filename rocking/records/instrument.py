@@ -72,7 +72,7 @@ def directed(fields: dict[str, Any]) -> dict[str, Any]:
 
 def direction_warnings(component: str, along: float | None, vertical: bool) -> tuple[str, ...]:
     """Return a warning when nothing says where a component points: neither its header, nor its name."""
-    if not _names_no_direction(component, along, vertical):
+    if not _has_unknown_direction(component, along, vertical):
         return ()
     return (
         f"The direction of the component {component.strip()} is unknown: its name is neither a direction nor an angle, "
@@ -80,7 +80,7 @@ def direction_warnings(component: str, along: float | None, vertical: bool) -> t
     )
 
 
-def _names_no_direction(component: str, along: float | None, vertical: bool) -> bool:
+def _has_unknown_direction(component: str, along: float | None, vertical: bool) -> bool:
     """Whether a component has a name, and neither it nor the header says where the component points."""
     name = component.strip()
     if vertical or along is not None or not name:
@@ -96,8 +96,7 @@ def _names_no_direction(component: str, along: float | None, vertical: bool) -> 
 def vertical_doubt(components: Sequence[str], along: Sequence[float | None], vertical: Sequence[bool]) -> str:
     """Return a sentence where a channel may be vertical, and nothing says whether it is.
 
-    That is so of three channels or more without directions, and of a lone one with a name that is no direction. A
-    channel that is called after its place in the file, or not at all, has no name.
+    That is so of three channels or more without directions, and of a lone one with a code of unknown direction.
     """
     if any(vertical):
         return ""
@@ -113,17 +112,25 @@ def vertical_doubt(components: Sequence[str], along: Sequence[float | None], ver
 
 
 def _lone_doubt(component: str, along: float | None) -> str:
-    if _PLACE.fullmatch(component) or not _names_no_direction(component, along, vertical=False):
+    """A sentence on a lone channel with a code. A heading of a table is prose, and no less horizontal for that."""
+    code = component.strip()
+    is_code = _SEED.fullmatch(code) and not names_acceleration(code)
+    if not is_code or not _has_unknown_direction(code, along, vertical=False):
         return ""
     return (
-        f"The direction of the component {component.strip()} is unknown, for its name is neither a direction nor an "
-        "angle, and it may be vertical: if it is horizontal, name it in the column component of the catalogue, or as "
-        "--component."
+        f"The direction of the component {code} is unknown, for its name is neither a direction nor an angle, and it "
+        "may be vertical: if it is horizontal, name it in the column component of the catalogue, or as --component."
     )
 
 
-_PLACE = re.compile(r"channel \d+")
-"""Name of a channel that stands for its place in the file."""
+def names_acceleration(component: str) -> bool:
+    """Whether a component's name is but a word for acceleration."""
+    return bool(_ONLY_ACCELERATION.fullmatch(component.strip()))
+
+
+_ONLY_ACCELERATION = re.compile(r"a|ag|a_g|acc\w*|ground[ _]?acc\w*|amplitude|values?|data", re.I)
+_SEED = re.compile(r"[A-Z]{2}[A-Z0-9]")
+"""A channel code as stations give it: band, instrument, and the direction last."""
 _OF_A_STATION = 3
 """Channels of a station that recorded every direction."""
 _STRUCTURE = re.compile(

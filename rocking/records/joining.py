@@ -10,6 +10,7 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.instrument import names_acceleration
 from rocking.records.read import is_unnamed
 
 SAME_STEP = 1e-6
@@ -102,12 +103,9 @@ def _to_the_shortest(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
     return cut
 
 
-_QUANTITY = re.compile(r"a|ag|a_g|acc\w*|ground[ _]?acc\w*|amplitude|values?|data", re.I)
-
-
 def names_no_direction(component: str) -> bool:
     """Whether a component's name is but the place of its column, or a word for acceleration."""
-    return is_unnamed(component) or bool(_QUANTITY.fullmatch(component.strip()))
+    return is_unnamed(component) or names_acceleration(component)
 
 
 SQUARE = 5.0

@@ -82,7 +82,9 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
         _check_names(channels, record)
         vertical = _vertical(channels, record)
         horizontal = _horizontal(channels, record, vertical)
-        if not record.components:
+        if record.components:
+            horizontal = _without_doubt(horizontal, channels)
+        else:
             _check_upright([*horizontal, *filter(None, [vertical])])
         if doubt := direction_doubt(horizontal):
             horizontal = [channel.warned(doubt) for channel in horizontal]
@@ -114,10 +116,25 @@ def _check_names(channels: Sequence[Accelerogram], record: CatalogueRecord) -> N
 
 def _check_upright(channels: Sequence[Accelerogram]) -> None:
     """Raise RecordError where one of the channels may be the vertical one of a station, and nothing says which."""
+    if doubt := _doubt(channels):
+        raise RecordError(doubt)
+
+
+def _without_doubt(
+    horizontal: Sequence[Accelerogram], channels: Sequence[Accelerogram]
+) -> list[Accelerogram]:
+    """Return the components that the row names, without the question among `channels` that it thereby answers."""
+    answered = _doubt(channels)
+    return [
+        replace(channel, warnings=tuple(each for each in channel.warnings if each != answered))
+        for channel in horizontal
+    ]
+
+
+def _doubt(channels: Sequence[Accelerogram]) -> str:
     names = [channel.component for channel in channels]
     directions = [channel.azimuth for channel in channels]
-    if doubt := vertical_doubt(names, directions, [channel.vertical for channel in channels]):
-        raise RecordError(doubt)
+    return vertical_doubt(names, directions, [channel.vertical for channel in channels])
 
 
 def _vertical(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Accelerogram | None:

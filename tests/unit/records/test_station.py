@@ -156,11 +156,34 @@ def test_a_channel_that_may_be_vertical_is_asked_for(tmp_path):
     ):
         open_station(table(["QQX"]))
     (alone,) = open_station(replace(table(["QQX"]), component="QQX")).horizontal
-    assert alone.component == "QQX"
-    assert len(open_station(table(["X"])).horizontal) == 1
+    assert alone.component == "QQX" and not any("may be vertical" in each for each in alone.warnings)
+    assert not any("may be vertical" in each for channel in named.horizontal for each in channel.warnings)
     upright = open_station(table(["A", "B", "UP"]))
     assert [channel.component for channel in upright.horizontal] == ["A", "B"]
     assert upright.vertical.component == "UP"
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "acc",
+        "ACC",
+        "a",
+        "Acceleration",
+        "ground acc",
+        "signal",
+        "elcentro",
+        "X",
+        "S1",
+        "CH 1",
+        "Fault normal",
+    ],
+)
+def test_a_lone_column_with_a_heading_in_words_is_read(tmp_path, name):
+    """It is a description and no channel code, and a file of one column is what most people have."""
+    rows = "".join(f"{0.01 * place:.2f},{value:.6f}\n" for place, value in enumerate(VALUES))
+    (tmp_path / "t.csv").write_text(f"time (s),{name} (m/s2)\n{rows}")
+    assert len(open_station(_record(tmp_path, "t.csv")).horizontal) == 1
 
 
 @pytest.mark.parametrize(("second", "told"), [("90", False), ("95", False), ("96", True), ("84", True)])
