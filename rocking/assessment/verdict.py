@@ -167,6 +167,13 @@ class Judgement(ABC):
         of_statics = f"{self.statics_overturning_members} of {self.statics_members}"
         return f"{self.count} with the {self.crack}, {of_statics} with the {self.statics_crack}"
 
+    @property
+    def counts_in_brief(self) -> str:
+        """`counts` where there is no room for the cracks: "64 of 64, by statics 28 of 256"."""
+        if not self.one_crack_falls:
+            return self.count
+        return f"{self.count}, by statics {self.statics_overturning_members} of {self.statics_members}"
+
 
 def worst_first(judgements: Iterable[tuple[str, Judgement]]) -> list[str]:
     """Return the names, of records or structures, by the shares of members that overturn, summed over all of a name."""

@@ -569,7 +569,7 @@ VERDICT_COLUMNS: list[Column] = [
         "l",
         lambda station: strong(str(station.verdict), not station.verdict.stays_up),
     ),
-    ("Members that overturn", "0.75", "l", lambda station: words(station.counts)),
+    ("Members that overturn", "0.75", "l", lambda station: words(station.counts_in_brief)),
     ("As given", "0.7", "l", lambda station: printing.to_spread(station.rotation_ratio, station)),
     ("5 %", "0.65", "r", lambda station: printing.to_spread(station.rotation_ratio_low, station)),
     ("50 %", "0.65", "r", lambda station: printing.to_spread(station.rotation_ratio_median, station)),

@@ -334,7 +334,7 @@ def structure_table(verdicts: Sequence[VerdictRow]) -> dict[str, object]:
         ("Structure", "1.6", "l", lambda row: strong(row[0])),
         *((head, "auto", "r", lambda row, at=at: str(row[at])) for at, head in enumerate(heads, start=1)),
         ("Worst record", "1.6", "l", lambda row: row[-1].record),
-        ("Overturns there in", "0.8", "l", lambda row: words(row[-1].counts)),
+        ("Overturns there in", "0.8", "l", lambda row: words(row[-1].counts_in_brief)),
         ("As given", "0.7", "r", lambda row: ratio(row[-1].rotation_ratio, 2)),
         ("5–95 % of the members", "1.3", "r", lambda row: printing.band_text(row[-1], " – ")),
     )

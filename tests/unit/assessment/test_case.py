@@ -87,6 +87,7 @@ def test_where_all_fall_with_one_crack_an_undecided_case_says_which_crack_disagr
     for judgement in (result, row):
         assert (judgement.verdict, judgement.count) == (Verdict.UNDECIDED, "64 of 64")
         assert judgement.counts == "64 of 64 with the crack at 8.5 m, 16 of 64 with the crack at 3.0 m"
+        assert judgement.counts_in_brief == "64 of 64, by statics 16 of 64"
         assert cell_text(judgement) == "? 25–100\u00a0%"
     both = CrackEnsembles((replace(static, ensemble=members(64)),))
     (fallen,) = verdicts([station(replace(case("EW", 0.3), ensembles=both))])
