@@ -5,7 +5,7 @@ from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cache, cached_property
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -34,6 +34,14 @@ CRACKS = 11
 """Number of mechanisms that are followed where more than one may form."""
 HIGHEST_SHARE = 0.95
 """Share of the height up to which a hinge or a crack is moved; a wall's hinge also stays that far above its base."""
+
+
+class _Given(NamedTuple):
+    """One value of a description: its field, the value in the unit of a file, and how it would be typed."""
+
+    field: Field
+    value: Any
+    text: str
 
 
 @dataclass(frozen=True, repr=False)
@@ -80,7 +88,7 @@ class Structure(metaclass=PlainlyMade):
             value = getattr(self, each.name)
             if value is not each.default:
                 object.__setattr__(self, each.name, each.in_si(value))
-        restitution = getattr(self, "restitution", None)
+        restitution = self._given_restitution
         if self.one_sided and not isinstance(restitution, float):
             raise StructureError(
                 f"restitution is {restitution!r}, but a one-sided body needs its own number between 0 and 1, as what "
@@ -89,13 +97,10 @@ class Structure(metaclass=PlainlyMade):
 
     def __init_subclass__(cls, **more: Any) -> None:
         super().__init_subclass__(**more)
-        makes = {
-            name: method
-            for name, method in cls.__dict__.items()
-            if isinstance(method, classmethod) and not name.startswith("_")
-        }
-        for name, method in makes.items():
-            setattr(cls, name, classmethod(plainly_refusing(method.__func__)))
+        # A list, as the class changes on the way.
+        for name, method in list(cls.__dict__.items()):
+            if isinstance(method, classmethod) and not name.startswith("_"):
+                setattr(cls, name, classmethod(plainly_refusing(method.__func__)))
 
     @classmethod
     @cache
@@ -144,12 +149,19 @@ class Structure(metaclass=PlainlyMade):
     def linkages(self) -> tuple[Linkage, ...]:
         """The moving parts on the positive side; then, seen in the mirror, on the negative one where that differs."""
         positive = self._linkage(mirrored=False)
-        return (positive,) if self.symmetric or self.one_sided else (positive, self._linkage(mirrored=True))
+        if self.symmetric or self.one_sided:
+            return (positive,)
+        return positive, self._linkage(mirrored=True)
 
     @property
     def linkage(self) -> Linkage:
         """The moving parts on the side of positive rotation."""
         return self.linkages[0]
+
+    @property
+    def _linkage_to_negative(self) -> Linkage:
+        """The moving parts on the side of negative rotation, in the mirror; the same where the sides do not differ."""
+        return self.linkages[-1]
 
     def outline(self, rotation: float = 0.0) -> list[np.ndarray]:
         """Return the rigid parts at a signed `rotation` [rad] as polygons (k, 2) in m, x to the right, y up."""
@@ -251,14 +263,14 @@ class Structure(metaclass=PlainlyMade):
         sign = self.mechanism().side_of(phi, velocity)
         turn = np.broadcast_to(np.asarray(angular_acceleration, dtype=float), phi.shape)
         state = MotionState(sign, phi * sign, velocity * sign, turn * sign, push * sign, lift, so_far)
-        positive, *_, negative = (each.contacts(state) for each in (self.linkages * 2)[:2])
-        names = positive.names
-        there = sign > 0
-        unknown = np.where(resting & (len(names) > 1), np.nan, 0.0)
+        positive = self.linkage.contacts(state)
+        negative = self._linkage_to_negative.contacts(state)
+        is_positive = sign > 0
+        unknown = np.where(resting & (len(positive.names) > 1), np.nan, 0.0)
         return Contacts(
-            names,
-            np.where(there, positive.normal, negative.normal) + unknown,
-            np.where(there, positive.tangential, negative.tangential) + unknown,
+            positive.names,
+            np.where(is_positive, positive.normal, negative.normal) + unknown,
+            np.where(is_positive, positive.tangential, negative.tangential) + unknown,
         )
 
     @property
@@ -280,14 +292,18 @@ class Structure(metaclass=PlainlyMade):
         """Return the dimension lines of the sizes it was described by, at rest; of a list, one for each value."""
         lines = []
         paths = self._dimensions()
-        for each, _, text in self._values:
-            letter = each.value.letter
-            path = paths.get(each.name, [])
+        for given in self._values:
+            letter = given.field.value.letter
+            unit = given.field.suffix
+            path = paths.get(given.field.name, [])
             if not isinstance(path, list):
-                lines.append(Dimension(letter, text + each.suffix, *path))
+                lines.append(Dimension(letter, given.text + unit, *path))
                 continue
-            for number, (one, own) in enumerate(zip(text.split(", "), path, strict=False), start=1):
-                lines.append(Dimension(letter + str(number).translate(_SUBSCRIPTS), one + each.suffix, *own))
+            texts = given.text.split(", ")
+            # A drawing may show fewer dimensions than the list has values.
+            for number, (text, own_path) in enumerate(zip(texts, path, strict=False), start=1):
+                numbered = letter + str(number).translate(_SUBSCRIPTS)
+                lines.append(Dimension(numbered, text + unit, *own_path))
         return tuple(lines)
 
     def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
@@ -346,25 +362,28 @@ class Structure(metaclass=PlainlyMade):
     @property
     def description(self) -> str:
         """The description in words with units: "breadth 0.6 m, height 6.0 m"."""
-        return ", ".join(each.phrased(text) for each, value, text in self._values if value is not False)
+        shown = [given for given in self._values if given.value is not False]
+        return ", ".join(given.field.phrased(given.text) for given in shown)
 
     @property
     def size(self) -> str:
         """Its sizes in short, as they were typed: "0.6 × 6.0 m", "10 × 1.5 m, 157.5°"."""
-        parts: dict[str, list[str]] = {}
-        for each, _, text in self._values:
-            if each.required and each.unit:
-                parts.setdefault(each.suffix, []).append(text)
-        return ", ".join(" × ".join(texts) + suffix for suffix, texts in parts.items())
+        by_unit: dict[str, list[str]] = {}
+        for given in self._values:
+            if given.field.required and given.field.unit:
+                by_unit.setdefault(given.field.suffix, []).append(given.text)
+        return ", ".join(" × ".join(texts) + unit for unit, texts in by_unit.items())
 
     @property
     def remarks(self) -> tuple[str, ...]:
         """A sentence for each size beyond its plausible range."""
-        return tuple(filter(None, (each.remark(self.type_name, value) for each, value, _ in self._values)))
+        remarks = (given.field.remark(self.type_name, given.value) for given in self._values)
+        return tuple(remark for remark in remarks if remark)
 
     def as_config(self) -> dict[str, object]:
         """Return the mapping of a structure list that describes it, without a name."""
-        return {"type": self.type_name, **{each.key: value for each, value, _ in self._values}}
+        values = {given.field.key: given.value for given in self._values}
+        return {"type": self.type_name, **values}
 
     def typed(self, values: dict[str, object], texts: dict[str, str]) -> None:
         """Remember the `values` of a file by key, and their `texts` as they were typed; for the loader only."""
@@ -390,29 +409,43 @@ class Structure(metaclass=PlainlyMade):
     @cached_property
     def _mechanism(self) -> Mechanism:
         """I, J, G, B of the moving parts."""
-        positive, *others = (each.side(self._impact(bool(n))) for n, each in enumerate(self.linkages))
-        built = Mechanism(positive, others[0] if others else None, self.one_sided, self.restitution_range)
+        positive = self.linkage.side(self._impact(mirrored=False))
+        negative = None
+        if len(self.linkages) > 1:
+            negative = self._linkage_to_negative.side(self._impact(mirrored=True))
+        built = Mechanism(positive, negative, self.one_sided, self.restitution_range)
         object.__setattr__(built, "structure", self)  # what it is built again from after pickling
         return built
 
     @property
-    def _values(self) -> list[tuple[Field, Any, str]]:
+    def _values(self) -> list[_Given]:
         """The values of its form in the units of a file and as texts; options that were not given are left out."""
         typed = self.__dict__.get("_typed")
         if typed is not None:
-            return [(each, *typed[each.key]) for each in self.form.fields if each.key in typed]
+            return [_Given(each, *typed[each.key]) for each in self.form.fields if each.key in typed]
         defaults = {each.name: each.default for each in constructor(type(self)).fields}
         values = []
         for each in self.form.fields:
             value = getattr(self, each.name)
-            if each.required or (value is not None and value != defaults.get(each.name)):
+            is_an_option_given = value is not None and value != defaults.get(each.name)
+            if each.required or is_an_option_given:
                 outside = each.outward(value)
-                values.append((each, outside, typed_text(outside, "{:.6g}")))
+                values.append(_Given(each, outside, typed_text(outside, "{:.6g}")))
         return values
+
+    @property
+    def _given_restitution(self) -> Restitution:
+        """The restitution of the description; None where it gives none.
+
+        Asked for by name, because not every structure has the field: one that did here would have to be the first
+        parameter of each.
+        """
+        own: Restitution = getattr(self, "restitution", None)
+        return own
 
     def _impact(self, mirrored: bool) -> float:
         """η of the impact that ends rocking on one side: the number, or that of a balance where it is a name."""
-        own: Restitution = getattr(self, "restitution", None)
+        own = self._given_restitution
         chosen = self.usual_restitution if own is None else own
         if not isinstance(chosen, str):
             return float(chosen)
@@ -422,16 +455,24 @@ class Structure(metaclass=PlainlyMade):
                 f"restitution by {chosen} balance is {ratio:.4g} for this geometry, which is not physical; 0 is "
                 "used instead (the structure is too squat to rock from side to side), so give a measured value.",
                 StructureWarning,
-                stacklevel=4,
+                stacklevel=3,
             )
         return min(max(ratio, 0.0), 1.0)
 
     def _momentum_balance(self, mirrored: bool) -> float:
-        arriving, leaving = (self.linkages * 2)[:2][:: -1 if mirrored else 1]
-        before, after = (
-            (each.velocities, each.spins) for each in (arriving.motion(0.0), leaving.motion(0.0))
+        """η by the balance of momentum as the structure arrives from one side and leaves to the other."""
+        arriving = self.linkage
+        leaving = self._linkage_to_negative
+        if mirrored:
+            arriving, leaving = leaving, arriving
+        before = arriving.motion(0.0)
+        after = leaving.motion(0.0)
+        return momentum_balance(
+            arriving.masses,
+            arriving.inertias,
+            (before.velocities, before.spins),
+            (after.velocities, after.spins),
         )
-        return momentum_balance(arriving.masses, arriving.inertias, before, after)
 
     @abstractmethod
     def _linkage(self, mirrored: bool) -> Linkage:
@@ -559,12 +600,16 @@ class CrackedAtHeight(Crackable):
         heights = sorted({*self._places(count), float(self.crack_position)})
         formed = [each for each in map(self._candidate, heights) if each]
         cracked = [each for each in formed if each.structure.mechanism().can_overturn] or formed
-        # of equal multipliers, as all along a solid spire, the lowest crack
-        order = np.argsort([float(f"{each.multiplier:.9g}") for each in cracked], kind="stable")
+        # Of multipliers that are equal but for rounding, as all along a solid spire, the lowest crack comes first.
+        rounded = [float(f"{each.multiplier:.9g}") for each in cracked]
+        order = np.argsort(rounded, kind="stable")
         ranked = [cracked[place] for place in order]
+
         least = int(order[0])
-        if 0 < least < len(cracked) - 1:
+        is_between_two_others = 0 < least < len(cracked) - 1
+        if is_between_two_others:
             weakest = self._weakest_between(cracked[least - 1].position, cracked[least + 1].position)
+            # What is weaker by less than that is the same crack.
             if weakest and weakest.multiplier < (1 - 1e-5) * ranked[0].multiplier:
                 ranked.insert(0, weakest)
         return tuple(ranked)
@@ -626,5 +671,6 @@ def typed_text(value: object, number: str = "{}") -> str:
 
 def largest_so_far(rotation: np.ndarray) -> np.ndarray:
     """Return the largest rotation [rad] so far on the side of each of the signed `rotation`, (k,)."""
-    out, back = (np.maximum.accumulate(np.maximum(each, 0.0)) for each in (rotation, -rotation))
-    return np.where(rotation < 0, back, out)
+    to_positive = np.maximum.accumulate(np.maximum(rotation, 0.0))
+    to_negative = np.maximum.accumulate(np.maximum(-rotation, 0.0))
+    return np.where(rotation < 0, to_negative, to_positive)

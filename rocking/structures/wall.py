@@ -86,17 +86,23 @@ class WallLinkage(Linkage):
 
     def _loaded(self, blocks: Motion) -> Motion:
         """The motion with that of the loads on the top, each of which rises with its bearing and moves to no side."""
-        lifts = [1j * np.imag(self.carried(1, each.start, blocks)) for each in self.loads]
-        bearings = [each.start + shift for each, (shift, _, _) in zip(self.loads, lifts, strict=True)]
-        still = np.zeros((len(lifts), *blocks.spins.shape[1:]))
+        carried = [self.carried(1, each.start, blocks) for each in self.loads]
+        # Upwards only: the imaginary part.
+        places = [
+            load.start + 1j * np.imag(each.moved) for load, each in zip(self.loads, carried, strict=True)
+        ]
+        velocities = [1j * np.imag(each.velocity) for each in carried]
+        accelerations = [1j * np.imag(each.acceleration) for each in carried]
+        # No load turns.
+        still = np.zeros((len(carried), *blocks.spins.shape[1:]))
         return replace(
             blocks,
             angles=np.concatenate([blocks.angles, still]),
             spins=np.concatenate([blocks.spins, still]),
             spin_slopes=np.concatenate([blocks.spin_slopes, still]),
-            centroids=np.array([*blocks.centroids, *bearings]),
-            velocities=np.array([*blocks.velocities, *(velocity for _, velocity, _ in lifts)]),
-            accelerations=np.array([*blocks.accelerations, *(acceleration for _, _, acceleration in lifts)]),
+            centroids=np.array([*blocks.centroids, *places]),
+            velocities=np.array([*blocks.velocities, *velocities]),
+            accelerations=np.array([*blocks.accelerations, *accelerations]),
         )
 
     def contacts(self, state: MotionState) -> Contacts:
@@ -227,8 +233,9 @@ class CrackedWall(CrackedAtHeight):
 
     def _wall_courses(self, courses: int | None, density: float) -> tuple[Course, ...]:
         """The wall itself. density: mass per m³."""
+        is_two_blocks = courses is None and self.crack == "known"
         levels = [0.0, self.lower_height, self.height]
-        if courses is not None or self.crack != "known":
+        if not is_two_blocks:
             levels = np.linspace(0.0, self.height, counted_courses(courses) + 1).tolist()
         number = len(levels) - 1
         faces = [(-self.thickness / 2, self.thickness / 2)] * (number + 1)
@@ -401,9 +408,8 @@ class LoadedWall(CrackedWall, Tied):
     @property
     def symmetric(self) -> bool:
         """Whether no tie and no bearing off the middle tells the sides apart."""
-        return not self.tie_heights and (
-            self.eccentricity == 0 or self.top_slab == "flat" or not self.top_load
-        )
+        bears_off_the_middle = self.top_load and self.top_slab == "hinged" and self.eccentricity != 0
+        return not self.tie_heights and not bears_off_the_middle
 
     def _linkage(self, mirrored: bool) -> WallLinkage:
         weight = self.unit_weight * self.height * self.thickness
@@ -439,10 +445,13 @@ class LoadedWall(CrackedWall, Tied):
         outwards = -1.0 if mirrored else 1.0
         hung = []
         if self.top_load:
+            # A slab rests on the edge in contact; the bearing of a hinge lies inwards.
             across = half if self.top_slab == "flat" else -outwards * self.eccentricity
             hung.append(self._load(complex(across, self.height), 1, self.top_load, self.load_held))
         for height in self.tie_heights:
             part = 0 if height <= self.lower_height else 1
             start = complex(outwards * half, height)
-            hung.append(Hung("tie", start, part, tie=None if mirrored else self._tie))
+            # A tie goes slack where the wall moves inwards.
+            tie = None if mirrored else self._tie
+            hung.append(Hung("tie", start, part, tie=tie))
         return hung
