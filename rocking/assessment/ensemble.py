@@ -77,7 +77,9 @@ class Ensemble:
     @property
     def overturning_share(self) -> float:
         """Share of members that overturn; nan without members."""
-        return self.overturning_members / self.members if self.members else float("nan")
+        if not self.members:
+            return float("nan")
+        return self.overturning_members / self.members
 
     @property
     def rotation_ratio_low(self) -> float:
@@ -98,8 +100,9 @@ class Ensemble:
         """The quantile between the members at the middles of equal parts of probability; inf beside inf."""
         if not self.members:
             return float("nan")
+        places = np.arange(self.members)
         place = np.clip(share * self.members - 0.5, 0, self.members - 1)
-        return float(np.interp(place, np.arange(self.members), np.sort(self._followed)))
+        return float(np.interp(place, places, np.sort(self._followed)))
 
     @property
     def verdict(self) -> Verdict:
@@ -113,8 +116,10 @@ class Ensemble:
         It falls with the number of members itself, as they stand on a lattice, not with its root. It counts as none
         where UNANIMOUS members or more agree, or where fewer all stay FAR from overturning.
         """
-        many = self.members >= UNANIMOUS and self.overturning_members in (0, self.members)
-        return 0.0 if many or self.far else LATTICE_ERROR / max(self.members, 1)
+        many_agree = self.members >= UNANIMOUS and self.overturning_members in (0, self.members)
+        if many_agree or self.far:
+            return 0.0
+        return LATTICE_ERROR / max(self.members, 1)
 
     @property
     def far(self) -> bool:
@@ -125,11 +130,13 @@ class Ensemble:
     def near_a_limit(self) -> bool:
         """Whether it is undecided, and more members may decide it."""
         opposite = min(self.overturning_share, 1 - self.overturning_share)
-        return self.verdict is Verdict.UNDECIDED and opposite - self.probability_error <= self.settings.risk
+        may_be_settled = opposite - self.probability_error <= self.settings.risk
+        return self.verdict is Verdict.UNDECIDED and may_be_settled
 
     def followed_by(self, more: "Ensemble") -> "Ensemble":
         """Return the ensemble of these members and of `more`, of the same causes."""
-        reasons = {self.rotation_ratios.size + place: reason for place, reason in more.reasons.items()}
+        before = self.rotation_ratios.size
+        reasons = {before + place: reason for place, reason in more.reasons.items()}
         return replace(
             self,
             rotation_ratios=np.append(self.rotation_ratios, more.rotation_ratios),
@@ -139,10 +146,12 @@ class Ensemble:
 
     def worst(self, cause: str) -> str:
         """Return the value of `cause` with which it rotates most on average; "" of a cause that did not vary."""
-        if (values := self.causes.get(cause)) is None:
+        values = self.causes.get(cause)
+        if values is None:
             return ""
+        # What overturns counts as a rotation to the critical one, so that one fall does not outweigh all others.
         capped = np.minimum(self.rotation_ratios, 1.0)
-        means = {str(name): float(np.nanmean(capped[values == name])) for name in np.unique(values)}
+        means = {str(value): float(np.nanmean(capped[values == value])) for value in np.unique(values)}
         return max(means, key=means.__getitem__)
 
 
@@ -176,13 +185,15 @@ def ensemble(
     if rest or (verdict_only and members.far):
         return members
 
-    usual = max(settings.size, FIRST)
-    if usual > FIRST:
-        members = members.followed_by(follow(points[FIRST:usual]))
-    for size in (UNANIMOUS, MOST_NEAR_A_LIMIT) if grows else ():
-        if usual < size and members.near_a_limit:
-            members = members.followed_by(follow(points[usual:size]))
-            usual = size
+    followed = max(settings.size, FIRST)
+    if followed > FIRST:
+        members = members.followed_by(follow(points[FIRST:followed]))
+    if not grows:
+        return members
+    for size in (UNANIMOUS, MOST_NEAR_A_LIMIT):
+        if followed < size and members.near_a_limit:
+            members = members.followed_by(follow(points[followed:size]))
+            followed = size
     return members
 
 
@@ -233,22 +244,29 @@ def followed_at(
     ratios = np.full((factors.size, horizontal.size), np.nan)
     reasons: dict[int, str] = {}
     for (direction, processing), motion in motions.horizontal.items():
-        rows = np.flatnonzero((values["direction"] == direction) & (values["processing"] == processing))
-        if not rows.size:
+        is_own = (values["direction"] == direction) & (values["processing"] == processing)
+        own = np.flatnonzero(is_own)
+        if not own.size:
             continue
+        # Every factor with every member that meets this motion: one run each, factor by factor.
+        along = np.outer(factors, horizontal[own]).ravel()
+        lift = None
+        if motions.vertical is not None:
+            lift = np.outer(factors, vertical[own]).ravel()
+        of_runs = np.tile(restitution[own], (factors.size, 1))
         forcing = forcing_of(motion, motions.vertical)
-        along = np.outer(factors, horizontal[rows]).ravel()
-        lift = None if motions.vertical is None else np.outer(factors, vertical[rows]).ravel()
-        eta = np.tile(restitution[rows], (factors.size, 1))
-        responses = follow_factors(structure, forcing, along, lift, eta, tolerance)
-        ratios[:, rows] = responses.rotation_ratio.reshape(factors.size, rows.size)
-        reasons |= {int(rows[k % rows.size]): reason for k, reason in responses.reasons.items()}
+        responses = follow_factors(structure, forcing, along, lift, of_runs, tolerance)
+        ratios[:, own] = responses.rotation_ratio.reshape(factors.size, own.size)
+        for run, reason in responses.reasons.items():
+            member = int(own[run % own.size])
+            reasons[member] = reason
     return Followed(ratios, reasons)
 
 
 def _restitution(structure: Mechanism | EquivalentBlock, offset: np.ndarray) -> np.ndarray:
     """The restitution of members (m, 2) on both sides, whose offset (m,) from the structure's own is drawn."""
     own = np.array([structure.sides[0].restitution, structure.sides[-1].restitution])
+    # A structure that states a smaller loss than the least keeps its own.
     most = np.maximum(own, 1 - LEAST_LOSS)
     restitution: np.ndarray = np.clip(own + offset[:, None], 0.0, most)
     return restitution
