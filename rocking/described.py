@@ -20,7 +20,6 @@ T = TypeVar("T")
 
 _IN_KEYS = str.maketrans({"/": "_", "²": "2", "³": "3", "°": "deg", "H": "h"})
 """A unit as the key of a value ends in it."""
-_BOUNDS = ("gt", "ge", "lt", "le", "pattern", "examples")
 
 
 @dataclass(frozen=True)
@@ -58,9 +57,10 @@ class Described:
     @cached_property
     def holds(self) -> Any:
         """The type of a value that is not None."""
-        kinds = (kind for kind in get_args(self.kind) if self.optional and kind is not NoneType)
-        one = next(kinds, self.kind)
-        return get_origin(one) or one
+        kind = self.kind
+        if self.optional:
+            kind = next(each for each in get_args(self.kind) if each is not NoneType)
+        return get_origin(kind) or kind
 
     @cached_property
     def optional(self) -> bool:
@@ -72,8 +72,10 @@ class Described:
         from pydantic import ConfigDict, Field, TypeAdapter  # takes 0.1 s, and defaults need no check
 
         kind: Any = Literal[self.one_of()] if self.one_of else self.kind
-        text = {"min_length": 1} if self.default != "" and str in (kind, *get_args(kind)) else {}
-        limits: Any = {**self.bounds, **text}
+        limits: dict[str, Any] = dict(self.bounds)
+        is_text = str in (kind, *get_args(kind))
+        if is_text and self.default != "":
+            limits["min_length"] = 1  # a text is empty only where that is its default
         config = ConfigDict(strict=True, allow_inf_nan=False)
         return TypeAdapter(Annotated[kind, Field(**limits)], config=config)
 
@@ -92,8 +94,9 @@ class Described:
 
         Raises ValueError for another: "-1 s, but must be a number above 0 or null."
         """
-        if type(value) is type(self.default) and value == self.default:
-            return value
+        is_the_default = type(value) is type(self.default) and value == self.default
+        if is_the_default:
+            return value  # without pydantic, which takes long to import
         try:
             return self._adapter.validate_python(value)
         except ValueError:
@@ -111,12 +114,19 @@ def described(
     unit: str = "",
     *,
     one_of: Callable[[], tuple[str, ...]] | None = None,
-    **more: Any,
+    gt: float | None = None,
+    ge: float | None = None,
+    lt: float | None = None,
+    le: float | None = None,
+    pattern: str | None = None,
+    examples: Sequence[str] | None = None,
+    **more: object,
 ) -> Any:
     """Declare a field of a frozen dataclass with all there is to say of its value; see Described."""
-    facts = {"meaning": meaning, "unit": unit, "one_of": one_of}
-    bounds = {name: more.pop(name) for name in _BOUNDS if name in more}
-    return field(default=default, metadata={**facts, "bounds": bounds, "more": more})
+    possible = {"gt": gt, "ge": ge, "lt": lt, "le": le, "pattern": pattern, "examples": examples}
+    bounds = {name: bound for name, bound in possible.items() if bound is not None}
+    facts = {"meaning": meaning, "unit": unit, "one_of": one_of, "bounds": bounds, "more": more}
+    return field(default=default, metadata=facts)
 
 
 @cache
@@ -154,8 +164,10 @@ def check_described(error: type[RockingError], made: Any) -> None:
         except ValueError as wrong:
             raise error(f"{name} is {wrong}") from None
     for name in parts_of(kind):
-        if not isinstance(getattr(made, name), part := type(getattr(kind, name))):
-            raise error(f"{name} is {shown(getattr(made, name))}, but must be a {part.__name__}.")
+        part = getattr(made, name)
+        expected = type(getattr(kind, name))
+        if not isinstance(part, expected):
+            raise error(f"{name} is {shown(part)}, but must be a {expected.__name__}.")
 
 
 def read_described(
@@ -192,12 +204,15 @@ def read_described(
                 values[allowed[key].name] = _meant(allowed[key], value, interpret)
             except ValueError as refusal:
                 defects.append(f"{above}{key} is {refusal}")
-    if len(defects) == before:
-        try:
-            return replace(default, **values)  # type: ignore[type-var]
-        except RockingError as wrong:
-            defects.append(f"{above}{wrong}")
-    return default
+
+    has_defects = len(defects) > before
+    if has_defects:
+        return default
+    try:
+        return replace(default, **values)  # type: ignore[type-var]
+    except RockingError as wrong:  # values that are allowed each, but not together
+        defects.append(f"{above}{wrong}")
+        return default
 
 
 def _meant(description: Described, value: Any, interpret: Callable[[Any], Any]) -> Any:
@@ -215,8 +230,8 @@ def _meant(description: Described, value: Any, interpret: Callable[[Any], Any]) 
 def _nothing_has_the_name(key: object, value: object, names: Sequence[str], parts: Mapping[str, Any]) -> str:
     """Return the sentence on a key that is none of `names`, with the one that may be meant; parts: by their name."""
     name = str(key)
-    within = [f"{part}.{key}" for part, default in parts.items() if key in _keys(default.__class__)]
-    near = within or get_close_matches(name[:_LONGEST_NAME], names, n=1, cutoff=0.6)
+    in_a_part = [f"{part}.{key}" for part, default in parts.items() if key in _keys(default.__class__)]
+    near = in_a_part or get_close_matches(name[:_LONGEST_NAME], names, n=1, cutoff=0.6)
     if value is None and name.isdigit():
         hint = "a comma parts the entries within braces; write a number with a point, as in 6.4."
     elif near:
@@ -240,8 +255,9 @@ def number_hint(value: object) -> str:
     text = value.strip()
     if _WITH_COMMA.fullmatch(text):
         return f"; a number is written with a point, {text.replace(',', '.')}"
-    # Not the number itself: that of "300 cm" would be read in another unit.
-    if with_unit := _WITH_UNIT.fullmatch(text):
+    with_unit = _WITH_UNIT.fullmatch(text)
+    if with_unit:
+        # Not the number itself: that of "300 cm" would be read in another unit.
         return f"; write the number alone, without {with_unit['unit']!r}, in the unit asked for"
     return ""
 
