@@ -125,7 +125,6 @@ class StructureCheck(CodeCheck):
         return (*super().checks, *((self.dynamic,) if self.dynamic else ()))
 
 
-# Whole on purpose: half of it are the arguments of a public name.
 # Whole on purpose: half of it are the arguments of a public name and what it hands on.
 def check(
     structure: Structure,

@@ -94,12 +94,15 @@ def _shared_out(structures: int, factors: int, workers: int) -> list[list[tuple[
 
     As many calls as are worth a thread, and jobs as keep all of them busy.
     """
-    parts = max(1, -(-2 * workers // max(structures, 1))) if workers > 1 else 1
-    chunk = max(_SMALLEST_CHUNK, -(-factors // parts))
+    # Two calls for each worker, so that none waits long for the last.
+    parts = 1
+    if workers > 1:
+        parts = max(1, math.ceil(2 * workers / max(structures, 1)))
+    chunk = max(_SMALLEST_CHUNK, math.ceil(factors / parts))
     slices = [slice(start, start + chunk) for start in range(0, factors, chunk)]
     calls = list(product(range(structures), slices))
-    size = max(1, _SMALLEST_CHUNK // min(chunk, factors))
-    return [calls[k : k + size] for k in range(0, len(calls), size)]
+    calls_of_a_job = max(1, _SMALLEST_CHUNK // min(chunk, factors))
+    return [calls[start : start + calls_of_a_job] for start in range(0, len(calls), calls_of_a_job)]
 
 
 class RockingSpectrum(Drawn, np.ndarray):

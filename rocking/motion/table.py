@@ -325,12 +325,18 @@ def _fit(
     """Interpolate on `count` pieces; also the largest error between the nodes, and the largest value, (f,) each."""
     half = (end - start) / count / 2
     centres = start + (2 * np.arange(count)[:, None] + 1) * half
+
+    # In half widths from its centre each piece reaches ROOM beyond its ends, but not beyond the zone.
     low = np.maximum(start - centres, -(1 + 2 * ROOM) * half) / half
     high = np.minimum(end - centres, (1 + 2 * ROOM) * half) / half
-    places, probes = ((low + high) / 2 + (high - low) / 2 * each for each in (_NODES, _PROBES))
+    middle = (low + high) / 2
+    reach = (high - low) / 2
+    places = middle + reach * _NODES
+    probes = middle + reach * _PROBES
     everywhere = functions(centres + half * np.concatenate([places, probes], axis=1))
     values = everywhere[..., : _NODES.size]
     between = everywhere[..., _NODES.size :]
+
     powers = np.linalg.solve(polyvander(places, DEGREE), np.moveaxis(values, 0, -1))
     powers = np.moveaxis(powers, -1, 0)
     fit = np.einsum("fmp,mqp->fmq", powers, polyvander(probes, DEGREE))

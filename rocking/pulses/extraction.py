@@ -194,8 +194,9 @@ class PulseSearch:
         last = math.ceil(changed.end_time / self.time_step) + 2
         onsets = slice(max(first, 0), min(last, samples.size))
         elsewhere = (maxima.onsets < onsets.start) | (maxima.onsets >= onsets.stop)
-        old = (values[elsewhere] for values in maxima)
-        return Maxima(*map(np.concatenate, zip(old, self.maxima(samples, onsets), strict=True)))
+        kept = Maxima(*(values[elsewhere] for values in maxima))
+        sought = self.maxima(samples, onsets)
+        return Maxima(*(np.concatenate([old, new]) for old, new in zip(kept, sought, strict=True)))
 
     def ranked(self, samples: np.ndarray, maxima: Maxima) -> tuple[PulseEvidence, ...]:
         """Return the best pulses that do not cover one another, by refined gain."""

@@ -156,12 +156,17 @@ def _foretelling(values: np.ndarray, order: int) -> np.ndarray:
 
     Each sample counts by the motion around it, so that the quiet parts count as much as the strong ones.
     """
+    # The stretch of `size` samples with most energy.
     size = min(values.size, _FITTED)
-    spent = np.concatenate([[0.0], np.cumsum(np.square(values))])
-    start = int(np.argmax(spent[size:] - spent[:-size]))
+    energy = np.concatenate([[0.0], np.cumsum(np.square(values))])
+    start = int(np.argmax(energy[size:] - energy[:-size]))
     part = values[start : start + size]
-    around = np.sqrt(np.convolve(np.square(part), np.full(_AROUND, 1 / _AROUND), "same"))
+
+    window = np.full(_AROUND, 1 / _AROUND)
+    around = np.sqrt(np.convolve(np.square(part), window, "same"))
     scale = (around + 1e-3 * np.abs(part).max())[order:]
+
+    # The normal equations, steadied where samples before say the same as others.
     columns = [part[order - lag : size - lag] / scale for lag in range(1, order + 1)]
     known = np.array([[np.sum(a * b) for b in columns] for a in columns])
     wanted = np.array([np.sum(a * part[order:] / scale) for a in columns])

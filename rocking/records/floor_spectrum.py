@@ -72,11 +72,12 @@ def floor_spectrum(
     """
     damping_ratio = within(RecordError, "damping_ratio", damping_ratio, LEAST_DAMPING, 0.999)
     periods = np.array([finite(RecordError, "period", period, "s") for period in np.atleast_1d(periods)])
-    squares = sum(np.square(_of_mode(mode, periods, damping_ratio, ground)) for mode in support.modes)
-    spectrum = np.sqrt(squares)
-    first = max(mode.period for mode in support.modes)
+    of_modes = [_of_mode(mode, periods, damping_ratio, ground) for mode in support.modes]
+    spectrum = np.sqrt(sum(np.square(each) for each in of_modes))
     of_ground = np.array([ground(float(period), damping_ratio) for period in periods])
-    return np.asarray(np.where(periods > first, np.maximum(spectrum, of_ground), spectrum))
+    first_period = max(mode.period for mode in support.modes)
+    at_least_the_ground = np.maximum(spectrum, of_ground)
+    return np.asarray(np.where(periods > first_period, at_least_the_ground, spectrum))
 
 
 def _of_mode(mode: Mode, periods: np.ndarray, damping_ratio: float, ground: GroundSpectrum) -> np.ndarray:

@@ -249,13 +249,21 @@ def _remarks(group: Sequence[ListedFile], level: Sequence[ListedChannel]) -> Ite
     yield direction_doubt(level)
 
 
+_LONGEST_ID = 70
+"""Characters of an identifier that is made of names; a number may follow."""
+
+
 def _id(group: Sequence[ListedFile], level: Sequence[ListedChannel], ids: set[str]) -> str:
     """Return an identifier that is not in `ids`: the file's name, or event and station of files that share a row."""
-    base = _of_station(group, level[0]) if len(group) > 1 else without_ending(Path(group[0].file).name)
-    base = re.sub(r"[^A-Za-z0-9._-]+", "_", base).replace("_-_", "_")[:70].strip("._-") or "record"
-    base = base if is_safe_id(base) else f"record_{base}"
-    names = chain([base], (f"{base}_{number}" for number in count(2)))
-    return next(name for name in names if name.lower() not in ids)
+    shares_a_row = len(group) > 1
+    name = _of_station(group, level[0]) if shares_a_row else without_ending(Path(group[0].file).name)
+    plain = re.sub(r"[^A-Za-z0-9._-]+", "_", name).replace("_-_", "_")
+    base = plain[:_LONGEST_ID].strip("._-") or "record"
+    if not is_safe_id(base):
+        base = f"record_{base}"
+
+    numbered = (f"{base}_{number}" for number in count(2))
+    return next(free for free in chain([base], numbered) if free.lower() not in ids)
 
 
 def _of_station(group: Sequence[ListedFile], first: ListedChannel) -> str:

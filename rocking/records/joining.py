@@ -152,8 +152,11 @@ def direction_doubt(horizontal: Sequence[Component]) -> str:
 
 def _are_across(names: Sequence[str]) -> bool:
     """Whether two names are those of a pair at right angles, such as L and T, FN and FP, HN1 and HN2."""
-    letters = [_LETTERS.get(name.strip(" .").upper(), name.strip(" .").upper()) for name in names]
-    codes = [code for name in letters if (code := _CODE.fullmatch(name))]
-    if len(codes) == 2 and codes[0][1] == codes[1][1]:
-        letters = [code[2] for code in codes]
+    bare = [name.strip(" .").upper() for name in names]
+    letters = [_LETTERS.get(name, name) for name in bare]
+    codes = [_CODE.fullmatch(name) for name in letters]
+    match codes:
+        case [re.Match() as one, re.Match() as other] if one[1] == other[1]:
+            # Of one instrument, as HN1 and HN2: the last letter is the direction.
+            letters = [one[2], other[2]]
     return set(letters) in _ACROSS

@@ -76,7 +76,8 @@ def draw_motion(
 
     most: points of the trace. unit: size of that of the axis, m/s².
     """
-    inside = (record.times >= span[0]) & (record.times <= span[1])
+    begin, end = span
+    inside = (record.times >= begin) & (record.times <= end)
     times, samples = thinned(record.times[inside], record.acceleration[inside] / unit, most)
     axes.plot(times, samples, color=RECORD, linewidth=0.6, label="record")
     if pulse is not None:
@@ -141,6 +142,10 @@ def moving_span(histories: Iterable[tuple[np.ndarray, np.ndarray]]) -> tuple[flo
     return max(0.0, begin - margin), end + margin
 
 
+_PERIOD_TICKS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
+"""Periods that a map of energy names, s."""
+
+
 def draw_energy_map(
     axes: Axes,
     onsets: np.ndarray,
@@ -154,14 +159,23 @@ def draw_energy_map(
     span: the onsets that are shown, s.
     The periods stand in equal steps of their logarithm, which makes the map a picture of (n, m) pixels.
     """
-    share = np.sqrt(gains / max(float(gains.max()), np.finfo(float).tiny))  # the root shows the weaker maxima
+    largest = max(float(gains.max()), np.finfo(float).tiny)
+    darkness = np.sqrt(gains / largest).T  # the root shows the weaker maxima
+    periods_ascend = periods[0] < periods[-1]
     low, high = np.log10([periods.min(), periods.max()])
-    rising = share.T if periods[0] < periods[-1] else share.T[::-1]
-    look: dict[str, Any] = {"cmap": "Greys", "vmin": 0, "vmax": 1.25, "aspect": "auto", "origin": "lower"}
-    axes.imshow(rising, extent=(onsets[0], onsets[-1], low, high), interpolation="none", **look)
+    axes.imshow(
+        darkness if periods_ascend else darkness[::-1],
+        extent=(onsets[0], onsets[-1], low, high),
+        origin="lower",
+        aspect="auto",
+        interpolation="none",
+        cmap="Greys",
+        vmin=0,
+        vmax=1.25,
+    )
     axes.set_xlim(*span)
     _draw_ranks(axes, pulses)
-    ticks = [tick for tick in (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0) if low <= math.log10(tick) <= high]
+    ticks = [tick for tick in _PERIOD_TICKS if low <= math.log10(tick) <= high]
     axes.set_yticks([math.log10(tick) for tick in ticks], [f"{tick:g}" for tick in ticks])
     axes.set(xlabel="onset of the pulse [s]", ylabel="period [s]")
 

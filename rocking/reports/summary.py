@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -347,27 +347,48 @@ def method_table(tables: Mapping[str, "DataFrame"]) -> dict[str, object]:
     """Return how each method stands to the integration of the mechanism under the record; times stand in a table."""
     comparison = tables["comparison"]
     whole = comparison[RATIO_COLUMNS[Method.MECHANISM_ON_RECORD]]
-    worth = ((method, *_worth(comparison[RATIO_COLUMNS[method]], whole)) for method in printing.METHODS)
-    rows = [each for each in worth if each[1]]
+    every = [_worth(method, comparison[RATIO_COLUMNS[method]], whole) for method in printing.METHODS]
     return table_of(
-        rows,
-        ("Method", "1.6", "l", lambda row: printing.METHODS[row[0]]),
-        ("Cases", "0.6", "r", lambda row: plain(row[1])),
-        ("Same outcome", "0.8", "r", lambda row: printing.of(row[2], row[1])),
-        ("Less than happens", "0.8", "r", lambda row: strong(plain(row[3]), row[3] > 0)),
-        ("More than happens", "0.8", "r", lambda row: plain(row[4])),
-        ("Within a factor\u00a02", "0.8", "r", lambda row: printing.of(row[5], row[6])),
+        [worth for worth in every if worth.cases],
+        ("Method", "1.6", "l", lambda worth: printing.METHODS[worth.method]),
+        ("Cases", "0.6", "r", lambda worth: plain(worth.cases)),
+        ("Same outcome", "0.8", "r", lambda worth: printing.of(worth.same, worth.cases)),
+        ("Less than happens", "0.8", "r", lambda worth: strong(plain(worth.too_low), worth.too_low > 0)),
+        ("More than happens", "0.8", "r", lambda worth: plain(worth.too_high)),
+        ("Within a factor\u00a02", "0.8", "r", lambda worth: printing.of(worth.near, worth.both_rock)),
     )
 
 
-def _worth(ratios: "DataFrame", integrated: "DataFrame") -> tuple[int, ...]:
-    """Cases; those with the same, a too low and a too high outcome; within a factor two, of those that both rock."""
-    both = ratios.notna() & integrated.notna()
-    pairs = list(zip(ratios[both].tolist(), integrated[both].tolist(), strict=True))
+class _Worth(NamedTuple):
+    """Counts of the cases of a method beside the integration.
+
+    same, too_low, too_high: by outcome. both_rock: those that rock by both; near: of these within a factor two.
+    """
+
+    method: Method
+    cases: int
+    same: int
+    too_low: int
+    too_high: int
+    both_rock: int
+    near: int
+
+
+def _worth(method: Method, ratios: "DataFrame", integrated: "DataFrame") -> _Worth:
+    """Count the cases that have both rotation ratios."""
+    has_both = ratios.notna() & integrated.notna()
+    pairs = list(zip(ratios[has_both].tolist(), integrated[has_both].tolist(), strict=True))
     outcomes = Counter(agreement(*pair) for pair in pairs)
-    near = [close for pair in pairs if (close := within_factor_two(*pair)) is not None]
-    kinds = (outcomes[kind] for kind in (Agreement.SAME, Agreement.TOO_LOW, Agreement.TOO_HIGH))
-    return len(pairs), *kinds, sum(near), len(near)
+    closeness = [within_factor_two(*pair) for pair in pairs]
+    return _Worth(
+        method=method,
+        cases=len(pairs),
+        same=outcomes[Agreement.SAME],
+        too_low=outcomes[Agreement.TOO_LOW],
+        too_high=outcomes[Agreement.TOO_HIGH],
+        both_rock=sum(each is not None for each in closeness),
+        near=sum(bool(each) for each in closeness),
+    )
 
 
 @styled

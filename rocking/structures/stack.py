@@ -192,11 +192,13 @@ class PointMass:
 
 def loaded(course: Course, masses: Sequence[PointMass]) -> Course:
     """Return the course with point masses fixed to it."""
-    every = np.array([course.mass, *(each.mass for each in masses)])
+    weights = np.array([course.mass, *(each.mass for each in masses)])
     places = np.array([course.centre, *(each.point for each in masses)])
-    centre = every @ places / every.sum()
-    inertia = course.inertia + every @ ((places - centre) ** 2).sum(axis=1)
-    return replace(course, mass=float(every.sum()), centre=tuple(centre.tolist()), inertia=float(inertia))
+    mass = weights.sum()
+    centre = weights @ places / mass
+    squared_distances = ((places - centre) ** 2).sum(axis=1)
+    inertia = course.inertia + weights @ squared_distances
+    return replace(course, mass=float(mass), centre=tuple(centre.tolist()), inertia=float(inertia))
 
 
 def joined(courses: Sequence[Course]) -> Course:
