@@ -4,7 +4,7 @@ import hashlib
 import math
 import os
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any, TypeVar
@@ -36,7 +36,11 @@ _FEW = {True: 12, False: 24}
 
 @dataclass(frozen=True)
 class Plan:
-    """The work of a study before it begins. records: by identifier, in catalogue order. jobs: identifiers by job."""
+    """The work of a study before it begins.
+
+    records: by identifier, in catalogue order. jobs: identifiers by job. structure_hashes: one hash for what each
+    structure says, by its name.
+    """
 
     settings: Settings
     records: Mapping[str, CatalogueRecord]
@@ -45,6 +49,7 @@ class Plan:
     structures_sha256: str
     package_sha256: str
     hashes: ContentHashes
+    structure_hashes: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def doubts(self) -> tuple[str, ...]:
@@ -143,6 +148,7 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
         structures_sha256=structures_sha256(structures),
         package_sha256=package_sha256(reports=settings.reports),
         hashes=ContentHashes(_HASHES, LARGEST_FILE),
+        structure_hashes=structure_hashes(structures),
     )
 
 
@@ -182,6 +188,11 @@ def _check_results(settings: Settings) -> None:
     check_own(results)
 
 
+def structure_hashes(structures: Mapping[str, Structure]) -> dict[str, str]:
+    """Return one hash for what each structure says of itself and its support, by its name."""
+    return {name: sha256_of(each.as_config(), each.standing) for name, each in structures.items()}
+
+
 def structures_sha256(structures: Mapping[str, Structure]) -> str:
     """Return one hash for what a structure list says, whatever its comments and its layout."""
     return sha256_of(
@@ -215,18 +226,24 @@ def package_sha256(reports: bool = True) -> str:
 
 
 def share_out(
-    identifiers: Iterable[str], size: int | None = None, reports: bool = True
+    identifiers: Iterable[str], size: int | None = None, reports: bool = True, work: float = 1.0
 ) -> dict[str, tuple[str, ...]]:
     """Return the identifiers of each job, in their order, by the name of the job.
 
     size: about how many records a job takes; None chooses twelve, or 24 without reports, but more rather than start
     more than eight jobs, and at most 200. A hash of the identifier chooses the job, and their number is a power of two,
-    so that one record more changes one job, or all where that number doubles.
+    so that one record more changes one job, or all where that number doubles. work: what is left to do of a record, as
+    a share of the whole.
     """
     identifiers = tuple(identifiers)
     number = len(identifiers)
-    least = number / size if size else max(min(number / _FEW[reports], _MOST_JOBS), number / _MANY)
-    count = 1 << max(0, (math.ceil(least) - 1).bit_length())
+    few = number * work / _FEW[reports]
+    least = number / size if size else max(min(few, _MOST_JOBS), number / _MANY)
+    return jobs_of(identifiers, 1 << max(0, (math.ceil(least) - 1).bit_length()))
+
+
+def jobs_of(identifiers: Iterable[str], count: int) -> dict[str, tuple[str, ...]]:
+    """Return the identifiers of each of `count` jobs, by the name of the job; one that has none is left out."""
     jobs: dict[str, list[str]] = {}
     for identifier in identifiers:
         place = int.from_bytes(hashlib.sha256(identifier.encode()).digest()[:4], "big") % count

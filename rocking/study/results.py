@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 PAGE = "explore.jsonl"
 """Beside them: what the page to explore shows of each record, one JSON value a line."""
+PROVENANCE = "provenance.json"
+"""In the folder of the summary: what the results were made from and with."""
 SPECTRA = "spectra"
 """The key of these under which the spectra of the components stand, for the summary, where there is a design level."""
 _ROWS: tuple[type[Row], ...] = (*RECORD_TABLES, *SUMMARY_TABLES, TradeRow, CodeCheckRow)

@@ -20,6 +20,7 @@ from rocking.study import close_doors
 from rocking.study.folder import REMEMBERED, locked, new_log
 from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_plan, workflow_folder
 from rocking.study.settings import named_files
+from rocking.study.sharing import shared_by_work
 from rocking.study.terminal import Progress, closing_lines, fitting, paths_to_read
 from rocking.tables import read_table
 
@@ -171,7 +172,7 @@ def _plan(folder: Path) -> Plan:
             f"{catalogue}: there is no catalogue yet; put records beside it, then: rocking catalogue {catalogue.parent}"
         )
     with contextlib.chdir(folder):
-        return make_plan(settings)
+        return shared_by_work(make_plan(settings))
 
 
 def _snakemake(arguments: Sequence[str]) -> int:

@@ -66,6 +66,14 @@ def remove_broken_seals(plan: Plan) -> Iterator[str]:
     hashes.save()
 
 
+def sealed_origin(path: Path) -> str:
+    """Return the hash of what the files of a seal were made from; "" where the seal cannot be read."""
+    try:
+        return str(json.loads(read_whole(path, _LARGEST, RockingError))["made_from"])
+    except (RockingError, ValueError, KeyError, TypeError, RecursionError):
+        return ""
+
+
 def _why_broken(path: Path, made_from: str, results: Path, hashes: ContentHashes) -> str:
     """Return a sentence on what is not as it was sealed, or of another origin; "" where the seal holds."""
     try:

@@ -149,7 +149,8 @@ class Settings(AssessmentSettings):
     )
     records_per_job: int | None = described(
         None,
-        "number of records per job; null: 12, or 24 without reports; of many an eighth, at most 200",
+        "number of records per job; null: 12, or 24 without reports; of many an eighth, at most 200; "
+        "fewer jobs where most cases are kept from before",
         ge=1,
         le=100_000,
         heading=Heading.OUTPUT,

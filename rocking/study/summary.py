@@ -26,7 +26,9 @@ from rocking.errors import ConfigurationError, RockingError
 from rocking.records import Accelerogram, CatalogueRecord
 from rocking.structures import Mechanism, Structure
 from rocking.study.job import Study
+from rocking.study.plan import structure_hashes
 from rocking.study.results import (
+    PROVENANCE,
     SPECTRA,
     page_contents,
     part,
@@ -81,10 +83,11 @@ def summarise(study: Study, records: Iterable[CatalogueRecord], jobs: Sequence[s
         "versions": versions,
         "settings": study.settings.mapping(),
         "hashes": {"settings": params.settings_sha256, "package": params.package_sha256},
+        "structures": structure_hashes(study.structures),
         "records": hashes,
     }
     text = json.dumps(provenance, indent=1, sort_keys=True, default=str)
-    write_whole(target / "provenance.json", (text + "\n").encode())
+    write_whole(target / PROVENANCE, (text + "\n").encode())
     if study.settings.reports:
         from rocking.reports.explore import explore_page  # matplotlib takes half a second to import
 

@@ -13,6 +13,7 @@ from rocking.study.plan import check_config_file, config_file, make_plan
 from rocking.study.results import PAGE, part
 from rocking.study.run import begin
 from rocking.study.seal import SEAL, TRADE_SEAL, remove_broken_seals
+from rocking.study.sharing import shared_by_work
 from rocking.study.terminal import check_any_read, tell
 from snakemake.utils import update_config
 
@@ -26,7 +27,7 @@ if not workflow.overwrite_configfiles:
     CONFIG = check_config_file(FILE)
     update_config(CONFIG, config)  # what --config says
     config.update(CONFIG)
-PLAN = make_plan(config)
+PLAN = shared_by_work(make_plan(config))
 if workflow.is_main_process:
     for SENTENCE in remove_broken_seals(PLAN):
         tell("results", SENTENCE)
