@@ -12,7 +12,7 @@ from typing import Any
 
 from rocking.errors import RockingError
 from rocking.study.plan import Plan, jobs_of, share_out
-from rocking.study.results import PROVENANCE, cases_of, part, parts_in
+from rocking.study.results import PROVENANCE, part, parts_in
 from rocking.study.seal import SEAL, sealed_origin
 from rocking.tables import read_whole
 
@@ -54,19 +54,19 @@ def _any_stands(plan: Plan) -> bool:
 def _work_left(plan: Plan) -> float:
     """The work that is left of a record, as a share of its whole, after what the last summary was made from.
 
-    An estimate, on which no number depends: a case that was thought to be kept is computed.
+    An estimate, on which no number depends: a case that was thought to be kept is computed. It asks only for what no
+    job changes, as each job makes the plan again while others run; not for the kept cases themselves.
     """
-    results = Path(plan.settings.results)
-    before = _provenance(results / "summary" / PROVENANCE)
+    before = _provenance(Path(plan.settings.results) / "summary" / PROVENANCE)
     settings = json.loads(json.dumps(plan.settings.mapping(), default=str))
     hashes = before.get("hashes")
     package = hashes.get("package") if isinstance(hashes, dict) else None
     if package != plan.package_sha256 or before.get("settings") != settings:
         return 1.0
+    records = {name: each.sha256 for name, each in plan.records.items()}
     kept = _unchanged(before.get("structures"), plan.structure_hashes)
-    records = {name: each.sha256 for name, each in plan.records.items() if cases_of(results, name).is_file()}
-    read = _unchanged(before.get("records"), records) * len(records) / max(1, len(plan.records))
-    return min(1.0, _READING + 1 - kept * read)
+    kept *= _unchanged(before.get("records"), records)
+    return min(1.0, _READING + 1 - kept)
 
 
 def _provenance(path: Path) -> Mapping[str, Any]:

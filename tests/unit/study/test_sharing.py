@@ -129,8 +129,13 @@ def test_a_provenance_that_cannot_be_read_tells_nothing(content: str) -> None:
     assert _number(_plan("1 2 3 4 9")) == 4
 
 
-def test_cases_that_were_removed_are_work() -> None:
+def test_a_job_that_runs_does_not_change_the_sharing() -> None:
+    """Each job makes the plan again, while others keep their cases."""
     _summarised(_plan())
-    for path in Path("results", "summary", "cases").iterdir():
-        path.unlink()
-    assert _number(_plan("1 2 3 4 9")) == 4
+    plan = _plan("1 2 3 9 8")
+    before = shared_by_work(plan)
+    for record in plan.records:
+        cases_of(Path("results"), record).unlink()
+        assert shared_by_work(plan).jobs == before.jobs
+    _sealed(before, next(iter(before.jobs)))
+    assert shared_by_work(plan).jobs == before.jobs
