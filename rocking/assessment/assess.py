@@ -28,7 +28,7 @@ from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
 from rocking.assessment.ground_motions import GroundMotions, processed
 from rocking.assessment.reserve_search import reserve
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.assessment.variations import Variation, candidates, processed_variants
+from rocking.assessment.variations import candidates, processed_variants
 from rocking.assessment.verdict import BOTH_COMPONENTS, Method, Verdict, ratio_in_words
 from rocking.drawn import Drawn, in_a_notebook
 from rocking.errors import ConfigurationError, RecordError, RockingError
@@ -573,37 +573,37 @@ def _with_variations(
     extent: Extent,
 ) -> dict[str, CaseResult]:
     """The cases with other cracks and other processings of the record beside them."""
-    varied: dict[str, list[Variation]] = {}
-    failed: dict[str, list[Failure]] = defaultdict(list)
+    varied = dict(results)
     own: dict[str, Structure] = {}
-    as_recorded: dict[str, float] = {}
     for name, result in results.items():
         structure = structures[name]
-        if result.answer is None or not isinstance(structure, Structure):
-            continue
-        own[name] = structure
-        as_recorded[name] = result.integrated_rotation_ratio
-        pulse = result.prediction.pulse if result.prediction else None
-        varied[name] = []
-        try:
-            varied[name] += candidates(
-                structure, component.accelerogram, pulse, extent.crack_heights, extent.settings
-            )
-        except RockingError as error:
-            failed[name].append(Failure("variations", str(error)))
-    if extent.processing_variants and own:
-        motions, vertical = _processings(component)
-        of_each = processed_variants(own, motions, extent.settings, as_recorded, vertical)
-        for name, several in of_each.items():
-            varied[name] += several
-    return {
-        name: replace(
-            result,
-            variations=tuple(varied.get(name, ())),
-            failures=(*result.failures, *failed.get(name, ())),
-        )
-        for name, result in results.items()
-    }
+        if result.answer is not None and isinstance(structure, Structure):
+            own[name] = structure
+            varied[name] = _with_candidates(result, structure, component, extent)
+    if not (extent.processing_variants and own):
+        return varied
+    motions, vertical = _processings(component)
+    as_recorded = {name: results[name].integrated_rotation_ratio for name in own}
+    of_each = processed_variants(own, motions, extent.settings, as_recorded, vertical)
+    for name, several in of_each.items():
+        result = varied[name]
+        varied[name] = replace(result, variations=(*result.variations, *several))
+    return varied
+
+
+def _with_candidates(
+    result: CaseResult, structure: Structure, component: Component, extent: Extent
+) -> CaseResult:
+    """The case with what each crack that may form does beside it, or with the reason why one cannot be followed."""
+    pulse = result.prediction.pulse if result.prediction else None
+    record = component.accelerogram
+    vertical = component.vertical
+    try:
+        several = candidates(structure, record, pulse, extent.crack_heights, extent.settings, vertical)
+    except RockingError as error:
+        failure = Failure("variations", str(error))
+        return replace(result, failures=(*result.failures, failure))
+    return replace(result, variations=tuple(several))
 
 
 def _processings(component: Component) -> tuple[Mapping[str, Accelerogram], Accelerogram | None]:

@@ -10,7 +10,7 @@ from rocking.assessment.ground_motions import AS_IT_IS
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import RockingError
 from rocking.motion.batch import integrate_batch
-from rocking.motion.integration import integrate
+from rocking.motion.integration import STRICT, integrate
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum
@@ -37,19 +37,22 @@ def candidates(
     pulse: Pulse | None,
     count: int,
     settings: AssessmentSettings,
+    vertical: Accelerogram | None = None,
 ) -> list[Variation]:
     """Return `count` candidates of a structure, the lowest crack first; [] where there is one mechanism.
 
-    Raises RockingError where one of them cannot be followed.
+    vertical: acts with the accelerogram. Raises RockingError where one of them cannot be followed.
     """
     others = sorted(structure.candidates(count) if count else (), key=lambda each: each.position)
     if len(others) < 2:
         return []
-    integrated = _rotation_ratios([each.structure for each in others], accelerogram, settings)
+    integrated = _rotation_ratios([each.structure for each in others], accelerogram, settings, vertical)
     variations = []
     for each, ratio in zip(others, integrated, strict=True):
         if math.isnan(ratio):
-            integrate(each.structure, accelerogram, settings.tolerance)  # raises the reason
+            integrate(
+                each.structure, accelerogram, _tolerance(settings), vertical=vertical
+            )  # raises the reason
         mechanism = each.structure.mechanism()
         predicted = math.nan
         if pulse and mechanism.can_overturn:
@@ -93,5 +96,14 @@ def _rotation_ratios(
     vertical: Accelerogram | None = None,
 ) -> list[float]:
     """The largest rotation ratio of each, nan where it cannot be followed; one thread, as a job has one core."""
-    ratios = integrate_batch(structures, record, tolerance=settings.tolerance, vertical=vertical, workers=1)
+    tolerance = _tolerance(settings)
+    ratios = integrate_batch(structures, record, tolerance=tolerance, vertical=vertical, workers=1)
     return [float(ratio) for ratio in ratios[:, 0]]
+
+
+def _tolerance(settings: AssessmentSettings) -> float:
+    """That at which a fragile run is repeated, at the first run.
+
+    To ask whether each is fragile would take three runs more; a smaller tolerance takes a seventh more time.
+    """
+    return min(settings.tolerance, STRICT)

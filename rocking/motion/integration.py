@@ -42,7 +42,7 @@ WEIGHTLESS = (
 )
 _TIGHT = 1e-12
 _NUDGE = 1e-5
-_AGAIN = 1e-9
+STRICT = 1e-9
 """Tolerance of the second run, and by how much its motion is stronger: an exact response has no tolerance to change."""
 _REPRODUCIBLE = 1e-5
 """Relative change of the largest rotation in the second run above which the first one is called fragile."""
@@ -91,8 +91,8 @@ def integrate(
 
     change = within(MotionError, "fragility_change", fragility_change, 0, 0.5)
     fragile = _is_fragile(response, reduced, forcing, tolerance, start, change)
-    if fragile and response.tolerance > _AGAIN:
-        response = _response(reduced, forcing, _AGAIN, start, history)
+    if fragile and response.tolerance > STRICT:
+        response = _response(reduced, forcing, STRICT, start, history)
     response = replace(response, fragile=fragile)
 
     if sensitivity and response.outcome is Outcome.ROCKS:
@@ -285,7 +285,7 @@ def _is_fragile(
     change: float,
 ) -> bool:
     """Whether a tighter run differs, or one whose motion is weaker or stronger by the share `change` ends otherwise."""
-    again = _response(reduced, forcing, min(tolerance, _AGAIN), start, factor=1 + _AGAIN)
+    again = _response(reduced, forcing, min(tolerance, STRICT), start, factor=1 + STRICT)
     if not math.isclose(again.rotation_ratio, response.rotation_ratio, rel_tol=_REPRODUCIBLE):
         return True
     neighbours = (

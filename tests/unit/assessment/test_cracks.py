@@ -117,7 +117,27 @@ def test_the_middle_candidate_is_the_wall_itself():
     variations = candidates(LOW_WALL, SINE, PULSE, 5, AssessmentSettings())
     middle = variations[2]
     assert middle.position == pytest.approx(2.0)
-    assert middle.integrated_rotation_ratio == integrate(LOW_WALL, SINE).rotation_ratio
+    assert middle.integrated_rotation_ratio == integrate(LOW_WALL, SINE, 1e-9).rotation_ratio
+
+
+def test_variations_are_followed_at_the_tolerance_at_which_a_fragile_run_is_repeated():
+    """A word may hang on one of them, and none is asked whether it is fragile."""
+    motion = record(12.0, 0.5)
+    at_settings, strictly = (integrate(LOW_WALL, motion, each).rotation_ratio for each in (1e-3, 1e-9))
+    assert at_settings != strictly
+    settings = AssessmentSettings(tolerance=1e-3)
+    assert candidates(LOW_WALL, motion, None, 5, settings)[2].integrated_rotation_ratio == strictly
+    (processing,) = processed_variants({"": LOW_WALL}, {"high-pass 0.2 Hz": motion}, settings)[""]
+    assert processing.integrated_rotation_ratio == strictly
+
+
+def test_the_vertical_component_acts_on_every_candidate():
+    vertical = record(3.0, 0.4)
+    motion = record(12.0, 0.5)
+    middle = candidates(LOW_WALL, motion, None, 5, AssessmentSettings(), vertical)[2]
+    with_it, without = (integrate(LOW_WALL, motion, 1e-9, vertical=each) for each in (vertical, None))
+    assert middle.integrated_rotation_ratio == with_it.rotation_ratio
+    assert 0 < with_it.rotation_ratio != without.rotation_ratio
 
 
 def test_a_higher_hinge_lifts_earlier():
@@ -135,5 +155,5 @@ def test_processing_that_changes_nothing_changes_no_answer():
     assert "unchanged" in records
     variations = processed_variants({"": block}, records, AssessmentSettings())[""]
     ratios = {each.processing: each.integrated_rotation_ratio for each in variations}
-    assert ratios["unchanged"] == integrate(block, SINE).rotation_ratio
+    assert ratios["unchanged"] == integrate(block, SINE, 1e-9).rotation_ratio
     assert ratios["high-pass 0.2 Hz"] != ratios["unchanged"]
