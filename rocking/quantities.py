@@ -65,13 +65,24 @@ _SPELLINGS = (
     ("/s/s", "/s2"),
     ("/s*s", "/s2"),
     ("/(s*s)", "/s2"),
+    ("_per_", "/"),
+    (" per ", "/"),
     ("_s_2", "/s2"),
     ("_s2", "/s2"),
     ("µ", "u"),
 )
 _NEGATIVE_POWER = re.compile(r"((?:[cmun]?m)|ft|in)[ .·*]?s(?:\*\*|\^)?[-−]2")
 """A unit like "m s-2", "cm.s^-2"."""
-_WORDS = {"gals": "gal", "gs": "g", "milli-g": "mg", "milli g": "mg", "millig": "mg"}
+_WORDS = {
+    "gals": "gal",
+    "gs": "g",
+    "g's": "g",
+    "milli-g": "mg",
+    "milli g": "mg",
+    "millig": "mg",
+    "ms2": "m/s2",
+    "cms2": "cm/s2",
+}
 
 
 def acceleration_unit(text: str) -> str | None:

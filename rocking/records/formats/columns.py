@@ -84,19 +84,29 @@ def _below_text(above: list[str], remarks: Sequence[str], width: int, start: int
     """Return a table below lines of text, whose last is that of its names, or the units below them; None of another.
 
     More text than these is passed over only where nothing is left open: each column is of times, has a unit, or names a
-    direction below text that declares the unit; and the times, or that text, give the step.
+    direction or acceleration below text that declares the unit; and the times, or that text, give the step.
     """
     names = _labels(above[-1])
     rest = above[:-1]
+    if len(names) != width and len(above[-1].split()) == width:
+        names = tuple(above[-1].split())
     if len(above) > 1 and len(names) == width and _are_units(names):
         names = _with_units(_labels(above[-2]), names)
         rest = above[:-2]
     if len(names) != width:
-        return None
+        return _below_prose(above, remarks, width, start)
     labels = tuple(map(ColumnLabel, names))
     if rest and (any(map(_SCALED.search, rest)) or not _is_all_said(labels, *_declared((*remarks, *rest)))):
         return None
     return _Table(labels, width, start, (*remarks, *rest))
+
+
+def _below_prose(above: list[str], remarks: Sequence[str], width: int, start: int) -> _Table | None:
+    """Return one series below text that declares its unit and its step, and names no column; None of another file."""
+    unit, step = _declared((*remarks, *above))
+    if width > 1 or not unit or not step or any(map(_SCALED.search, above)):
+        return None
+    return _Table((), width, start, (*remarks, *above))
 
 
 _SCALED = re.compile(r"(?i)\b(scal\w*|factor\w*|multipl\w*|gain|sensitivity|counts?)\b")
@@ -106,18 +116,20 @@ _SCALED = re.compile(r"(?i)\b(scal\w*|factor\w*|multipl\w*|gain|sensitivity|coun
 def _is_all_said(labels: Sequence[ColumnLabel], unit: str | None, step: float | None) -> bool:
     """Whether labels, and the unit and the step [s] above them, leave nothing open of the columns."""
     open_ones = [label for label in labels if not (label.is_time or label.unit or label.other)]
-    if open_ones and not (unit and all(label.is_direction for label in open_ones)):
+    is_motion = all(label.is_direction or label.is_plain_acceleration for label in open_ones)
+    if open_ones and not (unit and is_motion):
         return False
     return step is not None or any(label.is_time for label in labels)
 
 
 def _labels(line: str) -> tuple[str, ...]:
-    """The names in a line, parted by commas, semicolons or tabs, else by blanks; a unit in brackets stays with its."""
+    """The names in a line, parted by tabs, semicolons or commas, else by blanks; a unit in brackets stays with its."""
     if '"' in line:
         return tuple(re.findall(r'"([^"]*)"', line))
     line = re.sub(r"[,;]\s*$", "", line)
-    if re.search(r"[,;\t]", line):
-        parts = re.split(r"[,;\t]", line)
+    separator = next((mark for mark in "\t;," if mark in line), "")
+    if separator:
+        parts = line.split(separator)
     elif len(_BRACKET_END.findall(line)) > 1 and line.rstrip().endswith((")", "]")):  # names of several words
         parts = _WITH_UNIT.findall(line)
     else:
@@ -271,7 +283,7 @@ def _below_count(rows: np.ndarray, labels: tuple[ColumnLabel, ...]) -> np.ndarra
 
 _UNIT_OF_REMARK = re.compile(
     r"\b(?:units?|unidad(?:es)?|unit[aà])\b[^:=]*[:=]\s*[(\[]?\s*([^\s,;()\[\]]+)|"
-    r"(?:\b(?:in|units? (?:of|are))\s+|[(\[]\s*)([A-Za-z][\w/^*²]*)",
+    r"(?:\b(?:in|units?(?: of| are)?)\s+|[(\[]\s*)([A-Za-z][\w/^*²]*)",
     re.I,
 )
 _OF_ACCELERATION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|amplitud)")

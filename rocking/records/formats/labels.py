@@ -9,13 +9,15 @@ from rocking.quantities import acceleration_unit
 from rocking.records.instrument import azimuth, is_vertical, other_quantity
 
 _TIME = re.compile(
-    r"(?i)t\d?|(time|zeit|tiempo|temp[os]|zaman|seconds?)(?![a-z]).*|[^()\[\]]*[(\[]\s*s(ec)?\s*[)\]]"
+    r"(?i)t\d?|(time|zeit|tiempo|temp[os]|zaman|seconds?|secs?)(?![a-z]).*|"
+    r"[^()\[\]]*[(\[]\s*(s(ec|eg)?|sn|sek)\s*[)\]]"
 )
 _COUNT = re.compile(
     r"(?i)(no|nr|n|i|id|#|index|count|counter|sample|samples|point|points|step|row|line)\b\.?.*"
 )
 _TIMES = {
     "s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0, "ms": 1e-3, "msec": 1e-3, "millisecond": 1e-3,
+    "seg": 1.0, "segundos": 1.0, "sek": 1.0, "sekunden": 1.0, "sn": 1.0, "saniye": 1.0, "secondi": 1.0, "secondes": 1.0,
     "milliseconds": 1e-3, "us": 1e-6, "µs": 1e-6, "microseconds": 1e-6, "min": 60.0, "minute": 60.0, "minutes": 60.0,
     "h": 3600.0, "hour": 3600.0, "hours": 3600.0,
 }  # fmt: skip
@@ -23,13 +25,21 @@ _TIME_UNIT = re.compile(r"[(\[]\s*([^)\]]*?)\s*[)\]]\s*$|[\s,_/]([A-Za-zµ]+)\s*
 """The unit of times, in brackets or as the last word."""
 _BRACKETS = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
 _BARE_UNIT = (
+    re.compile(r"(?i)\s+in\s+(\S+)\s*$"),
     re.compile(r"(?i)\s*[/,]\s*(m?g|gals?|[mc]?m/s\S+)\s*$"),
     re.compile(r"(?i)[\s_]+((?:[munc]?m|ft|in)\s?[/_ ]?s(?:ec)?(?:/s(?:ec)?|[_^]?2|\*\*2|²))\s*$"),
     re.compile(r"(?i)[\s_]+(gals?)\s*$"),
+    re.compile(r"(?i)[\s_]+([munc]?m(?:[_ ]?per[_ ]?s(?:ec)?2|s2))\s*$"),
 )
-"""A unit that ends a label without brackets: "Acc/g", "NS, cm/s2", "ns_m_s2". A "g" after a blank is of ground."""
+"""A unit that ends a label without brackets: "Acc/g", "NS, cm/s2", "ns_m_s2". A "g" after a blank is of ground, but
+after "in" it is a unit."""
 _ACCELERATION = re.compile(r"(?i)^(acc(el(eration)?)?|a)([_\s.-]+(?!g$)|(?=(ns|ew|ud|up|[xyznev])$))")
-_GROUND = re.compile(r"(?i)[_\s]g$")
+_GROUND = re.compile(r"(?i)(?<!\bu)[_\s]g$")
+"""The mark of the ground, as in "ns_g"; not that of "u_g", a displacement, which would be left as "u", up."""
+_OF_DIRECTION = re.compile(r"(?i)^([xyz])[\s_-]*(?:dir(?:ection)?\.?|axis|comp(?:onent)?\.?)$")
+"""A letter with the word for what it is, as "Z-direction", "X axis"."""
+_AND_WHAT = re.compile(r"(?i)[\s_-]+(acc(el(eration)?)?|comp(onent)?|dir(ection)?)\.?$")
+"""The noun after a direction: "vertical acceleration", "N-S component"."""
 _SEED_ID = re.compile(r"[\w-]+([._ -][\w-]*)*[._ -]([A-Z][HNGL][A-Z\d])")
 """A channel code at the end of what names network and station: "IV.AMT..HNZ"."""
 
@@ -44,9 +54,14 @@ _OTHER_WORDS = re.compile(
     r"(?i)(?<![a-z])(strain|force|shear|moment|tilt|rot(ation)?|angle|temp(erature)?|pressure|volt(age)?|counts?|drift|"
     r"load|intensity|arias|husid|energy|power|stress|slip|uplift)(?![a-z])"
 )
-_NOT_OF_THE_GROUND = re.compile(r"(?i)(?<![a-z])(relative|rel|norm(ali[sz]ed)?|error|residual)(?![a-z])")
-"""Words before an acceleration that is not that of the ground, or no acceleration any more."""
-_MULTIPLIED = re.compile(r"(?i)[x×*]\s*1\d*(\.0*)?(e[+-]?\d+|\^|0\b)|\b1e[+-]?\d+\b|\b10\s*(\^|\*\*|-\d)")
+_NOT_OF_THE_GROUND = re.compile(
+    r"(?i)(?<![a-z])(relative|rel|norm(ali[sz]ed)?|error|residual|resultant|srss|vector[ _]sum|rotd\d*|"
+    r"geo(metric)?[ _]?mean)(?![a-z])"
+)
+"""Words before an acceleration that is not that of the ground in one direction, or no acceleration any more."""
+_MULTIPLIED = re.compile(
+    r"(?i)[x×*]\s*1\d*(\.0*)?(e[+-]?\d+|\^|0\b)|\b1e[+-]?\d+\b|\b10\s*(\^|\*\*|-\d)|\b10+\s*[x×*]"
+)
 """A power of ten by which a label says that its numbers are multiplied."""
 _MEANT = {
     **dict.fromkeys(("v", "vel"), "velocity"),
@@ -138,7 +153,8 @@ class ColumnLabel:
             for pattern in _BARE_UNIT:
                 name = pattern.sub("", name)
         name = _ACCELERATION.sub("", name.strip())
-        directed = _GROUND.sub("", name)
+        name = _OF_DIRECTION.sub(r"\1", name)
+        directed = _GROUND.sub("", _AND_WHAT.sub("", name))
         if directed != name and (azimuth(directed) is not None or is_vertical(directed)):
             name = directed
         if code := _SEED_ID.fullmatch(name.strip()):

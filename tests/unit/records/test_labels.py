@@ -47,6 +47,16 @@ def opened(folder: Path, content: str | bytes, **options) -> list[Accelerogram]:
         ("acc N-S m/s/s", "m/s2", "N-S"),
         ("a_g", None, "a_g"),
         ("z_g", None, "z"),
+        ("u_g", None, "u_g"),
+        ("vertical acceleration (m/s2)", "m/s2", "vertical"),
+        ("Acc. N-S component (g)", "g", "N-S"),
+        ("Ground acceleration (g)", "g", "Ground acceleration"),
+        ("Z-direction (g)", "g", "Z"),
+        ("acc in g", "g", "acc"),
+        ("Acceleration in cm/s/s", "cm/s2", "Acceleration"),
+        ("acceleration_ms2", "m/s2", "acceleration"),
+        ("acc_m_per_s2", "m/s2", "acc"),
+        ("accel (g's)", "g", "accel"),
     ],
 )
 def test_a_label_names_unit_and_component(label, unit, component):
@@ -59,11 +69,38 @@ def test_a_label_names_unit_and_component(label, unit, component):
     ["CH1 (V)", "CH1 (mV)", "acc (counts)", "counts", "shear (kN)", "NS (mm)", "NS (kine)", "NS (cm/s)", "rot (rad/s2)",
      "tilt (deg)", "strain", "acc (mGal)", "Arias intensity (m/s)", "roof drift",
      "acc x1e-3 (g)", "acc (10^-3 g)", "acc *1000 (g)", "CH1 (V/g)", "jerk (g/s)", "acc (g^2/Hz)", "acc (%)",
-     "relative acc (g)", "normalized acc (g)"],
+     "relative acc (g)", "normalized acc (g)", "1000*acc (g)", "resultant (g)", "acc SRSS (g)", "vector sum (g)"],
 )  # fmt: skip
 def test_a_column_of_something_else_is_no_acceleration_whatever_unit_is_declared(tmp_path, label):
     with pytest.raises(RecordError, match=r"of acceleration|of velocity"):
         opened(tmp_path, table(f"time (s);{label}\n", TIMES, FIRST, parted=";"), unit="m/s2")
+
+
+@pytest.mark.parametrize(
+    "head",
+    [
+        "Station: XYZ\nUnits: g\nTime  Acc\n",
+        "Time;Acceleration, g\n",
+        "Tiempo(seg);Aceleracion(g)\n",
+    ],
+)
+def test_heads_that_leave_nothing_open_are_read(tmp_path, head):
+    (record,) = opened(tmp_path, table(head, TIMES, FIRST, parted=";" if ";" in head else "  "))
+    assert record.acceleration == pytest.approx(FIRST * 9.80665, abs=1e-5)
+    assert record.time_step == pytest.approx(TIMES[1], rel=1e-9)
+
+
+def test_one_line_that_declares_unit_and_step_stands_above_one_series(tmp_path):
+    (record,) = opened(tmp_path, table("Acceleration time history, dt = 0.005 s, units g\n", FIRST))
+    assert record.acceleration == pytest.approx(FIRST * 9.80665, abs=1e-5)
+    assert record.time_step == 0.005
+
+
+def test_names_parted_by_blanks_may_have_units_of_their_own(tmp_path):
+    rows = [np.arange(1, TIMES.size + 1), TIMES, FIRST, FIRST[::-1]]
+    east, north = opened(tmp_path, table("no time(s) EW(gal) NS(gal)\n", *rows, parted=" "))
+    assert (east.component, north.component) == ("EW", "NS")
+    assert north.acceleration == pytest.approx(FIRST[::-1] * 0.01, abs=1e-7)
 
 
 @pytest.mark.parametrize(
