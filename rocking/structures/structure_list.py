@@ -248,7 +248,9 @@ def _repeated(name: object) -> str:
 def _entries(path: Path) -> tuple[list[Any], list[Mapping[str, str]]]:
     """The entries of a structure list, and the text of each of their values as it was typed."""
     entries, node = read_yaml(path, ConfigurationError, "structure list")
-    if not isinstance(entries, list) or not entries:
+    if entries == []:
+        raise ConfigurationError(f"{path}: the list is empty, but must hold one structure at least.")
+    if not isinstance(entries, list):
         raise ConfigurationError(
             f"{path}: the file holds {kind_in_words(entries)}, but must hold a list of structures."
         )

@@ -41,6 +41,8 @@ def _where_and_why(defect: yaml.YAMLError | ValueError) -> str:
     where = "" if mark is None else f" in line {mark.line + 1}"
     if r"'\t'" in problem:
         return f"{where}: a tab stands where only blanks may; write blanks"
+    if "constructor for the tag" in problem:
+        return f"{where}: a tag, a word with an exclamation mark before it, is not read here; write the value alone"
     return f"{where}: {problem}"
 
 

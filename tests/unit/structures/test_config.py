@@ -104,8 +104,10 @@ def test_all_defects_of_a_list_stand_in_one_message(load):
     [
         ("{a: 1", "not valid YAML"),
         ("a: 1", "must hold a list"),
+        ("[]", "the list is empty, but must hold one structure at least"),
+        ("", "holds nothing, but must hold a list"),
         ("- {name: a, type: block, height_m: 1, height_m: 4}", "key 'height_m' is given twice"),
-        ("- !!python/object/apply:os.getcwd []", "not valid YAML"),
+        ("- !!python/object/apply:os.getcwd []", "line 1: a tag, .* is not read here; write the value alone"),
         ("- &a {name: a, type: block, breadth_m: 1, height_m: 4}", "an anchor or an alias is not read here"),
         (
             "- {name: a,\n   type: block, height_m: 1,\n   height_m: 4}",
