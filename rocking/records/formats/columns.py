@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,8 @@ from rocking.records.formats import text
 from rocking.records.formats.dialect import Dialect
 from rocking.records.formats.format import Format, Options
 from rocking.records.formats.labels import ColumnLabel
-from rocking.records.instrument import refuse_by_name, refuse_other_quantity
+from rocking.records.formats.remarks import OF_ACCELERATION, Declarations
+from rocking.records.instrument import directed, names_acceleration, refuse_by_name, refuse_other_quantity
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
 _EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
@@ -96,15 +97,17 @@ def _below_text(above: list[str], remarks: Sequence[str], width: int, start: int
     if len(names) != width:
         return _below_prose(above, remarks, width, start)
     labels = tuple(map(ColumnLabel, names))
-    if rest and (any(map(_SCALED.search, rest)) or not _is_all_said(labels, *_declared((*remarks, *rest)))):
+    if rest and (
+        any(map(_SCALED.search, rest)) or not _is_all_said(labels, Declarations.of((*remarks, *rest)))
+    ):
         return None
     return _Table(labels, width, start, (*remarks, *rest))
 
 
 def _below_prose(above: list[str], remarks: Sequence[str], width: int, start: int) -> _Table | None:
     """Return one series below text that declares its unit and its step, and names no column; None of another file."""
-    unit, step = _declared((*remarks, *above))
-    if width > 1 or not unit or not step or any(map(_SCALED.search, above)):
+    said = Declarations.of((*remarks, *above))
+    if width > 1 or not said.unit or not said.time_step or any(map(_SCALED.search, above)):
         return None
     return _Table((), width, start, (*remarks, *above))
 
@@ -113,13 +116,13 @@ _SCALED = re.compile(r"(?i)\b(scal\w*|factor\w*|multipl\w*|gain|sensitivity|coun
 """Words above a table that speak of a factor by which its numbers may still have to be multiplied."""
 
 
-def _is_all_said(labels: Sequence[ColumnLabel], unit: str | None, step: float | None) -> bool:
-    """Whether labels, and the unit and the step [s] above them, leave nothing open of the columns."""
+def _is_all_said(labels: Sequence[ColumnLabel], above: Declarations) -> bool:
+    """Whether labels, and what the text above them declares, leave nothing open of the columns."""
     open_ones = [label for label in labels if not (label.is_time or label.unit or label.other)]
     is_motion = all(label.is_direction or label.is_plain_acceleration for label in open_ones)
-    if open_ones and not (unit and is_motion):
+    if open_ones and not (above.unit and is_motion):
         return False
-    return step is not None or any(label.is_time for label in labels)
+    return above.time_step is not None or any(label.is_time for label in labels)
 
 
 def _labels(line: str) -> tuple[str, ...]:
@@ -222,7 +225,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
         raise RecordError("a cell is empty; every column needs a number on every line.")
     spaced = body.replace(b",", b" ").replace(b";", b" ")
     values = text.numbers(spaced)
-    unit, step = _declared(table.remarks)
+    said = Declarations.of(table.remarks)
     width = 2 if _are_wrapped_pairs(values, table) else table.width
     wrapped = _is_wrapped(values, table, body)
     _check_rows(spaced, table.width, wrapped or width != table.width)
@@ -235,10 +238,13 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
             "component": "" if label.unit else label.text,
             "warnings": (*notes, *_repeats(values)),
         }
-        records = [options.accelerogram(label.unit or unit, values, above or step, processed=None, **facts)]
+        step = above or said.time_step
+        records = [options.accelerogram(label.unit or said.unit, values, step, processed=None, **facts)]
     else:
         rows = values.reshape(-1, width)
-        records = _timed_columns(_below_count(rows, table.labels), table.labels, options, unit, step)
+        records = _timed_columns(_below_count(rows, table.labels), table.labels, options, said)
+    if len(records) == 1:
+        records = [_pointing(records[0], said.component)]
     return [record.warned(*_cut_number(body), *_never_negative(record)) for record in records]
 
 
@@ -279,44 +285,6 @@ def _below_count(rows: np.ndarray, labels: tuple[ColumnLabel, ...]) -> np.ndarra
     is_count = rows[0, 0] == len(rows) - 1
     is_step = abs(rows[0, 1] - (rows[2, 0] - rows[1, 0])) <= 1e-3 * abs(rows[0, 1])
     return rows[1:] if is_count and is_step else rows
-
-
-_UNIT_OF_REMARK = re.compile(
-    r"\b(?:units?|unidad(?:es)?|unit[aà])\b[^:=]*[:=]\s*[(\[]?\s*([^\s,;()\[\]]+)|"
-    r"(?:\b(?:in|units?(?: of| are)?)\s+|[(\[]\s*)([A-Za-z][\w/^*²]*)",
-    re.I,
-)
-_OF_ACCELERATION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|amplitud)")
-"""Words beside which a unit in brackets is that of the numbers: elsewhere "(G)" may be the code of a network."""
-_OF_PEAK = re.compile(r"(?i)\b(pga|peak|max\w*|scale\w*|factor|picco|pico)\b")
-"""The subjects of a remark whose unit need not be that of the numbers."""
-_STEP_OF_REMARK = re.compile(
-    r"\b(?:dt|delta|time[ _-]?step|(?:sampling|sample)[ _-]?(?:interval|period|step)|intervalo(?: de muestreo)?)\b"
-    r"\s*(?:[(\[]\s*s(?:ec)?\s*[)\]])?\s*[:=]\s*(\d*\.?\d+(?:e[-+]?\d+)?)\s*(?:s|sec|seconds?)?\s*(?:$|[,;])",
-    re.I,
-)
-_RATE_OF_REMARK = re.compile(
-    r"\b(?:fs|(?:sampling|sample)[ _-]?(?:rate|frequency)|tasa de muestreo|frecuencia de muestreo)\b"
-    r"\s*(?:[(\[]\s*hz\s*[)\]])?\s*[:=]\s*(\d*\.?\d+)\s*(?:hz|sps)?\s*(?:$|[,;])",
-    re.I,
-)
-
-
-def _declared(remarks: Sequence[str]) -> tuple[str | None, float | None]:
-    """Return the unit and the time step [s] that remarks above a table declare, None where none or several do."""
-    units: set[str] = set()
-    steps: set[float] = set()
-    for remark in (remark for remark in remarks if not _OF_PEAK.search(remark)):
-        is_of_numbers = bool(_OF_ACCELERATION.search(remark))
-        words = (
-            match[1] or (match[2] if is_of_numbers else "") for match in _UNIT_OF_REMARK.finditer(remark)
-        )
-        units |= set(filter(None, map(acceleration_unit, filter(None, words))))
-        steps |= {float(match[1]) for match in _STEP_OF_REMARK.finditer(remark)}
-        steps |= {1 / float(match[1]) for match in _RATE_OF_REMARK.finditer(remark) if float(match[1])}
-    unit = units.pop() if len(units) == 1 else None
-    step = steps.pop() if len(steps) == 1 else None
-    return unit, step or None
 
 
 _FEWEST_OF_BOTH_SIGNS = 100
@@ -385,16 +353,19 @@ def _repeats(values: np.ndarray) -> tuple[str, ...]:
     return (sentence,) if is_twice else ()
 
 
+def _pointing(record: Accelerogram, component: str) -> Accelerogram:
+    """Return the record under the name of the `component` that the text above it declares, where it has no other."""
+    if not component or (record.component and not names_acceleration(record.component)):
+        return record
+    return replace(record, **directed({"component": component}))
+
+
 def _timed_columns(
-    rows: np.ndarray,
-    labels: tuple[ColumnLabel, ...],
-    options: Options,
-    unit: str | None = None,
-    step: float | None = None,
+    rows: np.ndarray, labels: tuple[ColumnLabel, ...], options: Options, said: Declarations
 ) -> list[Accelerogram]:
     """Return the channels of a table: each column of acceleration, with the times left of it, else the first there are.
 
-    unit, step [s]: that the remarks above the table declare, None where they do not.
+    said: by the remarks above the table.
     """
     if not labels:
         timed = rows.shape[1] == 2 or _time_first(rows.ravel(), rows.shape[1])
@@ -412,7 +383,7 @@ def _timed_columns(
         if kind != "channel" or place in others:
             continue
         left = max((at for at in every if at < place), default=min(every, default=-1))
-        records.append(_column(label, every.get(left), column, options, repeats, (unit, step)))
+        records.append(_column(label, every.get(left), column, options, repeats, said))
     if not records:
         _refuse_others(labels, others)
     integrals = [place + 1 for place, what in others.items() if what == _INTEGRAL]
@@ -485,13 +456,13 @@ def _column(
     values: np.ndarray,
     options: Options,
     repeats: tuple[str, ...],
-    declared: tuple[str | None, float | None],
+    said: Declarations,
 ) -> Accelerogram:
     """The accelerogram of one column of a table.
 
-    times: s, None where no column is of times. declared: unit and time step [s] in the remarks above the table.
+    times: s, None where no column is of times. said: by the remarks above the table.
     """
-    unit, step = declared
+    step = said.time_step
     processing: tuple[str, ...] = ()
     if times is not None:
         step = text.even_step(times)
@@ -500,7 +471,7 @@ def _column(
             values = np.interp(even, times, values)
             processing = repeats = (sentence,)
     facts: dict[str, Any] = {"component": label.component, "processing": processing, "warnings": repeats}
-    return options.accelerogram(label.unit or unit, values, step, processed=None, **facts)
+    return options.accelerogram(label.unit or said.unit, values, step, processed=None, **facts)
 
 
 _WORDS = re.compile(r"[A-Za-z=:,;()]+")
@@ -561,14 +532,15 @@ def _below_title(content: bytes, options: Options, size: str, step: str, **names
     title, second, *rows = text.lines(content, _HEAD)
     refuse_other_quantity(options.file, f"{title}\n{second}")
     above = f"{title}\n{second}"
-    of_numbers = bool(_OF_ACCELERATION.search(above))
+    of_numbers = bool(OF_ACCELERATION.search(above))
     words = (match[1] for match in _UNIT_IN_WORDS.finditer(above) if of_numbers or match[0][0] not in "([")
     unit = next(filter(None, map(acceleration_unit, words)), None)
     per_line = max(len(row.split()) for row in rows)
     samples = text.count("number of samples", size)
     values, notes = text.whole(text.numbers(text.after_lines(content, 2)), samples, per_line)
     seconds = text.number("time step", step)
-    return [options.accelerogram(unit, values, seconds, warnings=notes, processed=None, **names)]
+    facts = {"component": Declarations.of((title, second)).component} | names
+    return [options.accelerogram(unit, values, seconds, warnings=notes, processed=None, **facts)]
 
 
 _EMOD3D = re.compile(

@@ -1,0 +1,111 @@
+"""Remarks: what the lines of text above the numbers of a table declare of them."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rocking.quantities import acceleration_unit
+from rocking.records.instrument import azimuth, is_vertical
+
+
+@dataclass(frozen=True)
+class Declarations:
+    """Facts that remarks state of the numbers below them, None (the component: "") where none does, or several differ.
+
+    unit: of acceleration. time_step: s. component: where the only channel points.
+    """
+
+    unit: str | None = None
+    time_step: float | None = None
+    component: str = ""
+
+    @classmethod
+    def of(cls, remarks: Sequence[str]) -> "Declarations":
+        """Return what `remarks`, without their marks, declare."""
+        lines = (*remarks, *(_CELLS.sub(r"\1: \2", remark) for remark in remarks))
+        of_numbers = [line for line in lines if not _OF_PEAK.search(line)]
+        units = {unit for line in of_numbers for unit in _units(line)}
+        steps = {step for line in of_numbers for step in _steps(line)}
+        components = {component.upper(): component for line in of_numbers for component in _components(line)}
+        return cls(
+            units.pop() if len(units) == 1 else None,
+            steps.pop() if len(steps) == 1 else None,
+            components.popitem()[1] if len(components) == 1 else "",
+        )
+
+
+OF_ACCELERATION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|amplitud)")
+"""Words beside which a unit in brackets is that of the numbers: elsewhere "(G)" may be the code of a network."""
+_CELLS = re.compile(r"^\s*([^:=,;\t]+?)\s*[,;\t]\s*([^:=,;\t]+?)[\s,;]*$")
+"""A remark of two cells, as "Unit,gal"."""
+_OF_PEAK = re.compile(r"(?i)\b(pga|peak|max\w*|scale\w*|factor|picco|pico)\b")
+"""The subjects of a remark whose unit need not be that of the numbers."""
+_UNIT = re.compile(
+    r"\b(?:units?|unidad(?:es)?|unit[aà])\b[^:=]*[:=]\s*[(\[]?\s*([^\s,;()\[\]]+)|"
+    r"\bunits?(?: of| are| is)?\s+([A-Za-z][\w/^*²]*)|(?:\bin\s+|[(\[]\s*)([A-Za-z][\w/^*²]*)",
+    re.I,
+)
+_SECONDS = r"(?:s|seg|sec|segundos?|seconds?)"
+_STEP = re.compile(
+    r"\b(?:dt|delta|time[ _-]?step|(?:sampling|sample)[ _-]?(?:interval|period|step)|intervalo(?: de muestreo)?)\b"
+    rf"\s*(?:[(\[]\s*{_SECONDS}\s*[)\]])?\s*(?:[:=]|is|of)?\s*(\d*\.?\d+(?:e[-+]?\d+)?)\s*{_SECONDS}?\s*(?:$|[,;])|"
+    rf"^\s*(?:sampling|muestreo)\s*[:=]\s*(\d*\.?\d+)\s*{_SECONDS}\s*$",
+    re.I,
+)
+_RATE = re.compile(
+    r"\b(?:fs|(?:sampling|sample)[ _-]?(?:rate|frequency)|tasa de muestreo|frecuencia de muestreo)\b"
+    r"\s*(?:[(\[]\s*hz\s*[)\]])?\s*[:=]\s*(\d*\.?\d+)\s*(?:hz|sps)?\s*(?:$|[,;])",
+    re.I,
+)
+_VALUE = r"\b\.?\s*(?:code|name)?\s*[:=]?\s*([^,;:=()\[\]]*?)\s*(?:$|[,;()\[\]]|\s-\s)"
+_DIRECTIONS = (
+    re.compile(
+        rf"\b(?:comp(?:onent[ea]?)?|direction|orientation|direcci[oó]n|orientaci[oó]n){_VALUE}",
+        re.I,
+    ),
+    re.compile(
+        r"([\w/-]+)\s+(?:comp(?:onent)?|direction|acc(?:el(?:eration)?)?|(?:ground )?motion|record)\b",
+        re.I,
+    ),
+    re.compile(
+        r"(?:^|[\s,_-])([NS]\d{1,2}[EW]|UP|UD|U-D|NS|N-S|EW|E-W|[BCHS]N[NEZ]|[BH]H[NEZ]|VERT|(?i:vertical))"
+        r"\s*(?:$|,)"
+    ),
+    re.compile(r",\s*(\d{3})\s*$"),
+)
+"""Words that may be directions: "Component: HNZ", "vertical component", and what ends a title, as "KOBE UP"."""
+_CHANNEL = re.compile(rf"\b(?:canal|chan(?:nel)?){_VALUE}", re.I)
+"""A channel may be named by a direction, but "Channel 101" is none."""
+
+
+def _units(remark: str) -> set[str]:
+    """The units of acceleration that a remark declares for the numbers."""
+    is_of_numbers = bool(OF_ACCELERATION.search(remark))
+    words = [match[1] or match[2] or (match[3] if is_of_numbers else "") for match in _UNIT.finditer(remark)]
+    return {unit for word in words if word and (unit := acceleration_unit(word))}
+
+
+def _steps(remark: str) -> set[float]:
+    """The time steps [s] that a remark declares, or follow from the rates that it does."""
+    steps = {float(match[1] or match[2]) for match in _STEP.finditer(remark)}
+    rates = {float(match[1]) for match in _RATE.finditer(remark)}
+    return {step for step in steps if step} | {1 / rate for rate in rates if rate}
+
+
+def _components(remark: str) -> list[str]:
+    """The directions that a remark says the channel points in."""
+    if re.search(r"(?i)\bhorizontal\b", remark):
+        return []
+    words = [match[1].strip() for pattern in _DIRECTIONS for match in pattern.finditer(remark)]
+    words += [match[1].strip() for match in _CHANNEL.finditer(remark) if not match[1].strip().isdigit()]
+    return [word for word in words if _is_direction(word)]
+
+
+def _is_direction(name: str) -> bool:
+    """Whether a name in a text is a direction: a bare number is one if it is written as three digits, else a count."""
+    if name.isdigit() and len(name) != _DIGITS_OF_AN_ANGLE:
+        return False
+    return bool(name) and (azimuth(name) is not None or is_vertical(name))
+
+
+_DIGITS_OF_AN_ANGLE = 3

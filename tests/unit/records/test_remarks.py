@@ -1,0 +1,108 @@
+"""What the lines of text above numbers say of unit, time step and direction."""
+
+from pathlib import Path
+
+import pytest
+
+from rocking.records.formats.remarks import Declarations
+from tests.unit.records.test_labels import FIRST, TIMES, WAVES, opened, table
+
+BARE = table("", FIRST)
+TIMED = table("time (s),acc (m/s2)\n", TIMES, FIRST)
+
+
+@pytest.mark.parametrize(
+    ("remark", "component", "azimuth", "vertical"),
+    [
+        ("Componente: HNZ", "HNZ", None, True),
+        ("COMP: UD", "UD", None, True),
+        ("COMP. EW", "EW", 90.0, False),
+        ("Channel: HNN", "HNN", 0.0, False),
+        ("Sensor orientation: N26W (reference)", "N26W", 334.0, False),
+        ("Kobe, KJMA, vertical component", "vertical", None, True),
+        ("Kobe 1995, vertical ground motion", "vertical", None, True),
+        ("KOBE 1995 KJMA UP", "UP", None, True),
+        ("El Centro 1940 N00E, corrected", "N00E", 0.0, False),
+        ("IMPERIAL VALLEY 10/15/79 2319, EL CENTRO ARRAY 6, 230", "230", 230.0, False),
+    ],
+)
+@pytest.mark.parametrize(
+    "above", ["# {}\n" + TIMED, "{}\n" + TIMED, "# {}\n" + BARE, "{}\n600 0.01\n" + BARE]
+)
+def test_the_direction_of_a_lone_series_is_what_its_remarks_say(
+    tmp_path: Path, remark, component, azimuth, vertical, above
+):
+    options = {} if "m/s2" in above else {"unit": "m/s2"}
+    if above == "# {}\n" + BARE:
+        options["time_step"] = 0.01
+    (record,) = opened(tmp_path, above.format(remark), **options)
+    assert (record.component, record.azimuth, record.vertical) == (component, azimuth, vertical)
+    assert record.acceleration == pytest.approx(FIRST, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    "remark",
+    [
+        "Channel 1", "Channel: 101", "3 component accelerometer", "Components: NS, EW, UD", "Horizontal component",
+        "a vertical fault", "RECORD OF STATION ONE", "NS and UD components", "Component: H1", "direction unknown",
+    ],
+)  # fmt: skip
+def test_what_names_no_direction_declares_none(remark):
+    assert Declarations.of([remark]).component == ""
+
+
+def test_two_remarks_that_differ_declare_nothing():
+    assert Declarations.of(["Component: NS", "Component: EW"]) == Declarations()
+
+
+def test_a_direction_at_the_head_of_a_column_is_not_overruled(tmp_path: Path):
+    (record,) = opened(tmp_path, "# Component: UD\n" + table("time (s),NS (m/s2)\n", TIMES, FIRST))
+    assert (record.azimuth, record.vertical) == (0.0, False)
+
+
+@pytest.mark.parametrize(
+    "remark",
+    ["dt = 0.005 s", "Time step of 0.005 s", "INTERVALO DE MUESTREO (SEGUNDOS): 0.005", "Muestreo : 0.005 seg",
+     "Sampling rate (Hz),200", "Sampling frequency: 200 Hz", "Frecuencia de muestreo: 200", "Time step 0.005, units g"],
+)  # fmt: skip
+def test_remarks_declare_the_step(remark):
+    assert Declarations.of([remark]).time_step == pytest.approx(0.005, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "remark",
+    [
+        "Unit,gal",
+        "Units;cm/s2",
+        "UNIDADES: cm/s^2",
+        "units cm/s/s",
+        "units of gal",
+        "(cm/s2) of acceleration",
+    ],
+)
+def test_remarks_declare_the_unit(remark):
+    assert Declarations.of([remark]).unit in ("gal", "cm/s2")
+
+
+COLOMBIA = """SERVICIO GEOLOGICO COLOMBIANO- RED NACIONAL DE ACELEROGRAFOS DE COLOMBIA
+SISMO DE PRUEBA 2017/01/12 16:06:32 MW=5.3
+CODIGO DE LA ESTACION: CPRU
+LATITUD DE LA ESTACION (GRADOS): 6.2
+DISTANCIA EPICENTRAL: 65.466 km
+INTERVALO DE MUESTREO (SEGUNDOS): 0.01
+NUMERO DE DATOS: 600
+UNIDADES: cm/s^2
+ESCALA MAXIMA (G): 2
+TIPO DE DATOS: NO CORREGIDO
+         EW                  VER                  NS
+"""
+
+
+def test_three_columns_of_colombia_are_read_below_their_header(tmp_path: Path):
+    columns = [wave * 100 for wave in WAVES]
+    east, up, north = opened(tmp_path, table(COLOMBIA, *columns, parted="    "))
+    assert [record.azimuth for record in (east, north)] == [90.0, 0.0]
+    assert up.vertical
+    for record, wave in zip((east, up, north), WAVES, strict=True):
+        assert record.acceleration == pytest.approx(wave, abs=1e-7)
+        assert record.time_step == 0.01
