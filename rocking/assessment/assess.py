@@ -32,7 +32,7 @@ from rocking.assessment.variations import candidates, processed_variants
 from rocking.assessment.verdict import BOTH_COMPONENTS, Method, Verdict, ratio_in_words
 from rocking.drawn import Drawn, in_a_notebook
 from rocking.errors import ConfigurationError, RecordError, RockingError
-from rocking.motion.integration import integrate
+from rocking.motion.integration import integrate, strict
 from rocking.motion.response import UNKNOWN, Response, check_model
 from rocking.pulses import PulseEvidence, predicting_pulse
 from rocking.quantities import GRAVITY, kind_of
@@ -500,13 +500,21 @@ def _compared_methods(
         return prediction, responses, durations
     record = component.accelerogram
     vertical = component.vertical
-    follow = partial(integrate, tolerance=settings.tolerance)
-    follow_as_given = partial(follow, mechanism, record, history=True, vertical=vertical, fragility=True)
+    follow_as_given = partial(
+        integrate,
+        mechanism,
+        record,
+        settings.tolerance,
+        history=True,
+        vertical=vertical,
+        fragility=True,
+    )
     runs = {Method.MECHANISM_ON_RECORD: follow_as_given}
+    follow_simpler = partial(integrate, tolerance=strict(settings.tolerance))
     if mechanism.can_overturn:
-        runs[Method.BLOCK_ON_RECORD] = partial(follow, block, record, vertical=vertical)
+        runs[Method.BLOCK_ON_RECORD] = partial(follow_simpler, block, record, vertical=vertical)
     if prediction is not None:
-        runs[Method.MECHANISM_ON_PULSE] = partial(follow, mechanism, prediction.pulse)
+        runs[Method.MECHANISM_ON_PULSE] = partial(follow_simpler, mechanism, prediction.pulse)
     for method, run in runs.items():
         started = process_time()
         responses[method] = run()

@@ -15,7 +15,7 @@ from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.verdict import NEGLIGIBLE, Doubt, Verdict
 from rocking.errors import RockingError
-from rocking.motion.integration import integrate
+from rocking.motion.integration import integrate, strict
 from rocking.motion.response import check_model
 from rocking.motion.stacks import STEP, follow_stack
 from rocking.records import Accelerogram
@@ -77,7 +77,7 @@ def doubt(
     cracked = structure.candidates()[0].structure
     for sign, motion in product(_signs(structure, settings), _directions(motions)):
         strongest = motion.scaled(sign * (1 + settings.ensemble.amplitude_range))
-        if _opens(cracked, strongest, motions.vertical, settings.tolerance):
+        if _opens(cracked, strongest, motions.vertical, strict(settings.tolerance)):
             return Doubt.CONTACTS_OPEN
     return None
 

@@ -10,7 +10,7 @@ from rocking.assessment.ground_motions import AS_IT_IS
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import RockingError
 from rocking.motion.batch import integrate_batch
-from rocking.motion.integration import STRICT, integrate
+from rocking.motion.integration import integrate, strict
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum
@@ -50,9 +50,8 @@ def candidates(
     variations = []
     for each, ratio in zip(others, integrated, strict=True):
         if math.isnan(ratio):
-            integrate(
-                each.structure, accelerogram, _tolerance(settings), vertical=vertical
-            )  # raises the reason
+            # Raises the reason.
+            integrate(each.structure, accelerogram, strict(settings.tolerance), vertical=vertical)
         mechanism = each.structure.mechanism()
         predicted = math.nan
         if pulse and mechanism.can_overturn:
@@ -96,14 +95,6 @@ def _rotation_ratios(
     vertical: Accelerogram | None = None,
 ) -> list[float]:
     """The largest rotation ratio of each, nan where it cannot be followed; one thread, as a job has one core."""
-    tolerance = _tolerance(settings)
+    tolerance = strict(settings.tolerance)
     ratios = integrate_batch(structures, record, tolerance=tolerance, vertical=vertical, workers=1)
     return [float(ratio) for ratio in ratios[:, 0]]
-
-
-def _tolerance(settings: AssessmentSettings) -> float:
-    """That at which a fragile run is repeated, at the first run.
-
-    To ask whether each is fragile would take three runs more; a smaller tolerance takes a seventh more time.
-    """
-    return min(settings.tolerance, STRICT)

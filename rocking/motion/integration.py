@@ -91,13 +91,22 @@ def integrate(
 
     change = within(MotionError, "fragility_change", fragility_change, 0, 0.5)
     fragile = _is_fragile(response, reduced, forcing, tolerance, start, change)
-    if fragile and response.tolerance > STRICT:
-        response = _response(reduced, forcing, STRICT, start, history)
+    if fragile and response.tolerance > strict(tolerance):
+        response = _response(reduced, forcing, strict(tolerance), start, history)
     response = replace(response, fragile=fragile)
 
     if sensitivity and response.outcome is Outcome.ROCKS:
         return replace(response, sensitivity=_sensitivity(reduced, forcing, start))
     return response
+
+
+def strict(tolerance: float) -> float:
+    """Return the tolerance of a run on which a word hangs: that of a fragile run's repetition, or a smaller one.
+
+    To ask of a run whether it is fragile takes three runs more; to follow it at this tolerance at once, a fifth more
+    time. Runs of which nobody is told whether they are fragile are therefore strict from the start.
+    """
+    return min(tolerance, STRICT)
 
 
 def reduce(structure: Rocking) -> Mechanism | EquivalentBlock:
@@ -285,7 +294,7 @@ def _is_fragile(
     change: float,
 ) -> bool:
     """Whether a tighter run differs, or one whose motion is weaker or stronger by the share `change` ends otherwise."""
-    again = _response(reduced, forcing, min(tolerance, STRICT), start, factor=1 + STRICT)
+    again = _response(reduced, forcing, strict(tolerance), start, factor=1 + STRICT)
     if not math.isclose(again.rotation_ratio, response.rotation_ratio, rel_tol=_REPRODUCIBLE):
         return True
     neighbours = (

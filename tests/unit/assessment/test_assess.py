@@ -104,6 +104,16 @@ def test_a_fragile_case_is_repeated_and_its_row_and_its_history_say_at_which_tol
     assert (calm.fragile, calm.tolerance) == (False, 1e-6)
 
 
+def test_runs_that_explain_the_closed_form_are_as_strict_as_a_fragile_one_that_is_repeated():
+    """Page one names one of them as the reason, and neither is asked whether it is fragile."""
+    vertical = Accelerogram(0.2 * RECORD.acceleration[::-1], STEP)
+    case = assessed(RECORD, AssessmentSettings(tolerance=1e-3), vertical)
+    for method in (Method.BLOCK_ON_RECORD, Method.MECHANISM_ON_PULSE):
+        assert case.responses[method].tolerance == 1e-9
+    smaller = assessed(RECORD, AssessmentSettings(tolerance=1e-11), vertical)
+    assert smaller.responses[Method.MECHANISM_ON_PULSE].tolerance == 1e-11
+
+
 def test_a_record_without_a_pulse_is_integrated_all_the_same():
     still = Accelerogram(np.zeros(1000), STEP)
     component = component_of(still, SETTINGS.pulse)
