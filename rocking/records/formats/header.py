@@ -267,12 +267,17 @@ def typed_magnitude(text: str) -> dict[str, Any]:
 
     A number without a scale counts where none has one; 0 and below stand for none.
     """
-    text = " ".join(text.split())
-    values = {(m[1] or m[4]).lower(): float(m[2] or m[3]) for m in _TYPED.finditer(text)}
-    values[""] = optional_number(r"(-?\d+(?:\.\d+)?)", text) or 0.0
-    scale = next((scale for scale in _SCALES if 0 < values.get(scale, 0) <= 10), "")
-    value = values[scale] if 0 < values[scale] <= 10 else None
-    return {"magnitude": value, "magnitude_type": _SCALES.get(scale, "")}
+    spaced = " ".join(text.split())
+    values = {}
+    for match in _TYPED.finditer(spaced):
+        scale = match[1] or match[4]
+        value = match[2] or match[3]
+        values[scale.lower()] = float(value)
+    values[""] = optional_number(r"(-?\d+(?:\.\d+)?)", spaced) or 0.0
+
+    plausible = {scale: value for scale, value in values.items() if 0 < value <= 10}
+    preferred = next((scale for scale in _SCALES if scale in plausible), "")
+    return {"magnitude": plausible.get(preferred), "magnitude_type": _SCALES.get(preferred, "")}
 
 
 _ANGLE = r"(\d{1,3}(?:\.\d+)?)(?:[ °]+(\d\d?)[ ']+(\d\d?))?[ °\"]*(?:LAT\.? *|LONG?\.? *)?"

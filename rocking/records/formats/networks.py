@@ -106,14 +106,28 @@ def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
     head, rows = header.parted(content, re.compile("#Data:").match, "begins with #Data:", _CWB_HEADER)
     head = re.sub("^#", "", head, flags=re.M)
     labels = re.findall(r"([A-Z])\(", _CWB.required("channels", head))
+    facts = _cwb_magnitude(head)
+    facts["peaks"] = [_cwb_peak(head, label) for label in labels]
+    facts["event_time"] = _in_zone(_CWB.text("event_time", head), "+08:00")
+    facts["event"] = facts["event_time"]
+
     table = text.table(rows[1:], len(labels) + 1, width=10)
-    magnitudes = re.findall(r"^Magnitude\((\w+)\)(:.*)", head, re.I | re.M)
-    lines = (header.optional(rf"^.*MAX.*\b{label}\s*:(.*)", head) for label in labels)
-    extremes = [re.findall(header.NUMBER, line, re.I) for line in lines]
-    facts = header.typed_magnitude(" ".join(scale + value for scale, value in magnitudes))
-    facts["peaks"] = [max((abs(float(end)) for end in ends), default=None) for ends in extremes]
-    facts["event"] = facts["event_time"] = _in_zone(_CWB.text("event_time", head), "+08:00")
-    return _CWB.channels(head, table[:, 1:], labels, options, step=text.only_even_step(table[:, 0]), **facts)
+    times = table[:, 0]
+    samples = table[:, 1:]
+    return _CWB.channels(head, samples, labels, options, step=text.only_even_step(times), **facts)
+
+
+def _cwb_magnitude(head: str) -> dict[str, Any]:
+    """Magnitude and scale of lines like "Magnitude(Mw):7.6", of which a file may hold several."""
+    lines = re.findall(r"^Magnitude\((\w+)\)(:.*)", head, re.I | re.M)
+    return header.typed_magnitude(" ".join(scale + value for scale, value in lines))
+
+
+def _cwb_peak(head: str, label: str) -> float | None:
+    """The peak of a channel by the line of its greatest and least value; None where there is none."""
+    line = header.optional(rf"^.*MAX.*\b{label}\s*:(.*)", head)
+    extremes = re.findall(header.NUMBER, line, re.I)
+    return max((abs(float(each)) for each in extremes), default=None)
 
 
 _UNAM = Layout("gal", {
@@ -360,13 +374,21 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
 
 def _smc_facts(head: str, reals: np.ndarray) -> dict[str, Any]:
     """The facts of the real header of an SMC file, as arguments of Layout.channel()."""
-    extremes = [(abs(reals[i]), reals[i - 1]) for i in (_LARGEST, _SMALLEST) if abs(reals[i]) < _MISSING]
-    peak, at = max(extremes, default=(None, 0.0))
-    scales = " ".join(header.optional(r"^Moment (Mag.*)", head).replace("Mag", "Mw").split())
-    place = header.site(*(real if abs(real) < _MISSING else None for real in reals[_PLACE].tolist()))
-    facts: dict[str, Any] = {**header.typed_magnitude(scales), **place, "peak": peak}
-    facts["high_pass_frequency"] = float(reals[_CORNER]) if 0 < reals[_CORNER] < 100 else None
-    facts["peak_time"] = float(at) if 0 < at < _MISSING else None
+    # "Moment Mag=6.7   Ml=6.4" as "Mw=6.7 Ml=6.4".
+    scales = header.optional(r"^Moment (Mag.*)", head).replace("Mag", "Mw")
+    facts: dict[str, Any] = header.typed_magnitude(" ".join(scales.split()))
+
+    place = (real if abs(real) < _MISSING else None for real in reals[_PLACE].tolist())
+    facts |= header.site(*place)
+
+    # The time of an extreme stands before it.
+    extremes = [(abs(reals[at]), reals[at - 1]) for at in (_LARGEST, _SMALLEST) if abs(reals[at]) < _MISSING]
+    peak, peak_time = max(extremes, default=(None, 0.0))
+    facts["peak"] = peak
+    facts["peak_time"] = float(peak_time) if 0 < peak_time < _MISSING else None
+
+    corner = reals[_CORNER]
+    facts["high_pass_frequency"] = float(corner) if 0 < corner < 100 else None
     return facts
 
 

@@ -1,5 +1,6 @@
 """Numbers out of text, fast, yet strict about every character; and the step of printed times."""
 
+import math
 import re
 import warnings
 from contextlib import suppress
@@ -95,13 +96,18 @@ _BLANK = 32
 
 def _parted(rows: list[str], width: int, margin: int) -> bytes:
     """Return the text of `rows` with a blank after each column. Raises RecordError where one holds not one number."""
-    bare = (row.rstrip()[margin:] for row in rows)
-    filled_up = "".join(row.ljust(-(-len(row) // width) * width) for row in bare)
-    cells = np.frombuffer(filled_up.encode("latin-1", "replace"), dtype=np.uint8).reshape(-1, width)
-    of_number = cells > _BLANK
-    begins = of_number[:, 0].astype(int) + (of_number[:, 1:] & ~of_number[:, :-1]).sum(axis=1)
-    if (begins != 1).any():
-        broken = cells[int(np.argmax(begins != 1))].tobytes().decode("latin-1").strip()
+    bare = [row.rstrip()[margin:] for row in rows]
+    whole = [row.ljust(math.ceil(len(row) / width) * width) for row in bare]
+    characters = np.frombuffer("".join(whole).encode("latin-1", "replace"), dtype=np.uint8)
+    cells = characters.reshape(-1, width)
+
+    # A number begins in the first place of a column, or after a blank.
+    is_filled = cells > _BLANK
+    begins_first = is_filled[:, 0]
+    begins_later = is_filled[:, 1:] & ~is_filled[:, :-1]
+    numbers = begins_first + begins_later.sum(axis=1)
+    if (numbers != 1).any():
+        broken = cells[int(np.argmax(numbers != 1))].tobytes().decode("latin-1").strip()
         raise RecordError(f"a column of {width} characters holds {broken!r}, not one number.") from None
     return np.pad(cells, ((0, 0), (0, 1)), constant_values=_BLANK).tobytes()
 
