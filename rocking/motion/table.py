@@ -250,24 +250,31 @@ def _near_rest(reach: float, values: np.ndarray) -> tuple[float, ...]:
 
 def _hold(gravity: Function, ground: Function, rotation: Function, starts: np.ndarray) -> np.ndarray:
     """(m,) smallest −G/|B| from each piece on, lowered by the largest change between neighbouring samples."""
-    arcs = starts[:-1, None] + np.diff(starts)[:, None] * np.linspace(0, 1, 9)
+    widths = np.diff(starts)
+    arcs = starts[:-1, None] + widths[:, None] * np.linspace(0, 1, 9)
     rotations = rotation(arcs)
-    balance = -gravity(rotations) / np.maximum(np.abs(ground(rotations)), 1e-300)
-    steps = np.abs(np.diff(balance, axis=1)).max(axis=1)
-    lowest = balance.min(axis=1) - steps
+    push = np.maximum(np.abs(ground(rotations)), 1e-300)
+    balance = -gravity(rotations) / push
+    changes = np.abs(np.diff(balance, axis=1)).max(axis=1)
+    lowest = balance.min(axis=1) - changes
+    # The smallest of each piece and of all after it.
     return np.minimum.accumulate(lowest[::-1])[::-1]
 
 
 def _slope_near_rest(side: Side, tie: SideTie, arc: Arc, reach: float) -> float:
     """Return a bound of |d(T D̃)/dq| at arcs up to `reach`, from equal steps and widened for those between."""
-    rest = side.at("inertia", 0.0)
+    inertia_at_rest = side.at("inertia", 0.0)
     rotations = arc.rotation(np.linspace(0.0, reach, 65))
-    pull = tie.stretch_slope(rotations) / np.sqrt(side.inertia(rotations) * rest)
+    pull = tie.stretch_slope(rotations) / np.sqrt(side.inertia(rotations) * inertia_at_rest)
     stretch = tie.stretch(rotations)
-    force = tie.tie.pretension + tie.tie.stiffness * stretch[-1]
-    steepest = np.abs(np.diff(stretch)).max() * (rotations.size - 1) / reach
-    bends = np.abs(np.diff(pull)).max() * (rotations.size - 1) / reach
-    return float(1.5 * GRAVITY * (tie.tie.stiffness * steepest * np.abs(pull).max() + force * bends))
+    largest_force = tie.tie.pretension + tie.tie.stiffness * stretch[-1]
+
+    intervals = rotations.size - 1
+    steepest_stretch = np.abs(np.diff(stretch)).max() * intervals / reach
+    steepest_pull = np.abs(np.diff(pull)).max() * intervals / reach
+    # The product rule: T' D̃ + T D̃'.
+    slope = tie.tie.stiffness * steepest_stretch * np.abs(pull).max() + largest_force * steepest_pull
+    return float(1.5 * GRAVITY * slope)
 
 
 DEGREE = 7

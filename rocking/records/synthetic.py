@@ -70,14 +70,18 @@ def noise(recipe: SyntheticRecord, samples: int) -> np.ndarray:
         return np.zeros(samples)
     # The legacy generator is the one whose stream numpy promises never to change: the bundled files depend on it.
     white = np.random.RandomState(recipe.seed).standard_normal(samples)
+
     # (t/t_ε)^b exp(b (1 − t/t_ε)) is 1 at the share ε of the duration and η at its end.
     ratio = np.arange(1, samples + 1) / samples / _EPSILON
     b = -_EPSILON * np.log(_ETA) / (1 + _EPSILON * (np.log(_EPSILON) - 1))
-    spectrum = np.fft.rfft(white * (ratio**b * np.exp(b * (1 - ratio))))
+    window = ratio**b * np.exp(b * (1 - ratio))
+
+    spectrum = np.fft.rfft(white * window)
     spectrum /= np.sqrt(np.mean(np.abs(spectrum) ** 2))
     frequency = np.fft.rfftfreq(samples, recipe.time_step)
     source = frequency**2 / (1 + (frequency / recipe.corner_frequency) ** 2)
-    series: np.ndarray = np.fft.irfft(spectrum * source * np.exp(-np.pi * recipe.kappa * frequency), samples)
+    site = np.exp(-np.pi * recipe.kappa * frequency)
+    series: np.ndarray = np.fft.irfft(spectrum * source * site, samples)
     return series * float(recipe.noise_peak / np.abs(series).max())
 
 

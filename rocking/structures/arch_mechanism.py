@@ -82,14 +82,19 @@ class FourBar(Linkage):
         motion = self.motion(state.rotation)
         forces, couples = self.dalembert(state)
         a, b, c, _ = motion.hinges
-        first = cross(motion.centroids[0] - a, forces[0]) + couples[0]
-        second = cross(motion.centroids[1] - c, forces[1]) + couples[1]
-        # (b − a) × T = first and (b − c) × T = −second
-        at_b = ((b - c) * first + (b - a) * second) / cross(b - a, b - c)
-        thrusts = np.stack([at_b - forces[0], at_b, at_b + forces[1], at_b + forces[1] + forces[2]])
+        about_a = cross(motion.centroids[0] - a, forces[0]) + couples[0]
+        about_c = cross(motion.centroids[1] - c, forces[1]) + couples[1]
+        # The thrust T at B has (b − a) × T = about_a and (b − c) × T = −about_c.
+        at_b = ((b - c) * about_a + (b - a) * about_c) / cross(b - a, b - c)
+        at_a = at_b - forces[0]
+        at_c = at_b + forces[1]
+        thrusts = np.stack([at_a, at_b, at_c, at_c + forces[2]])
+
+        # A joint turns by the mean of the bars at its sides; the springings do not turn.
         fixed = np.zeros_like(motion.angles[:1])
-        faces = np.concatenate([fixed, motion.angles, fixed])
-        tangents = np.exp(1j * ((faces[1:] + faces[:-1]) / 2 + self._joints[:, None]))
+        turns = np.concatenate([fixed, motion.angles, fixed])
+        halfway = (turns[1:] + turns[:-1]) / 2
+        tangents = np.exp(1j * (halfway + self._joints[:, None]))
         return Contacts.resolved(("A", "B", "C", "D"), thrusts / self._mass, tangents)
 
     def _last_rotation(self) -> float:

@@ -229,11 +229,17 @@ class Ring:
 
     def gap_slopes(self, section: np.ndarray, contact: np.ndarray) -> np.ndarray:
         """Derivatives of `gaps` with the section, (k, 5); 0 for a foot, which does not move."""
-        load, rate = self.loads(section)
+        load, load_rate = self.loads(section)
         point = self.contact_points(section, contact)
-        of_loads = np.array([0.0, 0.0, 0.0, 1.0, 1.0]) * _moment(1.0, point, rate)
-        slopes = -contact[..., None] * (_moment(0.0, -1j * point, load) + of_loads)
-        return np.where((self.feet(section) != 0)[..., None], 0.0, slopes)
+        point_rate = (
+            -1j * point
+        )  # a point of the ring turns clockwise as the angle from the left springing grows
+        by_point = _moment(0.0, point_rate, load)
+        # Of the columns of `_moment` the last two hold the loads.
+        by_loads = np.array([0.0, 0.0, 0.0, 1.0, 1.0]) * _moment(1.0, point, load_rate)
+        slopes = -contact[..., None] * (by_point + by_loads)
+        is_foot = self.feet(section) != 0
+        return np.where(is_foot[..., None], 0.0, slopes)
 
 
 def _moment(one: float, point: np.ndarray, load: np.ndarray) -> np.ndarray:
