@@ -17,10 +17,11 @@ from rocking.records.catalogue import is_safe_id, read_rows
 from rocking.records.dates import day_of
 from rocking.records.formats.format import plain
 from rocking.records.formats.text import is_number
-from rocking.records.grouping import named_channel, rsn_of, stations, without_direction, without_ending
+from rocking.records.grouping import named_channel, rsn_of, stations, without_direction
+from rocking.records.instrument import without_ending
 from rocking.records.joining import SQUARE, angle_between, direction_doubt
 from rocking.records.listing import CELLS, ListedChannel, ListedFile, doubts_of, listed_file
-from rocking.records.read import bare_text, bytes_of, printable, recognise, unpack
+from rocking.records.read import ONLY_BY_NAME, bare_text, bytes_of, printable, recognise, unpack
 from rocking.records.readings import Readings
 from rocking.tables import read_start
 
@@ -190,8 +191,14 @@ def _new_rows(listed: Sequence[ListedFile], ids: set[str]) -> list[Row]:
         for file in group:
             file.record = rows[-1]["id"] if level else ""
             file.companions = len(group) - 1
-            file.refusal = "" if level else f"{_ONLY_VERTICAL} {file.separation}".strip()
+            file.refusal = "" if level else _why_no_row(file)
     return rows
+
+
+def _why_no_row(file: ListedFile) -> str:
+    """Return why a file without a horizontal component gets no row."""
+    by_name = [doubt for doubt in file.doubts if doubt.startswith(ONLY_BY_NAME)]
+    return " ".join(filter(None, (_ONLY_VERTICAL, file.separation, *by_name)))
 
 
 def _channels(group: Sequence[ListedFile]) -> list[ListedChannel]:

@@ -9,25 +9,12 @@ from itertools import combinations
 import numpy as np
 
 from rocking.records.dates import day_of
-from rocking.records.instrument import azimuth, directed, is_vertical
+from rocking.records.instrument import directed, direction_in_name, without_ending
 from rocking.records.joining import SQUARE, angle_between, names_no_direction, why_apart
 from rocking.records.listing import ListedChannel, ListedFile
 
 _RSN = re.compile(r"(RSN\d+)_")
 """Number of a record in the databases of PEER, with which the names of its files begin."""
-_ENDING = re.compile(r"\.(at2|txt|csv|asc|dat|acc|prn|out|th|tcl|gz|time_\w+|g3)$", re.I)
-_WORDS = (
-    r"NS|EW|SN|WE|N-S|E-W|S-N|W-E|N|E|S|W|NORTH|EAST|SOUTH|WEST|UD|UP|DN|DWN|DOWN|V|Z|VER|VERT|VERTICAL|"
-    r"[A-Z][HNGL][NEZ]"
-)
-_IN_NAME = (
-    re.compile(rf"^(.*?)[-_. ]({_WORDS})$", re.I),
-    re.compile(r"^(.*?)[-_. ]?([NS]\d{1,2}[EW])$", re.I),
-    re.compile(r"^(.*\D)(\d{3})$"),
-    re.compile(r"^(.+)[-_. ](\d{1,3})(?:deg)?$", re.I),
-    re.compile(r"^(.*[a-z\d])(NS|EW|UD|UP)$"),
-)
-"""A direction at the end of a file's name: a word, a bearing or three digits, or one to three after a sign."""
 _BAND = re.compile(r"([A-Z][HNGL])[A-Z\d]")
 
 
@@ -35,27 +22,6 @@ def rsn_of(name: str) -> str:
     """Return the RSN that the name of a file begins with, "" where it begins with none."""
     number = _RSN.match(name.rpartition("/")[2])
     return number[1] if number else ""
-
-
-def without_ending(name: str) -> str:
-    """Return the name of a file without the endings that say what kind of file it is."""
-    while (shorter := _ENDING.sub("", name)) not in (name, ""):
-        name = shorter
-    return name
-
-
-def direction_in_name(name: str) -> tuple[str, str]:
-    """Return the name of a file before the direction at its end, and that direction; ("", "") where it ends in none.
-
-    >>> direction_in_name("RSN779_LOMAP_LGP090.time_g.csv")
-    ('RSN779_LOMAP_LGP', '090')
-    """
-    stem = without_ending(name)
-    for pattern in _IN_NAME:
-        match = pattern.match(stem)
-        if match and (azimuth(match[2]) is not None or is_vertical(match[2])):
-            return match[1], match[2]
-    return "", ""
 
 
 def stations(files: Sequence[ListedFile]) -> list[list[ListedFile]]:

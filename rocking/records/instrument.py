@@ -133,6 +133,50 @@ _SEED = re.compile(r"[A-Z]{2}[A-Z0-9]")
 """A channel code as stations give it: band, instrument, and the direction last."""
 _OF_A_STATION = 3
 """Channels of a station that recorded every direction."""
+_ENDING = re.compile(r"\.(at2|txt|csv|asc|dat|acc|prn|out|th|tcl|gz|time_\w+|g3)$", re.I)
+_WORDS = (
+    r"NS|EW|SN|WE|N-S|E-W|S-N|W-E|N|E|S|W|NORTH|EAST|SOUTH|WEST|UD|UP|DN|DWN|DOWN|V|Z|VER|VERT|VERTICAL|"
+    r"[A-Z][HNGL][NEZ]"
+)
+_IN_NAME = (
+    re.compile(rf"^(.*?)[-_. ]({_WORDS})$", re.I),
+    re.compile(r"^(.*?)[-_. ]?([NS]\d{1,2}[EW])$", re.I),
+    re.compile(r"^(.*\D)(\d{3})$"),
+    re.compile(r"^(.+)[-_. ](\d{1,3})(?:deg)?$", re.I),
+    re.compile(r"^(.*[a-z\d])(NS|EW|UD|UP)$"),
+)
+"""A direction at the end of a file's name: a word, a bearing or three digits, or one to three after a sign."""
+
+
+def without_ending(name: str) -> str:
+    """Return the name of a file without the endings that say what kind of file it is."""
+    while (shorter := _ENDING.sub("", name)) not in (name, ""):
+        name = shorter
+    return name
+
+
+def direction_in_name(name: str) -> tuple[str, str]:
+    """Return the name of a file before the direction at its end, and that direction; ("", "") where it ends in none.
+
+    >>> direction_in_name("RSN779_LOMAP_LGP090.time_g.csv")
+    ('RSN779_LOMAP_LGP', '090')
+    """
+    stem = without_ending(name)
+    for pattern in _IN_NAME:
+        match = pattern.match(stem)
+        if match and (azimuth(match[2]) is not None or is_vertical(match[2])):
+            return match[1], match[2]
+    return "", ""
+
+
+def vertical_in_name(name: str) -> str:
+    """Return the word for a vertical with which the name of a file ends, "" where it ends in none."""
+    stem = without_ending(name.rpartition("/")[2])
+    is_word = len(stem) > 1 and stem.isalpha() and is_vertical(stem)
+    word = stem if is_word else direction_in_name(name.rpartition("/")[2])[1]
+    return word if is_vertical(word) and not word.isdigit() else ""
+
+
 _STRUCTURE = re.compile(
     r"(?i)\b(roof|floor|fl|flr|storey|story|penthouse|mezzanine|attic|deck|bent|column|girder|abutment|pier|crest|tower|"
     r"dam|gallery|basement|bsmt|bldg|building|bridge)\b"

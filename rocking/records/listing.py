@@ -14,7 +14,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue import stays_inside
 from rocking.records.formats import Options
 from rocking.records.processing import process, velocity
-from rocking.records.read import printable, read_raw
+from rocking.records.read import ONLY_BY_NAME, printable, read_raw
 
 CELLS = {"unit": "unit", "time_step": "time_step_s"}
 """The column of a catalogue that declares what a file leaves out."""
@@ -207,7 +207,8 @@ def _why_not_listed(path: Path, folder: Path) -> str:
 def doubts_of(file: ListedFile) -> Iterator[str]:
     """Yield the doubts about a file that hold whatever its row calls it."""
     for sentence in file.doubts:
-        if not (file.direction and "is taken as horizontal" in sentence):
+        is_of_name = "is taken as horizontal" in sentence or sentence.startswith(ONLY_BY_NAME)
+        if not (file.direction and is_of_name):
             yield sentence
 
 

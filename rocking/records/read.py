@@ -21,7 +21,14 @@ from rocking.records.damage import damage_warnings, repeated_rows
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
 from rocking.records.formats.text import is_number, lines, numbers_per_line
-from rocking.records.instrument import channel_warnings, direction_warnings, site_warnings, vertical_doubt
+from rocking.records.instrument import (
+    channel_warnings,
+    direction_warnings,
+    names_acceleration,
+    site_warnings,
+    vertical_doubt,
+    vertical_in_name,
+)
 from rocking.records.plausibility import pass_limits
 from rocking.tables import read_whole
 
@@ -110,7 +117,7 @@ def read_content(
     with about(name[:120]):
         text = bare_text(content)
         reader = reader or recognise(text)
-        records = distinct_channels(reader.read(text, replace(options, file=name)))
+        records = distinct_channels(_named_by_file(reader.read(text, replace(options, file=name)), name))
         if not records:
             raise RecordError("the file holds no channel of acceleration; use the acceleration file.")
         notes = (_DOUBLED,) if b"\r\r\n" in content[:2000] and text is not content else ()
@@ -264,6 +271,22 @@ def bytes_of(path: Path, largest: int = LARGEST_FILE) -> bytes:
 def printable(text: str) -> str:
     """Return `text`, a name or a message, as it can be printed and written: on one line, without foreign bytes."""
     return plain(text.encode("utf-8", "backslashreplace").decode()) if not text.isprintable() else text
+
+
+def _named_by_file(records: list[Accelerogram], name: str) -> list[Accelerogram]:
+    """Return the channels of a file; a lone one that names no direction is vertical if the file's name is."""
+    word = vertical_in_name(name)
+    if not word or len(records) != 1:
+        return records
+    (record,) = records
+    is_open = record.azimuth is None and not record.vertical and not record.borehole
+    if not is_open or (record.component and not names_acceleration(record.component)):
+        return records
+    return [replace(record, vertical=True).warned(f"{ONLY_BY_NAME} ({word}): {_NAME_IT}")]
+
+
+ONLY_BY_NAME = "Only the name of the file says that the motion is vertical"
+_NAME_IT = "if it is horizontal, name it in the column component of the catalogue, or as --component."
 
 
 def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:

@@ -311,7 +311,7 @@ def test_every_file_is_listed_with_what_it_is(folder: Path) -> None:
     assert "HHN" in listed["loud.csv"].status and "above 3 g" in listed["loud.csv"].status
     assert not listed["table.csv"].doubts
     assert listed["mixed.csv"].status.startswith("EW: The peak acceleration is 4 g, above 3 g")
-    assert "says UP, but a is taken as horizontal" in listed["quake-UP.csv"].status
+    assert "Only the name of the file says that the motion is vertical (UP)" in listed["quake-UP.csv"].status
     assert listed["tale.txt"].status.startswith("not read: tale.txt: no reader recognises")
 
 

@@ -8,7 +8,7 @@ import pytest
 from rocking.records import CatalogueRecord, load_catalogue, open_station
 from rocking.records.catalogue import catalogue_text
 from rocking.records.folder import list_folder
-from rocking.records.grouping import direction_in_name
+from rocking.records.instrument import direction_in_name
 
 VALUES = 0.3 * np.sin(np.arange(4000) * 0.07) * np.hanning(4000)
 

@@ -186,3 +186,38 @@ def test_an_archive_and_a_file_of_many_members_are_refused_at_once(tmp_path: Pat
     (tmp_path / "other.dat").write_bytes(b"WID2 2010/01/01 and so on\n" * 3)
     with pytest.raises(RecordError, match=r"rocking\.from_obspy\(obspy\.read"):
         read(tmp_path / "other.dat")
+
+
+SERIES = "\n".join(f"{value:.6f}" for value in np.sin(np.arange(300) * 0.1)) + "\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "component"),
+    [
+        ("ELC-UP.txt", "UP"),
+        ("kobe.UD", "UD"),
+        ("x_HNZ.csv", "HNZ"),
+        ("vertical.txt", "vertical"),
+        ("RSN6_V.dat", "V"),
+    ],
+)
+def test_a_bare_series_is_vertical_where_its_file_is_called_so(tmp_path: Path, name, component) -> None:
+    (record,) = read(written(tmp_path, SERIES, name), unit="m/s2", time_step=0.01)
+    assert record.vertical
+    assert any("Only the name of the file says" in sentence for sentence in record.warnings)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["v1.txt", "elc_500.txt", "backup.txt", "Soup.csv", "ELC180.txt", "up_scaled.txt", "Z1.csv", "ZETA.txt"],
+)
+def test_other_names_say_nothing_of_a_vertical(tmp_path: Path, name) -> None:
+    (record,) = read(written(tmp_path, SERIES, name), unit="m/s2", time_step=0.01)
+    assert not record.vertical
+
+
+def test_the_content_of_a_file_goes_before_its_name(tmp_path: Path) -> None:
+    (record,) = read(
+        written(tmp_path, "# Component: NS\n" + SERIES, "elc_up.txt"), unit="m/s2", time_step=0.01
+    )
+    assert (record.component, record.azimuth, record.vertical) == ("NS", 0.0, False)
