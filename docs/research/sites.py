@@ -3,6 +3,7 @@
 import re
 import zlib
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
 from time import process_time
 from typing import TypeVar
 
@@ -56,26 +57,37 @@ def independent(records: Records) -> Iterator[SiteRecord]:
     with all those of the other: catalogues differ in how much they add. What comes first names the site; a file of
     another catalogue for the same site, or of a direction that is there already, does not count.
     """
-    sites: list[tuple[str, list[str], str, set[object]]] = []
+    sites: list[_Site] = []
     for name, record in records:
         event = "".join(re.findall(r"[a-z]+", record.event.lower()))[:4]
         words = re.findall(r"[a-z0-9]+", record.station.lower())
-        alike = (
-            site
-            for site in sites
-            if site[0] == event and [] != words[: len(site[1])] == site[1][: len(words)]
-        )
-        site = next(alike, None)
+        site = next((each for each in sites if each.is_of(event, words)), None)
         if site is None:
-            site = (event, words, site_of(record), set())
+            site = _Site(event, words, site_of(record))
             sites.append(site)
-        _, _, site_name, directions = site
         direction: object = record.component or name
         if record.azimuth is not None:
             direction = round(record.azimuth) % 180
-        if site_of(record) == site_name and direction not in directions and len(directions) < MOST_COMPONENTS:
-            directions.add(direction)
-            yield name, site_name, record
+        is_same_catalogue = site_of(record) == site.name
+        is_new = direction not in site.directions and len(site.directions) < MOST_COMPONENTS
+        if is_same_catalogue and is_new:
+            site.directions.add(direction)
+            yield name, site.name, record
+
+
+@dataclass(frozen=True)
+class _Site:
+    """A site as the first record names it. directions: of the components that count, degrees modulo 180 or names."""
+
+    event: str
+    words: list[str]
+    name: str
+    directions: set[object] = field(default_factory=set)
+
+    def is_of(self, event: str, words: list[str]) -> bool:
+        """Whether an event and the words of a station are those of the site."""
+        begins_alike = words[: len(self.words)] == self.words[: len(words)]
+        return self.event == event and begins_alike and bool(words) and bool(self.words)
 
 
 def one_of_each(records: Iterable[SiteRecord]) -> list[SiteRecord]:

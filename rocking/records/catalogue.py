@@ -241,7 +241,8 @@ def load_catalogue(path: str | Path) -> tuple[CatalogueRecord, ...]:
     twice = [(name, n) for name, n in counts.items() if n > 1]
     defects += [f"id {shown(name)} stands {n} times (upper and lower case count as one)" for name, n in twice]
     if defects:
-        raise CatalogueError(f"{path.name} has {len(defects)} defects: " + " | ".join(defects))
+        number = "a defect" if len(defects) == 1 else f"{len(defects)} defects"
+        raise CatalogueError(f"{path.name} has {number}: " + " | ".join(defects))
     return tuple(records)
 
 
