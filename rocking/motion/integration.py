@@ -43,9 +43,10 @@ WEIGHTLESS = (
 _TIGHT = 1e-12
 _NUDGE = 1e-5
 STRICT = 1e-9
-"""Tolerance of the second run, and by how much its motion is stronger: an exact response has no tolerance to change."""
+"""Tolerance of a repeated run, and by how much the motion of two others is weaker and stronger, which tell whether a
+run is fragile: an exact response has no tolerance to change."""
 _REPRODUCIBLE = 1e-5
-"""Relative change of the largest rotation in the second run above which the first one is called fragile."""
+"""Relative change of the largest rotation in one of these runs above which the first one is called fragile."""
 LARGEST_GROWTH = 50.0
 """Largest p Δt for which exp(p Δt) leaves the exact update its digits."""
 NO_LOG = np.empty((0, 3))
@@ -103,7 +104,7 @@ def integrate(
 def strict(tolerance: float) -> float:
     """Return the tolerance of a run on which a word hangs: that of a fragile run's repetition, or a smaller one.
 
-    To ask of a run whether it is fragile takes three runs more; to follow it at this tolerance at once, a fifth more
+    To ask of a run whether it is fragile takes four runs more; to follow it at this tolerance at once, a fifth more
     time. Runs of which nobody is told whether they are fragile are therefore strict from the start.
     """
     return min(tolerance, STRICT)
@@ -293,10 +294,14 @@ def _is_fragile(
     start: Start,
     change: float,
 ) -> bool:
-    """Whether a tighter run differs, or one whose motion is weaker or stronger by the share `change` ends otherwise."""
-    again = _response(reduced, forcing, strict(tolerance), start, factor=1 + STRICT)
-    if not math.isclose(again.rotation_ratio, response.rotation_ratio, rel_tol=_REPRODUCIBLE):
-        return True
+    """Whether tighter runs a hair weaker or stronger differ, or one weaker or stronger by `change` ends otherwise.
+
+    Both hairs are needed: where two limits lie less than `change` apart, only a motion beyond the nearer one differs.
+    """
+    for factor in (1 + STRICT, 1 - STRICT):
+        again = _response(reduced, forcing, strict(tolerance), start, factor=factor)
+        if not math.isclose(again.rotation_ratio, response.rotation_ratio, rel_tol=_REPRODUCIBLE):
+            return True
     neighbours = (
         _response(reduced, forcing, tolerance, start, factor=factor) for factor in (1 - change, 1 + change)
     )

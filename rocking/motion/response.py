@@ -30,8 +30,8 @@ class Response(Drawn):
     sensitivity: d ln φ_max / d ln a, the percent by which the largest rotation changes when the ground
     motion is scaled by one percent (nan unless it rocks, or if it was not asked for). Of a chaotic response, which
     `fragile` tells, it is the slope between two neighbours and no measure of what may come.
-    fragile: whether ± `fragility_change` of the ground motion flips the verdict, or the run is not reproducible: a
-    second one, at a tolerance of 1e-9 and with the motion scaled by 1 + 1e-9, differs by more than 1e-5. The run
+    fragile: whether ± `fragility_change` of the ground motion flips the verdict, or the run is not reproducible: one
+    of two others, at a tolerance of 1e-9 and with the motion scaled by 1 ± 1e-9, differs by more than 1e-5. The run
     is then repeated at 1e-9, and its number is one of many. None if not asked for.
     warning: one sentence where the vertical motion takes away all of gravity, else "".
     steps: integration steps taken. tolerance: the one asked for, or 1e-9 where a fragile run was repeated; a fragile

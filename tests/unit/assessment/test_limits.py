@@ -1,0 +1,98 @@
+"""Single runs within 1e-9 of a limit of overturning, where a run at 1e-6 may end on the wrong side."""
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from motion_cases import bisected, noise
+from scipy.constants import g
+
+from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.variations import processed_variants
+from rocking.motion import Response, integrate
+from rocking.records import Accelerogram
+from rocking.structures import Block, Outcome, Structure, Wall
+
+COUNT = 200
+
+
+def overturns(structure: Structure, motion: Accelerogram, tolerance: float) -> bool:
+    return integrate(structure, motion, tolerance).outcome is Outcome.OVERTURNS
+
+
+@dataclass(frozen=True)
+class Case:
+    """A structure under a motion close to a limit of it, and what becomes of it.
+
+    loosely, strictly, exactly: whether it overturns at 1e-6, at 1e-9 and at 1e-12, at which the limit was sought.
+    asked: the run at 1e-6 that is asked whether it is fragile.
+    """
+
+    structure: Structure
+    motion: Accelerogram
+    loosely: bool
+    strictly: bool
+    exactly: bool
+    asked: Response
+
+
+def made_structure(rng: np.random.Generator) -> Structure:
+    restitution = rng.uniform(0.5, 0.95)
+    if rng.random() < 1 / 3:
+        return Wall(
+            rng.uniform(1.5, 3.0), rng.uniform(1.5, 3.0), rng.uniform(0.25, 0.6), restitution=restitution
+        )
+    one_sided = rng.random() < 0.5
+    return Block(rng.uniform(0.5, 4.0), rng.uniform(0.1, 0.35), restitution=restitution, one_sided=one_sided)
+
+
+def made_case(seed: int) -> Case:
+    """A motion by a share of 3e-12 to 1e-9 below or above a strength at which the structure begins to overturn."""
+    rng = np.random.default_rng(seed)
+    structure = made_structure(rng)
+    lift = g * max(side.uplift_multiplier for side in structure.mechanism().sides)
+    count = int(rng.integers(60, 240))
+    record = noise(seed, count, 0.02, lift, int(rng.integers(5, 30)))
+
+    factor = 1.1
+    while not overturns(structure, record.scaled(factor), 1e-12):
+        factor *= 1.1
+    limit = bisected(factor / 1.1, factor, lambda each: overturns(structure, record.scaled(each), 1e-12))
+
+    distance = rng.choice([-1, 1]) * 10 ** rng.uniform(-11.5, -9)
+    motion = record.scaled(limit * (1 + distance))
+    loosely, strictly, exactly = (overturns(structure, motion, each) for each in (1e-6, 1e-9, 1e-12))
+    asked = integrate(structure, motion, 1e-6, fragility=True)
+    return Case(structure, motion, loosely, strictly, exactly, asked)
+
+
+@lru_cache(maxsize=1)
+def made_cases() -> list[Case]:
+    return [made_case(seed) for seed in range(COUNT)]
+
+
+def test_a_run_on_the_wrong_side_of_a_limit_is_called_fragile_and_repeats_itself():
+    """So within 1e-9 of any limit, also where the next one is less than 1 % away.
+
+    Measured: 20 of the 200 end on the wrong side at 1e-6, and none of them where it is asked.
+    """
+    cases = made_cases()
+    misled = sum(each.loosely is not each.strictly for each in cases)
+    assert misled >= 5, "else the cases do not test it"
+    assert all(each.asked.fragile for each in cases)
+    assert all(each.asked.tolerance == 1e-9 for each in cases)
+    assert [each.asked.outcome is Outcome.OVERTURNS for each in cases] == [each.strictly for each in cases]
+
+
+def test_the_strict_side_of_a_limit_is_the_true_one():
+    """None of the 200 is wrong at 1e-9, whose errors of 2e-12 (docs/pages/validation.md) may turn the nearest ones."""
+    cases = made_cases()
+    wrong = sum(each.strictly is not each.exactly for each in cases)
+    assert wrong <= COUNT / 100
+
+
+def test_a_run_with_another_processing_ends_on_the_strict_side():
+    for case in made_cases():
+        (other,) = processed_variants({"": case.structure}, {"other": case.motion}, AssessmentSettings())[""]
+        assert math.isinf(other.integrated_rotation_ratio) is case.strictly
