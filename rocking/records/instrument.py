@@ -9,13 +9,17 @@ from rocking.errors import RecordError
 _VERTICAL = {
     "UP", "-UP", "DOWN", "DN", "DWN", "V", "Z", "UD", "U-D", "U", "VER", "VERT", "VERTICAL", "UPDO", "U/D", "UPWARD",
     "UP-DOWN", "UP/DOWN", "VERT.", "VRT", "VRTL", "UPP", "UPWD", "DWNW", "VERTICAL UP", "VERTICAL DOWN", "V-UP",
+    "DÜŞEY", "上下", "鉛直",
     "400", "500", "600",  # codes of vertical, up and down in the headers of USC, SMC and COSMOS
 }  # fmt: skip
 _NAMED = {
     "N": 0.0, "NS": 0.0, "N-S": 0.0, "S-N": 180.0, "NORTH": 0.0, "E": 90.0, "EW": 90.0, "E-W": 90.0, "W-E": 90.0,
     "N/S": 0.0, "E/W": 90.0, "WE": 90.0, "EAST": 90.0, "S": 180.0, "SOUTH": 180.0, "W": 270.0, "WEST": 270.0,
+    "NORTH-SOUTH": 0.0, "EAST-WEST": 90.0, "NORTE": 0.0, "NORTE-SUR": 0.0, "SUR": 180.0, "ESTE": 90.0, "OESTE": 270.0,
+    "ESTE-OESTE": 90.0, "NORD": 0.0, "NORD-SUD": 0.0, "SUD": 180.0, "EST": 90.0, "EST-OUEST": 90.0, "EST-OVEST": 90.0,
+    "OUEST": 270.0, "OVEST": 270.0, "OST": 90.0, "KUZEY-GÜNEY": 0.0, "DOĞU-BATI": 90.0, "南北": 0.0, "東西": 90.0,
 }  # fmt: skip
-_QUADRANT = re.compile(r"([NS])\s*(\d{1,2})\s*([EW])")
+_QUADRANT = re.compile(r"([NS])\s*(\d{1,2})\s*°?\s*([EW])")
 _DEGREES = re.compile(r"(\d{1,3}(?:\.\d*)?)(?:[ _]?(?:DEG(?:REES?)?\.?|°))?")
 _BAND = re.compile(r"([A-Z][HNGL][ENZ123])(?:[._ -]?(?:\d\d|--))?")
 """A channel code of three letters, and what may follow it of a code of location."""
@@ -23,6 +27,8 @@ _NUMBERED_VERTICAL = re.compile(r"(V|Z|UP|DN|DWN|DOWN|VERT|VERTICAL)[ _.-]?(\d|0
 """A vertical with a number of its own, as V1 or DWN1, or dashes in place of a code, as Z--."""
 _VERTICAL_WORD = re.compile(r"VERT\w*|VRT\w*|UPW\w*|DOWNW\w*|DWNW?|UPP?|DOWN|DN|Z|UD|UPDOWN")
 """Words of which a name of a vertical consists, beside numbers and signs: "Vertical (up)", "UP 1", "-Z"."""
+_SURELY_VERTICAL = re.compile(r"\b(VERT(ICAL(E|LY)?)?|VERTIKAL|[BCEHS]NZ)\b")
+"""A word that makes a vertical of any name in which it stands: "Roof vertical", "Ch. 3 - HNZ"."""
 _RELATIVE = re.compile(
     r"H?[123XYLTR]|[A-Z][HNGL][RT]|L?N|TR|LN|FN|FP|(LONG|TRAN|RAD)\w*|(COMP|CHAN)\w*[ _-]?\d+", re.I
 )
@@ -37,6 +43,8 @@ def is_vertical(component: str) -> bool:
         return band[1].endswith("Z")
     if name in _VERTICAL or _NUMBERED_VERTICAL.fullmatch(name):
         return True
+    if _SURELY_VERTICAL.search(name.replace("_", " ")) and "HORIZ" not in name:
+        return True
     words = [word for word in re.split(r"[^A-Z]+", name) if word]
     return bool(words) and all(_VERTICAL_WORD.fullmatch(word) for word in words)
 
@@ -49,7 +57,7 @@ def azimuth(component: str) -> float | None:
     >>> azimuth("N26W")
     334.0
     """
-    name = component.strip().upper()
+    name = component.strip().upper().replace("–", "-")
     if angle := _DEGREES.fullmatch(name):
         return float(angle[1]) % 360 if float(angle[1]) <= 360 else None
     if band := _BAND.fullmatch(name):
@@ -224,8 +232,10 @@ def channel_warnings(component: str) -> tuple[str, ...]:
 
 _ACCELERATION = re.compile(r"(?<![a-z])(acc|acel|beschl)", re.I)
 _OTHER = {
-    "velocity": re.compile(r"(?<![a-z])vel(oc\w*|\b)|(?<![\w/])(cm|m|mm|in)/s(ec)?\b(?!\s*[/^*²2])", re.I),
-    "displacement": re.compile(r"(?<![a-z])displ?(ac\w*|\b)", re.I),
+    "velocity": re.compile(
+        r"(?<![a-z])vel(oc\w*|(?![a-z]))|(?<![\w/])(cm|m|mm|in)/s(ec)?\b(?!\s*[/^*²2])", re.I
+    ),
+    "displacement": re.compile(r"(?<![a-z])displ?(ac\w*|(?![a-z]))", re.I),
 }
 _OF_THE_GROUND = re.compile(r"shear|wave|vs[ _,]?30", re.I)  # the velocity of a site is no record
 _SUFFIXES = {

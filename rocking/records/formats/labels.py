@@ -36,17 +36,26 @@ after "in" it is a unit."""
 _ACCELERATION = re.compile(r"(?i)^(acc(el(eration)?)?|a)([_\s.-]+(?!g$)|(?=(ns|ew|ud|up|[xyznev])$))")
 _GROUND = re.compile(r"(?i)(?<!\bu)[_\s]g$")
 """The mark of the ground, as in "ns_g"; not that of "u_g", a displacement, which would be left as "u", up."""
-_OF_DIRECTION = re.compile(r"(?i)^([xyz])[\s_-]*(?:dir(?:ection)?\.?|axis|comp(?:onent)?\.?)$")
+_OF_DIRECTION = re.compile(
+    r"(?i)^([xyz])[\s_-]*(?:dir(?:ection)?\.?|axis|comp(?:onent)?\.?|acc(?:el(?:eration)?)?)$"
+)
 """A letter with the word for what it is, as "Z-direction", "X axis"."""
 _AND_WHAT = re.compile(r"(?i)[\s_-]+(acc(el(eration)?)?|comp(onent)?|dir(ection)?)\.?$")
 """The noun after a direction: "vertical acceleration", "N-S component"."""
+_BESIDE_DIRECTION = re.compile(
+    r"(?i)linear|ground|input|raw|corr(ected)?|(un)?filt(ered)?|acc\w*|acel\w*|beschl\w*|ivme\w*|comp\w*|dir\w*|"
+    r"axis|eje|ch(an(nel)?)?\d{0,2}|canal|kanal|\d{1,2}|g|a"
+)
+"""A word that says nothing of where a channel points."""
+_PARTS = re.compile(r"[\s_.,:;()\[\]]+|(?<=[a-z])(?=[A-Z])|成分|方向")
+"""The places at which the words of a label part."""
 _SEED_ID = re.compile(r"[\w-]+([._ -][\w-]*)*[._ -]([A-Z][HNGL][A-Z\d])")
 """A channel code at the end of what names network and station: "IV.AMT..HNZ"."""
 
 _OTHER_UNIT = re.compile(
     r"(?i)([cmuµk]?m|in(ch(es)?)?|ft|feet)(/s(ec)?)?|kines?|"
     r"[mk]?n|kips?|lbf?|kn[.*-]?m|[km]?pa|psi|[muµ]?v|volts?|count|cou?nts?|cts|adc|digits?|"
-    r"(m?rad|deg(ree)?s?|°)(/s(ec)?[\^]?[2²]?)?|hz|°?c|[uµ]?strain|µε|-|%|db|k?j|c?m2/s3"
+    r"(m?rad|deg(ree)?s?|°)(/s(ec)?[\^]?[2²]?)?|hz|g\^?[2²]|°?c|[uµ]?strain|µε|-|%|db|k?j|c?m2/s3"
 )
 """Units in brackets that are of no acceleration."""
 _LIKE_A_UNIT = re.compile(r"(?i).*(/|s\s*\^?-\d|\*\*|\^\s*-?\d|gal\b|²).*|[kmuµn]?g|\S*counts?\S*")
@@ -159,10 +168,32 @@ class ColumnLabel:
             name = directed
         if code := _SEED_ID.fullmatch(name.strip()):
             name = code[2]
-        return name.strip()
+        return _only_direction(name) or name.strip()
 
     def _is_direction(self, brackets: re.Match[str]) -> bool:
         """Whether what stands in brackets is a direction, as in "Acc (N)": no other name stands before it."""
         before = self.text[: brackets.start()].strip()
-        is_named = before and not ColumnLabel(before).is_plain_acceleration
+        words = [word for word in _PARTS.split(before) if word]
+        is_letter = len(brackets[1]) == 1  # V may be of volts
+        is_named = any(not _BESIDE_DIRECTION.fullmatch(word) for word in words)
+        if is_letter and before and not ColumnLabel(before.rstrip(".")).is_plain_acceleration:
+            return False
         return not is_named and (azimuth(brackets[1]) is not None or is_vertical(brackets[1]))
+
+
+_AXES = {"x", "y", "z"}
+
+
+def _only_direction(name: str) -> str:
+    """Return the only word of a name that says where it points, "" where it has another that says something else."""
+    words = [word.strip("-") for word in _PARTS.split(name)]
+    words = [part for word in words for part in ([word] if _points(word) else word.split("-"))]
+    told = [word for word in words if word and not _BESIDE_DIRECTION.fullmatch(word)]
+    return told[0] if len(told) == 1 and _points(told[0]) else ""
+
+
+def _points(word: str) -> bool:
+    """Whether a word is a direction or an axis, and no mere number nor "u", which is a displacement too."""
+    if word.isdigit() or word.lower() == "u":
+        return False
+    return word.lower() in _AXES or azimuth(word) is not None or is_vertical(word)

@@ -9,6 +9,7 @@ from rocking.errors import RecordError
 from rocking.quantities import acceleration_factor
 from rocking.records import Accelerogram, read
 from rocking.records.formats.labels import ColumnLabel
+from rocking.records.instrument import azimuth, is_vertical
 
 TIMES = np.arange(600) * 0.01
 WAVES = [
@@ -57,6 +58,19 @@ def opened(folder: Path, content: str | bytes, **options) -> list[Accelerogram]:
         ("acceleration_ms2", "m/s2", "acceleration"),
         ("acc_m_per_s2", "m/s2", "acc"),
         ("accel (g's)", "g", "accel"),
+        ("Linear Acceleration z (m/s^2)", "m/s2", "z"),
+        ("Input acc NS (g)", "g", "NS"),
+        ("Aceleración Vertical [cm/s2]", "cm/s2", "Vertical"),
+        ("Componente EW (gal)", "gal", "EW"),
+        ("Acc. (N-S)", None, "N-S"),
+        ("Acc (UD) gal", "gal", "UD"),
+        ("CH1-EW", None, "EW"),
+        ("HNZ.acc", None, "HNZ"),
+        ("EW_acc_g", None, "EW"),
+        ("accVert", None, "Vert"),
+        ("Ch 101", None, "Ch 101"),
+        ("Comp 2", None, "Comp 2"),
+        ("roof acc E", None, "roof acc E"),
     ],
 )
 def test_a_label_names_unit_and_component(label, unit, component):
@@ -69,10 +83,11 @@ def test_a_label_names_unit_and_component(label, unit, component):
     ["CH1 (V)", "CH1 (mV)", "acc (counts)", "counts", "shear (kN)", "NS (mm)", "NS (kine)", "NS (cm/s)", "rot (rad/s2)",
      "tilt (deg)", "strain", "acc (mGal)", "Arias intensity (m/s)", "roof drift",
      "acc x1e-3 (g)", "acc (10^-3 g)", "acc *1000 (g)", "CH1 (V/g)", "jerk (g/s)", "acc (g^2/Hz)", "acc (%)",
-     "relative acc (g)", "normalized acc (g)", "1000*acc (g)", "resultant (g)", "acc SRSS (g)", "vector sum (g)"],
+     "relative acc (g)", "normalized acc (g)", "1000*acc (g)",
+     "Vel_cm_s", "disp_cm", "acc^2 (g2)", "resultant (g)", "acc SRSS (g)", "vector sum (g)"],
 )  # fmt: skip
 def test_a_column_of_something_else_is_no_acceleration_whatever_unit_is_declared(tmp_path, label):
-    with pytest.raises(RecordError, match=r"of acceleration|of velocity"):
+    with pytest.raises(RecordError, match=r"of (acceleration|velocity|displacement)"):
         opened(tmp_path, table(f"time (s);{label}\n", TIMES, FIRST, parted=";"), unit="m/s2")
 
 
@@ -292,3 +307,23 @@ def test_a_title_declares_a_unit_only_of_the_numbers(tmp_path, title, unit):
             opened(tmp_path, content)
     else:
         assert opened(tmp_path, content)[0].source.unit == unit
+
+
+@pytest.mark.parametrize(
+    ("name", "along", "vertical"),
+    [
+        ("Norte", 0.0, False),
+        ("Sud", 180.0, False),
+        ("East-West", 90.0, False),
+        ("E–W", 90.0, False),
+        ("Kuzey-Güney", 0.0, False),
+        ("N45°E", 45.0, False),
+        ("Düşey", None, True),
+        ("上下", None, True),
+        ("roof vertical", None, True),
+        ("Ch. 3 - HNZ", None, True),
+        ("horizontal and vertical", None, False),
+    ],
+)
+def test_names_of_directions(name, along, vertical):
+    assert (azimuth(name), is_vertical(name)) == (along, vertical)
