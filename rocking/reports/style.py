@@ -2,6 +2,7 @@
 
 import io
 import math
+import re
 from collections.abc import Callable, Sequence
 from functools import cache
 from itertools import accumulate
@@ -56,12 +57,17 @@ def panel_at(figure: Figure, left: float, top: float, width: float, height: floa
     return figure.add_axes((left / wide, 1 - (top + height) / high, width / wide, height / high))
 
 
+_SYMBOL = re.compile(r"\b([adST])_(SLV|SLC|SLD|g|C\*|T|b)(?![\w*])(?=[^<>]*</text>)")
+"""A symbol with an index in a text of an SVG, as layout.typ knows them."""
+_WITH_INDEX = r'<tspan font-style="italic">\1</tspan><tspan baseline-shift="sub" font-size="5.6">\2</tspan>'
+
+
 @styled
 def svg(figure: Figure) -> str:
-    """Return the figure as SVG text, the same bytes at every run; its labels stay text."""
+    """Return the figure as SVG text, the same bytes at every run; its labels stay text, with their indices lowered."""
     stream = io.StringIO()
     figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
-    return stream.getvalue()
+    return _SYMBOL.sub(_WITH_INDEX, stream.getvalue())
 
 
 def picture(figure: Figure, alt: str) -> dict[str, str]:

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 import rocking
 from rocking.reports.panels import draw_energy_map, draw_rotation, rotation_ratios
-from rocking.reports.style import elided, plain_logarithmic, powers_of_ten
+from rocking.reports.style import elided, plain_logarithmic, powers_of_ten, svg
 from rocking.reports.summary import prediction_scatter
 
 TIMES = np.arange(3000) * 0.01
@@ -237,3 +237,11 @@ def test_the_thickness_of_a_hollow_spire_is_drawn_level_at_its_base_and_inwards(
     spire = rocking.Spire(width=3.0, height=15.0, wall_thickness=0.25)
     (thickness,) = (each for each in spire.dimensions() if each.text.startswith("0.25"))
     assert thickness.feet[:, 0] == pytest.approx([1.25, 1.5]) and thickness.feet[:, 1] == pytest.approx(0.0)
+
+
+def test_the_index_of_a_symbol_is_lowered_in_a_figure_and_no_other_underscore():
+    figure = Figure()
+    figure.text(0, 0, "parapet, T_b 0.3 s; a_g; RSN_T_b_1; T_beam; d_SLV*")
+    drawn = svg(figure)
+    assert drawn.count("<tspan") == 2 * 2
+    assert "RSN_T_b_1; T_beam; d_SLV*" in drawn
