@@ -15,6 +15,7 @@ from rocking.records.formats.dialect import Dialect
 from rocking.records.formats.format import Format, Options
 from rocking.records.formats.labels import ColumnLabel
 from rocking.records.formats.remarks import OF_ACCELERATION, Declarations
+from rocking.records.formats.stamps import in_seconds
 from rocking.records.instrument import directed, names_acceleration, refuse_by_name, refuse_other_quantity
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
@@ -94,14 +95,28 @@ def _below_text(above: list[str], remarks: Sequence[str], width: int, start: int
     if len(above) > 1 and len(names) == width and _are_units(names):
         names = _with_units(_labels(above[-2]), names)
         rest = above[:-2]
+    elif len(names) == width > 1 and _are_units(names):
+        names = _with_units(("",) * width, names)
     if len(names) != width:
         return _below_prose(above, remarks, width, start)
-    labels = tuple(map(ColumnLabel, names))
+    labels = tuple(map(ColumnLabel, _without_suffixes(names)))
     if rest and (
         any(map(_SCALED.search, rest)) or not _is_all_said(labels, Declarations.of((*remarks, *rest)))
     ):
         return None
     return _Table(labels, width, start, (*remarks, *rest))
+
+
+_TIME_SUFFIX = re.compile(r"(?i)(t|time|tiempo|zeit)_s(ec)?")
+_G_SUFFIX = re.compile(r"(?i)(.*(?<![a-z])acc(el(eration)?)?(_\w+)?)_g")
+
+
+def _without_suffixes(names: tuple[str, ...]) -> tuple[str, ...]:
+    """Return names like "acc_g" with the unit in brackets where "time_s" shows that it is one: elsewhere "_g" may be
+    of the ground."""
+    if not _TIME_SUFFIX.fullmatch(names[0]):
+        return names
+    return tuple(_G_SUFFIX.sub(r"\1 (g)", name) if _G_SUFFIX.fullmatch(name) else name for name in names)
 
 
 def _below_prose(above: list[str], remarks: Sequence[str], width: int, start: int) -> _Table | None:
@@ -170,7 +185,7 @@ def _of_remark(remarks: Sequence[str], width: int) -> tuple[ColumnLabel, ...]:
 
 _BRACKET_END = re.compile(r"[)\]]")
 _WITH_UNIT = re.compile(r"[^)\]]+[)\]]")
-_ABSCISSA = re.compile(r"(?i)\s*(period|freq(uency)?)\b.*")
+_ABSCISSA = re.compile(r"(?i)\s*(period|freq(uency)?)\b.*|f(_hz)?|.*[(\[]\s*hz\s*[)\]]")
 _ORDINATE = re.compile(r"(?i)\s*(p?s[av]|sd|fas|fourier|spectr\w*)\b.*")
 
 
@@ -208,11 +223,17 @@ def _are_columns(content: bytes) -> bool:
     is_other = (
         bool(_COMMENTED_FORMAT.match(content)) or b"\0" in content[:4096] or _heading(content) is not None
     )
-    return not is_other and _table(Dialect.of(content).plain(content) or content) is not None
+    return not is_other and _table(_pointed(content) or content) is not None
+
+
+def _pointed(content: bytes) -> bytes | None:
+    """Return a table as Python writes its numbers, times of day as seconds; None where a comma may be two things."""
+    plain = Dialect.of(content).plain(content)
+    return None if plain is None else in_seconds(plain)
 
 
 def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
-    pointed = Dialect.of(content).plain(content)
+    pointed = _pointed(content)
     if pointed is None:
         raise RecordError("the commas are decimal signs or part columns; write points, or semicolons.")
     table = _table(pointed) or _Table((), 1, 0)  # it was recognised by that
@@ -220,7 +241,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     refuse_other_quantity(options.file, "\n".join(table.remarks))
     if not any(label.unit for label in table.labels):
         refuse_by_name(options.file)
-    body = text.after_lines(pointed, table.start)
+    body, filled = _without_filling(text.after_lines(pointed, table.start), table)
     if _EMPTY_CELL.search(body):
         raise RecordError("a cell is empty; every column needs a number on every line.")
     spaced = body.replace(b",", b" ").replace(b";", b" ")
@@ -245,7 +266,18 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
         records = _timed_columns(_below_count(rows, table.labels), table.labels, options, said)
     if len(records) == 1:
         records = [_pointing(records[0], said.component)]
-    return [record.warned(*_cut_number(body), *_never_negative(record)) for record in records]
+    return [record.warned(*filled, *_cut_number(body), *_never_negative(record)) for record in records]
+
+
+_FILLING = re.compile(rb"(?i)(?:[ \t]+nan)+\s*\Z")
+
+
+def _without_filling(body: bytes, table: _Table) -> tuple[bytes, tuple[str, ...]]:
+    """Return the numbers of a series on several columns without the NaN that fill its last row up, and what says so."""
+    bare = body[:-_TAIL] + _FILLING.sub(b"\n", body[-_TAIL:])
+    if table.labels or table.width < 3 or bare == body:
+        return body, ()
+    return bare, ("The last row is filled up with NaN, which are left out.",)
 
 
 def _is_wrapped(values: np.ndarray, table: _Table, body: bytes) -> bool:
@@ -367,6 +399,8 @@ def _timed_columns(
 
     said: by the remarks above the table.
     """
+    if len(labels) > 1 and all(label.text.isdigit() and len(label.text) == 1 for label in labels[1:]):
+        labels = (labels[0], *[ColumnLabel("")] * (len(labels) - 1))  # numbers of columns, and no azimuths
     if not labels:
         timed = rows.shape[1] == 2 or _time_first(rows.ravel(), rows.shape[1])
         labels = (ColumnLabel("time" if timed else ""), *[ColumnLabel("")] * (rows.shape[1] - 1))

@@ -327,3 +327,40 @@ def test_a_title_declares_a_unit_only_of_the_numbers(tmp_path, title, unit):
 )
 def test_names_of_directions(name, along, vertical):
     assert (azimuth(name), is_vertical(name)) == (along, vertical)
+
+
+@pytest.mark.parametrize("head", ["s,m/s2\n", "sec,(m/s2)\n", "[s],[m/s²]\n"])
+def test_a_head_of_units_alone_is_one(tmp_path, head):
+    (record,) = opened(tmp_path, table(head, TIMES, FIRST))
+    assert record.acceleration == pytest.approx(FIRST, abs=1e-6)
+
+
+def test_a_suffix_is_a_unit_where_that_of_the_times_is_one(tmp_path):
+    (record,) = opened(tmp_path, table("time_s,acc_g\n", TIMES, FIRST))
+    assert record.acceleration == pytest.approx(FIRST * 9.80665, abs=1e-5)
+    with pytest.raises(RecordError, match="unit is not declared"):
+        opened(tmp_path, table("t,acc_g\n", TIMES, FIRST))
+
+
+def test_numbers_of_columns_are_no_azimuths(tmp_path):
+    (record,) = opened(tmp_path, table(",0\n", np.arange(600), FIRST), unit="m/s2", time_step=0.01)
+    assert record.azimuth is None
+    east = opened(tmp_path, table("time,0,90\n", TIMES, *WAVES[:2]), unit="m/s2")[1]
+    assert east.azimuth == 90.0
+
+
+def test_the_filling_of_the_last_row_is_left_out(tmp_path):
+    numbers = [f"{value:.6f}" for value in FIRST] + ["NaN"] * 2
+    rows = "\n".join(" ".join(numbers[at : at + 7]) for at in range(0, 602, 7)) + "\n"
+    (record,) = opened(tmp_path, "# Component: HNZ\n# units: m/s2, dt = 0.01 s\n" + rows)
+    assert record.vertical
+    assert record.acceleration == pytest.approx(FIRST, abs=1e-6)
+    assert "filled up with NaN" in " ".join(record.warnings)
+    with pytest.raises(RecordError, match="NaN"):
+        opened(tmp_path, "# units: m/s2, dt = 0.01 s\n" + rows.replace(numbers[300], "NaN", 1))
+
+
+@pytest.mark.parametrize("head", ["f (Hz),A (g)\n", "f,A (m/s2)\n", "Frequency [Hz],amplitude\n"])
+def test_numbers_over_frequency_are_a_spectrum(tmp_path, head):
+    with pytest.raises(RecordError, match="this is a spectrum"):
+        opened(tmp_path, table(head, TIMES, FIRST), unit="g", time_step=0.01)
