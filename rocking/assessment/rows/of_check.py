@@ -61,6 +61,7 @@ def code_check_rows(structure: str, checked: StructureCheck) -> Iterator[CodeChe
     point = checked.limit
     for each in checked.checks:
         dynamic = each if isinstance(each, DynamicCheck) else None
+        check = KINDS[each.clause]
         low, high = dynamic.interval if dynamic else (math.nan, math.nan)
         level_capacity = _of(each, "m/s²", each.capacity)
         level_demand = _of(each, "m/s²", each.demand)
@@ -68,7 +69,7 @@ def code_check_rows(structure: str, checked: StructureCheck) -> Iterator[CodeChe
         displacement_demand = _of(each, "m", each.demand)
         yield CodeCheckRow(
             structure=structure,
-            check=KINDS[each.clause],
+            check=check,
             clause=each.clause,
             limit_state=each.limit_state,
             mechanism=each.mechanism,

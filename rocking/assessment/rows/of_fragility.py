@@ -222,25 +222,27 @@ def ida_rows(
 ) -> Iterator[IdaRow]:
     """Yield a row for each record and level that it reaches."""
     worst = analysis.governing_ratios
-    for place, (name, station) in enumerate(zip(records, analysis.stations, strict=True)):
+    for place, (record, station) in enumerate(zip(records, analysis.stations, strict=True)):
         for step, level in enumerate(analysis.levels.tolist()):
             ratios = analysis.rotation_ratios[place, step]
             if np.isnan(ratios).all():
                 continue  # the record does not reach the level within the largest factor
             scale_factor = level / float(analysis.intensities[place])
+            rotation_ratio_median = float(np.sort(ratios)[(ratios.size - 1) // 2])
+            overturning_share = float(np.isinf(ratios).mean())
             governing_overturning_share = math.nan
             if worst is not None:
                 governing_overturning_share = float(np.isinf(worst[place, step]).mean())
             yield IdaRow(
                 structure=structure,
-                record=name,
+                record=record,
                 station=station,
                 intensity_measure=analysis.measure.name,
                 level=level,
                 scale_factor=scale_factor,
                 members=ratios.size,
-                rotation_ratio_median=float(np.sort(ratios)[(ratios.size - 1) // 2]),
-                overturning_share=float(np.isinf(ratios).mean()),
+                rotation_ratio_median=rotation_ratio_median,
+                overturning_share=overturning_share,
                 governing_overturning_share=governing_overturning_share,
             )
 

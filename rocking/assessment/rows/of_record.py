@@ -337,8 +337,14 @@ def record_row(identity: ComponentRow, component: "Component", licence: str) -> 
     """Return the row of one component: what was read, done and measured."""
     accelerogram = component.accelerogram
     vertical = component.vertical
+    vertical_component = ""
+    vertical_peak_acceleration = math.nan
+    if vertical:
+        vertical_component = vertical.component or "not named"
+        vertical_peak_acceleration = vertical.peak_acceleration
     measures = record_measures(accelerogram)
     pulse = component.motion.velocity_pulse
+    velocity_pulse_peak_velocity = pulse.peak_velocity if pulse else math.nan
     rotd = component.motion.rotd
     dominant = component.analysis.dominant if component.analysis else None
     pulse_period_ratio = math.nan
@@ -362,8 +368,8 @@ def record_row(identity: ComponentRow, component: "Component", licence: str) -> 
         format=accelerogram.source.format,
         unit=accelerogram.source.unit,
         licence=licence,
-        vertical_component=(vertical.component or "not named") if vertical else "",
-        vertical_peak_acceleration_m_s2=vertical.peak_acceleration if vertical else math.nan,
+        vertical_component=vertical_component,
+        vertical_peak_acceleration_m_s2=vertical_peak_acceleration,
         samples=accelerogram.acceleration.size,
         time_step_s=accelerogram.time_step,
         duration_s=accelerogram.duration,
@@ -375,7 +381,7 @@ def record_row(identity: ComponentRow, component: "Component", licence: str) -> 
         rotd50_peak_acceleration_m_s2=rotd.rotd50 if rotd else math.nan,
         rotd100_peak_acceleration_m_s2=rotd.rotd100 if rotd else math.nan,
         velocity_pulse_period_s=pulse.period if pulse else math.nan,
-        velocity_pulse_peak_velocity_m_s=pulse.peak_velocity if pulse else math.nan,
+        velocity_pulse_peak_velocity_m_s=velocity_pulse_peak_velocity,
         velocity_pulse_orientation_rad=pulse.orientation if pulse else math.nan,
         velocity_pulse_azimuth_deg=_or_nan(component.motion.velocity_pulse_azimuth),
         velocity_pulse_indicator=pulse.indicator if pulse else math.nan,
@@ -414,6 +420,7 @@ def pulse_rows(identity: ComponentRow, component: "Component") -> Iterator[Pulse
             dominant = evidence is analysis.evidence and kind == "alternative"
             pulse = evidence.pulse
             same_outcome_share = worth(evidence.explained_energy)
+            gain_ratio = evidence.gain / analysis.evidence.gain
             yield PulseRow(
                 record=identity.record,
                 component=identity.component,
@@ -424,7 +431,7 @@ def pulse_rows(identity: ComponentRow, component: "Component") -> Iterator[Pulse
                 period_s=pulse.period,
                 start_time_s=pulse.start_time,
                 gain_m2_s3=evidence.gain,
-                gain_ratio=evidence.gain / analysis.evidence.gain,
+                gain_ratio=gain_ratio,
                 explained_energy=evidence.explained_energy,
                 same_outcome_share=same_outcome_share,
                 effective_length_m=evidence.effective_length,
@@ -493,6 +500,10 @@ def ensemble_row(identity: ComponentRow, structure: str, ensembles: "CrackEnsemb
     governing = ensembles.governing
     ensemble = governing.ensemble
     statics = ensembles.beside
+    statics_crack = statics.description if statics else ""
+    worst_direction = ensemble.worst("direction")
+    worst_polarity = POLARITIES.get(ensemble.worst("polarity"), "")
+    worst_processing = ensemble.worst("processing")
     return EnsembleRow(
         record=identity.record,
         component=identity.component,
@@ -502,7 +513,7 @@ def ensemble_row(identity: ComponentRow, structure: str, ensembles: "CrackEnsemb
         members=ensemble.members,
         overturning_share=ensemble.overturning_share,
         crack=governing.description,
-        statics_crack=statics.description if statics else "",
+        statics_crack=statics_crack,
         statics_overturning_members=statics.ensemble.overturning_members if statics else None,
         statics_members=statics.ensemble.members if statics else None,
         rotation_ratio_low=ensemble.rotation_ratio_low,
@@ -512,9 +523,9 @@ def ensemble_row(identity: ComponentRow, structure: str, ensembles: "CrackEnsemb
         risk=ensemble.settings.risk,
         amplitude_range=ensemble.settings.amplitude_range,
         restitution_range=ensemble.settings.restitution_range,
-        worst_direction=ensemble.worst("direction"),
-        worst_polarity=POLARITIES.get(ensemble.worst("polarity"), ""),
-        worst_processing=ensemble.worst("processing"),
+        worst_direction=worst_direction,
+        worst_polarity=worst_polarity,
+        worst_processing=worst_processing,
         scale_factor=identity.scale_factor,
         record_sha256=identity.record_sha256,
         settings_sha256=identity.settings_sha256,
@@ -560,17 +571,18 @@ def verdict_row(identity: ComponentRow, station: "StationResult") -> VerdictRow:
 # Whole on purpose: a row, column by column.
 def support_rows(result: "RecordResult", identities: Mapping[str, ComponentRow]) -> Iterator[SupportRow]:
     """Yield the rows of every structure on a support. identities: what rows about a component hold, by its name."""
-    for name, station in result.stations.items():
+    for structure, station in result.stations.items():
         standing = station.body.standing if isinstance(station.body, Structure) else None
         if standing is None:
             continue
         if standing.support is not None and standing.support not in result.floors:
             continue  # the record could not be taken there, as the table of failures says
-        for component, floor in result.components_under(name).items():
+        for component, floor in result.components_under(structure).items():
             ground = (floor.ground or floor).accelerogram
             identity = identities[component]
             mode = standing.support.modes[0] if standing.support else None
             pulse = floor.analysis.evidence.pulse if floor.analysis else None
+            floor_pulse_period = pulse.period if pulse else math.nan
             peak = floor.accelerogram.peak_acceleration
             amplification = peak / ground.peak_acceleration if ground.peak_acceleration else math.nan
             floor_spectral_acceleration = math.nan
@@ -585,7 +597,7 @@ def support_rows(result: "RecordResult", identities: Mapping[str, ComponentRow])
             yield SupportRow(
                 record=identity.record,
                 component=identity.component,
-                structure=name,
+                structure=structure,
                 listed_structure=standing.structure,
                 support=standing.place,
                 support_period_s=standing.period,
@@ -597,7 +609,7 @@ def support_rows(result: "RecordResult", identities: Mapping[str, ComponentRow])
                 floor_spectral_acceleration_m_s2=floor_spectral_acceleration,
                 code_spectral_acceleration_m_s2=code_spectral_acceleration,
                 floor_pulse_amplitude_m_s2=pulse.amplitude if pulse else math.nan,
-                floor_pulse_period_s=pulse.period if pulse else math.nan,
+                floor_pulse_period_s=floor_pulse_period,
                 verdict=station.verdict,
                 overturning_share=station.overturning_share,
                 scale_factor=identity.scale_factor,

@@ -176,14 +176,18 @@ def agreement_rows(comparison: "DataFrame") -> Iterator[AgreementRow]:
         overturning_misses = int((integrated & ~predicted).sum())
         overturning_false_alarms = int((predicted & ~integrated).sum())
         where_both_rock = cases["prediction_over_integration"]
+        records = cases["record"].nunique()
+        both_rock = int(where_both_rock.count())
+        within_factor_two = int(cases["within_factor_two"].sum())
+        overturning = int(integrated.sum())
         yield AgreementRow(
             structure=str(structure),
-            records=cases["record"].nunique(),
+            records=records,
             cases=len(cases),
-            both_rock=int(where_both_rock.count()),
-            within_factor_two=int(cases["within_factor_two"].sum()),
+            both_rock=both_rock,
+            within_factor_two=within_factor_two,
             median_ratio=float(where_both_rock.median()),
-            overturning=int(integrated.sum()),
+            overturning=overturning,
             overturning_hits=overturning_hits,
             overturning_misses=overturning_misses,
             overturning_false_alarms=overturning_false_alarms,

@@ -47,8 +47,13 @@ def misplaced(source: str) -> Iterator[str]:
             if not each.arg:
                 continue
             names = names_in(each.value)
+            if any(within(name, each.arg) for name in names):
+                continue
             is_named_otherwise = any(within(name, column) for name in names for column in columns)
-            if is_named_otherwise and not any(within(name, each.arg) for name in names):
+            # As "crack" of `structure.crack_name`.
+            begins_otherwise = any(within(column, name) for name in names for column in columns)
+            begins_so = any(within(each.arg, name) for name in names)
+            if is_named_otherwise or (begins_otherwise and not begins_so):
                 yield each.arg
 
 
