@@ -15,7 +15,8 @@ _VERTICAL = {
 _NAMED = {
     "N": 0.0, "NS": 0.0, "N-S": 0.0, "S-N": 180.0, "NORTH": 0.0, "E": 90.0, "EW": 90.0, "E-W": 90.0, "W-E": 90.0,
     "N/S": 0.0, "E/W": 90.0, "WE": 90.0, "EAST": 90.0, "S": 180.0, "SOUTH": 180.0, "W": 270.0, "WEST": 270.0,
-    "NORTH-SOUTH": 0.0, "EAST-WEST": 90.0, "NORTE": 0.0, "NORTE-SUR": 0.0, "SUR": 180.0, "ESTE": 90.0, "OESTE": 270.0,
+    "NORTH-SOUTH": 0.0, "NORTH SOUTH": 0.0, "EAST-WEST": 90.0, "EAST WEST": 90.0,
+    "NORTE": 0.0, "NORTE-SUR": 0.0, "SUR": 180.0, "ESTE": 90.0, "OESTE": 270.0,
     "ESTE-OESTE": 90.0, "NORD": 0.0, "NORD-SUD": 0.0, "SUD": 180.0, "EST": 90.0, "EST-OUEST": 90.0, "EST-OVEST": 90.0,
     "OUEST": 270.0, "OVEST": 270.0, "OST": 90.0, "KUZEY-GÜNEY": 0.0, "DOĞU-BATI": 90.0, "南北": 0.0, "東西": 90.0,
 }  # fmt: skip

@@ -122,7 +122,8 @@ def _without_suffixes(names: tuple[str, ...]) -> tuple[str, ...]:
 def _below_prose(above: list[str], remarks: Sequence[str], width: int, start: int) -> _Table | None:
     """Return one series below text that declares its unit and its step, and names no column; None of another file."""
     said = Declarations.of((*remarks, *above))
-    if width > 1 or not said.unit or not said.time_step or any(map(_SCALED.search, above)):
+    may_be_channels = width == 2 or width in _OF_CHANNELS
+    if may_be_channels or not said.unit or not said.time_step or any(map(_SCALED.search, above)):
         return None
     return _Table((), width, start, (*remarks, *above))
 
@@ -430,14 +431,21 @@ _ALIKE = 0.95
 """Correlation of the differences of one column with another column from which on it is its integral."""
 
 
+_ACCELEROMETER = re.compile(r"(?i)a(cc(el)?)?[_ ]?[xyz]\b.*")
+_GYROSCOPE = re.compile(r"(?i)(g(yro?)?|w|m(ag)?)[_ ]?[xyz]|roll|pitch|yaw")
+"""The other columns of a sensor of six or nine axes."""
+
+
 def _others(rows: np.ndarray, labels: Sequence[ColumnLabel], kinds: Sequence[str]) -> dict[int, str]:
     """Return what each column that holds something else than acceleration is of, by its place."""
     others: dict[int, str] = {}
     places = [place for place, kind in enumerate(kinds) if kind == "channel"]
     has_acceleration = any(label.is_plain_acceleration for label in labels)
+    has_axes = any(_ACCELEROMETER.fullmatch(label.text) for label in labels)
     for place in places:
         meant = labels[place].beside_acceleration() if has_acceleration else ""
-        if what := labels[place].other or meant:
+        turns = has_axes and _GYROSCOPE.fullmatch(labels[place].text)
+        if what := labels[place].other or meant or ("rotation or a magnetic field" if turns else ""):
             others[place] = what
         elif not labels[place].is_direction and any(
             _is_integral(rows[:, place], rows[:, earlier]) for earlier in places if earlier < place

@@ -55,12 +55,12 @@ _SEED_ID = re.compile(r"[\w-]+([._ -][\w-]*)*[._ -]([A-Z][HNGL][A-Z\d])")
 _OTHER_UNIT = re.compile(
     r"(?i)([cmuµk]?m|in(ch(es)?)?|ft|feet)(/s(ec)?)?|kines?|"
     r"[mk]?n|kips?|lbf?|kn[.*-]?m|[km]?pa|psi|[muµ]?v|volts?|count|cou?nts?|cts|adc|digits?|"
-    r"(m?rad|deg(ree)?s?|°)(/s(ec)?[\^]?[2²]?)?|hz|g\^?[2²]|°?c|[uµ]?strain|µε|-|%|db|k?j|c?m2/s3"
+    r"(m?rad|deg(ree)?s?|°)(/s(ec)?[\^]?[2²]?)?|dps|rpm|[mµu]?t|lux|bar|kelvin|hz|g\^?[2²]|°?c|[uµ]?strain|µε|-|%|db|k?j|c?m2/s3"
 )
 """Units in brackets that are of no acceleration."""
 _LIKE_A_UNIT = re.compile(r"(?i).*(/|s\s*\^?-\d|\*\*|\^\s*-?\d|gal\b|²).*|[kmuµn]?g|\S*counts?\S*")
 _OTHER_WORDS = re.compile(
-    r"(?i)(?<![a-z])(strain|force|shear|moment|tilt|rot(ation)?|angle|temp(erature)?|pressure|volt(age)?|counts?|drift|"
+    r"(?i)(?<![a-z])(gyro(scope)?|angular|magnet(ic|ometer)|strain|force|shear|moment|tilt|rot(ation)?|angle|temp(erature)?|pressure|volt(age)?|counts?|drift|"
     r"load|intensity|arias|husid|energy|power|stress|slip|uplift)(?![a-z])"
 )
 _NOT_OF_THE_GROUND = re.compile(

@@ -42,19 +42,22 @@ _OF_PEAK = re.compile(r"(?i)\b(pga|peak|max\w*|scale\w*|factor|picco|pico)\b")
 """The subjects of a remark whose unit need not be that of the numbers."""
 _UNIT = re.compile(
     r"\b(?:units?|unidad(?:es)?|unit[aà])\b[^:=]*[:=]\s*[(\[]?\s*([^\s,;()\[\]]+)|"
-    r"\bunits?(?: of| are| is)?\s+([A-Za-z][\w/^*²]*)|(?:\bin\s+|[(\[]\s*)([A-Za-z][\w/^*²]*)",
+    r"\bunits?(?: of| are| is)?\s+[(\[]?([A-Za-z][\w/^*²]*)|(?:\bin\s+|[(\[]\s*)([A-Za-z][\w/^*²]*)",
     re.I,
 )
 _SECONDS = r"(?:s|seg|sec|segundos?|seconds?)"
+_END = r"\s*(?:\.?\s*$|[,;)\]])"
 _STEP = re.compile(
-    r"\b(?:dt|delta|time[ _-]?step|(?:sampling|sample)[ _-]?(?:interval|period|step)|intervalo(?: de muestreo)?)\b"
-    rf"\s*(?:[(\[]\s*{_SECONDS}\s*[)\]])?\s*(?:[:=]|is|of)?\s*(\d*\.?\d+(?:e[-+]?\d+)?)\s*{_SECONDS}?\s*(?:$|[,;])|"
+    r"\b(?:dt|delta|time[ _-]?(?:step|interval|increment)|(?:sampling|sample)[ _-]?(?:interval|period|step)|"
+    r"(?:equal )?spacing|intervals|intervalo(?: de muestreo)?)\b"
+    rf"\s*(?:[(\[]\s*{_SECONDS}\s*[)\]])?\s*(?:[:=]|is|of)?\s*(\d*\.?\d+(?:e[-+]?\d+)?)\s*{_SECONDS}?{_END}|"
     rf"^\s*(?:sampling|muestreo)\s*[:=]\s*(\d*\.?\d+)\s*{_SECONDS}\s*$",
     re.I,
 )
 _RATE = re.compile(
     r"\b(?:fs|(?:sampling|sample)[ _-]?(?:rate|frequency)|tasa de muestreo|frecuencia de muestreo)\b"
-    r"\s*(?:[(\[]\s*hz\s*[)\]])?\s*[:=]\s*(\d*\.?\d+)\s*(?:hz|sps)?\s*(?:$|[,;])",
+    rf"\s*(?:[(\[]\s*hz\s*[)\]])?\s*(?:[:=]|is|of)\s*(\d*\.?\d+)\s*(?:hz|sps)?{_END}|"
+    rf"\bsampled at (\d*\.?\d+)\s*(?:hz|sps){_END}",
     re.I,
 )
 _VALUE = r"\b\.?\s*(?:code|name)?\s*[:=]?\s*([^,;:=()\[\]]*?)\s*(?:$|[,;()\[\]]|\s-\s)"
@@ -74,6 +77,8 @@ _DIRECTIONS = (
     re.compile(r",\s*(\d{3})\s*$"),
 )
 """Words that may be directions: "Component: HNZ", "vertical component", and what ends a title, as "KOBE UP"."""
+_BOTH_ENDS = re.compile(r"(?i)\b(north|east|up)(?:\s*[/–]\s*|\s+)(south|west|down)\b")
+"""A direction in two words, of which the second alone would turn it round."""
 _CHANNEL = re.compile(rf"\b(?:canal|chan(?:nel)?){_VALUE}", re.I)
 """A channel may be named by a direction, but "Channel 101" is none."""
 
@@ -88,7 +93,7 @@ def _units(remark: str) -> set[str]:
 def _steps(remark: str) -> set[float]:
     """The time steps [s] that a remark declares, or follow from the rates that it does."""
     steps = {float(match[1] or match[2]) for match in _STEP.finditer(remark)}
-    rates = {float(match[1]) for match in _RATE.finditer(remark)}
+    rates = {float(match[1] or match[2]) for match in _RATE.finditer(remark)}
     return {step for step in steps if step} | {1 / rate for rate in rates if rate}
 
 
@@ -96,6 +101,7 @@ def _components(remark: str) -> list[str]:
     """The directions that a remark says the channel points in."""
     if re.search(r"(?i)\bhorizontal\b", remark):
         return []
+    remark = _BOTH_ENDS.sub(r"\1-\2", remark)
     words = [match[1].strip() for pattern in _DIRECTIONS for match in pattern.finditer(remark)]
     words += [match[1].strip() for match in _CHANNEL.finditer(remark) if not match[1].strip().isdigit()]
     return [word for word in words if _is_direction(word)]

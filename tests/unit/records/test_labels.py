@@ -364,3 +364,11 @@ def test_the_filling_of_the_last_row_is_left_out(tmp_path):
 def test_numbers_over_frequency_are_a_spectrum(tmp_path, head):
     with pytest.raises(RecordError, match="this is a spectrum"):
         opened(tmp_path, table(head, TIMES, FIRST), unit="g", time_step=0.01)
+
+
+@pytest.mark.parametrize(
+    "others", ["gx,gy", "gyro_x,mag_z", "roll,pitch", "Gyro X (deg/s),Mag X (uT)", "wx (dps),T (bar)"]
+)
+def test_the_other_axes_of_a_sensor_are_no_accelerations(tmp_path, others):
+    records = opened(tmp_path, table(f"t,ax,az,{others}\n", TIMES, *WAVES, FIRST[::-1]), unit="m/s2")
+    assert [(record.component, record.vertical) for record in records] == [("x", False), ("z", True)]

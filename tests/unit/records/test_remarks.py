@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from rocking.errors import RecordError
 from rocking.records.formats.remarks import Declarations
 from tests.unit.records.test_labels import FIRST, TIMES, WAVES, opened, table
 
@@ -23,6 +24,7 @@ TIMED = table("time (s),acc (m/s2)\n", TIMES, FIRST)
         ("Kobe 1995, vertical ground motion", "vertical", None, True),
         ("KOBE 1995 KJMA UP", "UP", None, True),
         ("El Centro 1940 N00E, corrected", "N00E", 0.0, False),
+        ("El Centro 1940 North South Component (Peknold Version)", "North-South", 0.0, False),
         ("IMPERIAL VALLEY 10/15/79 2319, EL CENTRO ARRAY 6, 230", "230", 230.0, False),
     ],
 )
@@ -63,7 +65,8 @@ def test_a_direction_at_the_head_of_a_column_is_not_overruled(tmp_path: Path):
 @pytest.mark.parametrize(
     "remark",
     ["dt = 0.005 s", "Time step of 0.005 s", "INTERVALO DE MUESTREO (SEGUNDOS): 0.005", "Muestreo : 0.005 seg",
-     "Sampling rate (Hz),200", "Sampling frequency: 200 Hz", "Frecuencia de muestreo: 200", "Time step 0.005, units g"],
+     "Sampling rate (Hz),200", "Sampling frequency: 200 Hz", "Frecuencia de muestreo: 200", "Time step 0.005, units g",
+     "equal spacing of 0.005 sec", "at intervals of 0.005 sec.", "sampled at 200 Hz", "Record (dt = 0.005 s)"],
 )  # fmt: skip
 def test_remarks_declare_the_step(remark):
     assert Declarations.of([remark]).time_step == pytest.approx(0.005, rel=1e-12)
@@ -106,3 +109,27 @@ def test_three_columns_of_colombia_are_read_below_their_header(tmp_path: Path):
     for record, wave in zip((east, up, north), WAVES, strict=True):
         assert record.acceleration == pytest.approx(wave, abs=1e-7)
         assert record.time_step == 0.01
+
+
+EL_CENTRO = """Data for El Centro 1940 North South Component (Peknold Version)
+600 points at equal spacing of 0.01 sec
+Points are listed in the format of 8F10.5, i.e., 8 points across in
+a row with 5 decimal places
+The units are (g)
+*** Begin data ***
+"""
+
+
+@pytest.mark.parametrize("mark", ["", "#"])
+def test_a_wrapped_series_is_read_below_prose_that_leaves_nothing_open(tmp_path: Path, mark):
+    head = "".join(f"{mark}{line}\n" for line in EL_CENTRO.splitlines())
+    numbers = [f"{value:10.5f}" for value in FIRST]
+    rows = "\n".join("".join(numbers[at : at + 8]) for at in range(0, 600, 8))
+    (record,) = opened(tmp_path, head + rows + "\n")
+    assert (record.azimuth, record.time_step) == (0.0, 0.01)
+    assert record.acceleration == pytest.approx(FIRST * 9.80665, abs=6e-5)
+
+
+def test_three_columns_below_prose_are_asked(tmp_path: Path):
+    with pytest.raises(RecordError, match="names every column"):
+        opened(tmp_path, table("units g, dt = 0.01 s\nthree channels\n", *WAVES, parted="  "))
