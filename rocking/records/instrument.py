@@ -89,6 +89,30 @@ def direction_warnings(component: str, along: float | None, vertical: bool) -> t
     )
 
 
+def contradiction(component: str, along: float | None, vertical: bool) -> str:
+    """Return a sentence where a channel code (HNE) points elsewhere than the header of its record, "" where not.
+
+    along: degrees. A code is taken at its word where N and E are near their axes, whichever way they point.
+    """
+    code = _BAND.fullmatch(component.strip().upper())
+    axis = {"N": 0.0, "E": 90.0}.get(code[1][2]) if code else None
+    if code is None or (axis is None and code[1][2] != "Z"):
+        return ""
+    is_same = vertical == code[1].endswith("Z")
+    off_axis = 0.0 if along is None or axis is None or vertical else abs((along - axis + 90) % 180 - 90)
+    if is_same and off_axis <= _OFF_AXIS:
+        return ""
+    direction = "upwards" if vertical else "to no known azimuth" if along is None else f"to {along:g}°"
+    return (
+        f"The header of {component.strip()} lets the channel point {direction}, which its code contradicts; the header "
+        "is followed: see which of the two is true, and name the horizontal ones in the column component."
+    )
+
+
+_OFF_AXIS = 45.0
+"""Degrees by which a channel called north or east may be off that direction: beyond, it is nearer the other one."""
+
+
 def _has_unknown_direction(component: str, along: float | None, vertical: bool) -> bool:
     """Whether a component has a name, and neither it nor the header says where the component points."""
     name = component.strip()

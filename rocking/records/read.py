@@ -23,6 +23,7 @@ from rocking.records.formats.format import Response, plain
 from rocking.records.formats.text import is_number, lines, numbers_per_line
 from rocking.records.instrument import (
     channel_warnings,
+    contradiction,
     direction_warnings,
     names_acceleration,
     site_warnings,
@@ -314,6 +315,7 @@ def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
         doubts = (
             *record.warnings,
             *channel_warnings(record.component),
+            *filter(None, [contradiction(record.component, record.azimuth, record.vertical)]),
             *site_warnings(record.station),
             *site_warnings(record.component),
             *directions_in_doubt,

@@ -16,6 +16,7 @@ from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.text import LARGEST_SERIES
+from rocking.records.instrument import azimuth
 from rocking.records.traces import calibrated, first_line, joined, names, site
 from rocking.tables import read_whole
 
@@ -79,6 +80,20 @@ def _check_blocks(content: bytes) -> set[str]:
     return {f"Block number {after} follows number {before}: blocks are missing, repeated or overwritten."}
 
 
+def _sac_direction(header: dict[str, float], component: str) -> dict[str, Any]:
+    """Return where a SAC header lets a channel point: azimuth [degrees] and whether it is vertical, as far as it says.
+
+    Zeros for both, in a channel called north or east, are those of a program that sets neither: they say nothing.
+    """
+    angle, inclination = (header.get(key, _UNDEFINED) for key in ("cmpaz", "cmpinc"))
+    if angle == 0 == inclination and azimuth(component) in (0.0, 90.0):
+        return {}
+    facts: dict[str, Any] = {"azimuth": angle % 360} if abs(angle) <= 360 else {}
+    if inclination != _UNDEFINED:  # degrees from upwards: 0 and 180 are vertical, 90 is horizontal
+        facts["vertical"] = abs(inclination % 180 - 90) > _STEEP
+    return facts
+
+
 _SAC_HEADER = 632
 _SAC_PLACE = {"latitude": "stla", "longitude": "stlo", "elevation": "stel"}
 _UNDEFINED = -12345.0
@@ -119,10 +134,7 @@ def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
         _check_sac(header, trace.data, step)
         unit, values, facts = _sac_motion(trace, options)
         facts |= {name: header[key] for name, key in _SAC_PLACE.items() if key in header}
-        if abs(header.get("cmpaz", _UNDEFINED)) <= 360:
-            facts["azimuth"] = header["cmpaz"] % 360
-        if "cmpinc" in header:  # degrees from upwards: 0 and 180 are vertical, 90 is horizontal
-            facts["vertical"] = abs(header["cmpinc"] % 180 - 90) > _STEEP
+        facts |= _sac_direction(header, trace.stats.channel)
         if header.get("stdp", 0.0) >= _BURIED:
             facts["borehole"] = True
         facts |= names(trace) | {"warnings": (*warnings, *facts["warnings"])}

@@ -165,3 +165,29 @@ def test_names_of_horizontals(name, along):
 @pytest.mark.parametrize("text", ["31.86 LAT. N\n 116.60 LONG. W", "31.86 N / 116.60 O", "31.86 N; 116.60 W"])
 def test_places_are_read_as_they_are_written(text):
     assert coordinates(text) == {"latitude": 31.86, "longitude": -116.6}
+
+
+@pytest.mark.parametrize(
+    ("code", "azimuth", "inclination", "along", "vertical", "is_told"),
+    [
+        ("HNE", 90, 90, 90.0, False, False),
+        ("HNE", 270, 90, 270.0, False, False),
+        ("HNN", 30, 90, 30.0, False, False),
+        ("HNZ", 0, 0, None, True, False),
+        ("HN1", 0, 0, None, True, False),
+        ("HNE", 0, 0, 90.0, False, False),  # neither is set
+        ("HNN", 0, 0, 0.0, False, False),
+        ("HNE", 0, 90, 0.0, False, True),
+        ("HNZ", 0, 90, 0.0, False, True),
+        ("HNE", 90, 0, None, True, True),
+    ],
+)
+def test_a_sac_header_that_contradicts_its_channel_code_is_told(
+    tmp_path, code, azimuth, inclination, along, vertical, is_told
+):
+    path = tmp_path / "made.sac"
+    numbers = np.sin(np.arange(400) * 0.1).astype("f4")
+    SACTrace(data=numbers, delta=0.01, kcmpnm=code, cmpaz=azimuth, cmpinc=inclination).write(str(path))
+    (record,) = read(path, unit="m/s2")
+    assert (record.azimuth, record.vertical) == (along, vertical)
+    assert any("which its code contradicts" in sentence for sentence in record.warnings) == is_told
