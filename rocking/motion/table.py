@@ -239,13 +239,20 @@ def _near_rest(reach: float, values: np.ndarray) -> tuple[float, ...]:
 
     Widened by the largest change between neighbouring samples, and slopes by half, for what lies between samples.
     """
-    changes = np.abs(np.diff(values, axis=1)).max(axis=1)
-    slopes = 1.5 * changes * (values.shape[1] - 1) / reach
-    least = values[0].min() - changes[0]
-    most = values[0].max() + changes[0]
-    drive = np.abs(values[1]).max() + changes[1]
-    speed = np.sqrt(2 * GRAVITY * max(least, 0.0) * reach)
-    return tuple(float(each) for each in (reach, least, most, drive, *slopes, speed))
+    gravity, ground = values
+    gravity_change, ground_change = np.abs(np.diff(values, axis=1)).max(axis=1)
+    least_gravity = gravity.min() - gravity_change
+    largest_gravity = gravity.max() + gravity_change
+    largest_ground = np.abs(ground).max() + ground_change
+
+    intervals = values.shape[1] - 1
+    gravity_slope = 1.5 * gravity_change * intervals / reach
+    ground_slope = 1.5 * ground_change * intervals / reach
+
+    # v²/2 = g G̃ q: over still ground a slower start turns back within the arc, by the least G̃ that it meets.
+    speed = np.sqrt(2 * GRAVITY * max(least_gravity, 0.0) * reach)
+    bounds = (reach, least_gravity, largest_gravity, largest_ground, gravity_slope, ground_slope, speed)
+    return tuple(float(each) for each in bounds)
 
 
 def _hold(gravity: Function, ground: Function, rotation: Function, starts: np.ndarray) -> np.ndarray:

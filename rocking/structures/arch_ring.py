@@ -231,12 +231,14 @@ class Ring:
         """Derivatives of `gaps` with the section, (k, 5); 0 for a foot, which does not move."""
         load, load_rate = self.loads(section)
         point = self.contact_points(section, contact)
-        point_rate = (
-            -1j * point
-        )  # a point of the ring turns clockwise as the angle from the left springing grows
+        # A point of the ring turns clockwise as the angle from the left springing grows.
+        point_rate = -1j * point
+
         by_point = _moment(0.0, point_rate, load)
-        # Of the columns of `_moment` the last two hold the loads.
-        by_loads = np.array([0.0, 0.0, 0.0, 1.0, 1.0]) * _moment(1.0, point, load_rate)
+        # Only the last two columns of `_moment` hold the loads; the others do not change with them.
+        holds_loads = np.array([0.0, 0.0, 0.0, 1.0, 1.0])
+        by_loads = holds_loads * _moment(1.0, point, load_rate)
+
         slopes = -contact[..., None] * (by_point + by_loads)
         is_foot = self.feet(section) != 0
         return np.where(is_foot[..., None], 0.0, slopes)
