@@ -159,7 +159,9 @@ def _sac_motion(trace: Any, options: Options) -> tuple[str, np.ndarray, dict[str
             return "m/s2", motion.acceleration, facts | site(trace, inventory)
     unit = options.unit_of(None)
     values, offset = without_offset(trace.data.astype(float) * trace.stats.calib, unit)
-    return unit, values, {"processing": (offset,), "warnings": ()}
+    scale = float(trace.stats.calib)
+    scaled = (f"Samples multiplied by the SCALE that the header states, {scale:g}.",) if scale != 1 else ()
+    return unit, values, {"processing": (*scaled, offset), "warnings": scaled}
 
 
 _SAC_SILENT = (

@@ -120,9 +120,12 @@ def _without_suffixes(names: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def _below_prose(above: list[str], remarks: Sequence[str], width: int, start: int) -> _Table | None:
-    """Return one series below text that declares its unit and its step, and names no column; None of another file."""
+    """Return one series below a title, or below text that declares its unit and its step; None of another file."""
     said = Declarations.of((*remarks, *above))
     may_be_channels = width == 2 or width in _OF_CHANNELS
+    is_title = len(above) == 1 and not re.search(r"[:=]", above[0])
+    if is_title and not may_be_channels and not _SCALED.search(above[0]):
+        return _Table((), width, start, (*remarks, *above))
     if may_be_channels or not said.unit or not said.time_step or any(map(_SCALED.search, above)):
         return None
     return _Table((), width, start, (*remarks, *above))
@@ -242,7 +245,9 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     refuse_other_quantity(options.file, "\n".join(table.remarks))
     if not any(label.unit for label in table.labels):
         refuse_by_name(options.file)
-    body, filled = _without_filling(text.after_lines(pointed, table.start), table)
+    below = text.after_lines(pointed, table.start)
+    unended = below[:-_TAIL] + _END.sub(b"\n", below[-_TAIL:])
+    body, filled = _without_filling(unended, table)
     if _EMPTY_CELL.search(body):
         raise RecordError("a cell is empty; every column needs a number on every line.")
     spaced = body.replace(b",", b" ").replace(b";", b" ")
@@ -251,6 +256,8 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     width = 2 if _are_wrapped_pairs(values, table) else table.width
     wrapped = _is_wrapped(values, table, body)
     _check_rows(spaced, table.width, wrapped or width != table.width)
+    if wrapped:
+        _check_first_row(spaced)
     if width == 1 or wrapped:
         label = table.labels[0] if table.labels else ColumnLabel("")
         if label.other:
@@ -270,6 +277,8 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     return [record.warned(*filled, *_cut_number(body), *_never_negative(record)) for record in records]
 
 
+_END = re.compile(rb"(?i)(?:\n[ \t]*(?:(?:[#%$!]|//)[^\n]*|end(?:[ \t]+of[ \t]+\w+)?|eof)[ \t]*)+\s*\Z")
+"""Remarks, or a word for the end, below the numbers."""
 _FILLING = re.compile(rb"(?i)(?:[ \t]+nan)+\s*\Z")
 
 
@@ -309,6 +318,17 @@ def _check_rows(spaced: bytes, width: int, may_end_short: bool) -> None:
     if (counts != width).any():
         at = int(np.argmax(counts != width))
         raise RecordError(f"row {at + 1} of the samples has {counts[at]} columns, but the first has {width}.")
+
+
+def _check_first_row(spaced: bytes) -> None:
+    """Raise RecordError where a series of decimals begins with a row of whole numbers: these are a header's."""
+    first, _, rest = spaced.lstrip().partition(b"\n")
+    if b"." in first or b"." not in rest or not re.search(rb"\d\d", first):
+        return
+    raise RecordError(
+        f"the first row of numbers, {first.decode('latin-1').strip()[:40]!r}, is of whole numbers and seems to be a "
+        "header; write # before it, or cut it off."
+    )
 
 
 def _below_count(rows: np.ndarray, labels: tuple[ColumnLabel, ...]) -> np.ndarray:
@@ -352,6 +372,8 @@ def _without_count(
                 return values[2:], second, (_FIRST_IS.format("number of samples and the time step"),)
             if _RATES[0] <= second <= _RATES[1] and second == round(second):
                 return values[2:], 1 / second, (_FIRST_IS.format("number of samples and the rate"),)
+    if values.size > 4 and values[1] == values.size - 2 and 0 < values[0] <= _LONGEST_STEP:
+        return values[2:], float(values[0]), (_FIRST_IS.format("time step and the number of samples"),)
     if declared is not None and values.size > _FEWEST_ROWS and values[0] == declared:
         return values[1:], None, (_FIRST_IS.format("time step"),)
     return values, None, ()

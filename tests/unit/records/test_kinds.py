@@ -191,3 +191,12 @@ def test_a_sac_header_that_contradicts_its_channel_code_is_told(
     (record,) = read(path, unit="m/s2")
     assert (record.azimuth, record.vertical) == (along, vertical)
     assert any("which its code contradicts" in sentence for sentence in record.warnings) == is_told
+
+
+def test_the_scale_of_a_sac_file_is_told(tmp_path):
+    path = tmp_path / "made.sac"
+    numbers = np.sin(np.arange(400) * 0.1).astype("f4")
+    SACTrace(data=numbers, delta=0.01, kcmpnm="HNE", scale=2.0).write(str(path))
+    (record,) = read(path, unit="m/s2")
+    assert record.acceleration == pytest.approx(2 * (numbers - numbers.mean()), abs=1e-5)
+    assert any("multiplied by the SCALE" in sentence for sentence in record.warnings)

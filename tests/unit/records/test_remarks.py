@@ -133,3 +133,42 @@ def test_a_wrapped_series_is_read_below_prose_that_leaves_nothing_open(tmp_path:
 def test_three_columns_below_prose_are_asked(tmp_path: Path):
     with pytest.raises(RecordError, match="names every column"):
         opened(tmp_path, table("units g, dt = 0.01 s\nthree channels\n", *WAVES, parted="  "))
+
+
+def wrapped(numbers, per_row: int) -> str:
+    cells = [f"{value:.5f}" for value in numbers]
+    return "\n".join(" ".join(cells[at : at + per_row]) for at in range(0, len(cells), per_row)) + "\n"
+
+
+@pytest.mark.parametrize(
+    ("above", "per_row"), [("", 1), ("", 5), ("", 8), ("600\n", 1), ("600\n0.01\n", 1), ("0.01\n600\n", 1)]
+)
+def test_a_series_below_one_title_is_read_once_unit_and_step_are_declared(tmp_path: Path, per_row, above):
+    step = {} if "0.01" in above else {"time_step": 0.01}
+    content = "El Centro 1940\n" + above + wrapped(FIRST, per_row)
+    (record,) = opened(tmp_path, content, unit="m/s2", **step)
+    assert record.acceleration == pytest.approx(FIRST, abs=6e-6)
+    assert record.time_step == 0.01
+    with pytest.raises(RecordError, match="unit is not declared"):
+        opened(tmp_path, content)
+
+
+@pytest.mark.parametrize("title", ["El Centro, scale factor 2", "UNITS: 0.1 mm", "a = counts"])
+def test_a_title_that_may_speak_of_a_factor_is_asked(tmp_path: Path, title):
+    with pytest.raises(RecordError, match="names every column"):
+        opened(tmp_path, title + "\n" + wrapped(FIRST, 8), unit="m/s2", time_step=0.01)
+
+
+def test_a_header_of_whole_numbers_is_no_motion(tmp_path: Path):
+    with pytest.raises(RecordError, match="seems to be a header"):
+        opened(tmp_path, "TITLE\n1940 5 18 600 0\n" + wrapped(FIRST, 5), unit="gal", time_step=0.01)
+    (record,) = opened(tmp_path, "TITLE\n0 0 0 0 0\n" + wrapped(FIRST, 5), unit="gal", time_step=0.01)
+    assert record.acceleration.size == 605
+
+
+@pytest.mark.parametrize("end", ["# end\n", "END\n", "End of data", "EOF\n", "\n\n// 600 rows\n"])
+def test_what_ends_the_numbers_is_no_number(tmp_path: Path, end):
+    (record,) = opened(tmp_path, TIMED + end)
+    assert record.acceleration == pytest.approx(FIRST, abs=1e-6)
+    with pytest.raises(RecordError, match="holds 'max'"):
+        opened(tmp_path, TIMED + "max 3.2\n")
