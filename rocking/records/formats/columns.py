@@ -259,16 +259,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     if wrapped:
         _check_first_row(spaced)
     if width == 1 or wrapped:
-        label = table.labels[0] if table.labels else ColumnLabel("")
-        if label.other:
-            _refuse_others([label], {0: label.other})
-        values, above, notes = _without_count(values, options.time_step)
-        facts: dict[str, Any] = {
-            "component": "" if label.unit else label.text,
-            "warnings": (*notes, *_repeats(values)),
-        }
-        step = above or said.time_step
-        records = [options.accelerogram(label.unit or said.unit, values, step, processed=None, **facts)]
+        records = [_series(values, table, options, said)]
     else:
         rows = values.reshape(-1, width)
         records = _timed_columns(_below_count(rows, table.labels), table.labels, options, said)
@@ -277,7 +268,9 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     return [record.warned(*filled, *_cut_number(body), *_never_negative(record)) for record in records]
 
 
-_END = re.compile(rb"(?i)(?:\n[ \t]*(?:(?:[#%$!]|//)[^\n]*|end(?:[ \t]+of[ \t]+\w+)?|eof)[ \t]*)+\s*\Z")
+_END = re.compile(
+    rb"(?i)(?:\n[ \t]*(?:(?:[#%$!]|//)[^\n]*|end(?:[ \t]+of[ \t]+\w+)?|eof|[}\])]+;?)[ \t]*)+\s*\Z"
+)
 """Remarks, or a word for the end, below the numbers."""
 _FILLING = re.compile(rb"(?i)(?:[ \t]+nan)+\s*\Z")
 
@@ -288,6 +281,27 @@ def _without_filling(body: bytes, table: _Table) -> tuple[bytes, tuple[str, ...]
     if table.labels or table.width < 3 or bare == body:
         return body, ()
     return bare, ("The last row is filled up with NaN, which are left out.",)
+
+
+def _series(values: np.ndarray, table: _Table, options: Options, said: Declarations) -> Accelerogram:
+    """Return the accelerogram of a table that is one series, `said` what the text above it declares."""
+    label = table.labels[0] if table.labels else ColumnLabel("")
+    if label.other:
+        _refuse_others([label], {0: label.other})
+    values, above, notes = _without_count(values, options.time_step)
+    if said.samples:
+        values, more = text.whole(values, text.count("number of samples", said.samples), table.width)
+        notes += more
+    unit = label.unit or said.unit
+    component = "" if label.unit else label.text
+    return options.accelerogram(
+        unit,
+        values,
+        above or said.time_step,
+        processed=None,
+        component=component,
+        warnings=(*notes, *_repeats(values)),
+    )
 
 
 def _is_wrapped(values: np.ndarray, table: _Table, body: bytes) -> bool:

@@ -12,12 +12,13 @@ from rocking.records.instrument import azimuth, is_vertical
 class Declarations:
     """Facts that remarks state of the numbers below them, None (the component: "") where none does, or several differ.
 
-    unit: of acceleration. time_step: s. component: where the only channel points.
+    unit: of acceleration. time_step: s. component: where the only channel points. samples: their number, as written.
     """
 
     unit: str | None = None
     time_step: float | None = None
     component: str = ""
+    samples: str = ""
 
     @classmethod
     def of(cls, remarks: Sequence[str]) -> "Declarations":
@@ -27,10 +28,12 @@ class Declarations:
         units = {unit for line in of_numbers for unit in _units(line)}
         steps = {step for line in of_numbers for step in _steps(line)}
         components = {component.upper(): component for line in of_numbers for component in _components(line)}
+        counts = {match[1] or match[2] for line in remarks for match in _SAMPLES.finditer(line)}
         return cls(
             units.pop() if len(units) == 1 else None,
             steps.pop() if len(steps) == 1 else None,
             components.popitem()[1] if len(components) == 1 else "",
+            counts.pop() if len(counts) == 1 else "",
         )
 
 
@@ -58,6 +61,12 @@ _RATE = re.compile(
     r"\b(?:fs|(?:sampling|sample)[ _-]?(?:rate|frequency)|tasa de muestreo|frecuencia de muestreo)\b"
     rf"\s*(?:[(\[]\s*hz\s*[)\]])?\s*(?:[:=]|is|of)\s*(\d*\.?\d+)\s*(?:hz|sps)?{_END}|"
     rf"\bsampled at (\d*\.?\d+)\s*(?:hz|sps){_END}",
+    re.I,
+)
+_SAMPLES = re.compile(
+    r"(?:^|[\s,;(])(-?\d[\d.e]*)\s+(?:points|samples|values)\b(?!\s+(?:per|across|a|each|in)\b)|"
+    r"\b(?:npts|(?:no\.?|number) of (?:points|samples|data)|n[uú]m(?:ero|\.)? (?:total )?de (?:datos|muestras|puntos))"
+    r"\s*[:=]\s*(-?\d[\d.e]*)",
     re.I,
 )
 _VALUE = r"\b\.?\s*(?:code|name)?\s*[:=]?\s*([^,;:=()\[\]]*?)\s*(?:$|[,;()\[\]]|\s-\s)"

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from rocking.errors import RecordError
@@ -166,9 +167,24 @@ def test_a_header_of_whole_numbers_is_no_motion(tmp_path: Path):
     assert record.acceleration.size == 605
 
 
-@pytest.mark.parametrize("end", ["# end\n", "END\n", "End of data", "EOF\n", "\n\n// 600 rows\n"])
+@pytest.mark.parametrize(
+    "end", ["# end\n", "END\n", "End of data", "EOF\n", "\n\n// 600 rows\n", "}\n", "];\n"]
+)
 def test_what_ends_the_numbers_is_no_number(tmp_path: Path, end):
     (record,) = opened(tmp_path, TIMED + end)
     assert record.acceleration == pytest.approx(FIRST, abs=1e-6)
     with pytest.raises(RecordError, match="holds 'max'"):
         opened(tmp_path, TIMED + "max 3.2\n")
+
+
+@pytest.mark.parametrize(
+    "remark",
+    ["600 points at 0.01 s", "NPTS = 600", "NUMERO DE DATOS: 600", "Number of points: 600, 8 points across"],
+)
+def test_the_number_of_samples_that_remarks_declare_is_held_against_them(tmp_path: Path, remark):
+    head = f"# {remark}\n# units: m/s2\n# dt = 0.01 s\n"
+    assert opened(tmp_path, head + wrapped(FIRST, 8))[0].acceleration.size == 600
+    with pytest.raises(RecordError, match="declares 600 samples, but the file holds 592"):
+        opened(tmp_path, head + wrapped(FIRST[:592], 8))
+    (record,) = opened(tmp_path, head + wrapped(np.append(FIRST, np.zeros(4)), 8))
+    assert "600 samples" in " ".join(record.warnings)
