@@ -34,6 +34,11 @@ class _Escaped(io.TextIOBase):
     def isatty(self) -> bool:
         return self._stream.isatty()
 
+    @property
+    def closed(self) -> bool:
+        """Whether the stream is closed, which those ask who write at the very end of the process."""
+        return self._stream.closed
+
     def fileno(self) -> int:
         return self._stream.fileno()
 
