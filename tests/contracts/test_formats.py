@@ -70,6 +70,10 @@ def more(real_records: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(stream, delimiter="\t"))
 
 
+WITHOUT_SAMPLE = {"ESD"}
+"""Formats whose layout is on the page of their database (isesd.hi.is, "Datafile Format"); none of them lies here."""
+
+
 def test_exactly_one_format_recognises_each_file(real_records: Path, manifest: list[dict[str, str]]) -> None:
     matrix = {}
     for file in sorted({row["file"] for row in [*manifest, *more(real_records)]}):
@@ -78,7 +82,7 @@ def test_exactly_one_format_recognises_each_file(real_records: Path, manifest: l
         owners = [form for form in recognised if not form.yields] or recognised
         matrix[file] = [form.name for form in owners]
     assert {file: names for file, names in matrix.items() if len(names) != 1} == {}
-    assert {names[0] for names in matrix.values()} == {form.name for form in FORMATS}
+    assert {names[0] for names in matrix.values()} == {form.name for form in FORMATS} - WITHOUT_SAMPLE
 
 
 def test_what_is_not_acceleration_is_refused_by_name(real_records: Path, manifest) -> None:

@@ -1,4 +1,4 @@
-"""Formats of single networks: DYNA and AFAD, RESORCE, CWB, UNAM, K-NET, JMA, CSMNC, GeoNet, USGS SMC."""
+"""Formats of single networks: DYNA and AFAD, RESORCE, ESD, CWB, UNAM, K-NET, JMA, CSMNC, GeoNet, USGS SMC."""
 
 import re
 from collections.abc import Sequence
@@ -36,6 +36,7 @@ _DYNA_HEADER = 200  # lines of the longest header, of this format and of the nex
 _AFAD_HEADER = 40
 _RESORCE_HEADER = 20
 _CWB_HEADER = 60
+_ESD_HEADER = 100
 _UNAM_HEADER = 160
 _WORD = r"([\w/^*]*)"
 
@@ -93,6 +94,37 @@ def _read_resorce(content: bytes, options: Options) -> list[Accelerogram]:
     title = "names the time series and its unit"
     head, rows = header.parted(content, _RESORCE_TITLE.match, title, _RESORCE_HEADER)
     return _RESORCE.series(f"{head}\n{rows[0]}", rows[1:], options)
+
+
+_ESD_SECTION = re.compile(r"[ \t]*->[ \t]*(un)?corrected[ \t]+(\w+)", re.I)
+_ESD_FIRST = re.compile(
+    rf"[ \t]*file:.*\n[ \t]*earthquake code:(?:.*\n){{1,{_ESD_HEADER}}}?{_ESD_SECTION.pattern}", re.I
+)
+_ESD = Layout("m/s2", {
+    "unit": r"^[ \t]*units:[ \t]*([^,;\s]+)", "high_pass": r"band-?pass[ -]?filter[ ]*\(([\d.]+)",
+    "corrected": r"^[ \t]*->[ \t]*(corrected)", "step": key("SAMPLING PERIOD", r"([\d.]+)"),
+    "duration": key("RECORD LENGTH", r"([\d.]+)"),
+} | keyed(
+    samples="NUMBER OF SAMPLES", component="ORIENTATION OF TRANSDUCER", station="STATION CODE", event="EARTHQUAKE CODE",
+), per_line=10, width=13)  # fmt: skip
+_ESD_START = re.compile(r"(?im)^[ \t]*time of first sample:[ \t]*(\d\d)\.(\d\d)\.(\d{4}) +([\d:.]+) *UTC")
+
+
+def _read_esd(content: bytes, options: Options) -> list[Accelerogram]:
+    head, rows = header.parted(content, _ESD_SECTION.match, "that begins with ->", _ESD_HEADER)
+    begins = [at for at, row in enumerate(rows) if row.lstrip().startswith(("->", "STOP"))]
+    ends = [*begins[1:], len(rows)]
+    sections = [rows[begin:end] for begin, end in zip(begins, ends, strict=True)]
+    of_motion = [lines for lines in sections if re.match(r"\s*-> *corrected acc", lines[0], re.I)]
+    if len(of_motion) != 1:
+        held = ", ".join(lines[0].strip(" \t->")[:40] for lines in sections)
+        raise RecordError(f"the file holds {held}; use the file of corrected acceleration (.cor).")
+    (title, *numbers) = of_motion[0]
+    start = _ESD_START.search(head)
+    facts = {"start_time": header.universal("{2}-{1}-{0} {3}".format(*start.groups()), 0.0)} if start else {}
+    (record,) = _ESD.series(f"{head}\n{title}", numbers, options, **facts)
+    velocity = [lines[1:] for lines in sections if re.match(r"\s*-> *corrected vel", lines[0], re.I)]
+    return [agree_with_velocity(record, text.fields(velocity[0], 13)) if velocity else record]
 
 
 _CWB = Layout("gal", {"unit": key("AMPLITUDEUNIT", _WORD)} | keyed(
@@ -443,6 +475,13 @@ RESORCE = Format(
     _RESORCE_FIRST,
     _read_resorce,
     "RESORCE",
+)
+ESD = Format(
+    "ESD",
+    "European Strong-Motion Database (ISESD), corrected files",
+    "keys file and earthquake code at the start and a line that begins with -> corrected",
+    _ESD_FIRST,
+    _read_esd,
 )
 CWB = Format(
     "CWB",
