@@ -16,7 +16,7 @@ from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Facade, LoadedWall
-from rocking.structures.mechanism import Tie
+from rocking.structures.mechanism import Mechanism, Tie
 
 FACADE = Facade(
     (3.2, 2.8), (0.6, 0.5), 20e3, (10e3, 5e3), 0.05, tie_heights=(3.1, 5.8), tie_stiffness=3e5,
@@ -138,6 +138,26 @@ def test_vertical_motion_changes_weights_and_not_ties(case):
     inside = (found.times > start) & (found.times <= until)
     assert inside.sum() > 20
     np.testing.assert_allclose(found.rotation[inside], body.at(found.times[inside]), rtol=0, atol=1e-8)
+
+
+@pytest.mark.parametrize("heights", [(3.1,), (3.1, 5.8)], ids=["one tie", "two ties"])
+@pytest.mark.parametrize("where", ["outwards", "inwards", "both ways"])
+def test_a_pretension_holds_back_the_side_of_its_tie_alone(heights, where):
+    """Uplift under a ramp each way: where push · a is weight · g and the pull of the pretension, by the oracle."""
+    structure = replace(TIGHTENED, tie_heights=heights)
+    tightened = structure.mechanism().positive
+    free = replace(TIGHTENED, **UNTIED, tie_pretension=0.0).mechanism().positive
+    sides = {"outwards": (tightened, free), "inwards": (free, tightened), "both ways": (tightened, None)}
+    positive, negative = sides[where]
+    mechanism = Mechanism(positive, negative)
+    growth, times = 4.0, np.arange(200) * 0.01
+    _, _, weight, push, _, pull = held(structure, 1).terms(0.0)
+    for sign, side in ((1, positive), (-1, negative or positive)):
+        hold = structure.tie_pretension * pull.sum() if side is tightened else 0.0
+        expected = (weight * GRAVITY + hold) / push / growth
+        response = integrate(mechanism, Accelerogram(-sign * growth * times, 0.01))
+        # the oracle takes its slopes from polynomials of degree 40
+        assert response.uplift_time == pytest.approx(expected, rel=1e-10), sign
 
 
 def history(structure, motion):
