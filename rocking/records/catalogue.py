@@ -29,6 +29,8 @@ _HASH = re.compile(r"[0-9a-f]{64}")
 _COMMIT = re.compile(r"[0-9a-f]{40}")
 _REPOSITORY = re.compile(r"(?!\.+/)[\w.-]+/(?!\.+$)[\w.-]+", re.ASCII)
 _PROSE = ("event", "station", "licence", "note")
+_MOST_TOLD = 40
+"""Defects of a catalogue that are told; the others are counted."""
 _LARGEST = 16 * 2**20  # bytes of a catalogue: a hundred thousand rows
 
 
@@ -242,7 +244,9 @@ def load_catalogue(path: str | Path) -> tuple[CatalogueRecord, ...]:
     defects += [f"id {shown(name)} stands {n} times (upper and lower case count as one)" for name, n in twice]
     if defects:
         number = "a defect" if len(defects) == 1 else f"{len(defects)} defects"
-        raise CatalogueError(f"{path.name} has {number}: " + " | ".join(defects))
+        rest = len(defects) - _MOST_TOLD
+        more = [f"and {rest} more"] if rest > 0 else []
+        raise CatalogueError(f"{path.name} has {number}: " + " | ".join([*defects[:_MOST_TOLD], *more]))
     return tuple(records)
 
 

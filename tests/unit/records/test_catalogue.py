@@ -101,6 +101,12 @@ def test_all_defects_stand_in_one_message(folder: Path) -> None:
         assert part in said
 
 
+def test_a_thousand_defects_are_counted_and_forty_told(folder: Path) -> None:
+    with pytest.raises(CatalogueError, match=r"has 1000 defects: .* \| and 960 more$") as caught:
+        load_catalogue(write(folder, *(row(id=f"bad id {number}") for number in range(1000))))
+    assert str(caught.value).count(" | ") == 40
+
+
 @pytest.mark.parametrize(("text", "message"), [
     ("", "column 'id' is missing"),
     ("id,file,sha256\n", "no rows"),
