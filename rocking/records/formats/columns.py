@@ -120,13 +120,18 @@ def _without_suffixes(names: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def _below_prose(above: list[str], remarks: Sequence[str], width: int, start: int) -> _Table | None:
-    """Return one series below a title, or below text that declares its unit and its step; None of another file."""
+    """Return one series below text that leaves no more open than its unit and its step; None of another file.
+
+    That is text that declares both, or a title, and lines each of which declares something.
+    """
     said = Declarations.of((*remarks, *above))
     may_be_channels = width == 2 or width in _OF_CHANNELS
-    is_title = len(above) == 1 and not re.search(r"[:=]", above[0])
-    if is_title and not may_be_channels and not _SCALED.search(above[0]):
-        return _Table((), width, start, (*remarks, *above))
-    if may_be_channels or not said.unit or not said.time_step or any(map(_SCALED.search, above)):
+    if may_be_channels or any(map(_SCALED.search, above)):
+        return None
+    title, *others = above
+    is_title = not re.search(r"[:=]", title) or Declarations.of([title]) != Declarations()
+    is_all_read = is_title and all(Declarations.of([line]) != Declarations() for line in others)
+    if not is_all_read and not (said.unit and said.time_step):
         return None
     return _Table((), width, start, (*remarks, *above))
 

@@ -188,3 +188,15 @@ def test_the_number_of_samples_that_remarks_declare_is_held_against_them(tmp_pat
         opened(tmp_path, head + wrapped(FIRST[:592], 8))
     (record,) = opened(tmp_path, head + wrapped(np.append(FIRST, np.zeros(4)), 8))
     assert "600 samples" in " ".join(record.warnings)
+
+
+@pytest.mark.parametrize(
+    "above",
+    ["dt = 0.01\n", "El Centro 1940\ndt = 0.01 s\n", "Sampling rate: 100 Hz\nComponent: NS\n600 points\n"],
+)
+def test_lines_each_of_which_declares_something_leave_only_the_unit_open(tmp_path: Path, above):
+    (record,) = opened(tmp_path, above + wrapped(FIRST, 1), unit="m/s2")
+    assert record.time_step == 0.01
+    assert record.acceleration == pytest.approx(FIRST, abs=6e-6)
+    with pytest.raises(RecordError, match="names every column"):
+        opened(tmp_path, above + "k = 7\n" + wrapped(FIRST, 1), unit="m/s2")
