@@ -14,7 +14,7 @@ from rocking.records.formats import text
 from rocking.records.formats.dialect import Dialect
 from rocking.records.formats.format import Format, Options
 from rocking.records.formats.labels import ColumnLabel
-from rocking.records.formats.remarks import OF_ACCELERATION, Declarations
+from rocking.records.formats.remarks import OF_ACCELERATION, Declarations, factor_warnings, speaks_of_factor
 from rocking.records.formats.stamps import in_seconds
 from rocking.records.instrument import directed, names_acceleration, refuse_by_name, refuse_other_quantity
 
@@ -101,7 +101,7 @@ def _below_text(above: list[str], remarks: Sequence[str], width: int, start: int
         return _below_prose(above, remarks, width, start)
     labels = tuple(map(ColumnLabel, _without_suffixes(names)))
     if rest and (
-        any(map(_SCALED.search, rest)) or not _is_all_said(labels, Declarations.of((*remarks, *rest)))
+        any(map(speaks_of_factor, rest)) or not _is_all_said(labels, Declarations.of((*remarks, *rest)))
     ):
         return None
     return _Table(labels, width, start, (*remarks, *rest))
@@ -126,7 +126,7 @@ def _below_prose(above: list[str], remarks: Sequence[str], width: int, start: in
     """
     said = Declarations.of((*remarks, *above))
     may_be_channels = width == 2 or width in _OF_CHANNELS
-    if may_be_channels or any(map(_SCALED.search, above)):
+    if may_be_channels or any(map(speaks_of_factor, above)):
         return None
     title, *others = above
     is_title = not re.search(r"[:=]", title) or Declarations.of([title]) != Declarations()
@@ -134,10 +134,6 @@ def _below_prose(above: list[str], remarks: Sequence[str], width: int, start: in
     if not is_all_read and not (said.unit and said.time_step):
         return None
     return _Table((), width, start, (*remarks, *above))
-
-
-_SCALED = re.compile(r"(?i)\b(scal\w*|factor\w*|multipl\w*|gain|sensitivity|counts?)\b")
-"""Words above a table that speak of a factor by which its numbers may still have to be multiplied."""
 
 
 def _is_all_said(labels: Sequence[ColumnLabel], above: Declarations) -> bool:
@@ -270,6 +266,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
         records = _timed_columns(_below_count(rows, table.labels), table.labels, options, said)
     if len(records) == 1:
         records = [_pointing(records[0], said.component)]
+    filled += factor_warnings(table.remarks)
     return [record.warned(*filled, *_cut_number(body), *_never_negative(record)) for record in records]
 
 

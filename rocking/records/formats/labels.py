@@ -69,7 +69,7 @@ _NOT_OF_THE_GROUND = re.compile(
 )
 """Words before an acceleration that is not that of the ground in one direction, or no acceleration any more."""
 _MULTIPLIED = re.compile(
-    r"(?i)[x×*]\s*1\d*(\.0*)?(e[+-]?\d+|\^|0\b)|\b1e[+-]?\d+\b|\b10\s*(\^|\*\*|-\d)|\b10+\s*[x×*]"
+    r"(?i)(?<![\w.])(?:10+|\d+[./]\d+)\s*(?:gal\b|(?:[munc]?m|ft|in)\s*/\s*s)|[x×*]\s*1\d*(\.0*)?(e[+-]?\d+|\^|0\b)|\b1e[+-]?\d+\b|\b10\s*(\^|\*\*|-\d)|\b10+\s*[x×*]"
 )
 """A power of ten by which a label says that its numbers are multiplied."""
 _MEANT = {

@@ -25,7 +25,8 @@ class Declarations:
         """Return what `remarks`, without their marks, declare."""
         lines = (*remarks, *(_CELLS.sub(r"\1: \2", remark) for remark in remarks))
         of_numbers = [line for line in lines if not _OF_PEAK.search(line)]
-        units = {unit for line in of_numbers for unit in _units(line)}
+        as_they_stand = [line for line in of_numbers if not (_TIMES.search(line) or _SCALED.search(line))]
+        units = {unit for line in as_they_stand for unit in _units(line)}
         steps = {step for line in of_numbers for step in _steps(line)}
         components = {component.upper(): component for line in of_numbers for component in _components(line)}
         counts = {match[1] or match[2] for line in remarks for match in _SAMPLES.finditer(line)}
@@ -39,6 +40,10 @@ class Declarations:
 
 OF_ACCELERATION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|amplitud)")
 """Words beside which a unit in brackets is that of the numbers: elsewhere "(G)" may be the code of a network."""
+_TIMES = re.compile(r"(?i)(?:[x×*]|\btimes|\b(?:multiplied|divided) by)\s*\d|\d\s*[x×*]\s*(?:acc|g\b)")
+"""A factor by which numbers are multiplied, as in "cm/s2 * 100": the unit beside it is not that of the numbers."""
+_SCALED = re.compile(r"(?i)\b(scal\w*|fa[ck]?t+(?:eu|[eo])re?\w*|multipl\w*|gain|sensitivity|counts)\b")
+"""Words that speak of a factor by which numbers may still have to be multiplied."""
 _CELLS = re.compile(r"^\s*([^:=,;\t]+?)\s*[,;\t]\s*([^:=,;\t]+?)[\s,;]*$")
 """A remark of two cells, as "Unit,gal"."""
 _OF_PEAK = re.compile(r"(?i)\b(pga|peak|max\w*|scale\w*|factor|picco|pico)\b")
@@ -90,6 +95,22 @@ _BOTH_ENDS = re.compile(r"(?i)\b(north|east|up)(?:\s*[/–]\s*|\s+)(south|west|d
 """A direction in two words, of which the second alone would turn it round."""
 _CHANNEL = re.compile(rf"\b(?:canal|chan(?:nel)?){_VALUE}", re.I)
 """A channel may be named by a direction, but "Channel 101" is none."""
+
+
+def speaks_of_factor(remark: str) -> bool:
+    """Whether a remark speaks of a factor by which the numbers may still have to be multiplied."""
+    return bool(_SCALED.search(remark) or (_TIMES.search(remark) and OF_ACCELERATION.search(remark)))
+
+
+def factor_warnings(remarks: Sequence[str]) -> tuple[str, ...]:
+    """Return a warning where remarks speak of a factor: none is applied."""
+    spoken = [remark.strip() for remark in remarks if speaks_of_factor(remark)]
+    if not spoken:
+        return ()
+    return (
+        f"The text above the numbers speaks of a factor or of counts ({spoken[0][:60]}): no factor is applied, and "
+        "they are read as they stand.",
+    )
 
 
 def _units(remark: str) -> set[str]:

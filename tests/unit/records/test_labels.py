@@ -84,7 +84,8 @@ def test_a_label_names_unit_and_component(label, unit, component):
      "tilt (deg)", "strain", "acc (mGal)", "Arias intensity (m/s)", "roof drift",
      "acc x1e-3 (g)", "acc (10^-3 g)", "acc *1000 (g)", "CH1 (V/g)", "jerk (g/s)", "acc (g^2/Hz)", "acc (%)",
      "relative acc (g)", "normalized acc (g)", "1000*acc (g)",
-     "Vel_cm_s", "disp_cm", "acc^2 (g2)", "resultant (g)", "acc SRSS (g)", "vector sum (g)"],
+     "Vel_cm_s", "disp_cm", "acc 0.1 gal", "acc 10 mm/s2", "acc^2 (g2)",
+     "resultant (g)", "acc SRSS (g)", "vector sum (g)"],
 )  # fmt: skip
 def test_a_column_of_something_else_is_no_acceleration_whatever_unit_is_declared(tmp_path, label):
     with pytest.raises(RecordError, match=r"of (acceleration|velocity|displacement)"):

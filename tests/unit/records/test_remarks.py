@@ -200,3 +200,29 @@ def test_lines_each_of_which_declares_something_leave_only_the_unit_open(tmp_pat
     assert record.acceleration == pytest.approx(FIRST, abs=6e-6)
     with pytest.raises(RecordError, match="names every column"):
         opened(tmp_path, above + "k = 7\n" + wrapped(FIRST, 1), unit="m/s2")
+
+
+FACTORS = [
+    "acceleration x 1000 (g)", "Accel. in cm/s2 * 100", "units: m/s2 (x0.01)", "acceleration in g times 1000",
+    "acceleration in g, multiplied by 1000", "units: g; fattore di scala 2", "unit = gal x 0.1",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("remark", FACTORS)
+def test_a_unit_beside_a_factor_is_not_taken(tmp_path: Path, remark):
+    content = f"# {remark}\n" + table("t,acc\n", TIMES, FIRST)
+    with pytest.raises(RecordError, match="unit is not declared"):
+        opened(tmp_path, content)
+    (record,) = opened(tmp_path, content, unit="g")
+    assert record.acceleration == pytest.approx(FIRST * 9.80665, abs=1e-5)
+
+
+@pytest.mark.parametrize("remark", ["scale factor: 9.81", "Faktor 2", *FACTORS[:2], "gain 1.5"])
+def test_a_factor_in_a_remark_is_told_and_not_applied(tmp_path: Path, remark):
+    (record,) = opened(tmp_path, f"# {remark}\n" + TIMED)
+    assert record.acceleration == pytest.approx(FIRST, abs=1e-6)
+    assert any("no factor is applied" in sentence for sentence in record.warnings)
+    assert not any(
+        "no factor" in sentence
+        for sentence in opened(tmp_path, "# number of points: 600\n" + TIMED)[0].warnings
+    )
