@@ -81,14 +81,15 @@ _DIRECTIONS = (
         re.I,
     ),
     re.compile(
-        r"([\w/-]+)\s+(?:comp(?:onent)?|direction|acc(?:el(?:eration)?)?|(?:ground )?motion|record)\b",
+        r"(?<!class )(?<!type )(?<!site )(?<!soil )\b([\w/-]+)\s+(?:comp(?:onent)?|direction)\b",
         re.I,
     ),
+    re.compile(r"\b([\w/-]{2,})\s+(?:acc(?:el(?:eration)?)?|(?:ground )?motion|record)\b", re.I),
     re.compile(
         r"(?:^|[\s,_-])([NS]\d{1,2}[EW]|UP|UD|U-D|NS|N-S|EW|E-W|[BCHS]N[NEZ]|[BH]H[NEZ]|VERT|(?i:vertical))"
         r"\s*(?:$|,)"
     ),
-    re.compile(r",\s*(\d{3})\s*$"),
+    re.compile(r",[^,]+,\s*(\d{3})\s*$"),
 )
 """Words that may be directions: "Component: HNZ", "vertical component", and what ends a title, as "KOBE UP"."""
 _BOTH_ENDS = re.compile(r"(?i)\b(north|east|up)(?:\s*[/–]\s*|\s+)(south|west|down)\b")
@@ -139,8 +140,8 @@ def _components(remark: str) -> list[str]:
 
 def _is_direction(name: str) -> bool:
     """Whether a name in a text is a direction: a bare number is one if it is written as three digits, else a count."""
-    if name.isdigit() and len(name) != _DIGITS_OF_AN_ANGLE:
-        return False
+    if name.isdigit():
+        return len(name) == _DIGITS_OF_AN_ANGLE and azimuth(name) is not None
     return bool(name) and (azimuth(name) is not None or is_vertical(name))
 
 

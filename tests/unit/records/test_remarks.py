@@ -48,6 +48,7 @@ def test_the_direction_of_a_lone_series_is_what_its_remarks_say(
     [
         "Channel 1", "Channel: 101", "3 component accelerometer", "Components: NS, EW, UD", "Horizontal component",
         "a vertical fault", "RECORD OF STATION ONE", "NS and UD components", "Component: H1", "direction unknown",
+        "Site class E ground motion", "class E record", "station N record", "Kobe, 600", "Kobe, 200", "A, B, 600",
     ],
 )  # fmt: skip
 def test_what_names_no_direction_declares_none(remark):
