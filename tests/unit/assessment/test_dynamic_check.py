@@ -6,8 +6,20 @@ import numpy as np
 import pytest
 
 import rocking
-from rocking import Block, DesignSpectrum, Mechanism, Members, Mode, Support, integrate_members, select
+from rocking import (
+    Block,
+    DesignSpectrum,
+    Facade,
+    Mechanism,
+    Members,
+    Mode,
+    Support,
+    integrate,
+    integrate_members,
+    select,
+)
 from rocking.assessment import dynamic_check
+from rocking.records import Accelerogram
 from tests.made_pools import made_pool
 
 SPECTRUM = DesignSpectrum.ntc(2.0, 2.5, 0.4)
@@ -70,6 +82,28 @@ def test_the_confidence_factor_weakens_what_restores(records):
     assert weak.critical_rotation == own.critical_rotation
 
 
+@pytest.mark.parametrize("elongation", [0.0, 0.05, 9.0], ids=["brittle", "breaks late", "yields without end"])
+def test_the_confidence_factor_divides_weight_and_ties_alike(elongation):
+    """I φ'' = −(G g + T)/F − B ü_g − J φ'² is the motion of the structure itself, √F times as slow, under F ü_g."""
+    from rocking.assessment.code_check import kinematic_check
+    from rocking.assessment.dynamic_check import with_confidence
+
+    facade = Facade(
+        (3.2, 2.8), (0.6, 0.5), 20e3, (10e3, 5e3), 0.05, tie_heights=(3.1, 5.8), tie_stiffness=3e5,
+        tie_strength=6e3, tie_plastic_elongation=elongation, restitution=0.6, one_sided=True,
+    )  # fmt: skip
+    factor, step = 1.35, 0.01
+    weak = with_confidence(kinematic_check(facade, SPECTRUM, confidence_factor=factor).mechanisms[:1])
+    ground = -2.6 * np.sin(np.arange(130) * step * 5.0)
+    slow = integrate(weak, Accelerogram(ground, step), 1e-11)
+    own = integrate(facade.mechanism(), Accelerogram(factor * ground, step / factor**0.5), 1e-11)
+    assert slow.outcome == own.outcome
+    assert slow.impacts == own.impacts
+    # the tolerance of both integrations, and what a way to overturning makes of it
+    assert slow.rotation_ratio == pytest.approx(own.rotation_ratio, rel=1e-7)
+    assert slow.uplift_time == pytest.approx(own.uplift_time * factor**0.5, rel=1e-9)
+
+
 def test_stout_blocks_meet_it_and_slender_ones_do_not(records):
     stout = rocking.check(Block.of_size(2.5, 3.0), SPECTRUM, records=records).dynamic
     assert stout.passed and stout.share == 1 and stout.demand == 0
@@ -92,7 +126,7 @@ def test_what_one_set_meets_is_not_called_met_where_others_do_not(records):
         each for each in between if not each.passed and each.demand <= each.capacity and not each.exceeding
     ]
     for each in undecided:
-        assert f"of {each.sets} sets" in each.refusal
+        assert f"{100 * each.share:.0f} % of {each.sets} sets, and 95 % must" in each.refusal
 
 
 def test_a_rigid_support_changes_nothing_and_a_resonant_one_does(records):
