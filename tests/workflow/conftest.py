@@ -1,13 +1,15 @@
 """Small studies that are run by snakemake itself, each in a folder of its own."""
 
 import csv
+import fcntl
 import hashlib
 import os
 import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -91,9 +93,8 @@ class SmallStudy:
         return done.stdout
 
     def planned(self, *options: str) -> list[str]:
-        """The kinds of jobs in the table that snakemake prints before a run, without the target."""
-        table = self.run("--dry-run", *options).partition("Job stats:")[2].partition("\ntotal ")[0]
-        return sorted(re.findall(r"(?m)^(assess|summarise|report|trade|fragility)(?:_\w+)? +\d+ *$", table))
+        """The kinds of jobs that a run would make, without the target."""
+        return kinds_of_jobs(self.run("--dry-run", *options))
 
     def rocking(
         self, *arguments: str, before: Sequence[str] = (), status: int = 0
@@ -137,6 +138,12 @@ class SmallStudy:
         return SmallStudy(folder, self.tree)
 
 
+def kinds_of_jobs(told: str) -> list[str]:
+    """The kinds of jobs in the table that snakemake prints before a run and a dry run, without the target."""
+    table = told.partition("Job stats:")[2].partition("\ntotal ")[0]
+    return sorted(re.findall(r"(?m)^(assess|summarise|report|trade|fragility)(?:_\w+)? +\d+ *$", table))
+
+
 def new_study(folder: Path, tree: Path) -> SmallStudy:
     """A study without records: two structures, no reports, one record a job."""
     (folder / "records").mkdir(parents=True)
@@ -165,9 +172,25 @@ def start(tree: Path, tmp_path_factory: pytest.TempPathFactory) -> SmallStudy:
     return study
 
 
+@contextmanager
+def _one_at_a_time(path: Path) -> Iterator[None]:
+    with path.open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+
+
 @pytest.fixture(scope="session")
 def finished(start: SmallStudy, tmp_path_factory: pytest.TempPathFactory) -> SmallStudy:
-    """The same study after an undisturbed run; copy it before changing anything."""
-    study = start.copy_to(tmp_path_factory.mktemp("finished") / "study")
-    study.run()
-    return study
+    """The same study after an undisturbed run; copy it before changing anything.
+
+    One worker of pytest-xdist runs it, and each has a copy: what is finished tells nothing of the tree that made it.
+    """
+    own = tmp_path_factory.getbasetemp()
+    of_all_workers = own.parent if "PYTEST_XDIST_WORKER" in os.environ else own
+    made = SmallStudy(of_all_workers / "finished_once" / "study", start.tree)
+    with _one_at_a_time(of_all_workers / "finished_once.lock"):
+        if not made.folder.exists():
+            under_way = start.copy_to(tmp_path_factory.mktemp("under_way") / "study")
+            under_way.run()
+            under_way.copy_to(made.folder)
+    return made.copy_to(tmp_path_factory.mktemp("finished") / "study")

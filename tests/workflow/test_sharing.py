@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.workflow.conftest import SmallStudy, new_study
+from tests.workflow.conftest import SmallStudy, kinds_of_jobs, new_study
 
 RECORDS = 25
 """One more than a job takes without reports."""
@@ -36,13 +36,11 @@ def test_a_changed_structure_takes_one_job_and_gives_the_tables_of_a_whole_run(
     assert study.planned() == []
 
     study.add_synthetic("another", 40)
-    assert study.planned() == ["assess", "summarise"], "the other job stands, and goes on to"
-    study.run()
+    assert kinds_of_jobs(study.run()) == ["assess", "summarise"], "the other job stands"
     assert _jobs(study) == 2
 
     _changed(study)
-    assert study.planned() == ["assess"], "which makes the summary too"
-    study.run()
+    assert kinds_of_jobs(study.run()) == ["assess"], "which makes the summary too"
     assert _jobs(study) == 1
     assert study.planned() == []
 

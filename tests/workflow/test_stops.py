@@ -92,7 +92,9 @@ def test_after_a_kill_the_same_command_goes_on_to_the_same_bytes(finished, start
 
 
 def test_a_run_waits_for_the_jobs_of_one_whose_scheduler_alone_was_killed(start, tmp_path: Path) -> None:
+    """Of one record, whose job alone is waited for."""
     study = start.copy_to(tmp_path / "study")
+    study.write_catalogue(study.rows()[:1])
     with _started(study) as process:
         process.kill()
         study.rocking("run", str(study.folder))
