@@ -1,6 +1,7 @@
 """Whether the model held along a response."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ import pytest
 from rocking.motion import integrate
 from rocking.motion.response import check_model
 from rocking.pulses import Pulse
+from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import Block, Frame
 
@@ -38,3 +40,31 @@ def test_nothing_is_claimed_without_motion_or_where_forces_are_not_known():
     assert frame.reason == "contact forces of a frame are statically indeterminate"
     silent = check_model(Block(2.0, 0.2), integrate(Block(2.0, 0.2), RECORD), RECORD)
     assert silent.reason == "the response keeps no history"
+
+
+@pytest.mark.parametrize("sides", [(1, -1), (-1, 1), (1, 1)])
+@pytest.mark.parametrize("strong", [0, 2])
+def test_where_it_lifts_and_lands_the_contact_is_asked_on_the_side_to_which_it_goes_on(sides, strong):
+    """A history at hand: φ = 0, aside, φ = 0, aside, with all of the ground's push at one of the zeros.
+
+    About a corner I φ'' = R (a cos α − g sin α) with I = 4/3 R², and the corner bears a − R φ'' cos α and
+    g + R φ'' sin α for each unit of mass.
+    """
+    slenderness, semi_diagonal = 0.2, 2.0
+    block = Block(semi_diagonal, slenderness)
+    sine, cosine = math.sin(slenderness), math.cos(slenderness)
+    push = 2.0 * GRAVITY * math.tan(slenderness)
+    thrust = 0.75 * (push * cosine - GRAVITY * sine)
+    expected = (push - thrust * cosine) / (GRAVITY + thrust * sine)
+    first, second = sides
+    ground = np.zeros(4)
+    ground[strong] = -push * (first if strong == 0 else second)
+    record = Accelerogram(ground, 1.0)
+    response = replace(
+        integrate(block, RECORD, history=True),
+        times=np.arange(4.0),
+        rotation=np.array([0.0, 0.05 * first, 0.0, 0.05 * second]),
+        angular_velocity=np.zeros(4),
+    )
+    # it is asked at 1e-12 of the critical rotation instead of at 0
+    assert check_model(block, response, record).required_friction == pytest.approx(expected, rel=1e-9)
