@@ -117,7 +117,8 @@ MEMBER = Member(1.0, 1.0, (0.9, 0.8))
 def dies(speed: float, samples=(0.0, 2.0), tau=0.0, best=np.inf, **near) -> bool:
     """Whether a chain is proved to end: g = 10, G̃ = B̃ = 1 near rest, η = 0.8."""
     values = {"arc": 1.0, "least": 1.0, "largest": 1.0, "push": 1.0, "bend": 0.0, "push_bend": 0.0} | near
-    sides = plain_sides(near=np.tile([*values.values(), np.inf, 0.0], (2, 1)))
+    held = values.pop("tie_bend", 0.0)
+    sides = plain_sides(near=np.tile([*values.values(), np.inf, held], (2, 1)))
     member = Member(1.0, 1.0, (0.7, 0.8))
     return bool(kernel._dies_out(sides, ground(samples), member, 0, tau, speed, np.array([best, best])))
 
@@ -132,6 +133,13 @@ def test_a_chain_of_impacts_is_over_when_its_flights_fit_into_the_time() -> None
     # Two samples, of which the second is flat: the same bounds hold for 0.2 s. v (0.25 + 0.05) = 0.04.
     limit = 0.04 / 0.3
     assert dies(0.999 * limit, samples=(0.0, 2.0, 2.0)) and not dies(1.001 * limit, samples=(0.0, 2.0, 2.0))
+
+
+def test_a_chain_is_followed_where_restoring_changes_with_the_place() -> None:
+    """Δ = 5 v + (400 · 10 + 2 000 · 2 + 8 000) v²/16: 0.25 v = 0.1 (0.2 − 0.05 Δ), and in 5 v² + 0.275 v = 0.02."""
+    limit = (math.sqrt(0.275**2 + 4 * 5 * 0.02) - 0.275) / 10
+    bends = {"bend": 400.0, "push_bend": 2000.0, "tie_bend": 8000.0}
+    assert dies(0.999 * limit, **bends) and not dies(1.001 * limit, **bends)
 
 
 def test_a_chain_that_could_grow_higher_than_the_peaks_is_followed() -> None:
