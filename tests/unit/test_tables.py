@@ -198,3 +198,20 @@ def test_a_data_package_describes_each_column_once() -> None:
     assert fields["speed_rad_s"] == {"name": "speed_rad_s", **speed}
     kinds = [fields[name]["type"] for name in ("count", "missing_count", "holds", "colour", "flags")]
     assert kinds == ["integer", "integer", "boolean", "string", "string"]
+
+
+def test_a_disk_that_fails_after_the_renaming_is_told_in_words(tmp_path: Path, monkeypatch) -> None:
+    """The second thing that the disk is asked for is the folder, when the temporary file is already gone."""
+    synced = os.fsync
+    asked: list[int] = []
+
+    def failing(handle: int) -> None:
+        asked.append(handle)
+        if len(asked) == 2:
+            raise OSError(errno.EIO, os.strerror(errno.EIO))
+        synced(handle)
+
+    monkeypatch.setattr(os, "fsync", failing)
+    with pytest.raises(RockingError, match="cannot be written: Input/output error"):
+        write_whole(tmp_path / "table.csv", b"content")
+    assert not list(tmp_path.glob(".*"))
