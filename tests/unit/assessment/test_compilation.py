@@ -1,0 +1,49 @@
+"""What is said of the compilation at the first use, with a clock and processes that are made here."""
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from rocking.assessment import compilation
+from rocking.errors import RockingError
+
+
+def compiled_within(seconds: float, folder: Path, monkeypatch, errors: str = "") -> list[str]:
+    """The words that are said where both processes take so long; the clock begins at 100 s."""
+    clock = SimpleNamespace(now=100.0)
+
+    def sleep(_: float) -> None:
+        clock.now += 0.25
+
+    process = SimpleNamespace(
+        poll=lambda: None if clock.now < 100.0 + seconds else 0,
+        communicate=lambda: ("", errors),
+        returncode=int(bool(errors)),
+    )
+    monkeypatch.setattr(compilation, "time", SimpleNamespace(monotonic=lambda: clock.now, sleep=sleep))
+    monkeypatch.setattr(compilation, "subprocess", SimpleNamespace(Popen=lambda *_, **__: process, PIPE=None))
+    monkeypatch.setattr(compilation, "rock", SimpleNamespace(stats=SimpleNamespace(cache_path=str(folder))))
+    said: list[str] = []
+    compilation.compile_all(said.append)
+    return said
+
+
+def test_it_is_told_after_three_seconds_and_every_five_how_long_it_has_taken(
+    tmp_path: Path, monkeypatch
+) -> None:
+    first, second, last = compiled_within(10.0, tmp_path, monkeypatch)
+    assert first.startswith("Compiling for this machine, once: 3 s")
+    assert second.startswith("Compiling for this machine, once: 8 s")
+    assert last == "Compiled in 10 s; it is kept for every later run."
+    assert compiled_within(10.0, tmp_path, monkeypatch) == [], "it is kept"
+
+
+def test_what_is_loaded_soon_is_not_spoken_of(tmp_path: Path, monkeypatch) -> None:
+    assert compiled_within(2.0, tmp_path, monkeypatch) == []
+
+
+def test_what_does_not_compile_is_told_and_tried_again(tmp_path: Path, monkeypatch) -> None:
+    for _ in range(2):
+        with pytest.raises(RockingError, match=r"the numerical parts do not compile: .*no room"):
+            compiled_within(1.0, tmp_path, monkeypatch, errors="Traceback\nno room\n")
