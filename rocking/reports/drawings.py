@@ -59,14 +59,15 @@ def draw_structure(
     if rotation:
         axes.plot(*structure.hinges(rotation).T, "o", transform=where, **_HINGE)
     left = min(float(each[:, 0].min()) for each in (*parts, *at_rest))
+    top = max(float(each[:, 1].max()) for each in parts)
     for mark in structure.marks(rotation):
-        _draw_mark(axes, mark, where, left if values else None)
+        _draw_mark(axes, mark, where, (left, top) if values else None)
 
 
-def _draw_mark(axes: Axes, mark: Mark, where: Transform, left: float | None) -> None:
+def _draw_mark(axes: Axes, mark: Mark, where: Transform, corner: tuple[float, float] | None) -> None:
     """Draw a load or thrust as an arrow, a tie as a line to its anchorage.
 
-    left: where the value of a tie stands [m]; None draws no values.
+    corner: left end and top of the structure, m, beside which values stand; None draws no values.
     """
     tail, tip = mark.line
     if mark.kind == "tie":
@@ -76,10 +77,19 @@ def _draw_mark(axes: Axes, mark: Mark, where: Transform, left: float | None) -> 
     else:
         axes.annotate("", tip, tail, xycoords=where, textcoords=where, arrowprops=_LOAD, zorder=5)
         axes.plot(*tail, alpha=0, transform=where)  # arrows do not widen the limits of the axes
-    if left is not None and mark.kind == "tie":
+    if corner is None:
+        return
+    left, top = corner
+    if mark.kind == "tie":
         text = mark.text.replace(", ", " \n") + " "
-        axes.text(left, tail[1], text, ha="right", va="top", transform=where)  # a thrust is told above it
-    elif left is not None:
+        # Below the line of the tie; a thrust is told above it.
+        axes.annotate(
+            text, (left, tail[1]), (0, -3), xycoords=where, textcoords="offset points", ha="right", va="top"
+        )
+    elif mark.kind == "load" and tail[1] < top:
+        # Of a floor: above the arrow stands the next storey, with its thickness.
+        axes.text(left, tip[1], f"{mark.text} ", ha="right", va="bottom", transform=where)
+    else:
         ha, va = _SIDES[mark.kind]
         axes.text(tail[0], tail[1], f" {mark.text} ", ha=ha, va=va, zorder=4, bbox=_PAPER, transform=where)
 
