@@ -206,8 +206,16 @@ def vertical_in_name(name: str) -> str:
     """Return the word for a vertical with which the name of a file ends, "" where it ends in none."""
     stem = without_ending(name.rpartition("/")[2])
     is_word = len(stem) > 1 and stem.isalpha() and is_vertical(stem)
+    if not is_word and _NO_DIRECTION.search(stem):
+        return ""
     word = stem if is_word else direction_in_name(name.rpartition("/")[2])[1]
     return word if is_vertical(word) and not word.isdigit() else ""
+
+
+_NO_DIRECTION = re.compile(
+    r"(?i)(scaled?|clean(ed)?|rounded|filled|sped|speed|back|set|sized?)[-_. ](up|down)$"
+)
+"""The end of a name in which "up" says what was done, as in "scaled_up"."""
 
 
 _STRUCTURE = re.compile(

@@ -209,7 +209,17 @@ def test_a_bare_series_is_vertical_where_its_file_is_called_so(tmp_path: Path, n
 
 @pytest.mark.parametrize(
     "name",
-    ["v1.txt", "elc_500.txt", "backup.txt", "Soup.csv", "ELC180.txt", "up_scaled.txt", "Z1.csv", "ZETA.txt"],
+    [
+        "v1.txt",
+        "elc_500.txt",
+        "backup.txt",
+        "Soup.csv",
+        "ELC180.txt",
+        "up_scaled.txt",
+        "Z1.csv",
+        "ZETA.txt",
+        "kobe_scaled_up.csv",
+    ],
 )
 def test_other_names_say_nothing_of_a_vertical(tmp_path: Path, name) -> None:
     (record,) = read(written(tmp_path, SERIES, name), unit="m/s2", time_step=0.01)
