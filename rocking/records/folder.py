@@ -19,7 +19,7 @@ from rocking.records.formats.format import plain
 from rocking.records.formats.text import is_number
 from rocking.records.grouping import named_channel, rsn_of, stations, without_direction
 from rocking.records.instrument import without_ending
-from rocking.records.joining import SQUARE, angle_between, direction_doubt
+from rocking.records.joining import SQUARE, angle_between, direction_doubt, names_no_direction
 from rocking.records.listing import CELLS, ListedChannel, ListedFile, doubts_of, listed_file
 from rocking.records.read import ONLY_BY_NAME, bare_text, bytes_of, printable, recognise, unpack
 from rocking.records.readings import Readings
@@ -86,7 +86,9 @@ def catalogue_of_folder(
     readings.save()
     renamed = tuple(_follow_renamed(rows, rows_of, listed))
     for file in listed:
-        file.record = rows_of[file.file]["id"] if file.file in rows_of else ""
+        if file.file in rows_of:
+            file.record = rows_of[file.file]["id"]
+            file.direction = _direction_in(rows_of[file.file], file)
     _mark_repeats(listed)
     apart = tuple(_rows_to_join(listed))
     for row in rows:
@@ -99,6 +101,14 @@ def catalogue_of_folder(
 def _rows_by_file(rows: Iterable[Row]) -> dict[str, Row]:
     """Return the row in which each file stands, by its name."""
     return {_bare(name): row for row in rows for name in row["file"].split(";")}
+
+
+def _direction_in(row: Row, file: ListedFile) -> str:
+    """Return what the row of a file calls its one component, "" where the file itself says where it points."""
+    files = [_bare(name) for name in row["file"].split(";")]
+    names = (row.get("component") or "").split(";")
+    is_open = len(file.channels) == 1 and names_no_direction(file.channels[0].component)
+    return names[files.index(file.file)].strip() if is_open and len(names) == len(files) else ""
 
 
 def _bare(name: str) -> str:

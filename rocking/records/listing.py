@@ -84,7 +84,8 @@ class ListedFile:
     doubts: what is plausibly wrong, one sentence each. refusal: why it gets no row; separation: why it does not share
     the row of other files of its station, or "". blanks: the cells that its row leaves blank and that must be filled;
     declarations: those that hold what its header does not say. direction: of its component, where only the file's name
-    says it. companions: number of other files in its row. is_repeat: whether it has the content of an earlier file.
+    or its row says it. companions: number of other files in its row. is_repeat: whether it has the content of an
+    earlier file.
     """
 
     file: str

@@ -11,7 +11,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue import CatalogueRecord, RecordFile
 from rocking.records.files import beside_catalogue, path_of
 from rocking.records.formats import Options
-from rocking.records.instrument import directed, vertical_doubt
+from rocking.records.instrument import directed, direction_warnings, vertical_doubt
 from rocking.records.joining import direction_doubt, joined, names_no_direction
 from rocking.records.plausibility import scaled
 from rocking.records.read import bytes_of, read_raw
@@ -100,10 +100,15 @@ def _named_by_row(channels: Sequence[Accelerogram], record: CatalogueRecord) -> 
     is_one_each = len(record.files) == len(channels) == len(record.components)
     if not is_one_each or not all(names_no_direction(channel.component) for channel in channels):
         return channels
-    return [
-        replace(channel, **directed({"component": name}))
-        for channel, name in zip(channels, record.components, strict=True)
-    ]
+    return [_called_now(channel, name) for channel, name in zip(channels, record.components, strict=True)]
+
+
+def _called_now(channel: Accelerogram, name: str) -> Accelerogram:
+    """Return a channel with another name, and with what is in doubt of the direction that this one says."""
+    before = direction_warnings(channel.component, channel.azimuth, channel.vertical)
+    kept = tuple(sentence for sentence in channel.warnings if sentence not in before)
+    named = replace(channel, **directed({"component": name}), warnings=kept)
+    return named.warned(*direction_warnings(name, named.azimuth, named.vertical))
 
 
 def _check_names(channels: Sequence[Accelerogram], record: CatalogueRecord) -> None:

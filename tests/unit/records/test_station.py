@@ -9,7 +9,8 @@ import pytest
 
 from rocking.errors import RecordError
 from rocking.records import Accelerogram, CatalogueRecord, aligned, open_station
-from rocking.records.folder import list_folder, unlisted
+from rocking.records.folder import catalogue_of_folder, list_folder, unlisted
+from rocking.records.listing import doubts_of
 
 VALUES = np.sin(np.arange(300) * 0.3)
 
@@ -76,6 +77,23 @@ def test_files_that_name_no_component_are_named_by_the_row(tmp_path):
     opened = open_station(_record(tmp_path, "u.txt;a.txt;b.txt", unit="m/s2", component="UP;N30W;N60E"))
     assert [c.azimuth for c in opened.horizontal] == [330.0, 60.0] and opened.vertical.component == "UP"
     assert opened.horizontal[1].acceleration == pytest.approx(2 * VALUES, abs=2e-8)
+
+
+def test_a_direction_that_the_row_says_is_in_doubt_no_more(tmp_path):
+    """The heading "acc" says no direction; the names of the files do, and so the row."""
+    for angle, period in (("000", 0.7), ("090", 0.9)):
+        times = np.arange(400) * 0.01
+        lines = [f"{time:.2f},{0.3 * np.sin(2 * np.pi * time / period):.6f}" for time in times]
+        (tmp_path / f"event_st_{angle}.csv").write_text("time (s),acc (g)\n" + "\n".join(lines) + "\n")
+    first = catalogue_of_folder(tmp_path)
+    (row,) = first.new
+    assert row["component"] == "000;090"
+    again = catalogue_of_folder(tmp_path, standing=[row])
+    for listing in (first, again):
+        assert [list(doubts_of(file)) for file in listing.files] == [[], []]
+    opened = open_station(_record(tmp_path, row["file"], component=row["component"]))
+    assert [channel.azimuth for channel in opened.horizontal] == [0.0, 90.0]
+    assert [channel.warnings for channel in opened.horizontal] == [(), ()]
 
 
 def test_a_folder_joins_the_files_of_a_station_and_says_why_not(station):
