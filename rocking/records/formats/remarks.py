@@ -1,8 +1,9 @@
 """Remarks: what the lines of text above the numbers of a table declare of them."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 from rocking.quantities import acceleration_unit
 from rocking.records.instrument import azimuth, is_vertical
@@ -31,11 +32,21 @@ class Declarations:
         components = {component.upper(): component for line in of_numbers for component in _components(line)}
         counts = {match[1] or match[2] for line in remarks for match in _SAMPLES.finditer(line)}
         return cls(
-            units.pop() if len(units) == 1 else None,
-            steps.pop() if len(steps) == 1 else None,
-            components.popitem()[1] if len(components) == 1 else "",
-            counts.pop() if len(counts) == 1 else "",
+            unit=_the_only(units),
+            time_step=_the_only(steps),
+            component=_the_only(components.values()) or "",
+            samples=_the_only(counts) or "",
         )
+
+
+T = TypeVar("T")
+
+
+def _the_only(values: Collection[T]) -> T | None:
+    """Return the value of which there is one, None of none or several."""
+    if len(values) != 1:
+        return None
+    return next(iter(values))
 
 
 OF_ACCELERATION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|amplitud)")
