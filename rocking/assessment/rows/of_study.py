@@ -112,10 +112,11 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow
 def _held_row(name: str, structure: Structure) -> StructureRow:
     """Return the row of a structure without the figures of its equivalent block, which only what overturns has."""
     mechanism = structure.mechanism()
+    geometry = structure.description
     return StructureRow(
         structure=name,
         type=structure.type_name,
-        geometry=structure.description,
+        geometry=geometry,
         crack=structure.crack_name,
         frequency_parameter_rad_s=math.nan,
         critical_rotation_rad=math.nan,
