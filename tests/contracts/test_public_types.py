@@ -22,7 +22,8 @@ LIBRARIES = re.compile(r"dtype\[(typing\.)?Any\]|tuple\[(typing\.)?Any, \.\.\.\]
 HANDED_ON = {f"rocking.{wall}.{name}" for wall in ("Wall", "LoadedWall") for name in ("of_size", "hinged_at")}
 HANDED_ON |= {"rocking.Accelerogram.processed_by"}
 """Names whose further values and keywords are those of another, which their docstring names."""
-UNTYPED = {"rocking.Accelerogram.from_obspy", "rocking.Accelerogram.to_obspy"} | HANDED_ON
+OF_OBSPY = {"rocking.from_obspy", "rocking.Accelerogram.from_obspy", "rocking.Accelerogram.to_obspy"}
+UNTYPED = OF_OBSPY | HANDED_ON
 """And names that take or give what obspy has, which carries no types of its own."""
 
 

@@ -98,7 +98,8 @@ def test_the_page_on_fdsn_reaches_a_verdict(monkeypatch, capsys):
     exec(compile(code, "fdsn.md", "exec"), names)
     for record in names["records"]:
         assert np.allclose(record.acceleration, acceleration, atol=1 / COUNTS_PER_M_S2)
-    assert "overturns in " in capsys.readouterr().out
+    # A cycle of a second at 0.31 g on a pier of 9 m: above uplift (0.22 g), far below what overturns it at ω/p of 5.
+    assert capsys.readouterr().out.startswith("<stands: 0 of 64 members overturn")
 
 
 COUNTS_PER_M_S2 = 2.0e5
