@@ -12,12 +12,14 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
 import yaml
 
 from rocking.records.synthetic import SyntheticRecord, at2_text
+from tests.workflow.forked import run_snakemake
 
 ROOT = Path(__file__).parents[2]
 MEASURED = {"timings.csv", "trade.csv"}
@@ -85,12 +87,11 @@ class SmallStudy:
 
     def run(self, *options: str, status: int = 0) -> str:
         """Run snakemake on this study, which must end with `status`; its output and errors as one text."""
-        streams = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
-        done = subprocess.run(
-            self.command(*options), timeout=900, check=False, **streams, **self.surroundings
-        )
-        assert done.returncode == status, done.stdout
-        return done.stdout
+        with TemporaryDirectory() as folder:
+            arguments = self.command(*options)[3:]  # after python -m snakemake
+            ended, told = run_snakemake(arguments, Path(folder) / "output", **self.surroundings)
+        assert ended == status, told
+        return told
 
     def planned(self, *options: str) -> list[str]:
         """The kinds of jobs that a run would make, without the target."""

@@ -41,7 +41,7 @@ def with_broken(start, tmp_path_factory: pytest.TempPathFactory):
     study = start.copy_to(tmp_path_factory.mktemp("broken") / "study")
     for name, (cells, _) in BROKEN.items():
         study.add(name, **cells)
-    study.run("--config", "records_per_job=4")
+    study.run("--config", "records_per_job=7")
     return study
 
 
@@ -56,7 +56,7 @@ def test_each_broken_record_is_one_row_that_says_why(with_broken) -> None:
 
 
 def test_broken_records_change_no_byte_of_the_good_ones(with_broken, finished) -> None:
-    """The good records also shared their jobs with broken ones, four to a job instead of one."""
+    """The good records also shared their jobs with broken ones, seven to a job instead of one."""
     for name in ("good_1", "good_2", "good_3"):
         expected = finished.rows_of(name)
         assert expected["pulses.csv"] and expected["comparison.csv"]
@@ -106,7 +106,7 @@ def test_a_full_disk_is_said_and_leaves_nothing_half_written(finished, start, tm
 
 
 def test_a_limit_on_the_size_of_files_is_said_and_harms_nothing(finished, start, tmp_path) -> None:
-    """Of 6 kB, in blocks of 512 bytes: a job of three records writes more than that into one table."""
+    """Of 6 kB, in blocks of 512 bytes: a job writes more than that into one table."""
     study = start.copy_to(tmp_path / "study")
     limit = ("sh", "-c", 'ulimit -f 12; exec "$@"', "sh")
     done = study.rocking("run", str(study.folder), before=limit, status=1)
