@@ -162,9 +162,13 @@ def settings_texts(settings: Mapping[str, Any]) -> dict[str, object]:
 
 
 def listed(names: Sequence[str], most: int = 6) -> str:
-    """Return the names in a row, those beyond `most` as a count."""
+    """Return the names in a row, those beyond `most` as a count.
+
+    Semicolons stand between them where a name holds a comma.
+    """
     more = len(names) - most
-    return ", ".join(names[:most]) + (f" and {counted(more, 'other')}" if more > 0 else "")
+    between = "; " if any("," in name for name in names[:most]) else ", "
+    return between.join(names[:most]) + (f" and {counted(more, 'other')}" if more > 0 else "")
 
 
 def remainder(more: int, noun: str, place: str) -> str:

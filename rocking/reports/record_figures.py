@@ -25,7 +25,7 @@ from rocking.records.measures import record_measures
 from rocking.reports.drawings import draw_structure, fallen_rotation, round_length
 from rocking.reports.panels import draw_energy_map, draw_motion, draw_rotation, moving_span
 from rocking.reports.printing import LOOKS, fill_of, number, ratio, to_spread
-from rocking.reports.style import PREDICTED, PULSE, TEXT_WIDTH, elided, new_figure, panel_at, styled
+from rocking.reports.style import PREDICTED, PULSE, TEXT_WIDTH, elided, new_figure, panel_at, styled, wrapped
 from rocking.reports.units import unit_of
 from rocking.structures import Structure
 
@@ -177,8 +177,13 @@ def strip_figure(
     labels: what each structure is called. peak_acceleration: of the ground, g.
     """
     lines = [_lines(structures[station.structure], station, peak_acceleration) for station in stations]
+    names = [wrapped(labels[station.structure], 19, 2) for station in stations]
     rows = [range(first, min(first + _COLUMNS, len(stations))) for first in range(0, len(stations), _COLUMNS)]
-    heights = [_DRAWN[1] + 19 + _LINE * max(len(lines[place]) for place in row) for row in rows]
+    heads = [_LINE * max(names[place].count("\n") for place in row) for row in rows]
+    heights = [
+        head + _DRAWN[1] + 19 + _LINE * max(len(lines[place]) for place in row)
+        for head, row in zip(heads, rows, strict=True)
+    ]
     figure = new_figure(sum(heights), margins=(0, 0, 0, 0))
     axes = figure.add_axes((0, 0, 1, 1), xlim=(0, TEXT_WIDTH), ylim=(-sum(heights), 0))
     axes.set_axis_off()
@@ -187,10 +192,19 @@ def strip_figure(
         for column, place in enumerate(row):
             middle = (column + 0.5) * TEXT_WIDTH / _COLUMNS
             station = stations[place]
-            label = elided(labels[station.structure], 20)
-            axes.text(middle, top - 1, label, ha="center", va="top", fontsize=7, fontweight="bold")
-            _draw_state(axes, structures[station.structure], station, middle, top)
-            below = middle, top - _DRAWN[1] - 16.5, "\n".join(lines[place])
+            axes.text(
+                middle,
+                top - 1,
+                names[place],
+                ha="center",
+                va="top",
+                fontsize=7,
+                fontweight="bold",
+                linespacing=1.15,
+            )
+            under_head = top - heads[number_of_row]
+            _draw_state(axes, structures[station.structure], station, middle, under_head)
+            below = middle, under_head - _DRAWN[1] - 16.5, "\n".join(lines[place])
             axes.text(*below, ha="center", va="top", fontsize=7, linespacing=1.25)
     return figure
 
@@ -378,7 +392,8 @@ def _draw_history(panel: Axes, history: History, level: int, label: str, several
         f"closed form: {ratio(predicted, 2)}"
     )
     beside: dict[str, Any] = {"transform": panel.get_yaxis_transform(), "va": "center", "fontsize": 7}
-    panel.text(-0.02, level, f"{elided(label, 24)}\n± {reach:.2g}", ha="right", linespacing=1.3, **beside)
+    name = wrapped(label, 24, 3)
+    panel.text(-0.02, level, f"{name}\n± {reach:.2g}", ha="right", linespacing=1.3, **beside)
     panel.text(1.01, level, remark, ha="left", linespacing=1.3, **beside)
 
 

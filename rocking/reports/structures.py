@@ -23,7 +23,7 @@ from rocking.reports.document import compile_document
 from rocking.reports.drawings import draw_dimensions, draw_structure
 from rocking.reports.panels import ZERO, plot
 from rocking.reports.printing import Cell, number, percent, plain, quantity, table, words
-from rocking.reports.style import PREDICTED, PULSE, new_figure, panel_at, picture, styled
+from rocking.reports.style import PREDICTED, PULSE, new_figure, panel_at, picture, room_for_texts, styled
 from rocking.reports.units import displaying, unit_of
 from rocking.structures import Structure
 
@@ -320,6 +320,7 @@ def _structure_figure(structure: Structure, checked: StructureCheck) -> Figure:
         axes.margins(0.08)
         axes.autoscale_view()
         axes.set_axis_off()
+    room_for_texts(figure, drawn)
     _draw_capacity(panel_at(figure, 112, 4, 56, _FIGURE_HEIGHT - 13), mechanism)
     return figure
 
@@ -339,7 +340,7 @@ def _draw_capacity(axes: Axes, mechanism: LocalMechanism) -> None:
         point = mechanism.limit(state)
         if math.isinf(point.displacement):
             continue
-        label = f"d {name} = {quantity(point.displacement, 'm')}, T {name} = {number(point.period)} s"
+        label = f"d_{name} = {quantity(point.displacement, 'm')}, T_{name} = {number(point.period)} s"
         place = point.displacement / length.size
         level = point.acceleration / force.size
         axes.plot([0, place], [0, level], "--", color=colour, linewidth=0.8)

@@ -26,6 +26,8 @@ PREDICTED = "#0072B2"
 """Colour of a closed form."""
 SMALL_LETTER = 0.6
 """Width of a usual small letter of the figures over the size of the font."""
+_TRIES = 8
+"""Largest number of times that a drawing is shrunk to make room for its texts."""
 MOST_POINTS = 4000
 """Points of a trace; a longer one keeps the least and the largest value of each stretch."""
 FONT_FOLDER = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
@@ -102,6 +104,29 @@ def powers_of_ten(panel: Axes, which: str) -> None:
     axis.set_minor_locator(NullLocator())
 
 
+def room_for_texts(figure: Figure, axes: Axes) -> None:
+    """Widen the limits of a drawing in `figure`, to one scale both ways, until its texts stand within its panel.
+
+    Texts keep their size while the drawing shrinks, so that the second or third try is the last one.
+    """
+    for _ in range(_TRIES):
+        figure.draw_without_rendering()
+        boxes = [text.get_window_extent() for text in axes.texts if text.get_text()]
+        panel = axes.bbox
+        left = max([panel.x0 - box.x0 for box in boxes], default=0.0)
+        right = max([box.x1 - panel.x1 for box in boxes], default=0.0)
+        if max(left, right) <= 0:
+            return
+        low, high = axes.get_xlim()
+        pixel = (high - low) / panel.width
+        axes.set_xlim(low - max(left, 0.0) * pixel, high + max(right, 0.0) * pixel)
+        # As much of the height, so that one metre stays as long both ways.
+        grown = np.diff(axes.get_xlim())[0] / (high - low)
+        foot, head = axes.get_ylim()
+        middle = (foot + head) / 2
+        axes.set_ylim(middle + (foot - middle) * grown, middle + (head - middle) * grown)
+
+
 def thinned(times: np.ndarray, values: np.ndarray, most: int = MOST_POINTS) -> tuple[np.ndarray, np.ndarray]:
     """Return the envelope of a trace in at most `most` points: least and largest value of each stretch, in order.
 
@@ -145,3 +170,23 @@ def elided(text: str, length: float) -> str:
         return readable
     room = length - _width("…")
     return readable[: sum(end <= room for end in ends)] + "…"
+
+
+def wrapped(text: str, length: float, most: int) -> str:
+    """Return `text` on at most `most` lines, each as wide as `elided` makes it, and the last one cut where it must be.
+
+    Lines end between words, unless that would leave half of a line empty: then the word is divided.
+    """
+    lines: list[str] = []
+    rest = text
+    while rest and len(lines) < most - 1:
+        shown = elided(rest, length)
+        if not shown.endswith("…") or shown == rest:
+            break
+        fits = len(shown)  # as many characters as fit, for the ellipsis takes the room of one
+        space = rest.rfind(" ", fits // 2, fits)
+        end = space if space > 0 else fits - 1
+        hyphen = "" if space > 0 else "-"
+        lines.append(elided(rest[:end] + hyphen, length))
+        rest = rest[end:].lstrip()
+    return "\n".join([*lines, elided(rest, length)])

@@ -46,7 +46,7 @@ from rocking.reports.printing import (
     table_of,
     words,
 )
-from rocking.reports.style import PREDICTED, elided, new_figure, picture, pictures, styled
+from rocking.reports.style import PREDICTED, elided, new_figure, picture, pictures, styled, wrapped
 from rocking.reports.supports import shares_by_period_figure
 from rocking.reports.units import displaying, unit_of
 from rocking.tables import rows_of
@@ -260,8 +260,9 @@ def outcomes_figure(verdicts: Sequence[VerdictRow]) -> Figure:
     """Draw of each structure, the worst first, under how many records it has each verdict."""
     counts = outcome_counts(verdicts)
     names = list(counts)[:MOST_STRUCTURES]
+    beside = [wrapped(name, _BESIDE, 2) for name in names]
     kinds = [kind for kind in ORDER if any(counts[name][kind] for name in names)]
-    row = 5.0
+    row = 6.2 if any("\n" in name for name in beside) else 5.0
     head = 7.0
     foot = 10.0
     figure = new_figure(row * len(names) + head + foot, margins=(46, 4, foot, head))
@@ -281,7 +282,7 @@ def outcomes_figure(verdicts: Sequence[VerdictRow]) -> Figure:
                 text = f"{size:.0f}"
                 axes.text(begin + size / 2, place, text, ha="center", va="center", color=ink, bbox=box)
         start += width
-    axes.set_yticks(places, [elided(name, _BESIDE) for name in names])
+    axes.set_yticks(places, beside, linespacing=1.1)
     axes.tick_params(axis="y", length=0)
     axes.set(xlim=(0, float(start.max())), ylim=(len(names) - 0.4, -0.6), xlabel="number of records [-]")
     axes.xaxis.set_major_locator(MaxNLocator(8, integer=True))

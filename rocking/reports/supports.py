@@ -23,6 +23,7 @@ from rocking.reports.style import (
     panel_at,
     plain_logarithmic,
     styled,
+    wrapped,
 )
 
 MOST_SUPPORTS = 4
@@ -165,7 +166,7 @@ def shares_by_period_figure(rows: Sequence[SupportRow]) -> Figure:
         ordered = sorted(periods)
         means = [float(np.nanmean(list(periods[period].values()))) for period in ordered]
         style = f"{_MARKS[number % len(_MARKS)]}{_LINES[number % len(_LINES)]}"
-        label = elided(f"{structure} on {support}", 30)
+        label = wrapped(f"{structure} on {support}", 27, 3)
         axes.plot(ordered, means, style, linewidth=0.9, markersize=4, clip_on=False, label=label)
     axes.set(xlabel="period T_b of the support [s], 0: the ground", ylim=(0, 1), xlim=(0, None))
     axes.set_ylabel("mean share that overturns [-]")

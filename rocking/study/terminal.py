@@ -53,7 +53,9 @@ def record_line(
         number = f" {each.rotation_ratio:.2g}" if rocks(each.rotation_ratio) else ""
         if each.verdict is Verdict.UNDECIDED:
             number = f" ({each.counts or each.crack})"
-        parts[each.verdict].append(each.structure + number)
+        divided = "," in each.structure or ";" in each.structure
+        name = f'"{each.structure}"' if divided else each.structure
+        parts[each.verdict].append(name + number)
     if len(undecided := parts[Verdict.UNDECIDED]) > _FEW:
         parts[Verdict.UNDECIDED] = [str(len(undecided)), f"in {VerdictRow.table.file_name}"]
     lines = [f"{word}: {text}" for word, names in parts.items() if (text := ", ".join(names))]

@@ -9,7 +9,15 @@ from matplotlib.figure import Figure
 
 import rocking
 from rocking.reports.panels import draw_energy_map, draw_rotation, rotation_ratios
-from rocking.reports.style import elided, plain_logarithmic, powers_of_ten, svg
+from rocking.reports.style import (
+    elided,
+    new_figure,
+    plain_logarithmic,
+    powers_of_ten,
+    room_for_texts,
+    svg,
+    wrapped,
+)
 from rocking.reports.summary import prediction_scatter
 
 TIMES = np.arange(3000) * 0.01
@@ -231,6 +239,37 @@ def test_a_name_is_cut_by_its_width_and_not_by_its_letters():
     assert elided("illi" * 5, 12) == "illi" * 5
     assert elided("WWWW" * 5, 12).endswith("…")
     assert len(elided("n" * 20, 12)) < 12 < len(elided("i" * 40, 12))
+
+
+def test_a_long_name_is_wrapped_before_it_is_cut():
+    """Between words; a word is divided where half of a line would stay empty, and only the last line is cut."""
+    name = "nave of the abbey church with its two piers"
+    assert wrapped(name, 60, 3) == name
+    lines = wrapped(name, 20, 3).split("\n")
+    assert " ".join(lines) == name and len(lines) == 3
+    first, second = wrapped(name, 20, 2).split("\n")
+    assert name.startswith(first) and second.endswith("…") and name[len(first) + 1 :].startswith(second[:-1])
+    first, second = wrapped("4 Donaudampfschifffahrtsgesellschaft", 20, 2).split("\n")
+    assert first.endswith("-") and len(first) > 12
+    assert all(elided(line, 20) == line for each in (3, 2) for line in wrapped(name, 20, each).split("\n"))
+
+
+def test_a_drawing_makes_room_for_its_texts_and_keeps_its_scale():
+    figure = new_figure(60.0)
+    axes = figure.add_axes((0.1, 0.1, 0.3, 0.8))
+    axes.plot([0, 1, 1, 0, 0], [0, 0, 2, 2, 0])
+    axes.text(1.0, 1.0, "h = 4 m")
+    axes.text(0.0, 0.5, "t = 0.8 m", ha="right")
+    axes.set_aspect("equal", adjustable="datalim")
+    room_for_texts(figure, axes)
+    figure.draw_without_rendering()
+    boxes = [text.get_window_extent() for text in axes.texts]
+    # Half a pixel: texts are placed on whole ones.
+    assert all(axes.bbox.x0 - 0.5 <= box.x0 and box.x1 <= axes.bbox.x1 + 0.5 for box in boxes)
+    corners = axes.transData.transform([(0, 0), (1, 2)])
+    width, height = corners[1] - corners[0]
+    assert height == pytest.approx(2 * width)
+    assert all(axes.bbox.x0 <= x <= axes.bbox.x1 for x, _ in corners)
 
 
 def test_the_thickness_of_a_hollow_spire_is_drawn_level_at_its_base_and_inwards():

@@ -110,3 +110,8 @@ def test_an_undecided_case_is_the_deeper_in_colour_the_more_of_its_members_fall(
     assert fill(Verdict.STANDS, 0.02) == printing.LOOKS[Verdict.STANDS][1]
     assert fill(Verdict.UNDECIDED, math.nan) == printing.LOOKS[Verdict.UNDECIDED][1]
     assert printing.fill_of(None) == printing.LOOKS[Verdict.UNKNOWN][1]
+
+
+def test_names_in_a_row_are_told_apart():
+    assert printing.listed(["arch", "wall"]) == "arch, wall"
+    assert printing.listed(["nave, bay 7", "wall", "pier"], most=2) == "nave, bay 7; wall and 1 other"

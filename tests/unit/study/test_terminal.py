@@ -18,6 +18,8 @@ def test_the_worst_component_counts() -> None:
         station(case("EW", 0.0, "arch")),
     ]
     assert record_line(stations, []) == "overturns: pier; stands: wall 0.25, arch"
+    divided = record_line([station(case("", 0.25, "nave, bay 7")), station(case("", 0.2, "wall"))], [])
+    assert divided == 'stands: "nave, bay 7" 0.25, wall 0.2'
 
 
 def test_undecided_is_ordered_by_share_and_counted_where_there_is_much_of_it() -> None:
