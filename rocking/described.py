@@ -105,7 +105,8 @@ class Described:
     def refusal(self, value: object) -> str:
         """Return the end of the sentence on a `value` that is not allowed."""
         unit = f" {self.unit}" if self.unit and type(value) in (int, float) else ""
-        return f"{shown(value)}{unit}, but must be {self.must}{number_hint(value)}."
+        hint = number_hint(value) if "number" in self.must else ""
+        return f"{shown(value)}{unit}, but must be {self.must}{hint}."
 
 
 def described(
@@ -249,10 +250,12 @@ def kind_in_words(value: object) -> str:
 
 
 def number_hint(value: object) -> str:
-    """Return the end of a sentence on a text that is a number with a decimal comma or a unit, "" for another value."""
+    """Return the end of a sentence on a text that stands for a number, what to write instead, "" for another value."""
     if not isinstance(value, str):
         return ""
     text = value.strip()
+    if _IN_QUOTES.fullmatch(text):
+        return "; write the number without quotation marks"
     if _WITH_COMMA.fullmatch(text):
         return f"; a number is written with a point, {text.replace(',', '.')}"
     with_unit = _WITH_UNIT.fullmatch(text)
@@ -262,6 +265,7 @@ def number_hint(value: object) -> str:
     return ""
 
 
+_IN_QUOTES = re.compile(r"[-+]?(\d{1,12}(\.\d{0,12})?|\.\d{1,12})([eE][-+]?\d{1,3})?")
 _WITH_COMMA = re.compile(r"[-+]?\d{1,12},\d{1,12}([eE][-+]?\d{1,3})?")
 _WITH_UNIT = re.compile(
     r"[-+]?(\d{1,12}([.,]\d{0,12})?|[.,]\d{1,12})([eE][-+]?\d{1,3})?\s?(?P<unit>[a-zA-Zµ°%][a-zA-Zµ°%²³/^*0-9-]{0,9})"

@@ -29,6 +29,8 @@ LONGEST_RINGING = 120.0
 MOST_SAMPLES = 5_000_000
 """The largest number of samples of a floor's motion; the longest record on the stiffest allowed support needs fewer."""
 
+_LONGEST_PERIOD = 20.0
+"""Period, s, of a mode. The highest towers swing in ten; on what swings in 450 (ms, typed as s) nothing would move."""
 _LARGEST_DAMPING = 0.999
 """Above it the two exponentials of a mode are no longer told apart; critical damping itself is refused."""
 
@@ -54,6 +56,11 @@ class Mode:
         if period < 0:
             raise RecordError(
                 f"period is {self.period!r} s, but must be above 0, or 0 for a mode that is rigid."
+            )
+        if period > _LONGEST_PERIOD:
+            raise RecordError(
+                f"period is {self.period!r} s, but must be at most {_LONGEST_PERIOD:g} s, longer than that of "
+                "any building; give it in seconds."
             )
         damping = finite(RecordError, "damping_ratio", self.damping_ratio)
         if not 0 <= damping < _LARGEST_DAMPING:

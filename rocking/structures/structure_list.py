@@ -211,7 +211,8 @@ def load_structures(path: str | Path) -> dict[str, Structure]:
         name = entry.get("name") if isinstance(entry, Mapping) else None
         where = f"{path}: structure {number}" + (f" ({_repeated(name)})" if name else "")
         if not isinstance(name, str) or not name.strip():
-            defects.append(f"{where}: name is {shown(name)}, but must be a text of its own.")
+            hint = "give it" if name is None else "write it in quotation marks"
+            defects.append(f"{where}: name is {shown(name)}, but must be a text of its own; {hint}.")
         elif len(name) > _LONGEST_NAME:
             defects.append(
                 f"{where}: name has {len(name)} characters, but may have {_LONGEST_NAME}; shorten it."
@@ -252,7 +253,8 @@ def _entries(path: Path) -> tuple[list[Any], list[Mapping[str, str]]]:
         raise ConfigurationError(f"{path}: the list is empty, but must hold one structure at least.")
     if not isinstance(entries, list):
         raise ConfigurationError(
-            f"{path}: the file holds {kind_in_words(entries)}, but must hold a list of structures."
+            f"{path}: the file holds {kind_in_words(entries)}, but must hold a list of structures, each "
+            "behind a dash, as in - {name: pier, type: block, breadth_m: 2, height_m: 9}."
         )
     return entries, [_texts(each) for each in node.value]
 

@@ -41,6 +41,10 @@ def _where_and_why(defect: yaml.YAMLError | ValueError) -> str:
     where = "" if mark is None else f" in line {mark.line + 1}"
     if r"'\t'" in problem:
         return f"{where}: a tab stands where only blanks may; write blanks"
+    if "codec can't decode" in problem:
+        return ": its letters are not those of UTF-8; save it as UTF-8"
+    if "<stream end>" in problem:
+        return f"{where}: the file ends within braces, brackets or quotation marks; close them"
     if "constructor for the tag" in problem:
         return f"{where}: a tag, a word with an exclamation mark before it, is not read here; write the value alone"
     return f"{where}: {problem}"

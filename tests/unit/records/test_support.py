@@ -180,6 +180,7 @@ def test_rotation_of_the_coupled_system():
     [
         ((-0.1, 0.05, 1.0), "period is -0.1 s, but must be above 0, or 0 for a mode that is rigid."),
         (("0.3", 0.05, 1.0), "period is '0.3', but must be a number."),
+        ((450.0, 0.05, 1.0), "period is 450.0 s, but must be at most 20 s, longer than that of any building"),
         ((0.3, -0.01, 1.0), "damping_ratio is -0.01, but must be"),
         ((0.3, 1.0, 1.0), "damping_ratio is 1.0, but must be"),
         ((0.3, 0.05, math.nan), "participation is nan, but must be a finite number."),

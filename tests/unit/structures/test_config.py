@@ -102,8 +102,13 @@ def test_all_defects_of_a_list_stand_in_one_message(load):
 @pytest.mark.parametrize(
     "text, message",
     [
-        ("{a: 1", "not valid YAML"),
-        ("a: 1", "must hold a list"),
+        ("{a: 1", "in line 1: the file ends within braces, brackets or quotation marks; close them"),
+        ("a: 1", r"must hold a list of structures, each behind a dash, as in - {name: pier"),
+        (
+            "- {name: 12, type: block}",
+            "name is 12, but must be a text of its own; write it in quotation marks",
+        ),
+        ("- {type: block}", "name is None, but must be a text of its own; give it"),
         ("[]", "the list is empty, but must hold one structure at least"),
         ("", "holds nothing, but must hold a list"),
         ("- {name: a, type: block, height_m: 1, height_m: 4}", "key 'height_m' is given twice"),
@@ -136,6 +141,10 @@ def test_a_file_that_is_no_list_is_refused(load, text, message):
             "390 cm",
             "height_m is '390 cm', but must be a number .*; write the number alone, without 'cm', in the unit",
         ),
+        (
+            "'3.9'",
+            "height_m is '3.9', but must be a number .*; write the number without quotation marks",
+        ),
         ("[3.9]", r"height_m is \[3.9\], but must be a number"),
         ("-3.9", "height_m is -3.9 m, but must be a number"),
     ],
@@ -143,6 +152,14 @@ def test_a_file_that_is_no_list_is_refused(load, text, message):
 def test_a_value_is_refused_by_the_key_and_as_it_was_typed(load, value, said):
     with pytest.raises(ConfigurationError, match=rf"structure 1 \(w\): {said}"):
         load(f"- {{name: w, type: wall, height_m: {value}, thickness_m: 0.4}}")
+
+
+def test_a_file_in_other_letters_says_how_to_save_it(tmp_path):
+    path = tmp_path / "structures.yaml"
+    for content in ("- {name: südwand, type: wall}".encode("latin-1"), "- {name: wall}".encode("utf-16")):
+        path.write_bytes(content)
+        with pytest.raises(ConfigurationError, match="its letters are not those of UTF-8; save it as UTF-8"):
+            load_structures(path)
 
 
 def test_a_name_ends_somewhere(load):

@@ -88,6 +88,7 @@ def test_all_defects_stand_in_one_message_each_with_its_value_and_what_is_allowe
         "processing": {"apply": "sometimes", "taper": True},
         "pulse": {"lowest_frequency_hz": -1, "choice": "best", "frequencies_per_octave": 24.0},
         "records_per_job": 0,
+        "scale_to": "0.35 g",
         "trade": 3,
         "mirror": math.nan,
     }
@@ -98,6 +99,7 @@ def test_all_defects_stand_in_one_message_each_with_its_value_and_what_is_allowe
         "setting processing.apply is 'sometimes', but must be raw or always or never.",
         "setting processing.taper is True, but must be a number from 0 to 0.5.",
         "setting tolerance is 5, but must be a number from 1e-13 to 0.1.",
+        "setting scale_to is '0.35 g', but must be a text like pga 0.35 g or pgv 50 cm/s or null.",
         "setting pulse.lowest_frequency_hz is -1 Hz, but must be a number above 0.",
         "setting pulse.frequencies_per_octave is 24.0, but must be a whole number from 4 to 200.",
         "setting pulse.choice is 'best', but must be energy or demand or velocity.",
