@@ -126,6 +126,15 @@ def test_a_defect_is_one_sentence_with_its_place(tmp_path: Path, old: str, new: 
             list(reader(MadeRow, path))
 
 
+def test_of_many_strange_columns_the_first_six_are_named(tmp_path: Path) -> None:
+    path = tmp_path / "made.csv"
+    write_rows(MadeRow, [made()], path)
+    head, *others = path.read_text().split("\n")
+    path.write_text("\n".join([",".join([head, "b", "a", "e", "d", "c", "g", "f"]), *others]))
+    with pytest.raises(RockingError, match=r"not those of made \(a, b, c, d, e, f\); make the table again"):
+        list(read_rows(MadeRow, path))
+
+
 @pytest.mark.parametrize("content", [None, b"\xff\xfe", b"record,speed_rad_s\n"])
 def test_what_is_no_table_is_refused_in_a_sentence(tmp_path: Path, content: bytes | None) -> None:
     path = tmp_path / "made.csv"

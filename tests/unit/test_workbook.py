@@ -69,6 +69,28 @@ def test_the_first_sheet_says_what_each_column_means(tmp_path: Path) -> None:
     ]  # fmt: skip
 
 
+@pytest.mark.parametrize(("rows", "filtered"), [(ROWS, "A1:E4"), ([], "A1:E1")])
+def test_the_filter_covers_the_rows_and_no_line_below_them(
+    tmp_path: Path, rows: list[CaseRow], filtered: str
+) -> None:
+    with zipfile.ZipFile(BytesIO(_made(tmp_path, rows))) as book:
+        root = ElementTree.fromstring(book.read("xl/worksheets/sheet2.xml"))
+    assert [each.get("ref") for each in root.iter(f"{SPACE}autoFilter")] == [filtered]
+
+
+def test_the_heads_are_bold_above_a_thin_line(tmp_path: Path) -> None:
+    with zipfile.ZipFile(BytesIO(_made(tmp_path))) as book:
+        styles = ElementTree.fromstring(book.read("xl/styles.xml"))
+        sheet = ElementTree.fromstring(book.read("xl/worksheets/sheet2.xml"))
+    forms = styles.findall(f"{SPACE}cellXfs/{SPACE}xf")
+    head = forms[int(next(sheet.iter(f"{SPACE}c")).get("s", "0"))]
+    font = styles.findall(f"{SPACE}fonts/{SPACE}font")[int(head.get("fontId", "0"))]
+    border = styles.findall(f"{SPACE}borders/{SPACE}border")[int(head.get("borderId", "0"))]
+    below = border.find(f"{SPACE}bottom")
+    assert font.find(f"{SPACE}b") is not None
+    assert below is not None and below.get("style") == "thin"
+
+
 def test_no_cell_is_a_formula_and_nothing_in_it_changes_between_two_runs(tmp_path: Path) -> None:
     first = _made(tmp_path)
     with zipfile.ZipFile(BytesIO(first)) as book:
