@@ -56,6 +56,18 @@ def test_a_crack_that_overturns_leaves_undecided_what_stands_as_given():
     )
 
 
+def test_a_crack_that_stands_too_changes_neither_the_verdict_nor_the_crack():
+    standing = replace(case("EW", 0.3), variations=(Variation(0.4, crack="crack at 3 m"),))
+    result = station(standing)
+    assert result.verdict is Verdict.STANDS
+    assert (result.crack, result.overturning_share) == ("", 0.0)
+
+
+def test_a_fall_under_another_processing_is_no_fall_of_a_crack():
+    fallen = replace(case("EW", 0.3), variations=(Variation(math.inf), Variation(0.4, crack="crack at 3 m")))
+    assert station(fallen).crack == ""
+
+
 def test_the_worst_crack_gives_every_number_and_statics_stands_beside_it():
     static, worse, other = (
         FollowedCrack(f"crack at {height} m", height, members(falls))

@@ -13,6 +13,7 @@ from rocking.assessment.contacts import contact_share, doubt
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.verdict import Doubt
+from rocking.motion.stacks import STEP, follow_stack
 from rocking.quantities import GRAVITY
 
 CONTACT = AssessmentSettings(fidelity="contact")
@@ -109,6 +110,21 @@ def test_directions_share_the_steps_and_unlike_sides_meet_both_signs():
     facade = rocking.Facade((3.5, 3.0), (0.6, 0.5), 20e3)
     assert contact_share(facade, one).runs == 12
     assert contact_share(facade, both).runs == 4 * 2 * 3
+
+
+def test_no_step_is_longer_than_the_one_that_was_measured_and_one_is_half_of_it(monkeypatch):
+    """An error of first order shows between a step and its half; longer steps than STEP were held against nothing."""
+    steps = []
+
+    def noted(stack, motion, step, **others):
+        steps.append(step)
+        return follow_stack(stack, motion, step, **others)
+
+    monkeypatch.setattr("rocking.assessment.contacts.follow_stack", noted)
+    wall = Wall(1.6, 1.6, 0.25, crack="known")
+    contact_share(wall, GroundMotions.of(sine(1.0)))
+    assert wall.stack().longest_step >= STEP
+    assert sorted(steps) == pytest.approx(3 * [STEP / 2] + 3 * [STEP])
 
 
 def test_a_spire_is_followed_with_few_and_many_courses_unless_it_says_how_many(monkeypatch):

@@ -164,3 +164,13 @@ def test_spectrum_equals_the_responses():
 def test_a_spectrum_refuses_what_has_none(settings, words):
     with pytest.raises(MotionError, match=words):
         rocking_spectrum(SHAKING, *settings)
+
+
+def test_a_list_of_blocks_and_others_is_followed_as_each_of_them_alone():
+    """In one call, as one worker makes it: blocks of one side and of two, and a mechanism that is no plain block."""
+    structures = [BLOCKS["block"], MECHANISMS["block"], BLOCKS["two sides"], BLOCKS["one side"]]
+    factors = (1.0, 1.2)
+    together = integrate_batch(structures, RECORD, factors, workers=1)
+    alone = [[integrate(each, RECORD.scaled(k)).rotation_ratio for k in factors] for each in structures]
+    assert together == pytest.approx(np.array(alone), rel=1e-9)  # the same computation up to roundings
+    assert together.min() > 0

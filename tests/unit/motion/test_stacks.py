@@ -148,6 +148,18 @@ def test_a_mirrored_motion_turns_it_the_other_way():
     assert np.abs(one.places[:100, :, 2]).max() > 1e-3
 
 
+def test_still_ground_ahead_of_a_motion_changes_neither_its_course_nor_its_end():
+    stack, motion = Spire(width=3.0, height=15.0).stack(), sampled(Pulse(4.0, 5.0))
+    count = round(5.0 / motion.time_step)
+    later = Accelerogram(np.append(np.zeros(count), motion.acceleration), motion.time_step)
+    step = motion.time_step / 16
+    one, other = follow_stack(stack, motion, step), follow_stack(stack, later, step)
+    assert not one.falls and not other.falls
+    assert other.largest_turns == pytest.approx(one.largest_turns, rel=1e-3)  # roundings grow at impacts
+    assert one.largest_turns.max() > 1e-4
+    assert abs(other.steps - one.steps) * step < 0.5  # s; five seconds of still ground are not followed
+
+
 def test_a_body_that_slides_is_slowed_by_friction_alone():
     """Under a steady a > μ g a squat block lags by (a − μ g) t²/2."""
     block = Block.of_size(2.0, 1.0).stack()
