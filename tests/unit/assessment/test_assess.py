@@ -21,7 +21,7 @@ from rocking.assessment.rows import (
     record_row,
 )
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings, PredictingPulse
-from rocking.assessment.verdict import NEGLIGIBLE, Method, agreement, ratio, rests, within_factor_two
+from rocking.assessment.verdict import NEGLIGIBLE, Method, agreement, ratio, rests, rocks, within_factor_two
 from rocking.motion import integrate
 from rocking.pulses import PULSE_METHODS, Pulse, PulseAnalysis, PulseEvidence, extract_pulses
 from rocking.records import Accelerogram
@@ -186,6 +186,7 @@ ABOVE = math.nextafter(NEGLIGIBLE, 1.0)
 def test_agreement_changes_where_rest_ends(pairs, expected):
     assert {agreement(predicted, integrated) for predicted, integrated in pairs} == {expected}
     assert rests(NEGLIGIBLE) and not rests(ABOVE) and not rests(math.nan)
+    assert rocks(ABOVE) and not rocks(NEGLIGIBLE) and not rocks(math.inf) and not rocks(math.nan)
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import rocking
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, StructureRow, TimingRow
 from rocking.errors import RockingError
 from rocking.study.cli import main
-from rocking.study.results import part
+from rocking.study.results import cases_of, part, remove_other_cases
 from rocking.tables import read_rows, write_rows
 
 
@@ -59,3 +59,20 @@ def test_the_tables_of_records_assessed_one_by_one_are_gathered(tmp_path: Path) 
     for record in ("b", "a"):
         write_rows(TimingRow, [_timing(record)], tmp_path / record / "timings.csv")
     assert rocking.open_results(tmp_path).timings["record"].tolist() == ["a", "b"]
+
+
+def test_cases_of_other_records_are_removed_by_whichever_run_comes_first(tmp_path: Path) -> None:
+    for record in ("kept", "gone", "removed meanwhile"):
+        path = cases_of(tmp_path, record)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.touch()
+
+    class Records(set[str]):
+        """The records of the study; while it is asked, another run removes a file."""
+
+        def __contains__(self, name: object) -> bool:
+            cases_of(tmp_path, "removed meanwhile").unlink(missing_ok=True)
+            return super().__contains__(name)
+
+    remove_other_cases(tmp_path, Records({"kept"}))
+    assert [each.stem for each in cases_of(tmp_path, "").parent.iterdir()] == ["kept"]
