@@ -205,6 +205,12 @@ def test_the_design_level_stands_beside_the_spectra_of_the_records():
         np.testing.assert_allclose(design.get_ydata(), level.acceleration(periods), rtol=1e-12)
 
 
+@pytest.mark.parametrize(("predicted", "drawn"), [(0.3, 1), (math.nan, 0)])
+def test_a_scatter_stands_where_three_cases_have_both_ratios(predicted, drawn):
+    cases = [case("pier", 0.5, 0.4), case("arch", 0.9, 0.8, "two"), case("wall", predicted, 0.7, "three")]
+    assert len(summary_data(summary_tables(cases), SETTINGS)["scatter"]) == drawn
+
+
 def test_a_scatter_of_many_cases_does_not_grow_with_them():
     many = [[case("wall", 0.1 + k / count, 0.5) for k in range(count)] for count in (6000, 60000)]
     sizes = [len(svg(prediction_scatter(frame(ComparisonRow, each)))) for each in many]

@@ -364,3 +364,10 @@ def test_an_installed_wheel_carries_the_workflow(study, tmp_path):
     run = [*rocking_command, "run", str(study), "--", "--dry-run"]
     told = subprocess.run(run, check=True, env=environment, cwd=tmp_path, capture_output=True, text=True)
     assert f"Snakefile: {site}" in told.stdout + told.stderr
+
+
+def test_without_a_verb_the_usage_says_that_one_is_missing(capsys):
+    with pytest.raises(SystemExit) as ended:
+        main([])
+    assert ended.value.code == 2
+    assert "required: verb" in capsys.readouterr().err
