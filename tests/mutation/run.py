@@ -22,7 +22,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-IGNORED = shutil.ignore_patterns(".*", "results", "benchmarks")
+IGNORED = shutil.ignore_patterns(".git", ".venv", ".hypothesis", ".*_cache", "results", "benchmarks")
+"""Not other files that begin with a dot: a test reads .snakemake-workflow-catalog.yml."""
 MOST_SECONDS = 240.0
 """Of the tests of one mutant, in seconds of the code as it is; the others are left out, and it is said."""
 KERNELS = ("linear_kernel", "nonlinear_kernel", "stack_kernel", "kernel", "scan")
