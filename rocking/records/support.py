@@ -31,6 +31,8 @@ MOST_SAMPLES = 5_000_000
 
 _LONGEST_PERIOD = 20.0
 """Period, s, of a mode. The highest towers swing in ten; on what swings in 450 (ms, typed as s) nothing would move."""
+_LARGEST_PARTICIPATION = 20.0
+"""Largest |Γψ| of a mode: ten times that of the top of a tower, and less than one typed in %."""
 _LARGEST_DAMPING = 0.999
 """Above it the two exponentials of a mode are no longer told apart; critical damping itself is refused."""
 
@@ -69,7 +71,13 @@ class Mode:
             )
         object.__setattr__(self, "period", period)
         object.__setattr__(self, "damping_ratio", damping)
-        object.__setattr__(self, "participation", finite(RecordError, "participation", self.participation))
+        participation = finite(RecordError, "participation", self.participation)
+        if abs(participation) > _LARGEST_PARTICIPATION:
+            raise RecordError(
+                f"participation is {self.participation!r}, but must be from -{_LARGEST_PARTICIPATION:g} to "
+                f"{_LARGEST_PARTICIPATION:g}; give Γψ as a factor, and not in %."
+            )
+        object.__setattr__(self, "participation", participation)
 
     @property
     def circular_frequency(self) -> float:

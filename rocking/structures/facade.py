@@ -34,7 +34,7 @@ from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, che
 _MOST_STOREYS = 50
 _SAME = 1e-6
 """Share of the height within which a joint is the foot of a storey."""
-_SIZES = {"gt": 0, "le": 1000}
+_SIZES = {"ge": 1e-4, "le": 1000}
 
 
 @dataclass(frozen=True, repr=False)

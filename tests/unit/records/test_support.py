@@ -184,6 +184,7 @@ def test_rotation_of_the_coupled_system():
         ((0.3, -0.01, 1.0), "damping_ratio is -0.01, but must be"),
         ((0.3, 1.0, 1.0), "damping_ratio is 1.0, but must be"),
         ((0.3, 0.05, math.nan), "participation is nan, but must be a finite number."),
+        ((0.3, 0.05, 150.0), "participation is 150.0, but must be from -20 to 20; give Γψ as a factor"),
         ((0.3, 0.05, None), "participation is None, but must be a number."),
     ],
 )

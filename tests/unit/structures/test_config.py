@@ -162,6 +162,12 @@ def test_a_file_in_other_letters_says_how_to_save_it(tmp_path):
             load_structures(path)
 
 
+def test_no_storey_is_lower_than_other_sizes_may_be(load):
+    sizes = "storey_heights_m: [3.5, 1.0e-300], thicknesses_m: [0.6, 0.5], unit_weight_kN_m3: 20"
+    with pytest.raises(ConfigurationError, match=r"storey_heights.* 1e-300.*from 0\.0001 to 1000"):
+        load(f"- {{name: f, type: facade, {sizes}}}")
+
+
 def test_a_name_ends_somewhere(load):
     text = "- {{name: {name}, type: block, breadth_m: 1, height_m: 4}}"
     assert list(load(text.format(name="a" * 200))) == ["a" * 200]
