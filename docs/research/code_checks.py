@@ -85,11 +85,11 @@ def code_check(target: Target) -> None:
     bodies = list(walls.values())
     falls: list[np.ndarray] = []
     sites: list[str] = []
-    for name, site, record in independent(target.records):
-        ratios = integrate_batch(bodies, at_design_level(record))
+    for component in independent(target.records):
+        ratios = integrate_batch(bodies, at_design_level(component.accelerogram))
         falls.append(np.isinf(ratios[:, 0]))
-        sites.append(site)
-        target.tell(f"{name}: {int(falls[-1].sum())} of {len(bodies)} overturn")
+        sites.append(component.site)
+        target.tell(f"{component.identifier}: {int(falls[-1].sum())} of {len(bodies)} overturn")
     fallen = np.array(falls)  # (records, walls)
     checks = {
         factor: [kinematic_check(each, SPECTRUM, confidence_factor=factor) for each in bodies]
@@ -160,8 +160,8 @@ SET_WALLS = {
 def code_sets(target: Target) -> None:
     """Hold the share of sets that meet the dynamic check beside that of stations that were left out."""
     pairs: dict[str, list[Accelerogram]] = {}
-    for _, site, record in independent(target.records):
-        pairs.setdefault(site, []).append(record)
+    for component in independent(target.records):
+        pairs.setdefault(component.site, []).append(component.accelerogram)
     sites = sorted(pairs)
     rng = np.random.default_rng(40)
     trials: list[SetTrial] = []

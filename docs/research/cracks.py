@@ -20,7 +20,7 @@ from docs.research.comparison.bodies import BASE_DEPTH, RigidBodies, rectangle
 from docs.research.comparison.codes import Question, ask
 from docs.research.comparison.lmgc90 import FALLEN, follow
 from docs.research.report import Tables, Target
-from docs.research.sites import Trial, draw_of, independent, lifting_factor, one_of_each
+from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting_factor, one_of_each
 from rocking import Accelerogram, LoadedWall, Mechanism, RigidBody, Verdict
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.ensemble import ensemble
@@ -188,25 +188,26 @@ def govern(target: Target) -> None:
     The rows of each record are written as they come; a long run goes on where it was stopped.
     """
     rows: list[CrackRow] = []
-    for count, (name, site, record) in enumerate(one_of_each(independent(target.records))):
-        path = target.folder / "trials" / f"{name}.csv"
+    for count, component in enumerate(one_of_each(independent(target.records))):
+        path = target.folder / "trials" / f"{component.identifier}.csv"
         if not path.is_file():
             checked = len(KINDS) if count < CHECKED else 0
-            trials = (crack_row(name, site, record, k, k < checked) for k in range(SCALES * len(KINDS)))
+            trials = (crack_row(component, k, k < checked) for k in range(SCALES * len(KINDS)))
             write_rows(CrackRow, trials, path)
         rows += read_rows(CrackRow, path)
-        target.tell(f"{name}: {len(rows)} trials")
+        target.tell(f"{component.identifier}: {len(rows)} trials")
     subtitle = "Stacks of courses beside the mechanism of every joint, one component of each site."
     tables: Tables = {CrackRow: rows, scores.Score: list(crack_scores(rows))}
     target.publish("Which crack governs", subtitle, tables)
 
 
-def crack_row(name: str, site: str, record: Accelerogram, place: int, checked: bool) -> CrackRow:
+def crack_row(component: SiteRecord, place: int, checked: bool) -> CrackRow:
     """Return one trial: the kind of member by its place, its number of courses and the scale of the record drawn.
 
     checked: LMGC90 follows the stack too.
     """
-    draw = draw_of(name, place)
+    record = component.accelerogram
+    draw = draw_of(component.identifier, place)
     member = members(int(draw.choice(COURSES, p=CHANCES)))[KINDS[place % len(KINDS)]]
     mechanisms = member.mechanisms
     static = min(mechanisms, key=lambda joint: mechanisms[joint].uplift_multiplier)
@@ -221,8 +222,8 @@ def crack_row(name: str, site: str, record: Accelerogram, place: int, checked: b
     turns = stack(member, motion)
     return CrackRow(
         courses=member.courses,
-        record=name,
-        site=site,
+        record=component.identifier,
+        site=component.site,
         structure=member.kind,
         scale_factor=factor,
         falls=bool(np.abs(turns).max() > TURN),

@@ -94,9 +94,15 @@ def try_ensembles(
     near = {sites.site_of(record) for _, record in first}
     alone: list[tuple[dict[str, str], list[Accelerogram]]] = []
     pairs: dict[str, tuple[dict[str, str], list[Accelerogram]]] = {}
-    for name, site, record in sites.independent(chain(first, others)):
+    for component in sites.independent(chain(first, others)):
+        record = component.accelerogram
+        site = component.site
         odd = zlib.crc32(f"{record.event}; {record.station}".encode()) % 2  # how the halves were once drawn
-        about = {"record": name, "site": site, "half": CHOSEN if odd and site in near else LEFT_OUT}
+        about = {
+            "record": component.identifier,
+            "site": site,
+            "half": CHOSEN if odd and site in near else LEFT_OUT,
+        }
         alone.append((about, [record]))
         pairs.setdefault(site, (about | {"half": PAIRS}, []))[1].append(record)
     for group in (alone, [each for each in pairs.values() if len(each[1]) > 1]):
@@ -167,18 +173,19 @@ def number_of(which: np.ndarray) -> scores.Measure:
 def screen(target: Target) -> None:
     """Hold the verdict over all cracks against the ensembles of all, on the first component of each site."""
     trials: list[ScreeningTrial] = []
-    for name, site, record in sites.one_of_each(sites.independent(target.records)):
-        trials += screening_trials(name, site, record, target.structures)
-        target.tell(name)
+    for component in sites.one_of_each(sites.independent(target.records)):
+        trials += screening_trials(component, target.structures)
+        target.tell(component.identifier)
     tables: Tables = {ScreeningTrial: trials, scores.Score: list(screening_scores(trials))}
     target.publish("What the verdict over all cracks misses", f"{len(trials)} cases.", tables)
 
 
 def screening_trials(
-    name: str, site: str, record: Accelerogram, structures: Mapping[str, Structure]
+    component: sites.SiteRecord, structures: Mapping[str, Structure]
 ) -> Iterator[ScreeningTrial]:
     """Yield SCALES trials of each structure that may crack elsewhere and does not say where."""
-    draw = sites.draw_of(name)
+    record = component.accelerogram
+    draw = sites.draw_of(component.identifier)
     for structure_name, structure in SCALES * list(structures.items()):
         forms = cracks(structure)
         if len(forms) == 1 or structure.crack_is_given:
@@ -200,8 +207,8 @@ def screening_trials(
             again = [drawn(forms[k].mechanism, motions, points, EnsembleSettings()) for k in worst]
             fresh = max(each.overturning_share for each in again)
         yield ScreeningTrial(
-            record=name,
-            site=site,
+            record=component.identifier,
+            site=component.site,
             structure=structure_name,
             scale_factor=factor,
             verdict=in_study.verdict,

@@ -14,7 +14,6 @@ from docs.research.report import Target
 from rocking.motion.integration import integrate
 from rocking.pulses import extract_pulses
 from rocking.quantities import GRAVITY
-from rocking.records import Accelerogram
 from rocking.records.support import Mode, Support
 from rocking.sine_pulse import predict_maximum
 from rocking.structures import Block, Structure
@@ -50,8 +49,8 @@ class FloorTrial(Row):
 def floors(target: Target) -> None:
     """Write what the closed form is worth on supports, and how a verdict moves with their period."""
     trials: list[FloorTrial] = []
-    for name, site, record in sites.one_of_each(sites.independent(target.records)):
-        trials += floor_trials(name, site, record)
+    for component in sites.one_of_each(sites.independent(target.records)):
+        trials += floor_trials(component)
     count = len({trial.site for trial in trials})
     subtitle = (
         f"{count} sites at {PEAK:g} g; supports of one mode, damping {DAMPING:g}, Γψ {PARTICIPATION:g}."
@@ -60,8 +59,9 @@ def floors(target: Target) -> None:
     target.publish("On supports", subtitle, {scores.Score: rows, FloorTrial: trials})
 
 
-def floor_trials(name: str, site: str, record: Accelerogram) -> Iterator[FloorTrial]:
+def floor_trials(component: sites.SiteRecord) -> Iterator[FloorTrial]:
     """Yield the trials of one component, on the ground first."""
+    record = component.accelerogram
     ground = record.scaled(PEAK * GRAVITY / record.peak_acceleration)
     for period in (0.0, *PERIODS.tolist()):
         if 0 < period < 2 * ground.time_step:
@@ -71,8 +71,8 @@ def floor_trials(name: str, site: str, record: Accelerogram) -> Iterator[FloorTr
         for structure, body in BODIES.items():
             block = body.mechanism().equivalent_block()
             yield FloorTrial(
-                record=name,
-                site=site,
+                record=component.identifier,
+                site=component.site,
                 structure=structure,
                 support_period_s=period,
                 amplification=floor.peak_acceleration / ground.peak_acceleration,

@@ -140,7 +140,9 @@ def cover(target: Target) -> None:
 
 def real_sites(target: Target) -> Iterator[tuple[str, Fragility, np.ndarray]]:
     """Yield name and curve of each structure tried, and the shares (n, k) that overturn at each of the real sites."""
-    labels, motions = zip(*((site, each) for _, site, each in sites.independent(target.records)), strict=True)
+    components = list(sites.independent(target.records))
+    labels = [component.site for component in components]
+    motions = [component.accelerogram for component in components]
     tried = {name: each for name, each in sites.structures_tried().items() if name in TRIED}
     for name, structure in {"stone pier, 2 by 9 m": Block.of_size(2.0, 9.0), **tried}.items():
         curve = fragility(motions, structure, stations=labels, **ALL_LEVELS)

@@ -11,9 +11,8 @@ import numpy as np
 
 from docs.research import scores
 from docs.research.report import Tables, Target
-from docs.research.sites import Trial, draw_of, independent, lifting_factor
+from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting_factor
 from rocking import Facade, integrate
-from rocking.records import Accelerogram
 from rocking.structures import Outcome
 from rocking.tables import column, row
 
@@ -45,9 +44,7 @@ class FrontTrial(Trial):
 def fronts(target: Target) -> None:
     """Write how often one side loses falls of both, and how often it adds some."""
     trials = [
-        front_trial(name, site, record, place)
-        for name, site, record in independent(target.records)
-        for place in range(FRONTS)
+        front_trial(component, place) for component in independent(target.records) for place in range(FRONTS)
     ]
     target.tell(f"{len(trials)} trials")
     count = len({trial.site for trial in trials})
@@ -77,9 +74,10 @@ def front(draw: np.random.Generator, is_tied: bool) -> Facade:
     )
 
 
-def front_trial(name: str, site: str, record: Accelerogram, place: int) -> FrontTrial:
+def front_trial(component: SiteRecord, place: int) -> FrontTrial:
     """Return one trial: every other front is tied, and the sign of the motion is drawn."""
-    draw = draw_of(name, place)
+    record = component.accelerogram
+    draw = draw_of(component.identifier, place)
     is_tied = place % 2 == 1
     both = front(draw, is_tied)
     factor = lifting_factor(record, both.mechanism().uplift_multiplier, UPLIFTS, draw)
@@ -92,8 +90,8 @@ def front_trial(name: str, site: str, record: Accelerogram, place: int) -> Front
         for restitution in RESTITUTIONS
     )
     return FrontTrial(
-        record=name,
-        site=site,
+        record=component.identifier,
+        site=component.site,
         structure="front with a tie" if is_tied else "front",
         scale_factor=factor,
         is_tied=is_tied,

@@ -21,10 +21,17 @@ MOST_COMPONENTS = 2
 NamedRecord = tuple[str, Accelerogram]
 """Identifier and accelerogram of a component."""
 Records = Iterable[NamedRecord]
-SiteRecord = tuple[str, str, Accelerogram]
-"""Identifier, site and record of a component that counts."""
 UPLIFTS = (1.3, 8.0)
 """Range of peak acceleration over the least uplift acceleration to which records are scaled, log-uniform."""
+
+
+@dataclass(frozen=True)
+class SiteRecord:
+    """A component that counts. identifier: in the catalogue. site: event and station, as what came first names them."""
+
+    identifier: str
+    site: str
+    accelerogram: Accelerogram
 
 
 @row()
@@ -51,28 +58,28 @@ def structures_tried() -> dict[str, Structure]:
 
 
 def independent(records: Records) -> Iterator[SiteRecord]:
-    """Yield identifier, site and record of the components that count, none under two names.
+    """Yield the components that count, none under two names.
 
     A site is an event and a station. Events are alike in the first four letters, stations where the words of one begin
     with all those of the other: catalogues differ in how much they add. What comes first names the site; a file of
     another catalogue for the same site, or of a direction that is there already, does not count.
     """
     sites: list[_Site] = []
-    for name, record in records:
+    for identifier, record in records:
         event = "".join(re.findall(r"[a-z]+", record.event.lower()))[:4]
         words = re.findall(r"[a-z0-9]+", record.station.lower())
         site = next((each for each in sites if each.is_of(event, words)), None)
         if site is None:
             site = _Site(event, words, site_of(record))
             sites.append(site)
-        direction: object = record.component or name
+        direction: object = record.component or identifier
         if record.azimuth is not None:
             direction = round(record.azimuth) % 180
         is_same_catalogue = site_of(record) == site.name
         is_new = direction not in site.directions and len(site.directions) < MOST_COMPONENTS
         if is_same_catalogue and is_new:
             site.directions.add(direction)
-            yield name, site.name, record
+            yield SiteRecord(identifier, site.name, record)
 
 
 @dataclass(frozen=True)
@@ -91,8 +98,8 @@ class _Site:
 
 
 def one_of_each(records: Iterable[SiteRecord]) -> list[SiteRecord]:
-    """Return the first component of each site, of records as `independent` gives them."""
-    first = {site: (name, site, record) for name, site, record in reversed(list(records))}
+    """Return the first component of each site of records as `independent` gives them."""
+    first = {component.site: component for component in reversed(list(records))}
     return list(reversed(first.values()))
 
 

@@ -21,7 +21,7 @@ import pandas as pd
 from docs.research import scores
 from docs.research.cracks import MARGIN, STRONG, Member, members, ruled
 from docs.research.report import Target
-from docs.research.sites import Trial, draw_of, independent, lifting_factor
+from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting_factor
 from rocking import Accelerogram, Facade, LoadedWall, Mechanism, Spire, Verdict, assess
 from rocking.assessment.contacts import ContactShare, contact_share
 from rocking.assessment.ground_motions import GroundMotions
@@ -298,24 +298,25 @@ def judged_kinds(site: str) -> list[str]:
 def stand(target: Target) -> None:
     """Hold the verdicts against stacks; rows of each record are written as they come, and a long run goes on."""
     rows: list[StackRow] = []
-    for name, site, record in independent(target.records):
-        path = target.folder / "trials" / f"{name}.csv"
+    for component in independent(target.records):
+        path = target.folder / "trials" / f"{component.identifier}.csv"
         if not path.is_file():
             trials = (
-                stack_row(name, site, record, kind, k)
-                for kind in judged_kinds(site)
+                stack_row(component, kind, k)
+                for kind in judged_kinds(component.site)
                 for k in range(TRIALS[kind])
             )
             write_rows(StackRow, trials, path)
         rows += read_rows(StackRow, path)
-        target.tell(f"{name}: {len(rows)} trials")
+        target.tell(f"{component.identifier}: {len(rows)} trials")
     subtitle = "Members in courses and walls whose contacts open, on sites that took no part in the rule."
     target.publish("Who stands", subtitle, {StackRow: rows, scores.Score: list(stack_scores(rows))})
 
 
-def stack_row(name: str, site: str, record: Accelerogram, kind: str, place: int) -> StackRow:
+def stack_row(component: SiteRecord, kind: str, place: int) -> StackRow:
     """Return one trial: member, scale and courses drawn."""
-    draw = draw_of(name, CAMPAIGN, KINDS.index(kind), place)
+    record = component.accelerogram
+    draw = draw_of(component.identifier, CAMPAIGN, KINDS.index(kind), place)
     case = case_of(kind, draw)
     factor = lifting_factor(record, case.multiplier, UPLIFTS, draw)
     motion = strong_part(record.scaled(factor), case.multiplier)
@@ -328,8 +329,8 @@ def stack_row(name: str, site: str, record: Accelerogram, kind: str, place: int)
     response = follow_stack(stack, motion, TRUE_STEP)
     height = stack.courses[response.opened].base
     return StackRow(
-        record=name,
-        site=site,
+        record=component.identifier,
+        site=component.site,
         structure=kind,
         scale_factor=factor,
         courses=courses,

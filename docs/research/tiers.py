@@ -48,7 +48,7 @@ def calibrate(target: Target) -> None:
     about["cases"] = len(cases)
     subtitle = ", ".join(f"{many} {name}" for name, many in about.items())
     target.publish("What a cheap figure says of overturning", f"{subtitle}.", {scores.Score: rows})
-    hashes = "\n".join(sorted({record.source.sha256 for _, _, record in records}))
+    hashes = "\n".join(sorted({component.accelerogram.source.sha256 for component in records}))
     about["records_sha256"] = hashlib.sha256(hashes.encode()).hexdigest()
     fits = {tier: {"terms": tier.terms, **vars(fit(tier, cases))} for tier in Tier}
     for each in fits.values():
@@ -67,7 +67,8 @@ def tier_cases(
     mechanisms = {name: each.mechanism() for name, each in structures.items()}
     blocks = [mechanism.equivalent_block("rest") for mechanism in mechanisms.values()]
     nudged = np.outer(FACTORS, NUDGES)
-    for name, site, record in records:
+    for component in records:
+        record = component.accelerogram
         on_block = integrate_batch(blocks, record, nudged.ravel()).reshape(len(blocks), *nudged.shape)
         for k, (structure, mechanism) in enumerate(mechanisms.items()):
             for i, factor in enumerate(FACTORS):
@@ -76,8 +77,13 @@ def tier_cases(
                     continue
                 members = drawn(mechanism, GroundMotions.of(motion), lattice(MEMBERS), EnsembleSettings())
                 if not members.failed_members:
-                    case = {"record": name, "site": site, "structure": structure, "factor": factor}
-                    case["share"] = members.overturning_share
+                    case: dict[str, object] = {
+                        "record": component.identifier,
+                        "site": component.site,
+                        "structure": structure,
+                        "factor": factor,
+                        "share": members.overturning_share,
+                    }
                     terms = fidelity.of_structure(mechanism) | fidelity.of_velocity(motion, blocks[k])
                     yield case | terms | fidelity.from_nudged(on_block[k, i])
 
@@ -132,14 +138,15 @@ def try_answers(records: Iterable[sites.SiteRecord], cases: pd.DataFrame) -> Ite
     mechanisms = [structure.mechanism() for structure in sites.structures_tried().values()]
     first = sites.one_of_each(records)
     for mechanism in mechanisms:  # no time counts that is spent on its table and on compiled code
-        integrate(mechanism, first[0][-1])
-    for _, site, record in first:
-        fits = {tier: fit(tier, cases[cases.site != site]) for tier in Tier}
-        for motion in map(record.scaled, ANSWERED_FACTORS):
+        integrate(mechanism, first[0].accelerogram)
+    for component in first:
+        others = cases[cases.site != component.site]
+        fits = {tier: fit(tier, others) for tier in Tier}
+        for motion in map(component.accelerogram.scaled, ANSWERED_FACTORS):
             _, velocity_s = sites.timed(partial(peak_velocity, motion))
             for mechanism in mechanisms:
                 trial = _answer_trial(mechanism, motion, fits, velocity_s / len(mechanisms))
-                yield {"site": site, **trial}
+                yield {"site": component.site, **trial}
 
 
 def _answer_trial(

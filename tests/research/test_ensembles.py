@@ -8,6 +8,7 @@ import pytest
 
 from docs.research import ensembles
 from docs.research.ensembles import CHOSEN, LEFT_OUT, PAIRS, EnsembleTrial, ScreeningTrial, try_ensembles
+from docs.research.sites import SiteRecord
 from rocking.assessment.verdict import Verdict
 from rocking.records import Accelerogram
 from rocking.structures import Block, Spire, Wall
@@ -85,14 +86,14 @@ def test_each_measure_of_the_screen_counts_what_it_names():
 def test_a_crack_that_is_given_is_no_trial_of_the_screen():
     motion = Accelerogram(3 * np.sin(2 * np.pi * TIMES / 1.5) * (TIMES < 1.5), 0.01)
     given = {"spire": Spire(3.0, 15.0, 0.25, crack_height=5.0)}
-    assert list(ensembles.screening_trials("r", "s", motion, given)) == []
+    assert list(ensembles.screening_trials(SiteRecord("r", "s", motion), given)) == []
 
 
 def test_the_verdict_over_all_cracks_is_that_of_the_ensembles_of_all():
     """Of a wall that may crack anywhere; a block has one mechanism and is no trial."""
     motion = Accelerogram(3 * np.sin(2 * np.pi * TIMES / 1.5) * (TIMES < 1.5), 0.01)
     made = {"wall": Wall.of_size(3.2, 0.25), "block": Block(2.0, 0.2)}
-    trials = list(ensembles.screening_trials("r", "s", motion, made))
+    trials = list(ensembles.screening_trials(SiteRecord("r", "s", motion), made))
     assert [(each.structure, each.verdict) for each in trials] == [("wall", e.exhaustive) for e in trials]
     assert all(each.share <= each.largest_share for each in trials)
     values = {each.measure: each.value for each in ensembles.screening_scores(trials) if each.part == "wall"}

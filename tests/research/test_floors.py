@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from docs.research.floors import BODIES, PERIODS, FloorTrial, course_scores, floor_trials
+from docs.research.sites import SiteRecord
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 
@@ -13,7 +14,7 @@ from rocking.records import Accelerogram
 def test_trials_of_a_pulse():
     pulse = Pulse(amplitude=3.0, circular_frequency=2 * math.pi / 0.8, start_time=0.5)
     record = Accelerogram(pulse.acceleration(np.arange(500) * 0.01), 0.01)
-    trials = list(floor_trials("made", "site", record))
+    trials = list(floor_trials(SiteRecord("made", "site", record)))
     assert len(trials) == len(BODIES) * (1 + PERIODS.size)
     on_ground = [each for each in trials if each.support_period_s == 0]
     assert {each.amplification for each in on_ground} == {1.0}

@@ -3,15 +3,17 @@
 import numpy as np
 
 from docs.research.fronts import FrontTrial, front, front_scores, front_trial
+from docs.research.sites import SiteRecord
 from rocking import Accelerogram, Pulse
 
 PULSE = Pulse(amplitude=3.0, circular_frequency=2 * np.pi / 0.8, start_time=0.5)
 RECORD = Accelerogram(PULSE.acceleration(np.arange(600) * 0.01), 0.01)
+COMPONENT = SiteRecord("made", "site", RECORD)
 
 
 def test_a_trial_is_the_same_at_every_call_and_every_other_front_is_tied():
-    trials = [front_trial("made", "site", RECORD, place) for place in range(6)]
-    assert [front_trial("made", "site", RECORD, place) for place in range(6)] == trials
+    trials = [front_trial(COMPONENT, place) for place in range(6)]
+    assert [front_trial(COMPONENT, place) for place in range(6)] == trials
     assert [trial.is_tied for trial in trials] == [False, True] * 3
     assert all(trial.falls or not trial.falls_inwards for trial in trials)
     drawn = front(np.random.default_rng(1), True)

@@ -122,4 +122,4 @@ def test_a_site_under_two_names_counts_once():
         ("e", record("NORTHRIDGE EQ 1/17/94", "CANYON COUNTRY", "y")),
         ("f", record("Landers", "Rinaldi Receiving Sta", "y")),
     ]
-    assert [name for name, _, _ in independent(listed)] == ["a", "b", "e", "f"]
+    assert [component.identifier for component in independent(listed)] == ["a", "b", "e", "f"]

@@ -5,6 +5,7 @@ import pytest
 
 from docs.research import stacks
 from docs.research.report import Target
+from docs.research.sites import SiteRecord
 from docs.research.stacks import (
     KINDS,
     TAPERING,
@@ -45,7 +46,8 @@ def test_contact_dynamics_decides_what_a_doubt_leaves_open():
 
 
 def test_a_trial_is_the_same_at_every_call():
-    one, again = (stack_row("made", "a site", SINE, "loaded wall", 3) for _ in range(2))
+    component = SiteRecord("made", "a site", SINE)
+    one, again = (stack_row(component, "loaded wall", 3) for _ in range(2))
     assert one.scale_factor == again.scale_factor
     assert (one.mechanism, one.verdict, one.falls) == (again.mechanism, again.verdict, again.falls)
 

@@ -5,7 +5,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from docs.research.sites import structures_tried
+from docs.research.sites import SiteRecord, structures_tried
 from docs.research.tiers import answer_scores, left_out, tier_cases
 from rocking.assessment import fidelity
 from rocking.assessment.ensemble import ensemble
@@ -29,7 +29,7 @@ def made_records(sites: int = 12) -> list[tuple[str, Accelerogram]]:
 @pytest.fixture(scope="module")
 def cases() -> pd.DataFrame:
     """Each record at a site of its own, under two blocks."""
-    records = [(name, f"s {name}", record) for name, record in made_records()]
+    records = [SiteRecord(name, f"s {name}", record) for name, record in made_records()]
     return pd.DataFrame(tier_cases(records, STRUCTURES))
 
 
