@@ -33,7 +33,7 @@ class OverPeriods:
     @property
     def structure(self) -> str:
         """Name of the structure in the list."""
-        return self.standings[0].structure
+        return self.standings[0].listed_structure
 
     @property
     def place(self) -> str:
@@ -93,7 +93,7 @@ def over_periods(stations: Iterable[tuple[Structure, Judgement]]) -> list[OverPe
     groups: dict[tuple[str, str], list[tuple[Standing, Judgement]]] = {}
     for structure, judgement in stations:
         if (standing := structure.standing) is not None:
-            groups.setdefault((standing.structure, standing.place), []).append((standing, judgement))
+            groups.setdefault((standing.listed_structure, standing.place), []).append((standing, judgement))
     swept = []
     for pairs in groups.values():
         pairs.sort(key=lambda pair: pair[0].period)

@@ -131,7 +131,7 @@ class RecordReport:
         """Return how a sentence calls a structure: one on a support without its period, as it names many."""
         station = self.result.stations.get(name)
         standing = standing_of(station) if station else None
-        return f"{standing.structure} on {standing.place}" if standing else name
+        return f"{standing.listed_structure} on {standing.place}" if standing else name
 
     @cached_property
     def motions(self) -> list[Trace]:
@@ -246,7 +246,7 @@ def one_period_each(stations: Iterable[StationResult]) -> list[StationResult]:
     chosen: dict[object, StationResult] = {}
     for station in stations:
         standing = standing_of(station)
-        key = (standing.structure, standing.place) if standing else station.structure
+        key = (standing.listed_structure, standing.place) if standing else station.structure
         chosen.setdefault(key, station)
     return list(chosen.values())
 

@@ -254,7 +254,7 @@ def _comparison(structure: Structure) -> str:
     if standing is None or standing.support is not None:
         return ""
     return (
-        f"For comparison only: {standing.structure} stands on a support, and this page takes it on the ground; "
+        f"For comparison only: {standing.listed_structure} stands on a support, and this page takes it on the ground; "
         "sign the pages of its support."
     )
 

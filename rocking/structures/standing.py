@@ -43,11 +43,11 @@ _KEYS = {"name", "type", "modes", "yielding_masonry", "mass_ratio", *_MODE_KEYS,
 class Standing:
     """On what one structure stands, for one period of its support.
 
-    structure: its name in the list, which those of the other periods share. place: name of the support, or GROUND.
-    support: None on the ground. mass_ratio: of the structure to the support, None where it is not given.
+    listed_structure: its name in the list, which those of the other periods share. place: name of the support, or
+    GROUND. support: None on the ground. mass_ratio: of the structure to the support, None where it is not given.
     """
 
-    structure: str
+    listed_structure: str
     place: str = GROUND
     support: Support | None = None
     mass_ratio: float | None = None
@@ -60,7 +60,7 @@ class Standing:
     @property
     def name(self) -> str:
         """The name of the structure with this period in tables and reports."""
-        return f"{self.structure}, {self.words}"
+        return f"{self.listed_structure}, {self.words}"
 
     @property
     def words(self) -> str:
@@ -73,8 +73,9 @@ class Standing:
         if self.support is None or self.mass_ratio is None or self.mass_ratio <= HEAVY:
             return ""
         return (
-            f"{self.structure} has {self.mass_ratio:.2g} of the mass of {self.place}: beyond {HEAVY:g} what it gives "
-            "back changes rotations by more than a per cent, at 0.1 by 11 % in the median, and is left out here."
+            f"{self.listed_structure} has {self.mass_ratio:.2g} of the mass of {self.place}: beyond {HEAVY:g} what "
+            "it gives back changes rotations by more than a per cent, at 0.1 by 11 % in the median, and is left "
+            "out here."
         )
 
 

@@ -123,7 +123,7 @@ def assess_file(
 
 
 def _listed_name(name: str, structure: Structure) -> str:
-    return structure.standing.structure if structure.standing else name
+    return structure.standing.listed_structure if structure.standing else name
 
 
 def _told(station: StationResult, scale_factor: float) -> Iterator[str]:

@@ -598,7 +598,7 @@ def support_rows(result: "RecordResult", identities: Mapping[str, ComponentRow])
                 record=identity.record,
                 component=identity.component,
                 structure=structure,
-                listed_structure=standing.structure,
+                listed_structure=standing.listed_structure,
                 support=standing.place,
                 support_period_s=standing.period,
                 support_damping_ratio=mode.damping_ratio if mode else math.nan,

@@ -33,7 +33,7 @@ def test_a_range_of_periods_is_one_structure_for_each(tmp_path):
     parapets = [
         each.standing
         for each in structures.values()
-        if each.standing and each.standing.structure == "parapet"
+        if each.standing and each.standing.listed_structure == "parapet"
     ]
     periods = [each.period for each in parapets]
     assert periods[0] == 0
