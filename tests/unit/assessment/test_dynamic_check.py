@@ -125,6 +125,7 @@ def test_what_one_set_meets_is_not_called_met_where_others_do_not(records):
     undecided = [
         each for each in between if not each.passed and each.demand <= each.capacity and not each.exceeding
     ]
+    assert undecided, "no block is refused for its share alone"
     for each in undecided:
         assert f"{100 * each.share:.0f} % of {each.sets} sets, and 95 % must" in each.refusal
 
