@@ -116,6 +116,7 @@ WARNED = {
 
 
 def test_no_real_file_is_warned_of_without_reason(series) -> None:
+    assert series
     for file, (_, records) in series.items():
         words = WARNED.get(Path(file).name, "no warning").split("|")
         sentences = {sentence for record in records for sentence in record.warnings}
@@ -136,7 +137,9 @@ def test_rinaldi_velocity_is_peers_own(real_records: Path) -> None:
 
 def test_formats_of_the_second_list_agree_with_it(real_records: Path) -> None:
     """AFAD's files of 2023, EMOD3D and JMA; the unit of EMOD3D stands in no file. PGA has four digits."""
-    for row in more(real_records):
+    rows = more(real_records)
+    assert rows
+    for row in rows:
         unit = "g" if "emod3d" in row["file"] else None
         records = {record.component: record for record in read(real_records / row["file"], unit=unit)}
         record = records[row["component"]]

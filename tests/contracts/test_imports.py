@@ -98,6 +98,7 @@ def floor(module: str) -> int:
 
 
 def test_imports_run_downwards():
+    assert any(downwards(module) for module in MODULES)
     for module in MODULES:
         for other in downwards(module):
             same_part = other.split(".")[1] == module.split(".")[1]
@@ -143,6 +144,8 @@ def test_rows_are_imported_from_their_package():
 
 
 def test_heavy_libraries_stay_in_their_place():
+    libraries = {name.split(".")[0] for module in MODULES for name in imported(module)}
+    assert set(ONLY_IN) <= libraries, "a library of the list is imported nowhere"
     for module, path in MODULES.items():
         place = path.relative_to(PACKAGE).as_posix()
         for name in imported(module):

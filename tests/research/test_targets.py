@@ -71,7 +71,9 @@ def test_a_target_writes_its_tables_and_its_report(asked, target):
     described = json.loads((folder / "datapackage.json").read_text())["resources"]
     assert {each["path"] for each in described} == TARGETS[target]
     assert (folder / "report.pdf").read_bytes().startswith(b"%PDF")
-    for score in read_table(Score, folder):
+    scores = read_table(Score, folder)
+    assert scores
+    for score in scores:
         assert score.sites <= score.cases
         assert not score.value_low > score.value_high
 

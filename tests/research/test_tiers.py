@@ -51,7 +51,10 @@ def test_a_site_left_out_took_no_part(cases):
 
 def test_the_structures_tried_are_those_behind_the_tiers_that_ship():
     of_each = pd.DataFrame([fidelity.of_structure(each.mechanism()) for each in structures_tried().values()])
-    for tier in read_tiers().values():
+    tiers = read_tiers()
+    assert set(tiers) == set(Tier)
+    for tier in tiers.values():
+        assert tier.ranges
         for name, ends in tier.ranges.items():
             assert of_each[name].agg(["min", "max"]).tolist() == pytest.approx(ends, rel=1e-6, abs=1e-9)
 

@@ -155,7 +155,9 @@ def test_the_page_carries_the_closed_form_of_each_case_and_the_path_of_the_groun
 def test_the_page_tells_the_reserve_that_the_table_holds_and_what_it_leaves_out(content, study):
     """The factors of verdicts.csv stand in the words; those of a spire with what its mechanism does not follow."""
     rows = {row.structure: row for row in read_table(VerdictRow, study[0].parent.parent / "part")}
-    for name, case in content["records"][0]["cases"].items():
+    cases = content["records"][0]["cases"]
+    assert cases
+    for name, case in cases.items():
         reserve = rows[name].reserve
         assert reserve is not None and f"Reserve: {reserve}" in case["text"]
         assert "courses above a rocking body may be thrown" in case["text"] or name != "spire"

@@ -32,6 +32,7 @@ def test_a_run_compares_every_record_with_every_structure(finished) -> None:
 def test_every_described_file_stands_and_has_the_described_columns(finished) -> None:
     for folder in (finished.results, finished.results / "summary"):
         package = json.loads((folder / "datapackage.json").read_text())
+        assert package["resources"], folder
         for resource in package["resources"]:
             paths = resource["path"] if isinstance(resource["path"], list) else [resource["path"]]
             names = [field["name"] for field in resource["schema"]["fields"]]

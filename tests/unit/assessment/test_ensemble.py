@@ -113,7 +113,9 @@ def test_the_processing_of_a_raw_record_is_a_cause():
     result = drawn(BLOCK, motions, lattice(64), EnsembleSettings())
     assert set(result.causes["processing"]) == {name for _, name in motions.horizontal}
     assert set(result.causes["processing"]) == set(processed(record))
-    for k in np.flatnonzero(result.causes["processing"] == "high-pass 0.2 Hz"):
+    high_passed = np.flatnonzero(result.causes["processing"] == "high-pass 0.2 Hz")
+    assert high_passed.size
+    for k in high_passed:
         motion = process(record, Processing(taper=0.02, high_pass=0.2)).scaled(result.causes["amplitude"][k])
         alone = integrate(Block(2.0, 0.2, restitution=0.9 + result.causes["restitution"][k]), motion)
         assert result.rotation_ratios[k] == pytest.approx(alone.rotation_ratio, rel=1e-6)

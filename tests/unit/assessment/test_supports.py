@@ -105,6 +105,7 @@ def test_a_stored_case_of_one_support_is_not_taken_for_another():
     first = assess_record("r", [record], on_roof([0.2, 0.6]), FULL, store=store)
     again = assess_record("r", [record], on_roof([0.2, 0.6]), FULL, store=store)
     alone = assess_record("r", [record], on_roof([0.2, 0.6]), FULL)
+    assert set(first.stations) == set(on_roof([0.2, 0.6]))
     for name, station in first.stations.items():
         for other in (again, alone):
             assert other.stations[name].overturning_share == station.overturning_share

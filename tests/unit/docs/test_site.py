@@ -96,6 +96,7 @@ def test_the_page_on_fdsn_reaches_a_verdict(monkeypatch, capsys):
     monkeypatch.setattr("obspy.clients.fdsn.Client", lambda name: client)
     names = {}
     exec(compile(code, "fdsn.md", "exec"), names)
+    assert names["records"]
     for record in names["records"]:
         assert np.allclose(record.acceleration, acceleration, atol=1 / COUNTS_PER_M_S2)
     # A cycle of a second at 0.31 g on a pier of 9 m: above uplift (0.22 g), far below what overturns it at ω/p of 5.

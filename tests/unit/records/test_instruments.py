@@ -101,7 +101,9 @@ def test_counts_of_sac_are_divided_as_those_of_miniseed_are(tmp_path: Path) -> N
 
 def test_a_folder_of_counts_hears_that_its_stationxml_is_missing(miniseed: Path) -> None:
     trace(COUNTS.astype(np.float32)).write(str(miniseed.parent / "record.sac"), format="SAC")
-    for file in list_folder(miniseed.parent)[0]:
+    files = list_folder(miniseed.parent)[0]
+    assert len(files) == 2  # miniSEED and SAC
+    for file in files:
         assert any("put the StationXML of the station beside it" in sentence for sentence in file.doubts)
     (miniseed.parent / "station.xml").write_text(XML.format(units="M/S**2"))
     assert [file.doubts for file in list_folder(miniseed.parent)[0]][:2] == [(), ()]
@@ -272,7 +274,9 @@ def test_what_a_rotation_made_untrue_is_not_believed() -> None:
         Accelerogram(each, 0.01, name) for each, name in zip(np.eye(2, 60) + 0.1, ("HNN", "HNE"), strict=True)
     ]
     turned = Stream([each.to_obspy() for each in pair]).rotate("NE->RT", back_azimuth=30.0)
-    for record in Accelerogram.from_obspy(turned):
+    records = Accelerogram.from_obspy(turned)
+    assert len(records) == 2
+    for record in records:
         assert record.component in ("HNR", "HNT") and record.azimuth is None
 
 
