@@ -12,6 +12,7 @@ from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.records.measures import record_measures
 from rocking.reports.drawings import draw_structure, fallen_rotation
+from rocking.reports.explore import drawings
 from rocking.reports.record_figures import (
     History,
     Trace,
@@ -23,7 +24,7 @@ from rocking.reports.record_figures import (
     strip_figure,
 )
 from rocking.reports.style import MOST_POINTS, TEXT_WIDTH, thinned
-from rocking.structures import Arch, Block, LoadedWall, Wall
+from rocking.structures import Arch, Block, Facade, LoadedWall, Wall
 from tests.unit.assessment.made_rows import compared
 
 from .conftest import judged
@@ -155,3 +156,11 @@ def test_every_panel_stands_in_its_figure_and_shows_all_of_what_it_draws(example
     # of the block of 1 m by 4 m
     assert any(f"static 0.25 g, PGA {peak / 0.25:.2g} ×" in text for text in texts)
     assert f": PGA {peak:.2g} g" in ground_figure([motion]).axes[0].texts[0].get_text()
+
+
+def test_a_front_is_drawn_on_its_way_down_to_three_times_the_critical_rotation_of_each_side():
+    """Two leaves of 0.6 and 0.3 m, each 3 m high: their middle lies 0.25 m from the outer face, 2.5 m up."""
+    front = Facade((3.0, 3.0), (0.6, 0.3), 20e3, crack_height=0.0)
+    rotations = [frame["rotation"] for frame in drawings(front)]
+    assert max(rotations) == pytest.approx(3 * math.atan2(0.25, 2.5), rel=1e-9)
+    assert min(rotations) == pytest.approx(-3 * math.atan2(0.35, 2.5), rel=1e-9)
