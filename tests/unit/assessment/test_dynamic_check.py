@@ -107,6 +107,8 @@ def test_the_confidence_factor_divides_weight_and_ties_alike(elongation):
 def test_stout_blocks_meet_it_and_slender_ones_do_not(records):
     stout = rocking.check(Block.of_size(2.5, 3.0), SPECTRUM, records=records).dynamic
     assert stout.passed and stout.share == 1 and stout.demand == 0
+    # with a probability of .05 none of S stations lets it fall where .05^(1/S) of all let it stand; a set asks ten
+    assert stout.interval == (pytest.approx(0.05 ** (10 / stout.stations), rel=1e-12), 1.0)
     slender = rocking.check(Block.of_size(0.12, 1.5), SPECTRUM, records=records).dynamic
     assert not slender.passed and slender.exceeding and slender.share == 0
     assert "d₀ is exceeded under" in slender.refusal
