@@ -5,6 +5,7 @@ import math
 import pickle
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from rocking import Block, DesignSpectrum, Facade, check
@@ -301,3 +302,27 @@ def test_a_page_says_on_what_its_structure_stands_and_what_is_not_checked(tmp_pa
     assert page["plain"]["comparison"] == page["parapet, T_b 0.25 s"]["comparison"] == ""
     assert "its force is not checked" in " ".join(page["tied"]["sentences"])
     assert not any("strength" in text for text in page["plain"]["sentences"])
+
+
+@pytest.mark.parametrize("units", ["SI", "g and cm"])
+def test_a_limit_displacement_is_drawn_on_the_capacity_curve_in_every_unit(units, monkeypatch):
+    from rocking.reports.structures import CheckedStructure
+
+    figures = []
+
+    def kept(figure, alt):
+        figures.append(figure)
+        return {}
+
+    monkeypatch.setattr("rocking.reports.structures.picture", kept)
+    block = STRUCTURES["parapet"]
+    spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
+    page = CheckedStructure(name="parapet", structure=block, checked=check(block, spectrum))
+    structures_data([page], spectrum, Settings(display_units=units).mapping())
+    (axes,) = (each for each in figures[-1].axes if each.get_xlabel())
+    curve, *others = axes.lines
+    marked = [line.get_xydata()[0] for line in others if line.get_marker() == "o"]
+    assert len(marked) == 2
+    for displacement, acceleration in marked:
+        # a block's curve is straight but for sin φ and cos φ, so that between its points it is met to 1e-3
+        assert acceleration == pytest.approx(np.interp(displacement, *curve.get_data()), rel=1e-3)
