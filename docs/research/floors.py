@@ -90,7 +90,8 @@ def closed_form_scores(trials: list[FloorTrial]) -> Iterator[scores.Score]:
         truth = np.array([each.integrated_rotation_ratio for each in own])
         said = np.array([each.predicted_rotation_ratio for each in own])
         falls = np.isinf(truth)
-        quotient = np.where((truth > 1e-3) & ~falls & (said > 0) & ~np.isinf(said), said / truth, np.nan)
+        rocks = (truth > 1e-3) & ~falls & (said > 0) & ~np.isinf(said)
+        quotient = np.divide(said, truth, out=np.full(truth.shape, np.nan), where=rocks)
         measures: dict[str, scores.Measured] = {
             "share that overturns": falls.astype(float),
             "closed form overturns too, where it overturns": np.where(falls, np.isinf(said), np.nan),

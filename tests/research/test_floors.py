@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from docs.research.floors import BODIES, PERIODS, FloorTrial, course_scores, floor_trials
+from docs.research.floors import BODIES, PERIODS, FloorTrial, closed_form_scores, course_scores, floor_trials
 from docs.research.sites import SiteRecord
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
@@ -24,13 +24,35 @@ def test_trials_of_a_pulse():
             assert each.predicted_rotation_ratio == pytest.approx(each.integrated_rotation_ratio, rel=0.1)
 
 
-def test_what_turns_back_is_counted_by_site():
-    def trial(site, period, ratio):
-        return FloorTrial(
-            record=site, site=site, structure="parapet", support_period_s=period, amplification=1.0,
-            integrated_rotation_ratio=ratio, predicted_rotation_ratio=0.0,
-        )  # fmt: skip
+def trial(site: str, period: float, ratio: float, predicted: float = 0.0) -> FloorTrial:
+    return FloorTrial(
+        record=site,
+        site=site,
+        structure="parapet",
+        support_period_s=period,
+        amplification=1.0,
+        integrated_rotation_ratio=ratio,
+        predicted_rotation_ratio=predicted,
+    )
 
+
+def test_the_worth_of_the_closed_form_counts_each_outcome_once():
+    """Two fall, of which it sees one; three stand, of which it lets one fall, and two rock, at twice and half."""
+    fall = math.inf
+    outcomes = {"a": (fall, fall), "b": (fall, 0.4), "c": (0.1, fall), "d": (0.1, 0.2), "e": (0.4, 0.2)}
+    trials = [trial(site, 0.3, ratio, predicted) for site, (ratio, predicted) in outcomes.items()]
+    trials.append(trial("a", 0.0, 0.0))
+
+    scores = {each.measure: each.value for each in closed_form_scores(trials) if each.part == "on supports"}
+    assert scores == {
+        "share that overturns": 2 / 5,
+        "closed form overturns too, where it overturns": 1 / 2,
+        "closed form overturns, where it stands": 1 / 3,
+        "closed form over integration, median": pytest.approx((2 + 1 / 2) / 2),
+    }
+
+
+def test_what_turns_back_is_counted_by_site():
     trials = [trial("a", 0.0, 0.1), trial("a", 0.3, math.inf), trial("a", 0.5, 0.2)]
     trials += [trial("b", 0.0, 0.1), trial("b", 0.3, 0.1), trial("b", 0.5, math.inf)]
     scores = [each for each in course_scores([*trials]) if each.subject == "parapet"]
