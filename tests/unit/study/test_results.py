@@ -8,7 +8,7 @@ import rocking
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, StructureRow, TimingRow
 from rocking.errors import RockingError
 from rocking.study.cli import main
-from rocking.study.results import cases_of, part, remove_other_cases
+from rocking.study.results import cases_of, part, remove_copies, remove_other_cases
 from rocking.tables import read_rows, write_rows
 
 
@@ -76,3 +76,11 @@ def test_cases_of_other_records_are_removed_by_whichever_run_comes_first(tmp_pat
 
     remove_other_cases(tmp_path, Records({"kept"}))
     assert [each.stem for each in cases_of(tmp_path, "").parent.iterdir()] == ["kept"]
+
+
+def test_of_the_tables_of_one_record_those_are_removed_that_there_are(tmp_path: Path) -> None:
+    """An earlier version wrote fewer of them, and a user may have removed some."""
+    write_rows(TimingRow, [_timing("a")], tmp_path / TimingRow.table.file_name)
+    (tmp_path / "report.pdf").touch()
+    remove_copies(tmp_path)
+    assert [each.name for each in tmp_path.iterdir()] == ["report.pdf"]
