@@ -209,3 +209,24 @@ def test_results_whose_record_is_gone_are_told(tmp_path: Path) -> None:
         (tmp_path / "results" / name / "report.pdf").touch()
     (left,) = make_plan(settings).doubts
     assert str(tmp_path / "results" / "gone") in left
+
+
+def test_an_edit_of_the_reports_is_in_the_hash_of_the_package_and_not_in_that_of_its_numbers(
+    tmp_path, monkeypatch
+):
+    for name in ("reports/page.py", "motion/table.py", "study/plan.py"):
+        path = tmp_path / name
+        path.parent.mkdir()
+        path.write_text("1\n")
+    monkeypatch.setattr("rocking.study.plan.__file__", str(tmp_path / "study" / "plan.py"))
+
+    def hashes() -> tuple[str, str]:
+        return plan.package_sha256(), plan.package_sha256(reports=False)
+
+    before = hashes()
+    (tmp_path / "reports" / "page.py").write_text("2\n")
+    after = hashes()
+    assert after[0] != before[0] and after[1] == before[1]
+
+    (tmp_path / "motion" / "table.py").write_text("2\n")
+    assert hashes()[0] != after[0] and hashes()[1] != after[1]
