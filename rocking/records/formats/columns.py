@@ -1,4 +1,4 @@
-"""Bare numbers: columns, or one series wrapped over lines (OpenSees), below names or a title with count and step."""
+"""Bare numbers: columns, or one series wrapped over lines (OpenSees), below names, remarks or nothing at all."""
 
 import re
 from collections.abc import Sequence
@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 
 from rocking.errors import RecordError
-from rocking.quantities import acceleration_unit
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats import text
 from rocking.records.formats.dialect import Dialect
 from rocking.records.formats.format import Format, Options
 from rocking.records.formats.labels import ColumnLabel
-from rocking.records.formats.remarks import OF_ACCELERATION, Declarations, factor_warnings, speaks_of_factor
+from rocking.records.formats.remarks import Declarations, factor_warnings, speaks_of_factor
 from rocking.records.formats.stamps import in_seconds
+from rocking.records.formats.titled import LONGEST_STEP, heading_of
 from rocking.records.instrument import directed, names_acceleration, refuse_by_name, refuse_other_quantity
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
@@ -226,7 +226,7 @@ def _runs_along_rows(values: np.ndarray, width: int, parted: bool) -> bool:
 
 def _are_columns(content: bytes) -> bool:
     is_other = (
-        bool(_COMMENTED_FORMAT.match(content)) or b"\0" in content[:4096] or _heading(content) is not None
+        bool(_COMMENTED_FORMAT.match(content)) or b"\0" in content[:4096] or heading_of(content) is not None
     )
     return not is_other and _table(_pointed(content) or content) is not None
 
@@ -384,11 +384,11 @@ def _without_count(
             second = float(values[1])
             if above == 1:
                 return values[1:], None, (_FIRST_IS.format("number of samples"),)
-            if 0 < second <= _LONGEST_STEP:
+            if 0 < second <= LONGEST_STEP:
                 return values[2:], second, (_FIRST_IS.format("number of samples and the time step"),)
             if _RATES[0] <= second <= _RATES[1] and second == round(second):
                 return values[2:], 1 / second, (_FIRST_IS.format("number of samples and the rate"),)
-    if values.size > 4 and values[1] == values.size - 2 and 0 < values[0] <= _LONGEST_STEP:
+    if values.size > 4 and values[1] == values.size - 2 and 0 < values[0] <= LONGEST_STEP:
         return values[2:], float(values[0]), (_FIRST_IS.format("time step and the number of samples"),)
     if declared is not None and values.size > _FEWEST_ROWS and values[0] == declared:
         return values[1:], None, (_FIRST_IS.format("time step"),)
@@ -554,88 +554,6 @@ def _column(
     return options.accelerogram(label.unit or said.unit, values, step, processed=None, **facts)
 
 
-_WORDS = re.compile(r"[A-Za-z=:,;()]+")
-_UNIT_IN_WORDS = re.compile(r"(?:\b(?:in|units?(?: of| are|:)?)\s+|[(\[]\s*)([A-Za-z][\w/^*²]*)", re.I)
-"""The unit follows the word "in" or "units", or stands in brackets."""
-_LONGEST_STEP = 1.0  # s; of a record, so that a line of two numbers is known for samples and step
-
-
-def _title(content: bytes) -> tuple[str, str] | None:
-    """Return (samples, step) of a title and a line of these two and words above numbers, None of another file."""
-    head = [line for line in text.lines(content, _HEAD) if len(line) < 2000]
-    if len(head) < 4 or all(map(text.is_number, head[0].split())):
-        return None
-    rows = [row.split() for row in head[2:-1] if row.strip()]
-    if {len(row) for row in rows} == {2} and len(head[0].split()) == 2:
-        return None  # two columns below their names
-    parts = _WORDS.sub(" ", head[1]).split()
-    if not rows or len(parts) != 2 or not all(map(text.is_number, sum(rows, parts))):
-        return None
-    for samples, step in (parts, parts[::-1]):
-        if samples.isdecimal() and int(samples) > 1 and "." in step and 0 < float(step) <= _LONGEST_STEP:
-            return samples, step
-    return None
-
-
-def _heading(content: bytes) -> tuple[str, str] | None:
-    """Return (samples, step) of a first line of these two, with or without words, above as many numbers, or None."""
-    if b"\0" in content[:4096]:
-        return None
-    head = [line for line in text.lines(content, _HEAD) if len(line) < 2000]
-    if len(head) < 4 or "NPTS" in head[0].upper():  # which is PEER's
-        return None
-    parts = _WORDS.sub(" ", head[0]).split()
-    rows = [row.split() for row in head[1:-1] if row.strip()]
-    if not rows or len(parts) != 2 or not all(map(text.is_number, sum(rows, parts))):
-        return None
-    found = len(text.after_lines(content, 1).split())
-    for samples, step in (parts, parts[::-1]):
-        is_count = samples.isdecimal() and int(samples) > 1
-        if (
-            is_count
-            and "." in step
-            and 0 < float(step) <= _LONGEST_STEP
-            and int(samples) in (found, found - 1)
-        ):
-            return samples, step
-    return None
-
-
-def _read_titled(content: bytes, options: Options) -> list[Accelerogram]:
-    if heading := _heading(content):
-        return _below_title(b"\n" + content, options, *heading)
-    samples, step = _title(content) or ("", "")
-    return _below_title(content, options, samples, step, event=text.lines(content, 1)[0].strip()[:60])
-
-
-def _below_title(content: bytes, options: Options, size: str, step: str, **names: str) -> list[Accelerogram]:
-    title, second, *rows = text.lines(content, _HEAD)
-    refuse_other_quantity(options.file, f"{title}\n{second}")
-    above = f"{title}\n{second}"
-    of_numbers = bool(OF_ACCELERATION.search(above))
-    words = (match[1] for match in _UNIT_IN_WORDS.finditer(above) if of_numbers or match[0][0] not in "([")
-    unit = next(filter(None, map(acceleration_unit, words)), None)
-    per_line = max(len(row.split()) for row in rows)
-    samples = text.count("number of samples", size)
-    values, notes = text.whole(text.numbers(text.after_lines(content, 2)), samples, per_line)
-    seconds = text.number("time step", step)
-    facts = {"component": Declarations.of((title, second)).component} | names
-    return [options.accelerogram(unit, values, seconds, warnings=notes, processed=None, **facts)]
-
-
-_EMOD3D = re.compile(
-    r"(?i)[ \t]*\S+[ \t]+\S.*\n[ \t]*(\d+)[ \t]+(\d\.\d+e[-+]\d\d)"
-    r"([ \t]+-?\d+){2}([ \t]+-?\d\.\d+e[-+]\d\d){4}[ \t]*\n"
-)
-"""Station and component above number of samples, step, hours and minutes, and four reals."""
-
-
-def _read_emod3d(content: bytes, options: Options) -> list[Accelerogram]:
-    title, second = text.lines(content, 2)
-    station, component = title.split()[:2]
-    return _below_title(content, options, *second.split()[:2], station=station, component=component)
-
-
 COLUMNS = Format(
     "columns of numbers",
     "spreadsheets, OpenSees and scripts",
@@ -643,18 +561,4 @@ COLUMNS = Format(
     _are_columns,
     _read_columns,
     yields=True,
-)
-TITLED = Format(
-    "titled column",
-    "programs of analysis, files like KOBE.000",
-    "line with number of samples and step, below a title or first, then numbers",
-    lambda content: _heading(content) is not None or _title(content) is not None,
-    _read_titled,
-)
-EMOD3D = Format(
-    "EMOD3D text",
-    "EMOD3D and ucgmsim, simulated and observed motion",
-    "station and component above samples, step and six more numbers",
-    _EMOD3D,
-    _read_emod3d,
 )
