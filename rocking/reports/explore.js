@@ -149,7 +149,7 @@
 
   // Histories -------------------------------------------------------------------------------------------
   const [LEFT, RIGHT] = [72, 610];
-  const PANELS = [{ top: 8, bottom: 120 }, { top: 146, bottom: 258 }];
+  const PANELS = [{ top: 20, bottom: 122 }, { top: 160, bottom: 262 }];
 
   const draw = (name, attributes, text) => add(at("histories"), name, attributes, text);
 
@@ -198,7 +198,7 @@
       const axes = panel(PANELS[0], span, reach, "accel. [m/s²]");
       drawTrace(motion.acceleration, span, axes, { stroke: "var(--record)", "stroke-width": 0.8 });
       if (motion.pulse) drawTrace(motion.pulse, span, axes, { stroke: "var(--pulse)", "stroke-width": 2 });
-      draw("text", { x: RIGHT - 8, y: PANELS[0].top + 16, "text-anchor": "end" }, "grey: record; orange: dominant pulse");
+      draw("text", { x: RIGHT - 8, y: PANELS[0].top - 6, "text-anchor": "end" }, "grey: record; orange: dominant pulse");
     }
     const predicted = each.predicted < 1e9 ? each.predicted || 0 : 0;
     const reach = Math.min(3.1, 1.15 * Math.max(largest(each.history), predicted) || 1);
@@ -207,7 +207,7 @@
     for (const level of predicted > 0 ? [predicted, -predicted] : [])
       draw("line", { x1: LEFT, x2: RIGHT, y1: axes.y(level), y2: axes.y(level), stroke: "var(--closed)", "stroke-dasharray": "8 3 2 3" });
     const remark = predicted > 0 ? "dash-dot: largest by the closed form" : `closed form: ${each.closed}`;
-    draw("text", { x: RIGHT - 8, y: PANELS[1].top + 16, "text-anchor": "end" }, remark);
+    draw("text", { x: RIGHT - 8, y: PANELS[1].top - 6, "text-anchor": "end" }, remark);
     draw("text", { x: (LEFT + RIGHT) / 2, y: 292, "text-anchor": "middle" }, "time after the first sample [s]");
     const cursor = draw("line", { y1: PANELS[0].top, y2: PANELS[1].bottom, stroke: "var(--mark)", "stroke-width": 1.5, id: "cursor" });
     return (time) => { cursor.setAttribute("x1", axes.x(time)); cursor.setAttribute("x2", axes.x(time)); };

@@ -332,6 +332,14 @@ def test_drawing_and_traces_are_in_view(page, browser, width, height):
         assert browser.execute_script(edge.format("#histories", "bottom")) <= height
     assert browser.execute_script("return document.documentElement.scrollWidth") <= width
     assert browser.execute_script(edge.format("#mechanism", "right")) <= width
+    assert browser.execute_script(edge.format("#matrix tbody button", "right")) <= width, "one whole cell"
+    told = ("record", "closed form")
+    remarks = [each for each in page("#histories text") if any(word in each.text for word in told)]
+    assert len(remarks) == 2
+    for remark in remarks:
+        frames = [each.rect for each in page("#histories rect")]
+        below = min(each["y"] for each in frames if each["y"] > remark.rect["y"])
+        assert remark.rect["y"] + 0.8 * remark.rect["height"] <= below, "no trace runs through it"
     browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 
