@@ -21,6 +21,7 @@ from rocking.study.plan import structures_sha256
 from rocking.study.settings import Settings, read_settings
 from rocking.tables import read_table, write_tables
 from tests.made_pools import DESIGN, made_pool
+from tests.unit.assessment.made_rows import filled
 
 STRUCTURES = {
     "parapet": Block.of_size(0.45, 3.0),
@@ -326,3 +327,27 @@ def test_a_limit_displacement_is_drawn_on_the_capacity_curve_in_every_unit(units
     for displacement, acceleration in marked:
         # a block's curve is straight but for sin φ and cos φ, so that between its points it is met to 1e-3
         assert acceleration == pytest.approx(np.interp(displacement, *curve.get_data()), rel=1e-3)
+
+
+def test_each_page_tells_the_share_of_its_own_structure(study, monkeypatch):
+    """One structure overturns under every record and the other under none: no page may take the other's verdicts."""
+    settings, folder = study
+    shares = {"parapet": 1.0, "front": 0.0}
+    verdicts = [
+        filled(VerdictRow, structure=structure, record=record, overturning_share=share)
+        for structure, share in shares.items()
+        for record in ("a", "b", "c")
+    ]
+    records = [filled(RecordRow, record=name, station=name) for name in ("a", "b", "c")]
+    tables = {VerdictRow: verdicts, RecordRow: records}
+    monkeypatch.setattr("rocking.study.checks.read_table", lambda row_class, _: tables[row_class])
+    pages = {}
+
+    def report(structures, *_):
+        pages.update((each.name, each) for each in structures)
+        return b"%PDF"
+
+    monkeypatch.setattr("rocking.study.checks.structures_report", report)
+    write_checks(Study(STRUCTURES, read_settings(settings | {"design_spectrum": DESIGN})), folder)
+    assert {name: page.overturning_share for name, page in pages.items()} == shares
+    assert all(page.records == page.stations == 3 for page in pages.values())
