@@ -217,23 +217,33 @@ def _copied_stretch(record: Accelerogram, per_line: int) -> str:
     if values.size < _SHORTEST:
         return ""
     first, second = _same_windows(values, size)
-    windows = sliding_window_view(values, size)
-    is_loud = np.ptp(windows[first], axis=1) > _LOUD * record.peak_acceleration
-    first = first[is_loud]
-    second = second[is_loud]
     if not first.size:
         return ""
     starts, lengths = _runs(first, second)
-    order = np.argsort(lengths)
-    length = int(lengths[order[-1]]) + size - 1
-    rival = int(lengths[order[-2]]) + size - 1 if order.size > 1 else 0
-    if length < _RIVALS * rival or length > _LARGEST_SHARE * values.size:
+    longest = _loud_runs(values, starts, lengths + size - 1, _LOUD * record.peak_acceleration)
+    place, length = next(longest, (0, 0))
+    _, rival = next(longest, (0, 0))
+    if not length or length < _RIVALS * rival or length > _LARGEST_SHARE * values.size:
         return ""
-    one, two = (place * record.time_step for place in starts[order[-1]])
+    one, two = (sample * record.time_step for sample in starts[place])
     return (
         f"The {length} samples from {two:g} s on are those from {one:g} s on, digit by digit: "
         "lines are repeated, or copied over others."
     )
+
+
+def _loud_runs(
+    values: np.ndarray, starts: Sequence[tuple[int, int]], lengths: np.ndarray, least: float
+) -> Iterator[tuple[int, int]]:
+    """Yield place and length [samples] of the runs whose samples span more than `least`, the longest first.
+
+    Of the whole run: while the ground moves slowly, eight samples of a copy may span little.
+    """
+    for place in np.argsort(lengths, kind="stable")[::-1].tolist():
+        begin = starts[place][0]
+        length = int(lengths[place])
+        if np.ptp(values[begin : begin + length]) > least:
+            yield place, length
 
 
 def _same_windows(values: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:

@@ -98,6 +98,16 @@ def test_lines_that_are_copied_over_others_are_told(source: int, target: int, si
     )
 
 
+def test_a_copy_of_slow_motion_is_told_as_one() -> None:
+    """Where a wave of 3 s turns, eight samples span less than a two-hundredth of the peak; the copy spans all of it."""
+    times = np.arange(4000) * 0.01
+    noise = np.random.default_rng(9).normal(0.0, 2e-4, times.size)
+    values = np.round(np.sin(2 * np.pi * times / 3.0) + noise, 5)
+    assert not told(values, 8)
+    values[2440:2590] = values[2000:2150]
+    assert "The 150 samples from 24.4 s on are those from 20 s on, digit by digit" in told(values, 8)
+
+
 def test_a_row_of_all_channels_that_stands_twice_is_told() -> None:
     table = np.stack([shaking(seed) for seed in (5, 6, 7)], axis=1)
     whole = [Accelerogram(column, 0.01) for column in table.T]
