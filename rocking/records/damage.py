@@ -90,21 +90,23 @@ def _still_stretch(record: Accelerogram) -> str:
     changes = np.flatnonzero(np.diff(values))
     if changes.size < 2 * _BESIDE // 5:
         return ""
-    lengths = np.diff(changes)
-    longest = int(lengths.argmax())
-    first = int(changes[longest]) + 1
-    last = int(changes[longest + 1])
-    share = min(_share_of_changes(values[:first][-_BESIDE:]), _share_of_changes(values[last + 1 :][:_BESIDE]))
-    steps = last - first
-    if share < _LIVELY or steps < _SHORT:
-        return ""
-    by_chance = steps * math.log1p(-min(share, 1 - 1 / _BESIDE)) + math.log(values.size)
-    if by_chance > -3 * math.log(_ODDS):
-        return ""
-    return (
-        f"From {first * record.time_step:g} s on {steps + 1} samples in a row are the same, while those before and "
-        "after change: a filled gap?"
-    )
+    steps = np.diff(changes) - 1
+    # Not of the longest alone: a record that begins or ends still has a longer one there.
+    for place in np.argsort(steps, kind="stable")[::-1].tolist():
+        if steps[place] < _SHORT:
+            break
+        first = int(changes[place]) + 1
+        last = int(changes[place + 1])
+        before = _share_of_changes(values[:first][-_BESIDE:])
+        after = _share_of_changes(values[last + 1 :][:_BESIDE])
+        share = min(before, after)
+        by_chance = (last - first) * math.log1p(-min(share, 1 - 1 / _BESIDE)) + math.log(values.size)
+        if share >= _LIVELY and by_chance <= -3 * math.log(_ODDS):
+            return (
+                f"From {first * record.time_step:g} s on {last - first + 1} samples in a row are the same, while those "
+                "before and after change: a filled gap?"
+            )
+    return ""
 
 
 def _share_of_changes(values: np.ndarray) -> float:

@@ -87,6 +87,8 @@ def test_a_stretch_that_stands_still_is_told(start: int, size: int, is_told: boo
     values[start : start + size] = value
     sentence = f"From {start * 0.01:g} s on {size} samples in a row are the same"
     assert (sentence in told(values)) == is_told
+    values[-100:] = values[-100]
+    assert (sentence in told(values)) == is_told, "whatever longer stretch the record ends with"
 
 
 @pytest.mark.parametrize(("source", "target", "size"), [(1000, 2000, 8), (1500, 1508, 8), (500, 2500, 200)])
