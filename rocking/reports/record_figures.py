@@ -177,13 +177,10 @@ def strip_figure(
     labels: what each structure is called. peak_acceleration: of the ground, g.
     """
     lines = [_lines(structures[station.structure], station, peak_acceleration) for station in stations]
-    names = [wrapped(labels[station.structure], 19, 2) for station in stations]
+    # On one line: the names stand in full above, and a second one would push the reserve off the first page.
+    names = [elided(labels[station.structure], 20) for station in stations]
     rows = [range(first, min(first + _COLUMNS, len(stations))) for first in range(0, len(stations), _COLUMNS)]
-    heads = [_LINE * max(names[place].count("\n") for place in row) for row in rows]
-    heights = [
-        head + _DRAWN[1] + 19 + _LINE * max(len(lines[place]) for place in row)
-        for head, row in zip(heads, rows, strict=True)
-    ]
+    heights = [_DRAWN[1] + 19 + _LINE * max(len(lines[place]) for place in row) for row in rows]
     figure = new_figure(sum(heights), margins=(0, 0, 0, 0))
     axes = figure.add_axes((0, 0, 1, 1), xlim=(0, TEXT_WIDTH), ylim=(-sum(heights), 0))
     axes.set_axis_off()
@@ -192,19 +189,9 @@ def strip_figure(
         for column, place in enumerate(row):
             middle = (column + 0.5) * TEXT_WIDTH / _COLUMNS
             station = stations[place]
-            axes.text(
-                middle,
-                top - 1,
-                names[place],
-                ha="center",
-                va="top",
-                fontsize=7,
-                fontweight="bold",
-                linespacing=1.15,
-            )
-            under_head = top - heads[number_of_row]
-            _draw_state(axes, structures[station.structure], station, middle, under_head)
-            below = middle, under_head - _DRAWN[1] - 16.5, "\n".join(lines[place])
+            axes.text(middle, top - 1, names[place], ha="center", va="top", fontsize=7, fontweight="bold")
+            _draw_state(axes, structures[station.structure], station, middle, top)
+            below = middle, top - _DRAWN[1] - 16.5, "\n".join(lines[place])
             axes.text(*below, ha="center", va="top", fontsize=7, linespacing=1.25)
     return figure
 
