@@ -21,11 +21,11 @@ from rocking import (
     response_spectrum,
     select,
 )
-from rocking.assessment.code_check import kinematic_check
-from rocking.assessment.dynamic_check import LEAST_SHARE
+from rocking.codes.dynamic_check import LEAST_SHARE
+from rocking.codes.selection import SETS, Selection
+from rocking.codes.static_check import kinematic_check
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import GRAVITY
-from rocking.records.selection import SETS, Selection
 from rocking.structures import Structure
 from rocking.tables import Row, column, row
 

@@ -25,8 +25,8 @@ from rocking import Accelerogram, LoadedWall, Mechanism, RigidBody, Verdict
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.ground_motions import GroundMotions
+from rocking.contacts.dynamics import follow_stack
 from rocking.errors import StructureWarning
-from rocking.motion.stacks import follow_stack
 from rocking.quantities import GRAVITY
 from rocking.structures.stack import Course, Stack
 from rocking.tables import column, read_rows, row, write_rows

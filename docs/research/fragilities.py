@@ -14,16 +14,16 @@ import numpy as np
 from docs.research import scores, sites
 from docs.research.report import Target
 from rocking import Accelerogram, Block, EquivalentBlock, Pulse, integrate_batch, predict_maxima
-from rocking.assessment.fragility import (
+from rocking.assessment.rows import TradeMethod
+from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
+from rocking.assessment.trade import best_sines
+from rocking.fragility.curves import (
     Fragility,
     IncrementalDynamicAnalysis,
     crossing,
     fragility,
     fragility_of,
 )
-from rocking.assessment.rows import TradeMethod
-from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.assessment.trade import best_sines
 from rocking.structures import Structure
 
 ALL_LEVELS: dict[str, Any] = {"over_cracks": False, "largest_factor": np.inf}

@@ -17,8 +17,8 @@ from scipy.special import ndtri
 from docs.research import scores
 from docs.research.fragilities import real_sites
 from docs.research.report import Target
-from rocking.assessment.fragility import Fragility
-from rocking.assessment.rows.of_fragility import HazardRow, annual_rate, rate_interval
+from rocking.fragility.curves import Fragility
+from rocking.fragility.rows import HazardRow, annual_rate, rate_interval
 
 SLOPES = (1.5, 2.5, 3.5)
 """Of the logarithm of the hazard over that of the level, downwards."""

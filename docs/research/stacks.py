@@ -24,12 +24,12 @@ from docs.research.report import Target
 from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting_factor
 from rocking import Accelerogram, Facade, LoadedWall, Mechanism, Spire, Verdict, assess
 from rocking.assessment.contacts import ContactShare, contact_share
+from rocking.assessment.fidelity import peak_velocity
 from rocking.assessment.ground_motions import GroundMotions
-from rocking.assessment.intensity import peak_velocity
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.verdict import Doubt
+from rocking.contacts.dynamics import follow_stack
 from rocking.errors import StructureWarning
-from rocking.motion.stacks import follow_stack
 from rocking.quantities import GRAVITY
 from rocking.structures import Structure
 from rocking.structures.stack import Stack

@@ -19,9 +19,16 @@ from rocking import Accelerogram, Mechanism, Outcome, Verdict, integrate, integr
 from rocking.assessment import fidelity
 from rocking.assessment.causes import lattice
 from rocking.assessment.ensemble import drawn, ensemble
-from rocking.assessment.fidelity import NUDGES, STRUCTURE, Tier, TierFit, cheapest_answer, stays_at_rest
+from rocking.assessment.fidelity import (
+    NUDGES,
+    STRUCTURE,
+    Tier,
+    TierFit,
+    cheapest_answer,
+    peak_velocity,
+    stays_at_rest,
+)
 from rocking.assessment.ground_motions import GroundMotions
-from rocking.assessment.intensity import peak_velocity
 from rocking.assessment.settings import EnsembleSettings
 from rocking.assessment.verdict import Method
 from rocking.structures import Structure

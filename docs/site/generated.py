@@ -9,7 +9,7 @@ import rocking
 from docs.paper.report import equation_rows, equivalence_figures
 from docs.site.drawings import forms
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, HistoryRow, SpectrumRow
-from rocking.assessment.rows.of_check import CodeCheckRow
+from rocking.codes.rows import CodeCheckRow
 from rocking.described import described_values, parts_of
 from rocking.pulses import PULSE_METHODS
 from rocking.quantities import ACCELERATION_UNITS

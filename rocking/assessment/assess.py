@@ -32,12 +32,12 @@ from rocking.assessment.variations import candidates, processed_variants
 from rocking.assessment.verdict import BOTH_COMPONENTS, Method, Verdict, ratio_in_words
 from rocking.drawn import Drawn, in_a_notebook
 from rocking.errors import ConfigurationError, RecordError, RockingError
+from rocking.floors.support import Support
 from rocking.motion.integration import integrate, strict
 from rocking.motion.response import UNKNOWN, Response, check_model
 from rocking.pulses import PulseEvidence, predicting_pulse
 from rocking.quantities import GRAVITY, kind_of
 from rocking.records import Accelerogram, aligned
-from rocking.records.support import Support
 from rocking.sine_pulse import predict_maximum, printed_maximum
 from rocking.structures import Mechanism, Structure
 

@@ -21,10 +21,10 @@ from rocking.assessment.over_periods import OverPeriods, over_periods
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.variations import Variation
 from rocking.assessment.verdict import BOTH_COMPONENTS, POLARITIES, Doubt, Judgement, Method, Verdict
+from rocking.floors.support import Support
 from rocking.motion.response import UNKNOWN, ModelCheck, Response
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
-from rocking.records.support import Support
 from rocking.sine_pulse import Maximum
 from rocking.structures import EquivalentBlock, Mechanism, Outcome, Structure
 

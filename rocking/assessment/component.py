@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from rocking.assessment.settings import PredictingPulse
 from rocking.errors import PulseError, RecordError
+from rocking.floors.support import Support
 from rocking.pulses import (
     PULSE_METHODS,
     Flag,
@@ -17,7 +18,6 @@ from rocking.pulses import (
 )
 from rocking.records import Accelerogram, RotD, rotd
 from rocking.records.rotation import azimuth_of_axis
-from rocking.records.support import Support
 
 
 @dataclass(frozen=True)

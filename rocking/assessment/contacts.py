@@ -14,10 +14,10 @@ import numpy as np
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.verdict import NEGLIGIBLE, Doubt, Verdict
+from rocking.contacts.dynamics import STEP, follow_stack
 from rocking.errors import RockingError
 from rocking.motion.integration import integrate, strict
 from rocking.motion.response import check_model
-from rocking.motion.stacks import STEP, follow_stack
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism, Structure
 from rocking.structures.linkage import Turning

@@ -21,17 +21,19 @@ from enum import StrEnum
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from rocking.assessment.intensity import peak_velocity, per_velocity
 from rocking.assessment.verdict import Method
 from rocking.errors import StructureError
 from rocking.motion.forcing import forcing_of
 from rocking.motion.integration import integrate
 from rocking.motion.members import Members, integrate_members
 from rocking.motion.response import Response
+from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
+from rocking.records.measures import record_measures
 from rocking.structures import EquivalentBlock, Mechanism, Outcome
 
 NUDGES = (0.75, 0.875, 1.0, 1.125, 1.25)
@@ -136,6 +138,21 @@ def of_structure(mechanism: Mechanism) -> dict[str, float]:
         "forcing_defect": defects.forcing,
         "frequency_parameter": mechanism.equivalent_block("rest").frequency_parameter,
     }
+
+
+_PEAK_VELOCITIES: WeakKeyDictionary[Accelerogram, float] = WeakKeyDictionary()
+
+
+def peak_velocity(record: Accelerogram) -> float:
+    """Return PGV by the trapezoidal rule from rest, m/s; measured once, as every structure asks for it."""
+    if record not in _PEAK_VELOCITIES:
+        _PEAK_VELOCITIES[record] = record_measures(record).peak_velocity
+    return _PEAK_VELOCITIES[record]
+
+
+def per_velocity(block: EquivalentBlock) -> float:
+    """Return p/(gλ) of the side that lifts first, s/m."""
+    return block.frequency_parameter / (GRAVITY * min(side.uplift_multiplier for side in block.sides))
 
 
 def of_velocity(record: Accelerogram, block: EquivalentBlock) -> dict[str, float]:

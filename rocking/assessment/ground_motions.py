@@ -9,10 +9,10 @@ from types import MappingProxyType
 import numpy as np
 
 from rocking.errors import RecordError
+from rocking.floors.support import Support
 from rocking.records import Accelerogram
 from rocking.records.processing import process, variants
 from rocking.records.rotation import aligned, rotate
-from rocking.records.support import Support
 
 AS_IT_IS = "unchanged"
 """Name of the processing that leaves a record as it is."""

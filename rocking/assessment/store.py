@@ -26,7 +26,7 @@ T = TypeVar("T")
 
 LARGEST = 200_000_000
 """Bytes of the largest file that is read."""
-_WINGS = ("records", "structures", "pulses", "sine_pulse", "motion", "assessment")
+_WINGS = ("records", "floors", "structures", "pulses", "sine_pulse", "motion", "contacts", "assessment")
 """The parts of the package on which a result depends."""
 _LIBRARIES = ("numpy", "scipy", "numba")
 

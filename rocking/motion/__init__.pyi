@@ -4,5 +4,3 @@ from .members import MemberResponses as MemberResponses
 from .members import Members as Members
 from .members import integrate_members as integrate_members
 from .response import Response as Response
-from .stacks import StackResponse as StackResponse
-from .stacks import follow_stack as follow_stack

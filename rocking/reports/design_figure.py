@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.design_spectrum import DesignSpectrum
 from rocking.records.measures import response_spectrum
 from rocking.reports.record_figures import Trace
 from rocking.reports.style import PULSE, new_figure, plain_logarithmic, styled

@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rocking.assessment.intensity import INTENSITY_MEASURES
-from rocking.assessment.rows.of_fragility import ROTATION_RATIOS, FragilityRow, FragilitySummaryRow, IdaRow
+from rocking.fragility.measures import INTENSITY_MEASURES
+from rocking.fragility.rows import ROTATION_RATIOS, FragilityRow, FragilitySummaryRow, IdaRow
 from rocking.quantities import counted
 from rocking.reports.document import compile_document
 from rocking.reports.panels import draw_probability

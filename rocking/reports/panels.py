@@ -17,13 +17,13 @@ from rocking.reports.style import MOST_POINTS, PREDICTED, PULSE, RECORD, plain_l
 
 if TYPE_CHECKING:
     from rocking.assessment.assess import StructureAssessment
-    from rocking.assessment.fragility import Fragility
+    from rocking.codes.selection import Selection
+    from rocking.fragility.curves import Fragility
     from rocking.motion.batch import RockingSpectrum
     from rocking.motion.response import Response
     from rocking.pulses import Pulse, PulseAnalysis
     from rocking.records.accelerogram import Accelerogram
     from rocking.records.measures import ResponseSpectrum
-    from rocking.records.selection import Selection
     from rocking.structures import Mechanism, Structure
     from rocking.structures.capacity import CapacityCurve
 

@@ -23,8 +23,8 @@ from rocking.assessment.rows import (
     VerdictRow,
     structure_rows,
 )
-from rocking.assessment.settings import DesignSettings
 from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Verdict, agreement
+from rocking.codes.settings import DesignSettings
 from rocking.pulses import Flag
 from rocking.quantities import GRAVITY, counted
 from rocking.records.dates import day_of

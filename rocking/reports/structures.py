@@ -9,15 +9,15 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rocking.assessment.code_check import Check
-from rocking.assessment.dynamic_check import StructureCheck
-from rocking.assessment.local_mechanism import LIMIT_STATES, LocalMechanism
 from rocking.assessment.reserve import Reserve
-from rocking.assessment.rows.of_check import KINDS, disagreement
 from rocking.assessment.verdict import Doubt
+from rocking.codes.design_spectrum import DesignSpectrum
+from rocking.codes.dynamic_check import StructureCheck
+from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
+from rocking.codes.rows import KINDS, disagreement
+from rocking.codes.selection import Selection
+from rocking.codes.static_check import Check
 from rocking.quantities import counted
-from rocking.records.design_spectrum import DesignSpectrum
-from rocking.records.selection import Selection
 from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.drawings import draw_dimensions, draw_structure

@@ -28,8 +28,8 @@ from rocking.assessment.verdict import (
     within_factor_two,
     worst_first,
 )
+from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.quantities import GRAVITY, counted
-from rocking.records.design_spectrum import DesignSpectrum
 from rocking.reports import printing
 from rocking.reports.design_figure import design_summary_figure
 from rocking.reports.document import compile_document

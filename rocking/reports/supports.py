@@ -12,8 +12,8 @@ from rocking.assessment.component import Component
 from rocking.assessment.over_periods import OverPeriods
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import SupportRow
+from rocking.floors.spectrum import FLOOR_DAMPING, floor_spectrum, has_code_spectrum, spectrum_of
 from rocking.quantities import GRAVITY
-from rocking.records.floor_spectrum import FLOOR_DAMPING, floor_spectrum, has_code_spectrum, spectrum_of
 from rocking.records.measures import response_spectrum
 from rocking.reports.printing import LOOKS, quantity
 from rocking.reports.style import (

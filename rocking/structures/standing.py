@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from rocking.errors import ConfigurationError, RecordError
+from rocking.floors.support import Mode, Support
 from rocking.quantities import finite
-from rocking.records.support import Mode, Support
 
 TYPE_NAME = "support"
 """The `type` of an entry of a structure list that is a support."""

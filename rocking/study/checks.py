@@ -4,14 +4,14 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
-from rocking.assessment.dynamic_check import StructureCheck, check
 from rocking.assessment.rows import RecordRow, VerdictRow
-from rocking.assessment.rows.of_check import KINDS, CodeCheckRow, code_check_rows
 from rocking.assessment.verdict import Doubt
+from rocking.codes.design_spectrum import DesignSpectrum
+from rocking.codes.dynamic_check import StructureCheck, check
+from rocking.codes.rows import KINDS, CodeCheckRow, code_check_rows
+from rocking.codes.selection import Selection
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records import load_catalogue
-from rocking.records.design_spectrum import DesignSpectrum
-from rocking.records.selection import Selection
 from rocking.reports.structures import CheckedStructure, structures_report
 from rocking.structures import Structure
 from rocking.study.job import Study

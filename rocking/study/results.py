@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, RecordRows, TimingRow, TradeRow
-from rocking.assessment.rows.of_check import CodeCheckRow
+from rocking.codes.rows import CodeCheckRow
 from rocking.errors import RockingError
 from rocking.tables import Row, csv_lines, frame, rows_written, whole, write_whole, written_together
 from rocking.tables.csv_rows import check_columns, readable

@@ -5,11 +5,11 @@ from collections.abc import Mapping, Sequence
 from contextlib import chdir
 from pathlib import Path
 
+from rocking.codes.selection import Selection, select
 from rocking.errors import ConfigurationError, RecordError, RockingError
 from rocking.quantities import four_digits
 from rocking.records import Accelerogram, CatalogueRecord, load_catalogue
 from rocking.records.catalogue import COLUMNS, catalogue_text, read_rows
-from rocking.records.selection import Selection, select
 from rocking.study.job import Study
 from rocking.study.plan import check_config_file, config_file
 from rocking.study.settings import Settings, read_settings

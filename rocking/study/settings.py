@@ -10,7 +10,8 @@ from typing import Any, ClassVar, Literal
 
 import yaml
 
-from rocking.assessment.settings import AssessmentSettings, DesignSettings, FragilitySettings, Heading
+from rocking.assessment.settings import AssessmentSettings, Heading
+from rocking.codes.settings import DesignSettings
 from rocking.described import (
     Described,
     check_described,
@@ -20,6 +21,7 @@ from rocking.described import (
     read_described,
 )
 from rocking.errors import ConfigurationError, RecordError
+from rocking.fragility.settings import FragilitySettings
 from rocking.records.processing import Processing
 from rocking.records.scaling import ScalingTarget
 from rocking.structures.structure import CRACKS

@@ -41,7 +41,7 @@ from rocking.tables import Row, data_package, frame, write_tables, write_whole
 from rocking.tables.workbook import workbook
 
 if TYPE_CHECKING:
-    from rocking.assessment.intensity import IntensityMeasure
+    from rocking.fragility.measures import IntensityMeasure
 
 WORKBOOK = "study.xlsx"
 """The tables of the summary in one file, but for the times, which differ from run to run."""
@@ -133,7 +133,7 @@ def _report(folder: Path, study: Study, fragility: Path, spectra: Sequence[Seque
         if each.table.name in _SHOWN
     }
     if (fragility / SEAL).exists():  # which a table that was cut or edited has lost
-        from rocking.assessment.rows.of_fragility import FragilitySummaryRow, IdaRow  # a quarter of a second
+        from rocking.fragility.rows import FragilitySummaryRow, IdaRow  # a quarter of a second
 
         tables["fragility_summary"] = frame(FragilitySummaryRow, fragility / "fragility_summary.csv")
         tables["ida"] = frame(IdaRow, fragility / "ida.csv", _GOVERNING)
@@ -159,9 +159,9 @@ def write_fragility(
     stations, the hazard curve is none, or no structure can overturn; one that cannot is left out, and said.
     """
     # A quarter of a second that a summary has no need of.
-    from rocking.assessment.fragility import fragility
-    from rocking.assessment.intensity import intensity_measure
-    from rocking.assessment.rows import of_fragility as rows
+    from rocking.fragility import rows
+    from rocking.fragility.curves import fragility
+    from rocking.fragility.measures import intensity_measure
 
     settings = study.settings.fragility
     hazard = rows.read_hazard(Path(settings.hazard)) if settings.hazard else None

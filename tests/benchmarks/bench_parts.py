@@ -34,9 +34,9 @@ from rocking import (
     follow_stack,
     integrate,
 )
-from rocking.assessment.code_check import kinematic_check
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.ground_motions import GroundMotions
+from rocking.codes.static_check import kinematic_check
 from rocking.pulses import extract_pulses
 from rocking.records import read
 from rocking.records.synthetic import SyntheticRecord, at2_text

@@ -5,7 +5,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from rocking import Block, DesignSpectrum, Facade, LoadedWall, Mode, Spire, Support, Wall
-from rocking.assessment.code_check import kinematic_check
+from rocking.codes.static_check import kinematic_check
 
 G = 9.80665
 ROUNDING = 1e-12

@@ -8,7 +8,7 @@ from scipy.special import gamma
 
 from docs.research import rates
 from docs.research.rates import POPULATIONS, bounds, interval_scores, least_reach, rates_of_sites
-from rocking.assessment.fragility import fragility_of
+from rocking.fragility.curves import fragility_of
 
 SLOPE = 1.5
 CLOSED_FORM = {

@@ -22,7 +22,7 @@ from docs.research.comparison.codes import (
     still_from,
     structures,
 )
-from rocking.motion.stack_kernel import ALERT
+from rocking.contacts.kernel import ALERT
 from rocking.quantities import GRAVITY
 from rocking.structures.stack import FRICTION
 

@@ -31,10 +31,10 @@ from rocking.assessment.verdict import (
     ratio_in_words,
     within_factor_two,
 )
+from rocking.floors.spectrum import FLOOR_DAMPING, floor_spectrum, has_code_spectrum, spectrum_of
 from rocking.pulses import Pulse, PulseEvidence
 from rocking.pulses.analysis import worth
 from rocking.records import Accelerogram
-from rocking.records.floor_spectrum import FLOOR_DAMPING, floor_spectrum, has_code_spectrum, spectrum_of
 from rocking.records.measures import record_measures
 from rocking.sine_pulse import Regime
 from rocking.structures import Outcome, Structure

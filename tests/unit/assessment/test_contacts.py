@@ -13,7 +13,7 @@ from rocking.assessment.contacts import contact_share, doubt
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.verdict import Doubt
-from rocking.motion.stacks import STEP, follow_stack
+from rocking.contacts.dynamics import STEP, follow_stack
 from rocking.quantities import GRAVITY
 
 CONTACT = AssessmentSettings(fidelity="contact")

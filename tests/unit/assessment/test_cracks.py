@@ -10,11 +10,11 @@ from rocking.assessment.assess import assess_case
 from rocking.assessment.component import component_of
 from rocking.assessment.cracks import cracks, ensemble_over_cracks
 from rocking.assessment.ensemble import ensemble
-from rocking.assessment.fragility import fragility
 from rocking.assessment.ground_motions import GroundMotions, processed
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.variations import candidates, processed_variants
 from rocking.assessment.verdict import Verdict
+from rocking.fragility.curves import fragility
 from rocking.motion import integrate
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram

@@ -6,7 +6,7 @@ from scipy.optimize import minimize
 from scipy.stats import norm
 from scipy.stats import t as student
 
-from rocking.assessment.fragility import explanation
+from rocking.fragility.curves import explanation
 
 LEVELS = np.log(np.geomspace(0.05, 20.0, 60))
 

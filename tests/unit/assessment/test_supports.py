@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assess import Extent, assess_record, with_histories
-from rocking.assessment.fragility import fragility
 from rocking.assessment.rows import rows_of_record
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
+from rocking.fragility.curves import fragility
 from rocking.motion.integration import integrate
 from rocking.records import Accelerogram
 from rocking.structures import Block

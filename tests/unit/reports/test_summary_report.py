@@ -9,7 +9,6 @@ import pandas
 import pytest
 
 import rocking
-from rocking.assessment.intensity import INTENSITY_MEASURES
 from rocking.assessment.rows import (
     ComparisonRow,
     FailureRow,
@@ -19,7 +18,6 @@ from rocking.assessment.rows import (
     VerdictRow,
     agreement_rows,
 )
-from rocking.assessment.rows.of_fragility import FragilityRow, FragilitySummaryRow
 from rocking.assessment.verdict import (
     Agreement,
     Method,
@@ -28,6 +26,8 @@ from rocking.assessment.verdict import (
     ratio_in_words,
     within_factor_two,
 )
+from rocking.fragility.measures import INTENSITY_MEASURES
+from rocking.fragility.rows import FragilityRow, FragilitySummaryRow
 from rocking.records.measures import response_spectrum
 from rocking.reports.design_figure import (
     MOST_LINES,

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from rocking import Block, DesignSpectrum, Facade, check
-from rocking.assessment.dynamic_check import DynamicCheck
 from rocking.assessment.rows import RecordRow, VerdictRow
-from rocking.assessment.rows.of_check import CodeCheckRow, disagreement
+from rocking.codes.dynamic_check import DynamicCheck
+from rocking.codes.rows import CodeCheckRow, disagreement
 from rocking.errors import ConfigurationError
 from rocking.reports.structures import share_interval, structures_data
 from rocking.structures import load_structures
@@ -257,7 +257,7 @@ def test_the_page_tells_a_reserve_that_was_not_sought_from_one_that_was_not_reac
 
 
 def test_the_report_of_a_record_draws_the_design_level_beside_its_spectra(study):
-    from rocking.assessment.settings import DesignSettings
+    from rocking.codes.settings import DesignSettings
     from rocking.reports.design_figure import design_figure
 
     settings, _ = study

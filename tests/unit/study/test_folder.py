@@ -100,7 +100,7 @@ def test_a_lock_is_a_file_of_its_own(tmp_path: Path) -> None:
 
 
 def test_a_pipe_in_place_of_hashes_or_of_a_hazard_curve_keeps_nobody_waiting(tmp_path: Path) -> None:
-    from rocking.assessment.rows.of_fragility import read_hazard
+    from rocking.fragility.rows import read_hazard
 
     os.mkfifo(tmp_path / "pipe")
     assert ContentHashes(tmp_path / "pipe").of(tmp_path / "pipe") == ""

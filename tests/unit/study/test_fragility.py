@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from scipy.signal import lsim
 
-from rocking.assessment.intensity import INTENSITY_MEASURES
-from rocking.assessment.rows.of_fragility import FRAGILITY_TABLES, FragilitySummaryRow, IdaRow
 from rocking.errors import ConfigurationError
+from rocking.fragility.measures import INTENSITY_MEASURES
+from rocking.fragility.rows import FRAGILITY_TABLES, FragilitySummaryRow, IdaRow
 from rocking.motion import integrate
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram

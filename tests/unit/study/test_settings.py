@@ -10,9 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from jsonschema import Draft7Validator
 
-from rocking.assessment.settings import AssessmentSettings, FragilitySettings
+from rocking.assessment.settings import AssessmentSettings
 from rocking.described import described_values, parts_of
 from rocking.errors import ConfigurationError
+from rocking.fragility.settings import FragilitySettings
 from rocking.records.processing import UNPROCESSED_DEFAULT
 from rocking.reports.printing import settings_texts
 from rocking.study.settings import (

@@ -7,15 +7,15 @@ from pathlib import Path
 import numpy as np
 from scipy.special import stdtrit
 
-from rocking.assessment.fragility import Fragility, IncrementalDynamicAnalysis, explanation
-from rocking.assessment.intensity import (
+from rocking.assessment.fidelity import peak_velocity
+from rocking.assessment.rows.meanings import RECORD, STRUCTURE
+from rocking.errors import ConfigurationError
+from rocking.fragility.curves import Fragility, IncrementalDynamicAnalysis, explanation
+from rocking.fragility.measures import (
     INTENSITY_MEASURES,
     MEASURES_IN_WORDS,
     IntensityMeasure,
-    peak_velocity,
 )
-from rocking.assessment.rows.meanings import RECORD, STRUCTURE
-from rocking.errors import ConfigurationError
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism
 from rocking.tables import Row, column, read_rows, read_whole, row

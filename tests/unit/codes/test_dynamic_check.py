@@ -18,7 +18,7 @@ from rocking import (
     integrate_members,
     select,
 )
-from rocking.assessment import dynamic_check
+from rocking.codes import dynamic_check
 from rocking.records import Accelerogram
 from tests.made_pools import made_pool
 
@@ -69,8 +69,8 @@ def test_a_block_under_the_set_as_its_integrations_say(records):
 
 def test_the_confidence_factor_weakens_what_restores(records):
     """The mechanism of a block with FC is the block whose gravity is g/FC: λ and p² fall by FC, φ_cr stays."""
-    from rocking.assessment.code_check import kinematic_check
-    from rocking.assessment.dynamic_check import with_confidence
+    from rocking.codes.dynamic_check import with_confidence
+    from rocking.codes.static_check import kinematic_check
 
     block = Block.of_size(0.45, 3.0)
     weak = with_confidence(kinematic_check(block, SPECTRUM, confidence_factor=1.35).mechanisms)
@@ -85,8 +85,8 @@ def test_the_confidence_factor_weakens_what_restores(records):
 @pytest.mark.parametrize("elongation", [0.0, 0.05, 9.0], ids=["brittle", "breaks late", "yields without end"])
 def test_the_confidence_factor_divides_weight_and_ties_alike(elongation):
     """I φ'' = −(G g + T)/F − B ü_g − J φ'² is the motion of the structure itself, √F times as slow, under F ü_g."""
-    from rocking.assessment.code_check import kinematic_check
-    from rocking.assessment.dynamic_check import with_confidence
+    from rocking.codes.dynamic_check import with_confidence
+    from rocking.codes.static_check import kinematic_check
 
     facade = Facade(
         (3.2, 2.8), (0.6, 0.5), 20e3, (10e3, 5e3), 0.05, tie_heights=(3.1, 5.8), tie_stiffness=3e5,

@@ -11,11 +11,12 @@ from scipy.stats import beta, norm
 
 import rocking
 from rocking.assessment.ensemble import drawn
-from rocking.assessment.fragility import Fragility, IncrementalDynamicAnalysis, fragility, fragility_of
-from rocking.assessment.intensity import INTENSITY_MEASURES
-from rocking.assessment.rows.of_fragility import HazardRow, annual_rate, ida_rows, rate_interval
 from rocking.assessment.settings import EnsembleSettings
 from rocking.errors import ConfigurationError
+from rocking.fragility import curves
+from rocking.fragility.curves import Fragility, IncrementalDynamicAnalysis, fragility, fragility_of
+from rocking.fragility.measures import INTENSITY_MEASURES
+from rocking.fragility.rows import HazardRow, annual_rate, ida_rows, rate_interval
 from rocking.motion import integrate
 from rocking.motion.batch import integrate_batch
 from rocking.quantities import GRAVITY
@@ -130,7 +131,7 @@ def test_levels_lie_where_the_curve_rises_and_where_it_falls(monkeypatch):
         velocities = measure.of(record, structures[0]) * np.asarray(factors)
         return np.where((velocities > 0.3) & (velocities < 0.6) | (velocities > 1.2), math.inf, 0.1)[None]
 
-    monkeypatch.setattr("rocking.assessment.fragility.integrate_batch", banded)
+    monkeypatch.setattr(curves, "integrate_batch", banded)
     levels = fragility(RECORDS, BLOCK).levels
     steps = np.diff(np.log(levels))
     for edge in (0.3, 0.6, 1.2):
@@ -154,8 +155,8 @@ def test_a_case_without_an_answer_counts_as_one_that_falls_and_costs_no_other(en
         ratios = np.where(lost & (np.arange(16) == 3), np.nan, made.rotation_ratios)
         return replace(made, rotation_ratios=ratios)
 
-    monkeypatch.setattr("rocking.assessment.fragility.integrate_batch", failing_batch)
-    monkeypatch.setattr("rocking.assessment.fragility.drawn", failing_members)
+    monkeypatch.setattr(curves, "integrate_batch", failing_batch)
+    monkeypatch.setattr(curves, "drawn", failing_members)
     curve = fragility(RECORDS, BLOCK, levels=levels, ensemble=ensemble)
     assert curve.exceedance[2].tolist() == [1.0 if ensemble is None else 1 / 16] * 2
     assert not np.delete(curve.exceedance, 2, axis=0).any()

@@ -6,12 +6,13 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from rocking.assessment.fidelity import peak_velocity, per_velocity
 from rocking.errors import ConfigurationError, RockingError
 from rocking.pulses import extract_pulses
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.records.measures import record_measures, response_spectrum
-from rocking.structures import EquivalentBlock, Mechanism
+from rocking.records.measures import response_spectrum
+from rocking.structures import Mechanism
 
 SPECTRAL_PERIOD = 1.0
 """Period of the spectral acceleration, s."""
@@ -55,20 +56,6 @@ class IntensityMeasure:
 _REMEMBERED: WeakKeyDictionary[Accelerogram, dict[str, float]] = WeakKeyDictionary()
 
 
-def peak_velocity(record: Accelerogram) -> float:
-    """PGV by the trapezoidal rule from rest, m/s; measured once as long as the record lives."""
-    return INTENSITY_MEASURES["pgv"].remembered(record)
-
-
-def per_velocity(block: EquivalentBlock) -> float:
-    """p/(gλ) of the side that lifts first, s/m."""
-    return block.frequency_parameter / (GRAVITY * min(side.uplift_multiplier for side in block.sides))
-
-
-def _velocity(record: Accelerogram) -> float:
-    return record_measures(record).peak_velocity
-
-
 def _spectral(record: Accelerogram) -> float:
     spectrum = response_spectrum(record, np.array([SPECTRAL_PERIOD]))
     return float(spectrum.pseudo_acceleration[0]) / GRAVITY
@@ -77,12 +64,12 @@ def _spectral(record: Accelerogram) -> float:
 INTENSITY_MEASURES: dict[str, IntensityMeasure] = {
     each.name: each
     for each in (
-        IntensityMeasure("pgv", "m/s", "peak ground velocity", _velocity),
+        IntensityMeasure("pgv", "m/s", "peak ground velocity", peak_velocity),
         IntensityMeasure(
             "pga", "g", "peak ground acceleration", lambda record: record.peak_acceleration / GRAVITY
         ),
         IntensityMeasure(
-            "p_pgv", "", "p·PGV/(gλ)", _velocity, lambda m: 1 / per_velocity(m.equivalent_block("rest"))
+            "p_pgv", "", "p·PGV/(gλ)", peak_velocity, lambda m: 1 / per_velocity(m.equivalent_block("rest"))
         ),
         IntensityMeasure(
             "pulse",

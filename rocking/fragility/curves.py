@@ -18,12 +18,13 @@ from scipy.special import betaincinv, erfcx, ndtr, stdtr, stdtrit
 from rocking.assessment.causes import lattice
 from rocking.assessment.cracks import cracks
 from rocking.assessment.ensemble import drawn
+from rocking.assessment.fidelity import peak_velocity, per_velocity
 from rocking.assessment.ground_motions import GroundMotions
-from rocking.assessment.intensity import IntensityMeasure, peak_velocity, per_velocity
-from rocking.assessment.intensity import intensity_measure as measure_named
 from rocking.assessment.settings import EnsembleSettings
 from rocking.drawn import Drawn
 from rocking.errors import ConfigurationError, StructureError
+from rocking.fragility.measures import IntensityMeasure
+from rocking.fragility.measures import intensity_measure as measure_named
 from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import Rocking, reduce
 from rocking.quantities import GRAVITY

@@ -13,20 +13,20 @@ from functools import partial
 
 import numpy as np
 
-from rocking.assessment.code_check import (
+from rocking.codes.design_spectrum import DesignSpectrum
+from rocking.codes.local_mechanism import LIMIT_STATES, LimitState, LocalMechanism
+from rocking.codes.selection import SETS, Selection
+from rocking.codes.static_check import (
     BEHAVIOUR_FACTOR,
     CONFIDENCE_FACTOR,
     Check,
     CodeCheck,
     kinematic_check,
 )
-from rocking.assessment.local_mechanism import LIMIT_STATES, LimitState, LocalMechanism
 from rocking.errors import ConfigurationError
+from rocking.floors.support import Support
 from rocking.quantities import counted, kind_of
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.design_spectrum import DesignSpectrum
-from rocking.records.selection import SETS, Selection
-from rocking.records.support import Support
 from rocking.structures import Mechanism, Side, Structure
 from rocking.structures.mechanism import SideTie
 

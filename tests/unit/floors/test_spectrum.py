@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from rocking.errors import RecordError
+from rocking.floors.spectrum import damping_factor, floor_acceleration, floor_spectrum, spectrum_of
+from rocking.floors.support import Mode, Support
 from rocking.records import read
-from rocking.records.design_spectrum import damping_factor
-from rocking.records.floor_spectrum import floor_acceleration, floor_spectrum, spectrum_of
 from rocking.records.measures import response_spectrum
-from rocking.records.support import Mode, Support
 
 ONE = Support((Mode(0.3, 0.05, 1.3),))
 

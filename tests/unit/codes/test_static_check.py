@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 
 import rocking
 from rocking import Arch, Block, DesignSpectrum, Facade, LoadedWall, Mode, Spire, Support
-from rocking.assessment.code_check import elastic_period, kinematic_check
+from rocking.codes.static_check import elastic_period, kinematic_check
 from rocking.errors import ConfigurationError, RecordError, StructureError
 
 G = 9.80665

@@ -3,9 +3,9 @@
 import math
 from collections.abc import Iterator, Sequence
 
-from rocking.assessment.code_check import Check
-from rocking.assessment.dynamic_check import DynamicCheck, StructureCheck
 from rocking.assessment.rows.meanings import STRUCTURE
+from rocking.codes.dynamic_check import DynamicCheck, StructureCheck
+from rocking.codes.static_check import Check
 from rocking.quantities import counted
 from rocking.tables import Row, column, row
 

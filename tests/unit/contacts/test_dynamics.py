@@ -16,7 +16,7 @@ from rocking import (
     Wall,
     integrate,
 )
-from rocking.motion.stacks import follow_stack
+from rocking.contacts.dynamics import follow_stack
 from rocking.quantities import GRAVITY
 from rocking.structures.stack import Stack, courses_between, joined
 

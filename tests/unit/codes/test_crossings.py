@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from rocking import DesignSpectrum
-from rocking.assessment.crossings import Crossings
-from rocking.records.floor_demand import FloorDemand
+from rocking.codes.crossings import Crossings
+from rocking.codes.floor_demand import FloorDemand
 
 G = 9.80665
 F0 = 2.5

@@ -11,13 +11,13 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from rocking.assessment.crossings import Crossings
-from rocking.assessment.local_mechanism import LIMIT_STATES, LimitPoint, LimitState, LocalMechanism
+from rocking.codes.crossings import Crossings
+from rocking.codes.design_spectrum import DesignSpectrum
+from rocking.codes.floor_demand import FloorDemand
+from rocking.codes.local_mechanism import LIMIT_STATES, LimitPoint, LimitState, LocalMechanism
 from rocking.errors import ConfigurationError, StructureError
+from rocking.floors.support import Support
 from rocking.quantities import GRAVITY, finite, kind_of, positive
-from rocking.records.design_spectrum import DesignSpectrum
-from rocking.records.floor_demand import FloorDemand
-from rocking.records.support import Support
 from rocking.structures import Structure
 
 CONFIDENCE_FACTOR = 1.35
@@ -95,7 +95,7 @@ def elastic_period(
     length, thickness: m. unit_weight: W, N/m³. elastic_modulus: E, Pa. cantilever: κ = 6.2, else between two supports,
     2.2. Raises ConfigurationError for what is not above zero.
 
-    >>> from rocking.assessment.code_check import elastic_period
+    >>> from rocking.codes.static_check import elastic_period
     >>> round(elastic_period(2.0, 0.3, 18e3, 1e9), 4)
     0.112
     """

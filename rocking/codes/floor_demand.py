@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.records.design_spectrum import DesignSpectrum
-from rocking.records.floor_spectrum import UPPER_PERIOD, amplification, mode_factor
-from rocking.records.support import Support
+from rocking.codes.design_spectrum import DesignSpectrum
+from rocking.floors.spectrum import UPPER_PERIOD, amplification, mode_factor
+from rocking.floors.support import Support
 
 
 @dataclass(frozen=True, eq=False)

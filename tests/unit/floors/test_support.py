@@ -9,9 +9,9 @@ from coupled import Cases, largest_rotations
 from scipy.integrate import solve_ivp
 
 from rocking.errors import RecordError
+from rocking.floors.support import INTERPOLATION_ERROR, RINGING, Mode, Support
 from rocking.motion.integration import integrate
 from rocking.records import Accelerogram
-from rocking.records.support import INTERPOLATION_ERROR, RINGING, Mode, Support
 from rocking.structures import Block
 
 STEP = 0.01

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from rocking import DesignSpectrum, select
+from rocking.codes.selection import search
 from rocking.errors import ConfigurationError
-from rocking.records.selection import search
 from tests.made_pools import made_pool
 from tests.oracles.oscillator import spectral_acceleration
 

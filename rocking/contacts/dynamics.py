@@ -1,6 +1,6 @@
 """Stacks of rigid courses on moving ground by contact dynamics: the most expensive method, which asks for no mechanism.
 
-The compiled steps stand in `stack_kernel.py`. They are of first order in the time step, and near a limit the outcome
+The compiled steps stand in `kernel.py`. They are of first order in the time step, and near a limit the outcome
 changes with it, so that one run says less than the share of several (`assessment/contacts.py`).
 """
 
@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from rocking.contacts import kernel
 from rocking.errors import MotionError
-from rocking.motion import stack_kernel
 from rocking.quantities import GRAVITY, finite
 from rocking.records import Accelerogram
 from rocking.structures.stack import Stack
@@ -87,11 +87,11 @@ def follow_stack(
     every = max(round(motion.time_step / step), 1) if history else 0
     kept = np.zeros((len(kicks) // every + 1 if every else 0, len(stack.courses) + 1, 6))
     settled = min(each.slenderness for each in stack.courses if not (each.guided or each.upright)) / 30
-    limits = stack_kernel.Limits(step, GRAVITY, stack.fallen_turn, settled, still, every)
+    limits = kernel.Limits(step, GRAVITY, stack.fallen_turn, settled, still, every)
     state, joints = _beginning(stack, bodies, initial_velocity)
-    ending, steps, swept = stack_kernel.follow(bodies, _acting(stack), kicks, limits, state, joints, kept)
+    ending, steps, swept = kernel.follow(bodies, _acting(stack), kicks, limits, state, joints, kept)
     response = StackResponse(
-        falls=ending == stack_kernel.FALLS,
+        falls=ending == kernel.FALLS,
         turns=-state.turns[1:],
         largest_turns=state.most[1:],
         steps=steps,
@@ -147,7 +147,7 @@ def _velocity(motion: Accelerogram, times: np.ndarray) -> np.ndarray:
     return gained
 
 
-def _bodies(stack: Stack) -> stack_kernel.Bodies:
+def _bodies(stack: Stack) -> kernel.Bodies:
     """The courses on the ground as the kernel takes them."""
     first, last = stack.courses[0], stack.courses[-1]
     left, right = first.bottom
@@ -165,10 +165,10 @@ def _bodies(stack: Stack) -> stack_kernel.Bodies:
     pinned = np.full(2, np.nan)
     if stack.top_held_at is not None:
         pinned = np.array(stack.top_held_at) - last.centre
-    return stack_kernel.Bodies(centres, corners, np.array(mobility), float(stack.friction), pinned)
+    return kernel.Bodies(centres, corners, np.array(mobility), float(stack.friction), pinned)
 
 
-def _acting(stack: Stack) -> stack_kernel.Acting:
+def _acting(stack: Stack) -> kernel.Acting:
     """Forces and ties as the kernel takes them."""
     forces, ties = [], []
     for each in stack.held:
@@ -179,19 +179,19 @@ def _acting(stack: Stack) -> stack_kernel.Acting:
             ties.append([body, across, up, tie.stiffness, tie.pretension, tie.strength, tie.rupture_stretch])
         if any(each.force):
             forces.append([body, across, up, *each.force])
-    return stack_kernel.Acting(np.array(forces).reshape(-1, 5), np.array(ties).reshape(-1, 7))
+    return kernel.Acting(np.array(forces).reshape(-1, 5), np.array(ties).reshape(-1, 7))
 
 
 def _beginning(
-    stack: Stack, bodies: stack_kernel.Bodies, initial_velocity: np.ndarray | None
-) -> tuple[stack_kernel.State, stack_kernel.Joints]:
+    stack: Stack, bodies: kernel.Bodies, initial_velocity: np.ndarray | None
+) -> tuple[kernel.State, kernel.Joints]:
     """The state in which a stack begins, and its joints, closed."""
     count, ties = len(bodies.centres), sum(each.tie is not None for each in stack.held)
     place, velocity = np.zeros((count, 3)), np.zeros((count, 3))
     place[:, :2] = bodies.centres
     if initial_velocity is not None:
         velocity[1:] = np.asarray(initial_velocity) * [1, 1, -1]
-    state = stack_kernel.State(
+    state = kernel.State(
         place,
         velocity,
         turns=np.zeros(count),
@@ -201,12 +201,12 @@ def _beginning(
         scale=np.zeros(count),
         work=np.zeros((count, 3, 7)),
     )
-    joints = stack_kernel.Joints(
+    joints = kernel.Joints(
         gap=np.full((count, 2), np.inf),
         rows=np.zeros((count, 3, 6)),
         pushes=np.zeros((count, 3, 6)),
         impulse=np.zeros((count, 3)),
-        touches=np.full(count, stack_kernel.CLOSED),
+        touches=np.full(count, kernel.CLOSED),
         slides=np.zeros(count, dtype=np.int64),
     )
     return state, joints

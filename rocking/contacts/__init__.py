@@ -1,0 +1,1 @@
+"""Contacts: stacks of rigid courses whose contacts open, close and slide."""

@@ -1,0 +1,1 @@
+"""Floors: what a support makes of the motion of the ground."""
