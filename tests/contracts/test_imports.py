@@ -15,7 +15,7 @@ import rocking
 PACKAGE = Path(rocking.__file__).parent
 FLOORS = [
     {"errors"},
-    {"quantities", "drawn"},
+    {"quantities", "drawn", "remarks"},
     {"described"},
     {"tables"},
     {"records"},
