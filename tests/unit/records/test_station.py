@@ -126,7 +126,7 @@ JOINED = {
     "impvall1979_e04": 2, "impvall1979_e06": 3, "impvall1979_e07": 3, "kobe1995_kjma": 3, "kocaeli1999_yarimca": 3,
     "kobe1995_takatori": 2, "landers1992_lucerne": 3, "lomaprieta1989_corralitos": 2, "lomaprieta1989_los_gatos_LGP": 2,
     "northridge1994_newhall": 3, "northridge1994_rinaldi": 3,
-    "northridge1994_sylmar_olive_view": 3, "parkfield2004_c02": 3,
+    "northridge1994_sylmar_olive_view": 3, "open": 6, "parkfield2004_c02": 3,
 }  # fmt: skip
 """Files by folder, by hand from their names. Of Erzincan and Manjil the lengths differ by more than 2 %."""
 
