@@ -44,6 +44,7 @@ from .records.measures import ResponseSpectrum as ResponseSpectrum
 from .records.measures import record_measures as record_measures
 from .records.measures import response_spectrum as response_spectrum
 from .records.obspy_stream import from_obspy as from_obspy
+from .remarks import Remark as Remark
 from .reports.panels import plot as plot
 from .sine_pulse import Maximum as Maximum
 from .sine_pulse import Regime as Regime

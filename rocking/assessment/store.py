@@ -130,8 +130,12 @@ def decoded(kind: Any, value: Any) -> Any:
     if origin in (typing.Union, types.UnionType):
         if value is None:
             return None
-        (kind,) = (each for each in parts if each is not type(None))
-        return decoded(kind, value)
+        kinds = [each for each in parts if each is not type(None)]
+        if len(kinds) > 1:  # texts and numbers, which JSON tells apart
+            if type(value) not in kinds:
+                raise ValueError(value)
+            return value
+        return decoded(kinds[0], value)
     if origin is tuple:
         if parts[1:] == (...,):
             return tuple(decoded(parts[0], each) for each in value)

@@ -1,16 +1,21 @@
 """The catalogue of remarks: each kind has its own code and a sentence that its values fill."""
 
-from string import Formatter
+import ast
+import inspect
+from pathlib import Path
 
 import pytest
 
+import rocking
+from rocking.assessment.store import decoded, encoded
 from rocking.remarks import Kind, Remark
+
+PACKAGE = Path(inspect.getfile(rocking)).parent
 
 
 @pytest.mark.parametrize("kind", Kind)
 def test_every_sentence_is_filled_by_its_values_alone(kind):
-    names = {name for _, name, _, _ in Formatter().parse(kind.sentence) if name}
-    numbers = dict.fromkeys(names - {"about"}, 1.5)
+    numbers = dict.fromkeys(kind.value_names, 1.5)
     remark = Remark.of(kind, "wall", **numbers)
     assert Kind(kind.value) is kind
     assert "{" not in str(remark)
@@ -24,3 +29,37 @@ def test_no_two_kinds_say_the_same():
 def test_values_that_the_sentence_does_not_name_are_refused():
     with pytest.raises(ValueError, match="force"):
         Remark.of(Kind.CONTACTS_OPEN, force=2.0)
+
+
+def test_a_kind_that_the_catalogue_does_not_hold_is_refused():
+    with pytest.raises(ValueError, match="'contacts open' is of no kind"):
+        Remark("contacts open")
+
+
+def test_a_value_that_is_neither_text_nor_number_is_refused(monkeypatch):
+    monkeypatch.setattr(Kind.CONTACTS_OPEN, "value_names", ("count",))
+    with pytest.raises(ValueError, match=r"count is \[1\], but must be a text or a number"):
+        Remark.of(Kind.CONTACTS_OPEN, count=[1])
+
+
+def test_every_remark_that_the_package_makes_has_the_values_of_its_sentence():
+    """Also those that no other test makes: the calls are read from the sources."""
+    wrong = []
+    for path in PACKAGE.rglob("*.py"):
+        for call in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if not (isinstance(call, ast.Call) and ast.unparse(call.func) == "Remark.of" and call.args):
+                continue
+            named = ast.unparse(call.args[0]).removeprefix("Kind.")
+            given = sorted(each.arg or "" for each in call.keywords)
+            if named in Kind.__members__ and "" not in given and given != list(Kind[named].value_names):
+                wrong.append(f"{path.name}:{call.lineno}: {named} with {given}")
+    assert not wrong
+
+
+@pytest.mark.parametrize("value", ["wall", 3, 2.5])
+def test_a_remark_is_kept_with_its_values(monkeypatch, value):
+    monkeypatch.setattr(Kind.CONTACTS_OPEN, "value_names", ("force",))
+    remark = Remark.of(Kind.CONTACTS_OPEN, "pier", force=value)
+    again = decoded(Remark, encoded(remark))
+    assert again == remark
+    assert type(again["force"]) is type(value)
