@@ -5,7 +5,6 @@ part of this package: a folder in the form of `Campaign.open` is read as it stan
 it are fetched from the source and checked against the catalogue.
 """
 
-import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,6 +14,7 @@ import numpy as np
 import pandas as pd
 
 from rocking.errors import RecordError
+from rocking.hashes import sha256_of_bytes
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.files import download
@@ -45,7 +45,7 @@ class TableMotion(Row):
     def holds(self, samples: np.ndarray) -> bool:
         """Whether `samples` (n,) are those of the catalogue."""
         content = np.ascontiguousarray(samples, dtype="<f4").tobytes()
-        return hashlib.sha256(content).hexdigest() == self.samples_sha256
+        return sha256_of_bytes(content) == self.samples_sha256
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,7 +3,6 @@
 And what `fidelity: auto` does with them on those sites: where it stops, what it costs, where it errs.
 """
 
-import hashlib
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
@@ -31,6 +30,7 @@ from rocking.assessment.fidelity import (
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import EnsembleSettings
 from rocking.assessment.verdict import Method
+from rocking.hashes import sha256_of_bytes
 from rocking.structures import Structure
 from rocking.tables import write_whole
 
@@ -56,7 +56,7 @@ def calibrate(target: Target) -> None:
     subtitle = ", ".join(f"{many} {name}" for name, many in about.items())
     target.publish("What a cheap figure says of overturning", f"{subtitle}.", {scores.Score: rows})
     hashes = "\n".join(sorted({component.accelerogram.source.sha256 for component in records}))
-    about["records_sha256"] = hashlib.sha256(hashes.encode()).hexdigest()
+    about["records_sha256"] = sha256_of_bytes(hashes.encode())
     fits = {tier: {"terms": tier.terms, **vars(fit(tier, cases))} for tier in Tier}
     for each in fits.values():
         del each["tier"]

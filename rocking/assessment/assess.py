@@ -5,7 +5,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, fields, replace
 from functools import lru_cache, partial
-from hashlib import sha256
 from math import inf
 from statistics import median
 from time import process_time
@@ -33,6 +32,7 @@ from rocking.assessment.verdict import BOTH_COMPONENTS, Method, Verdict, ratio_i
 from rocking.drawn import Drawn, in_a_notebook
 from rocking.errors import ConfigurationError, RecordError, RockingError
 from rocking.floors.support import Support
+from rocking.hashes import sha256_of
 from rocking.motion.integration import integrate, strict
 from rocking.motion.response import UNKNOWN, Response, check_model
 from rocking.pulses import PulseEvidence, predicting_pulse
@@ -76,7 +76,7 @@ class Extent:
     def fingerprint(self, motion: Motion, structure: Structure, alone: bool) -> str:
         """Return the hash of all that the result of a case depends on."""
         own = {each.name: getattr(self.settings, each.name) for each in fields(AssessmentSettings)}
-        return _hash(
+        return sha256_of(
             motion.fingerprint,
             structure.as_config(),
             own,
@@ -89,11 +89,7 @@ class Extent:
     def pulses_fingerprint(self, motions: Sequence[Motion], place: int) -> str:
         """Return the hash of all that the pulses of the component at `place` depend on."""
         prints = [each.fingerprint for each in motions]
-        return _hash("pulses", place, prints, self.settings.pulse, self.motion_measures, self.version)
-
-
-def _hash(*parts: object) -> str:
-    return sha256(repr(parts).encode()).hexdigest()
+        return sha256_of("pulses", place, prints, self.settings.pulse, self.motion_measures, self.version)
 
 
 class Clock:

@@ -4,7 +4,6 @@
 terminal and `rocking.assess` ask it, or read the row that it was written into.
 """
 
-import hashlib
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
@@ -22,6 +21,7 @@ from rocking.assessment.reserve import Reserve
 from rocking.assessment.variations import Variation
 from rocking.assessment.verdict import BOTH_COMPONENTS, POLARITIES, Doubt, Judgement, Method, Verdict
 from rocking.floors.support import Support
+from rocking.hashes import sha256_of
 from rocking.motion.response import UNKNOWN, ModelCheck, Response
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
@@ -54,11 +54,8 @@ class Motion:
     @cached_property
     def fingerprint(self) -> str:
         """Hash of the samples and of all that is known of them; where the file lies is left out."""
-        digest = hashlib.sha256()
-        for each in (*self.components, self.vertical):
-            digest.update(_content(each).encode())
-        digest.update(repr(self.support).encode())
-        return digest.hexdigest()
+        motions = [_content(each) for each in (*self.components, self.vertical)]
+        return sha256_of(*motions, self.support)
 
     def ground_motions(self, processing: bool) -> GroundMotions:
         """Return the motions that this one stands for. Raises RecordError for components that are no pair."""

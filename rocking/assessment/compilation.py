@@ -2,7 +2,6 @@
 
 import contextlib
 import fcntl
-import hashlib
 import subprocess
 import sys
 import time
@@ -13,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from rocking.errors import RockingError
+from rocking.hashes import sha256_of_bytes, sha256_of_sources
 from rocking.motion import Members, integrate, integrate_batch, integrate_members
 from rocking.motion.batch import rocking_spectrum
 from rocking.motion.nonlinear_kernel import rock
@@ -51,18 +51,15 @@ def _processor() -> str:
     """The processor and the Python for which numba keeps what it compiled."""
     from llvmlite import binding  # numba has imported it
 
-    features = hashlib.sha256(binding.get_host_cpu_features().flatten().encode()).hexdigest()
+    features = sha256_of_bytes(binding.get_host_cpu_features().flatten().encode())
     return f"{binding.get_host_cpu_name()}-{features[:8]}.{sys.implementation.cache_tag}"
 
 
 def _source() -> str:
     """One hash for numba and for what all files beside the kernels say."""
-    digest = hashlib.sha256(version("numba").encode())
     package = Path(__file__).parents[1]
-    for part in ("motion", "pulses", "sine_pulse"):
-        for path in sorted((package / part).glob("*.py")):
-            digest.update(path.read_bytes())
-    return digest.hexdigest()
+    files = [path for part in ("motion", "pulses", "sine_pulse") for path in (package / part).glob("*.py")]
+    return sha256_of_sources(package, files, version("numba"))
 
 
 def _compile(say: Callable[[str], None]) -> None:

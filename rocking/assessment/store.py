@@ -5,7 +5,6 @@ into it can become numbers and texts of a result, and never a program. A file of
 one whose content is not what was written, counts as none.
 """
 
-import hashlib
 import json
 import types
 import typing
@@ -20,6 +19,7 @@ from typing import Any, TypeVar, get_args, get_origin, get_type_hints
 import numpy as np
 
 from rocking.errors import RockingError
+from rocking.hashes import sha256_of_bytes, sha256_of_sources
 from rocking.tables import read_whole, write_whole
 
 T = TypeVar("T")
@@ -35,13 +35,9 @@ _LIBRARIES = ("numpy", "scipy", "numba")
 def computation_version() -> str:
     """Return one hash for everything that computes a result: sources of this package and versions of libraries."""
     root = Path(__file__).parents[1]
-    digest = hashlib.sha256()
     paths = [path for wing in _WINGS for path in (root / wing).rglob("*") if path.suffix in (".py", ".json")]
-    for path in sorted([*paths, root / "quantities.py"]):
-        digest.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
-    for library in _LIBRARIES:
-        digest.update(f"{library} {version(library)}\n".encode())
-    return digest.hexdigest()
+    libraries = [f"{library} {version(library)}" for library in _LIBRARIES]
+    return sha256_of_sources(root, [*paths, root / "quantities.py"], *libraries)
 
 
 class RecordStore:
@@ -83,7 +79,7 @@ class RecordStore:
         if self._now.keys() == self._before.keys():
             return
         content = json.dumps(self._now, separators=(",", ":")).encode()
-        head = f"{computation_version()} {hashlib.sha256(content).hexdigest()}\n"
+        head = f"{computation_version()} {sha256_of_bytes(content)}\n"
         write_whole(self._path, [head.encode(), content])
 
 
@@ -93,7 +89,7 @@ def _opened(path: Path) -> Mapping[str, Any]:
     made_by, _, sha256 = head.decode("ascii", "replace").partition(" ")
     if made_by != computation_version():
         raise ValueError("another version of the computation made it")
-    if hashlib.sha256(content).hexdigest() != sha256:
+    if sha256_of_bytes(content) != sha256:
         raise ValueError("its content is not what was written")
     entries = json.loads(content)
     if not isinstance(entries, dict):

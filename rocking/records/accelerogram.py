@@ -1,6 +1,5 @@
 """Accelerogram: what every reader returns. An acceleration history and where it came from, nothing else."""
 
-import hashlib
 from collections.abc import Iterator
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
@@ -11,6 +10,7 @@ import numpy as np
 
 from rocking.drawn import Drawn
 from rocking.errors import RecordError, about
+from rocking.hashes import sha256_of_bytes
 from rocking.quantities import GRAVITY, UNPRINTABLE, finite, four_digits, positive
 from rocking.records.traces import OBSPY_EXTRAS
 
@@ -148,7 +148,7 @@ class Accelerogram(Drawn):
     @cached_property
     def sha256(self) -> str:
         """Hash of the time step and the samples as they stand here (not of the file)."""
-        return hashlib.sha256(np.float64(self.time_step).tobytes() + self.acceleration.tobytes()).hexdigest()
+        return sha256_of_bytes(np.float64(self.time_step).tobytes(), self.acceleration.tobytes())
 
     def scaled(self, factor: float) -> "Accelerogram":
         """Return this accelerogram with its acceleration multiplied by `factor`, remembered in scale_factor."""

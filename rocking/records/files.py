@@ -1,6 +1,5 @@
 """The files of a record: where they lie on this machine, fetched if need be, and their hashes in the catalogue."""
 
-import hashlib
 import time
 import urllib.request
 from contextlib import suppress
@@ -11,6 +10,7 @@ from typing import IO
 from urllib.parse import quote
 
 from rocking.errors import RecordError
+from rocking.hashes import sha256_of_bytes
 from rocking.records.archive import archive_of
 from rocking.records.catalogue import CatalogueRecord, RecordFile, catalogue_text, load_catalogue, read_rows
 from rocking.records.formats.binary import may_be_counts
@@ -178,5 +178,5 @@ def with_hashes(record: CatalogueRecord, mirror: str | Path | None = None) -> Ca
     hashes = [file.sha256 for file in record.files]
     for i, file in enumerate(record.files):
         with suppress(RecordError):
-            hashes[i] = file.sha256 or hashlib.sha256(bytes_of(path_of(record, file, mirror))).hexdigest()
+            hashes[i] = file.sha256 or sha256_of_bytes(bytes_of(path_of(record, file, mirror)))
     return replace(record, sha256=";".join(hashes)) if any(hashes) else record

@@ -1,6 +1,5 @@
 """Read: open the bytes, recognise the format, refuse what is not known, dispatch to one reader."""
 
-import hashlib
 import os
 import re
 import zlib
@@ -14,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError, UnknownFormatError, about
+from rocking.hashes import sha256_of_bytes
 from rocking.quantities import shown
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.archive import archive_of, is_archive, member_bytes, members
@@ -103,7 +103,7 @@ _LISTED = 5
 def read_raw(raw: bytes, path: Path, options: Options) -> list[Accelerogram]:
     """Return the channels in `raw`, the bytes of the file at `path`, as read() does."""
     name = printable(path.name)
-    source = Source(printable(str(path)), sha256=hashlib.sha256(raw).hexdigest())
+    source = Source(printable(str(path)), sha256=sha256_of_bytes(raw))
     return read_content(unpack(raw, name), name, options, source)
 
 
@@ -114,7 +114,7 @@ def read_content(
 
     source: path and hash of the file, where `content` is not all there is to it.
     """
-    source = source or Source(name, sha256=hashlib.sha256(content).hexdigest())
+    source = source or Source(name, sha256=sha256_of_bytes(content))
     with about(name[:120]):
         text = bare_text(content)
         reader = reader or recognise(text)

@@ -1,6 +1,5 @@
 """Readings: what the files of a folder gave when they were read, kept by their content from one time to the next."""
 
-import hashlib
 import json
 from collections.abc import Mapping
 from contextlib import suppress
@@ -10,6 +9,7 @@ from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
 from rocking.errors import RecordError, RockingError
+from rocking.hashes import sha256_of_bytes, sha256_of_sources
 from rocking.records.listing import CELLS, ListedChannel, Reading, read_for_listing
 from rocking.records.read import bytes_of, printable
 from rocking.tables import read_whole, write_whole
@@ -45,7 +45,7 @@ class Readings:
             raw = bytes_of(path)
         except RecordError as error:
             return Reading("", refusal=printable(str(error)))
-        sha256 = hashlib.sha256(raw).hexdigest()
+        sha256 = sha256_of_bytes(raw)
         unit = declared["unit"]
         time_step = declared["time_step"]
         key = json.dumps([sha256, printable(path.name), unit, time_step, self._metadata_beside(path.parent)])
@@ -58,10 +58,8 @@ class Readings:
     def _metadata_beside(self, folder: Path) -> str:
         """Return a hash of the StationXML files of a folder, by which counts of the other files are read."""
         if folder not in self._beside:
-            digest = hashlib.sha256()
-            for path in sorted(folder.glob("*.xml")):
-                digest.update(_hash_of(path).encode())
-            self._beside[folder] = digest.hexdigest()
+            hashes = [_hash_of(path).encode() for path in sorted(folder.glob("*.xml"))]
+            self._beside[folder] = sha256_of_bytes(*hashes)
         return self._beside[folder]
 
     def save(self) -> None:
@@ -70,7 +68,7 @@ class Readings:
             return
         readings = {key: asdict(reading) for key, reading in self._now.items()}
         content = json.dumps(readings, ensure_ascii=False, sort_keys=True)
-        store = {"version": _version(), "sha256": _sum(content), "readings": content}
+        store = {"version": _version(), "sha256": sha256_of_bytes(content.encode()), "readings": content}
         with suppress(RockingError):
             write_whole(self._store, json.dumps(store).encode())
 
@@ -78,7 +76,7 @@ class Readings:
 def _hash_of(path: Path) -> str:
     """Return the hash of a file, "" of one that cannot be read."""
     try:
-        return hashlib.sha256(bytes_of(path, _LARGEST)).hexdigest()
+        return sha256_of_bytes(bytes_of(path, _LARGEST))
     except RecordError:
         return ""
 
@@ -99,7 +97,7 @@ def _stored(path: Path) -> dict[str, Reading]:
         raise _UnusableStoreError("this is no store of readings, or it is cut") from None
     if version != _version():
         raise _UnusableStoreError("another version of the package made these readings")
-    if not isinstance(readings, str) or checksum != _sum(readings):
+    if not isinstance(readings, str) or checksum != sha256_of_bytes(readings.encode()):
         raise _UnusableStoreError("the readings are damaged")
     try:
         return {key: _reading(each) for key, each in json.loads(readings).items()}
@@ -136,17 +134,10 @@ def _channel(values: dict[str, Any]) -> ListedChannel:
     return ListedChannel(**values)
 
 
-def _sum(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()
-
-
 @cache
 def _version() -> str:
     """Return a hash of the sources by which files are read: another reader may read them otherwise."""
     package = Path(__file__).parents[1]
     sources = [package / "quantities.py", package / "tables" / "files.py"]
     sources += sorted((package / "records").rglob("*.py"))
-    digest = hashlib.sha256()
-    for path in sources:
-        digest.update(path.read_bytes())
-    return digest.hexdigest()
+    return sha256_of_sources(package, sources)

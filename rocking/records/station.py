@@ -1,12 +1,12 @@
 """Station: what the files of one row of a catalogue hold, wherever they lie, on one span of time."""
 
-import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from rocking.errors import RecordError, about
+from rocking.hashes import sha256_of_bytes
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue import CatalogueRecord, RecordFile
 from rocking.records.files import beside_catalogue, path_of
@@ -64,7 +64,7 @@ def _channels_of(
     """Return every channel of one file of the row, once its content is what the catalogue says."""
     path = path_of(record, file, mirror)
     raw = bytes_of(path)
-    sha256 = hashlib.sha256(raw).hexdigest()
+    sha256 = sha256_of_bytes(raw)
     if file.sha256 and sha256 != file.sha256:
         hashes = f"file {path} has sha256 {sha256}, but the catalogue says {file.sha256}"
         raise RecordError(f"{hashes}; it is another version.")

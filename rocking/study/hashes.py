@@ -1,6 +1,5 @@
 """The hashes by which a study knows whether something changed: of what an object says, and of the content of files."""
 
-import hashlib
 import json
 import math
 import stat
@@ -9,17 +8,13 @@ from contextlib import suppress
 from pathlib import Path
 
 from rocking.errors import RockingError
+from rocking.hashes import sha256_of_file
 from rocking.tables import read_whole, write_whole
 
 _LARGEST_STORE = 500_000_000
 """Bytes of it that are read; a hundred thousand files take about 25 million."""
 _SETTLED = 2.0
 """s; a file that changed more recently may change again without its times telling, so its hash is not kept."""
-
-
-def sha256_of(*contents: object) -> str:
-    """Return one hash for what `contents` say."""
-    return hashlib.sha256("\n".join(map(repr, contents)).encode()).hexdigest()
 
 
 class ContentHashes:
@@ -46,8 +41,7 @@ class ContentHashes:
                 return ""
             mark = f"{path} {status.st_ino} {status.st_size} {status.st_mtime_ns} {status.st_ctime_ns}"
             if (sha256 := self._before.get(mark)) is None:
-                with path.open("rb") as stream:
-                    sha256 = hashlib.file_digest(stream, "sha256").hexdigest()
+                sha256 = sha256_of_file(path)
         except OSError:
             return ""
         if time.time() - status.st_ctime > _SETTLED:

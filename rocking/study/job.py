@@ -18,13 +18,13 @@ from rocking.assessment.rows import HistoryRow, RecordRows, history_rows, rows_o
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.store import RecordStore, computation_version
 from rocking.errors import ConfigurationError, RecordError, RockingError, about
+from rocking.hashes import sha256_of
 from rocking.records import Accelerogram, CatalogueRecord, aligned, load_catalogue, open_station
 from rocking.records.processing import process
 from rocking.records.scaling import ScalingTarget, scaled_to
 from rocking.records.station import station_of
 from rocking.structures import Structure, load_structures
 from rocking.study.folder import locked
-from rocking.study.hashes import sha256_of
 from rocking.study.plan import JOBS, structures_sha256
 from rocking.study.results import SPECTRA, cases_of, remove_copies, written_part
 from rocking.study.settings import Settings, read_settings

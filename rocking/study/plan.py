@@ -1,6 +1,5 @@
 """The plan of a study before its first job: settings checked, inputs read, jobs shared out."""
 
-import hashlib
 import math
 import os
 from collections.abc import Callable, Iterable, Mapping
@@ -11,13 +10,14 @@ from typing import Any, TypeVar
 
 from rocking.described import kind_in_words
 from rocking.errors import ConfigurationError, RockingError
+from rocking.hashes import sha256_of, sha256_of_bytes, sha256_of_sources
 from rocking.records.catalogue import CatalogueRecord, load_catalogue, repeated
 from rocking.records.files import fill_hashes, local_files, with_hashes
 from rocking.records.folder import unlisted
 from rocking.records.read import LARGEST_FILE
 from rocking.structures import Structure, load_structures
 from rocking.study.folder import REMEMBERED, check_own, results_folder, stands_inside
-from rocking.study.hashes import ContentHashes, sha256_of
+from rocking.study.hashes import ContentHashes
 from rocking.study.settings import Settings, named_files, read_settings
 from rocking.tables.yaml_file import read_yaml
 
@@ -215,14 +215,14 @@ def package_sha256(reports: bool = True) -> str:
     reports: with that of the reports, which changes no number.
     """
     root = Path(__file__).parents[1]
-    digest = hashlib.sha256()
-    for path in sorted(root.rglob("*")):
+    paths = []
+    for path in root.rglob("*"):
         name = path.relative_to(root).as_posix()
         if name in _SPOKEN or (name.startswith("reports/") and not reports):
             continue
         if path.suffix in _SOURCE:
-            digest.update(name.encode() + b"\0" + path.read_bytes() + b"\0")
-    return digest.hexdigest()
+            paths.append(path)
+    return sha256_of_sources(root, paths)
 
 
 def share_out(
@@ -246,6 +246,6 @@ def jobs_of(identifiers: Iterable[str], count: int) -> dict[str, tuple[str, ...]
     """Return the identifiers of each of `count` jobs, by the name of the job; one that has none is left out."""
     jobs: dict[str, list[str]] = {}
     for identifier in identifiers:
-        place = int.from_bytes(hashlib.sha256(identifier.encode()).digest()[:4], "big") % count
+        place = int(sha256_of_bytes(identifier.encode())[:8], 16) % count
         jobs.setdefault(f"{place:05d}_of_{count:05d}", []).append(identifier)
     return {name: tuple(jobs[name]) for name in sorted(jobs)}

@@ -15,7 +15,7 @@ import rocking
 PACKAGE = Path(rocking.__file__).parent
 FLOORS = [
     {"errors"},
-    {"quantities", "drawn", "remarks"},
+    {"quantities", "drawn", "hashes", "remarks"},
     {"described"},
     {"tables"},
     {"records"},

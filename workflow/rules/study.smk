@@ -8,7 +8,7 @@ from rocking.study import close_doors
 close_doors()  # before the imports that open them
 
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES
-from rocking.study.hashes import sha256_of
+from rocking.hashes import sha256_of
 from rocking.study.plan import check_config_file, config_file, make_plan
 from rocking.study.results import PAGE, part
 from rocking.study.run import begin
