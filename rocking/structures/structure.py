@@ -1,7 +1,7 @@
 """Every structure: mechanism, bodies, drawing, contacts, candidates, capacity, and how a file describes it."""
 
 import warnings
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cache, cached_property
@@ -19,7 +19,6 @@ from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.drawing import Dimension, Mark, Path, plane
 from rocking.structures.fields import Field, Form, Value, constructor
 from rocking.structures.linkage import STILL, Linkage, Motion, Restitution, momentum_balance
-from rocking.structures.making import PlainlyMade, plainly_refusing
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.stack import Stack
 from rocking.structures.standing import Standing
@@ -45,7 +44,7 @@ class _Given(NamedTuple):
 
 
 @dataclass(frozen=True, repr=False)
-class Structure(metaclass=PlainlyMade):
+class Structure(ABC):
     """A geometry that reduces to a Mechanism. Subclasses are frozen dataclasses checked at birth.
 
     restitution_range: its restitution is known to plus or minus this much; None: as the settings say.
@@ -94,13 +93,6 @@ class Structure(metaclass=PlainlyMade):
                 f"restitution is {restitution!r}, but a one-sided body needs its own number between 0 and 1, as what "
                 "it leans on takes part in the impact; give it."
             )
-
-    def __init_subclass__(cls, **more: Any) -> None:
-        super().__init_subclass__(**more)
-        # A list, as the class changes on the way.
-        for name, method in list(cls.__dict__.items()):
-            if isinstance(method, classmethod) and not name.startswith("_"):
-                setattr(cls, name, classmethod(plainly_refusing(method.__func__)))
 
     @classmethod
     @cache
