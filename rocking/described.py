@@ -63,6 +63,11 @@ class Described:
         return get_origin(kind) or kind
 
     @cached_property
+    def item(self) -> Any:
+        """The type of each value of a tuple."""
+        return get_args(self.kind)[0]
+
+    @cached_property
     def optional(self) -> bool:
         """Whether it may be None."""
         return NoneType in get_args(self.kind)

@@ -27,10 +27,10 @@ from rocking.assessment.contacts import ContactShare, contact_share
 from rocking.assessment.fidelity import peak_velocity
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.verdict import Doubt
 from rocking.contacts.dynamics import follow_stack
 from rocking.errors import StructureWarning
 from rocking.quantities import GRAVITY
+from rocking.remarks import Kind, Remark
 from rocking.structures import Structure
 from rocking.structures.stack import Stack
 from rocking.structures.structure import Crackable
@@ -69,7 +69,7 @@ class Judged:
     """
 
     mechanism: Verdict
-    doubt: Doubt | None
+    doubt: Remark | None
     contact: ContactShare | None
 
     @property
@@ -174,7 +174,7 @@ class Made(Case):
     def judged(self, motion: Accelerogram) -> Judged:
         alone, _ = ruled(self.mechanisms, self.static, motion)
         with_rule, _ = ruled(self.mechanisms, self.static, motion, self.tapers)
-        doubt = Doubt.COURSES_THROWN if with_rule is not alone else None
+        doubt = Remark(Kind.COURSES_THROWN) if with_rule is not alone else None
         judged = Judged(alone, doubt, None)
         if judged.without is not Verdict.UNDECIDED:
             return judged

@@ -19,12 +19,13 @@ from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.over_periods import OverPeriods, over_periods
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.variations import Variation
-from rocking.assessment.verdict import BOTH_COMPONENTS, POLARITIES, Doubt, Judgement, Method, Verdict
+from rocking.assessment.verdict import BOTH_COMPONENTS, POLARITIES, Judgement, Method, Verdict
 from rocking.floors.support import Support
 from rocking.hashes import sha256_of
 from rocking.motion.response import UNKNOWN, ModelCheck, Response
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
+from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Maximum
 from rocking.structures import EquivalentBlock, Mechanism, Outcome, Structure
 
@@ -122,7 +123,7 @@ class CaseResult:
     ensembles: CrackEnsembles | None = None
     reserve: Reserve | None = None
     overturning_estimate: Estimate | None = None
-    doubt: Doubt | None = None
+    doubt: Remark | None = None
     contact: ContactShare | None = None
     variations: tuple[Variation, ...] = ()
     failures: tuple[Failure, ...] = ()
@@ -260,19 +261,19 @@ class StationResult(Judgement):
         return self.decisive.reserve if self.decisive else None
 
     @property
-    def doubts_of_reserve(self) -> tuple[Doubt, ...]:
+    def reserve_doubts(self) -> tuple[Remark, ...]:
         """The doubts for which the reserve may be too high: what may happen of which the mechanism knows nothing.
 
         Unlike the verdict, which needs a doubt only where the mechanism stands, the reserve reaches from the first
         uplift to the limit, so that a body of courses that tapers is always in doubt.
         """
         both = [*self.cases.values(), *([self.directions] if self.directions else [])]
-        doubts = {each.doubt for each in both}
+        doubts = [each.doubt for each in both if each.doubt is not None]
         if any(each.check.bounces for each in both):
-            doubts.add(Doubt.CONTACTS_OPEN)
+            doubts.append(Remark(Kind.CONTACTS_OPEN))
         if isinstance(self.body, Structure) and self.body.tapers:
-            doubts.add(Doubt.COURSES_THROWN)
-        return tuple(each for each in Doubt if each in doubts)
+            doubts.append(Remark(Kind.COURSES_THROWN))
+        return tuple(sorted(set(doubts), key=lambda each: each.kind))
 
     @property
     def reserve_in_words(self) -> str:
@@ -280,8 +281,8 @@ class StationResult(Judgement):
         if self.reserve is None:
             return ""
         words = str(self.reserve)
-        if self.doubts_of_reserve:
-            reasons = " and ".join(self.doubts_of_reserve)
+        if self.reserve_doubts:
+            reasons = " and ".join(map(str, self.reserve_doubts))
             words = f"{words}; this is the reserve of the mechanism alone, and too high where {reasons}"
         return words
 

@@ -13,12 +13,13 @@ import numpy as np
 
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.verdict import NEGLIGIBLE, Doubt, Verdict
+from rocking.assessment.verdict import NEGLIGIBLE, Verdict
 from rocking.contacts.dynamics import STEP, follow_stack
 from rocking.errors import RockingError
 from rocking.motion.integration import integrate, strict
 from rocking.motion.response import check_model
 from rocking.records import Accelerogram
+from rocking.remarks import Kind, Remark
 from rocking.structures import Mechanism, Structure
 from rocking.structures.linkage import Turning
 from rocking.structures.stack import COURSES, Stack
@@ -55,7 +56,7 @@ def doubt(
     rotation_ratio: float,
     settings: AssessmentSettings | None = None,
     bounces: bool | None = None,
-) -> Doubt | None:
+) -> Remark | None:
     """Return why a structure that stands as a mechanism may not stand; None where nothing speaks against it.
 
     rotation_ratio: the largest of its runs. bounces: whether a contact opens in the run as recorded, where that is
@@ -67,18 +68,18 @@ def doubt(
     if isinstance(structure, Mechanism) or not rotation_ratio > 0:
         return None
     if structure.tapers:
-        return Doubt.COURSES_THROWN
+        return Remark(Kind.COURSES_THROWN)
     if rotation_ratio <= NEGLIGIBLE:
         return None
     if bounces:
-        return Doubt.CONTACTS_OPEN
+        return Remark(Kind.CONTACTS_OPEN)
     if isinstance(structure.linkage, Turning):
         return None
     cracked = structure.candidates()[0].structure
     for sign, motion in product(_signs(structure, settings), _directions(motions)):
         strongest = motion.scaled(sign * (1 + settings.ensemble.amplitude_range))
         if _opens(cracked, strongest, motions.vertical, strict(settings.tolerance)):
-            return Doubt.CONTACTS_OPEN
+            return Remark(Kind.CONTACTS_OPEN)
     return None
 
 

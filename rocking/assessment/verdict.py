@@ -54,13 +54,6 @@ POLARITIES = {"1.0": "as recorded", "-1.0": "reversed"}
 """The sign of a motion in words."""
 
 
-class Doubt(StrEnum):
-    """Why a structure that stands as a mechanism is undecided: what one degree of freedom does not follow."""
-
-    CONTACTS_OPEN = "contacts open"
-    COURSES_THROWN = "courses above a rocking body may be thrown"
-
-
 class Judgement(ABC):
     """A verdict with its counts, as a result decides it or as a row of verdicts holds it; and the words for both."""
 

@@ -503,7 +503,7 @@ def _pictures(report: RecordReport) -> dict[str, object]:
 
 def _reserve_note(stations: Sequence[StationResult]) -> str:
     """Say of which structures the reserve is that of a mechanism which knows less than may happen; "" of none."""
-    doubtful = [station.structure for station in stations if station.doubts_of_reserve]
+    doubtful = [station.structure for station in stations if station.reserve_doubts]
     if not doubtful:
         return ""
     return (

@@ -10,7 +10,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rocking.assessment.reserve import Reserve
-from rocking.assessment.verdict import Doubt
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.dynamic_check import StructureCheck
 from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
@@ -18,6 +17,7 @@ from rocking.codes.rows import KINDS, disagreement
 from rocking.codes.selection import Selection
 from rocking.codes.static_check import Check
 from rocking.quantities import counted
+from rocking.remarks import Kind, Remark
 from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.drawings import draw_dimensions, draw_structure
@@ -43,7 +43,8 @@ class CheckedStructure:
 
     checked: None where it could not be checked, and `refusal` then says why. overturning_share: mean over the stations
     of the study, of each the mean over its records, nan without any; records, stations: how many there are. reserves:
-    under each record of the study under which one was sought; reserve_doubts: what may make them too high.
+    under each record of the study under which one was sought; reserve_doubts: the kinds of doubt for which they may be
+    too high.
     """
 
     name: str
@@ -54,7 +55,7 @@ class CheckedStructure:
     records: int = 0
     stations: int = 0
     reserves: Sequence[Reserve] = ()
-    reserve_doubts: Sequence[Doubt] = ()
+    reserve_doubts: Sequence[Kind] = ()
 
 
 def structures_report(
@@ -290,7 +291,7 @@ def _reserve(each: CheckedStructure) -> str:
                 f"{words}, and {middle} times the record in the median over {counted(lows.size, 'record')}"
             )
     if each.reserve_doubts:
-        reasons = " and ".join(each.reserve_doubts)
+        reasons = " and ".join(str(Remark(kind)) for kind in each.reserve_doubts)
         words = f"{words}; this is the reserve of the mechanism alone, and too high where {reasons}"
     return f"{words}."
 

@@ -5,7 +5,6 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
 from rocking.assessment.rows import RecordRow, VerdictRow
-from rocking.assessment.verdict import Doubt
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.dynamic_check import StructureCheck, check
 from rocking.codes.rows import KINDS, CodeCheckRow, code_check_rows
@@ -89,7 +88,7 @@ def _checked(
         records=len(known),
         stations=len(shares),
         reserves=[each.reserve for each in verdicts if each.reserve is not None],
-        reserve_doubts=_reserve_doubts(structure, verdicts),
+        reserve_doubts=sorted({kind for each in verdicts for kind in each.reserve_doubts}),
     )
 
 
@@ -107,14 +106,6 @@ def shares_by_station(verdicts: Iterable[VerdictRow], station_of: Mapping[str, s
 def _station(record: RecordRow) -> str:
     """The station in one earthquake that a record is of; the record itself where its file names none."""
     return f"{record.event}, {record.station}" if record.station else record.record
-
-
-def _reserve_doubts(structure: Structure, verdicts: Iterable[VerdictRow]) -> list[Doubt]:
-    """The doubts for which the reserves of a structure may be too high, from its rows and its type."""
-    told = {doubt for each in verdicts for doubt in Doubt if doubt in each.why}
-    if structure.tapers:
-        told.add(Doubt.COURSES_THROWN)
-    return [doubt for doubt in Doubt if doubt in told]
 
 
 def _told(checked: StructureCheck | None) -> str:

@@ -189,7 +189,7 @@ def rows_of(row_class: type[R], table: "DataFrame") -> Iterator[R]:
             if value is None or value != value:
                 value = empty(each)
             elif each.holds is tuple:
-                value = tuple(value.split("; ")) if value else ()
+                value = tuple(map(each.item, value.split("; "))) if value else ()
             else:
                 value = each.holds(value)
             values[each.name] = value

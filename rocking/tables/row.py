@@ -129,11 +129,19 @@ def value_of(each: Described, text: str) -> Any:
     if holds is str:
         return unguarded(text)
     if holds is tuple:
-        return tuple(unguarded(text).split("; ")) if text else ()
+        parts = unguarded(text).split("; ") if text else []
+        return tuple(typed(each.name, each.item, part) for part in parts)
+    return typed(each.name, holds, text)
+
+
+def typed(name: str, kind: Any, text: str) -> Any:
+    """One value of the column `name` as its type `kind`. Raises ValueError with the column and what is allowed."""
+    if kind is str:
+        return text
     try:
-        return {"true": True, "false": False}[text] if holds is bool else holds(text)
+        return {"true": True, "false": False}[text] if kind is bool else kind(text)
     except (ValueError, KeyError):
-        allowed = {bool: "true or false", int: "a whole number"}.get(holds, "a number")
-        if issubclass(holds, StrEnum):
-            allowed = ", ".join(holds)
-        raise ValueError(f"column {each.name}: {shown(text)} must be {allowed}{number_hint(text)}") from None
+        allowed = {bool: "true or false", int: "a whole number"}.get(kind, "a number")
+        if issubclass(kind, StrEnum):
+            allowed = ", ".join(kind)
+        raise ValueError(f"column {name}: {shown(text)} must be {allowed}{number_hint(text)}") from None

@@ -17,9 +17,10 @@ from docs.research.stacks import (
     stack_scores,
 )
 from rocking.assessment.contacts import ContactShare
-from rocking.assessment.verdict import Doubt, Verdict
+from rocking.assessment.verdict import Verdict
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
+from rocking.remarks import Kind, Remark
 
 TIMES = np.arange(0, 3, 0.01)
 SINE = Accelerogram(3.0 * np.sin(2 * np.pi * TIMES / 0.8) * (TIMES < 1.6), 0.01)
@@ -38,9 +39,9 @@ def test_a_member_stays_whole_below_uplift_and_falls_far_above_it(kind):
 
 
 def test_contact_dynamics_decides_what_a_doubt_leaves_open():
-    doubted = Judged(Verdict.STANDS, Doubt.CONTACTS_OPEN, ContactShare(0, 6))
+    doubted = Judged(Verdict.STANDS, Remark(Kind.CONTACTS_OPEN), ContactShare(0, 6))
     assert (doubted.without, doubted.verdict) == (Verdict.UNDECIDED, Verdict.STANDS)
-    falling = Judged(Verdict.STANDS, Doubt.COURSES_THROWN, ContactShare(2, 6))
+    falling = Judged(Verdict.STANDS, Remark(Kind.COURSES_THROWN), ContactShare(2, 6))
     assert falling.verdict is Verdict.UNDECIDED
     assert Judged(Verdict.STANDS, None, None).verdict is Verdict.STANDS
 

@@ -36,6 +36,7 @@ from rocking.pulses import Pulse, PulseEvidence
 from rocking.pulses.analysis import worth
 from rocking.records import Accelerogram
 from rocking.records.measures import record_measures
+from rocking.remarks import Kind
 from rocking.sine_pulse import Regime
 from rocking.structures import Outcome, Structure
 from rocking.tables import Row, column, row, write_tables, written_together
@@ -254,6 +255,9 @@ class VerdictRow(MembersRow, Judgement):
     reserve_median: float = column("Factor on the record at which half of the members overturn; empty: none")
     reserve_high: float = column("Factor on the record at which 95 % of the members overturn; empty: none")
     reserve_limit: float = column("Largest factor on the record that was tried; empty without a reserve")
+    reserve_doubts: tuple[Kind, ...] = column(
+        "Kinds of doubt for which the reserve may be too high: it is that of the mechanism alone"
+    )
     decided_by: str = column("What decides an undecided case, with its share of the variance")
     why: str = column("Reason for the verdict")
     stack_falls: int | None = column("Stacks of courses that fall in contact dynamics; empty: not asked")
@@ -558,6 +562,7 @@ def verdict_row(identity: ComponentRow, station: "StationResult") -> VerdictRow:
         reserve_median=reserve.median if reserve else math.nan,
         reserve_high=reserve.high if reserve else math.nan,
         reserve_limit=reserve.limit if reserve else math.nan,
+        reserve_doubts=tuple(each.kind for each in station.reserve_doubts) if reserve else (),
         decided_by=station.decided_by,
         why=station.why,
         stack_falls=station.stack_falls,

@@ -12,9 +12,9 @@ from rocking.assessment.component import component_of
 from rocking.assessment.contacts import contact_share, doubt
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.assessment.verdict import Doubt
 from rocking.contacts.dynamics import STEP, follow_stack
 from rocking.quantities import GRAVITY
+from rocking.remarks import Kind, Remark
 
 CONTACT = AssessmentSettings(fidelity="contact")
 SPIRE = Spire(width=3.0, height=15.0, wall_thickness=0.25)
@@ -91,7 +91,7 @@ def test_without_an_ensemble_the_single_run_is_doubted_too():
     settings = AssessmentSettings(ensemble=EnsembleSettings(members=0))
     motion = sine(1.3 * SPIRE.static_multiplier * GRAVITY, 0.1)
     case = assess_case("spire", SPIRE, component_of(motion, settings.pulse), settings)
-    assert case.doubt is Doubt.COURSES_THROWN
+    assert case.doubt == Remark(Kind.COURSES_THROWN)
 
 
 def test_what_keeps_its_contacts_or_rests_is_not_doubted():

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from rocking.assessment.rows import structure_rows
-from rocking.assessment.verdict import Agreement, Doubt, Verdict
+from rocking.assessment.verdict import Agreement, Verdict
 from rocking.records.accelerogram import Accelerogram
+from rocking.remarks import Kind, Remark
 from rocking.reports import printing
 from rocking.reports.record import RecordReport, failure_report
 from rocking.structures import Block, Facade, Spire
@@ -182,7 +183,7 @@ def test_a_reserve_that_may_be_too_high_is_told_as_such(example):
     name = next(each.structure for each in example.stations if each.reserve is not None)
     assert example.data()["reserve-note"] == ""
     station = example.result.stations[name]
-    cases = {each: replace(case, doubt=Doubt.CONTACTS_OPEN) for each, case in station.cases.items()}
+    cases = {each: replace(case, doubt=Remark(Kind.CONTACTS_OPEN)) for each, case in station.cases.items()}
     stations = example.result.stations | {name: replace(station, cases=cases)}
     doubtful = replace(example, result=replace(example.result, stations=stations))
     assert f"may be too high for {name}" in doubtful.data()["reserve-note"]

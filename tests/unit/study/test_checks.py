@@ -3,16 +3,20 @@
 import csv
 import math
 import pickle
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from rocking import Block, DesignSpectrum, Facade, check
+from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import RecordRow, VerdictRow
 from rocking.codes.dynamic_check import DynamicCheck
 from rocking.codes.rows import CodeCheckRow, disagreement
 from rocking.errors import ConfigurationError
+from rocking.motion.response import ModelCheck
+from rocking.remarks import Kind
 from rocking.reports.structures import share_interval, structures_data
 from rocking.structures import load_structures
 from rocking.study.checks import shares_by_station, write_checks
@@ -21,6 +25,7 @@ from rocking.study.plan import structures_sha256
 from rocking.study.settings import Settings, read_settings
 from rocking.tables import read_table, write_tables
 from tests.made_pools import DESIGN, made_pool
+from tests.unit.assessment import made_rows
 from tests.unit.assessment.made_rows import filled
 
 STRUCTURES = {
@@ -225,13 +230,11 @@ def test_the_page_names_the_client_and_what_the_checks_rest_on():
 
 
 def test_the_page_tells_a_reserve_that_was_not_sought_from_one_that_was_not_reached():
-    from rocking.assessment.reserve import Reserve
-    from rocking.assessment.verdict import Doubt
     from rocking.reports.structures import CheckedStructure
 
     spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
 
-    def share(*reserves: Reserve, doubts: tuple[Doubt, ...] = ()) -> str:
+    def share(*reserves: Reserve, doubts: tuple[Kind, ...] = ()) -> str:
         page = CheckedStructure(
             name="parapet",
             structure=STRUCTURES["parapet"],
@@ -253,7 +256,29 @@ def test_the_page_tells_a_reserve_that_was_not_sought_from_one_that_was_not_reac
     both = share(high, low, never)
     assert "at 0.80 times the most demanding record, and at 1.6 times the record in the median" in both
     assert "beyond 3 times the record in the median over 3 records" in share(low, never, never)
-    assert share(low, doubts=(Doubt.CONTACTS_OPEN,)).endswith("too high where contacts open.")
+    assert share(low, doubts=(Kind.CONTACTS_OPEN,)).endswith("too high where contacts open.")
+
+
+def test_the_page_to_sign_carries_the_caveat_of_page_one(study, monkeypatch):
+    """Also where the structure falls as a mechanism, so that its verdict needs no doubt and its reason names none."""
+    settings, folder = study
+    lifting = replace(
+        made_rows.case("N", math.inf, "parapet", falls=64),
+        check=ModelCheck(0.3, True, ""),
+        reserve=Reserve(0.6, 0.7, 0.8, 3.0),
+    )
+    station = made_rows.station(lifting)
+    rows = {VerdictRow: made_rows.verdicts([station]), RecordRow: [filled(RecordRow, record="a", samples=2)]}
+    write_tables(rows, folder)
+    pages = []
+    monkeypatch.setattr("rocking.study.checks.structures_report", lambda made, *_: pages.extend(made) or b"")
+    write_checks(Study(STRUCTURES, read_settings(settings | {"design_spectrum": DESIGN})), folder)
+    data = structures_data(pages, DesignSpectrum.ntc(1.0, 2.5, 0.3), Settings().mapping())
+    signed = {page.name: text["share"] for page, text in zip(pages, data["pages"], strict=True)}
+    caveat = station.reserve_in_words.partition("; ")[2]
+    assert caveat
+    assert signed["parapet"].endswith(f"{caveat}.")
+    assert caveat not in signed["front"]
 
 
 def test_the_report_of_a_record_draws_the_design_level_beside_its_spectra(study):
