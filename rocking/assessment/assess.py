@@ -36,7 +36,7 @@ from rocking.hashes import sha256_of
 from rocking.motion.integration import integrate, strict
 from rocking.motion.response import UNKNOWN, Response, check_model
 from rocking.pulses import PulseEvidence, predicting_pulse
-from rocking.quantities import GRAVITY, kind_of
+from rocking.quantities import kind_of
 from rocking.records import Accelerogram, aligned
 from rocking.sine_pulse import predict_maximum, printed_maximum
 from rocking.structures import Mechanism, Structure
@@ -355,15 +355,12 @@ def predict(
     block = mechanism.equivalent_block(settings.acceleration_scale)
     chosen = predicting_pulse(candidates, lambda pulse: predict_maximum(block, pulse).rotation_ratio)
     pulse = chosen.pulse
-    # Positive acceleration lifts the negative side first.
-    side = block.other_side if block.other_side is not None and pulse.amplitude > 0 else block
     return Prediction(
         block=block,
         pulse=pulse,
         pulse_rank=candidates.index(chosen) + 1,
-        amplitude_ratio=abs(pulse.amplitude) / (GRAVITY * side.uplift_multiplier),
-        frequency_ratio=pulse.circular_frequency / block.frequency_parameter,
-        printed_rotation_ratio=printed_maximum(block, pulse),
+        printed_rotation_ratio=printed_maximum(mechanism.equivalent_block("linearised"), pulse),
+        printed_uplift_rotation_ratio=printed_maximum(mechanism.equivalent_block("uplift"), pulse),
         maximum=predict_maximum(block, pulse),
     )
 

@@ -24,6 +24,7 @@ from rocking.floors.support import Support
 from rocking.hashes import sha256_of
 from rocking.motion.response import UNKNOWN, ModelCheck, Response
 from rocking.pulses import Pulse
+from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Maximum
@@ -89,16 +90,43 @@ class Failure:
 class Prediction:
     """The closed forms of one structure under one pulse.
 
-    pulse_rank: of the pulse among those that its method offers. amplitude_ratio, frequency_ratio: a and ω_g/p.
+    block: equivalent block of the settings, under which `maximum` was found. pulse_rank: of the pulse among those that
+    its method offers. printed_rotation_ratio, printed_uplift_rotation_ratio: by Eq. 15 of the source paper with the
+    blocks of that paper, linearised about φ_cr with the scales a_sc (Eq. 11) and a_sc,alt (Eq. 13).
     """
 
     block: EquivalentBlock
     pulse: Pulse
     pulse_rank: int
-    amplitude_ratio: float
-    frequency_ratio: float
     printed_rotation_ratio: float
+    printed_uplift_rotation_ratio: float
     maximum: Maximum
+
+    @property
+    def side(self) -> EquivalentBlock:
+        """The side of the block that the pulse lifts first."""
+        # Positive acceleration lifts the negative side first.
+        starts_negative = self.block.other_side is not None and self.pulse.amplitude > 0
+        return self.block.sides[-1 if starts_negative else 0]
+
+    @property
+    def amplitude_ratio(self) -> float:
+        """Amplitude ratio a = |a_g|/(gλ) on that side (Eq. 16)."""
+        return abs(self.pulse.amplitude) / (GRAVITY * self.side.uplift_multiplier)
+
+    @property
+    def frequency_ratio(self) -> float:
+        """Frequency ratio ω_g/p on that side (Eq. 16)."""
+        return self.pulse.circular_frequency / self.side.frequency_parameter
+
+    @property
+    def largest_x(self) -> float:
+        """Largest x of the block: its arc over the critical one where it is exact at rest, else φ/φ_cr."""
+        ratio = self.maximum.rotation_ratio
+        side = self.block.sides[-1 if self.maximum.peak_side < 0 else 0]
+        if side.rotation_map is None or not math.isfinite(ratio):
+            return ratio
+        return side.rotation_map.arc(ratio * side.critical_rotation) / side.critical_arc
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -32,10 +32,11 @@ LOOKS: dict[Verdict, tuple[str, str, str, str]] = {
 _FEW_FALL, _MANY_FALL = (252, 226, 176), (229, 134, 26)
 """Red, green and blue of an undecided case of which no member falls, and of one of which all do."""
 METHODS = {
-    Method.PRINTED: "Eq. 15 as printed",
-    Method.CLOSED_FORM: "Closed form",
+    Method.PRINTED: "Eq. 15, paper's block, a_sc",
+    Method.PRINTED_UPLIFT: "Eq. 15, paper's block, a_sc,alt",
+    Method.CLOSED_FORM: "Closed form, our block",
     Method.MECHANISM_ON_PULSE: "Mechanism, pulse",
-    Method.BLOCK_ON_RECORD: "Block, record",
+    Method.BLOCK_ON_RECORD: "Our block, record",
     Method.MECHANISM_ON_RECORD: "Mechanism, record",
 }
 """Headings of the methods, from the plainest to the full integration."""

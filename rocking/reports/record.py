@@ -585,7 +585,8 @@ STRUCTURE_COLUMNS: list[Column] = [
     ),
     *columns_of(
         StructureRow,
-        "frequency_parameter_rad_s=0.95 critical_rotation_rad=0.85 uplift_multiplier=0.95 "
+        "frequency_parameter_rad_s=0.95 frequency_parameter_at_rest_rad_s=0.95 critical_rotation_rad=0.85 "
+        "uplift_multiplier=0.95 "
         "acceleration_scale_linearised=1.15 acceleration_scale_uplift=1.15 restitution=1.1 restoring_defect=0.95 "
         "forcing_defect",
     ),

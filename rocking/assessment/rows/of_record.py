@@ -191,7 +191,19 @@ class ComparisonRow(CaseRow):
     within_factor_two: bool | None = column("Whether their ratio lies between 1/2 and 2")
     agreement: Agreement = column("Closed form against integration: same outcome, too low or too high")
     regime: Regime | None = column("Regime of the closed form")
-    printed_rotation_ratio: float = column("Rotation ratio of the block as printed", equation="Eq. 15")
+    predicted_arc_ratio: float = column(
+        "The same in the x of the block: its arc over the critical one, or the rotation ratio where it is linearised"
+    )
+    block_frequency_parameter_rad_s: float = column("p of the block that predicts, of the side lifted first")
+    block_acceleration_scale: float = column("Acceleration scale φ_cr/λ of the block on that side")
+    block_uplift_multiplier: float = column("Uplift acceleration of the block in g on that side")
+    block_restitution: float = column("Ratio of angular velocities of the block after and before an impact")
+    printed_rotation_ratio: float = column(
+        "Rotation ratio by the source paper: its block with the scale a_sc", equation="Eqs. 11, 15"
+    )
+    printed_uplift_rotation_ratio: float = column(
+        "Rotation ratio by the source paper: its block with the scale a_sc,alt", equation="Eqs. 13, 15"
+    )
     block_on_record_rotation_ratio: float = column("Rotation ratio of the block under the record")
     mechanism_on_pulse_rotation_ratio: float = column("Rotation ratio of the mechanism under the pulse")
     pulse_rank: int | None = column("Rank of the pulse that predicts among those of its method")
@@ -219,6 +231,7 @@ class ComparisonRow(CaseRow):
 
 RATIO_COLUMNS = {
     Method.PRINTED: "printed_rotation_ratio",
+    Method.PRINTED_UPLIFT: "printed_uplift_rotation_ratio",
     Method.CLOSED_FORM: "predicted_rotation_ratio",
     Method.BLOCK_ON_RECORD: "block_on_record_rotation_ratio",
     Method.MECHANISM_ON_PULSE: "mechanism_on_pulse_rotation_ratio",
@@ -458,6 +471,7 @@ def comparison_row(identity: ComponentRow, case: "CaseResult", friction_coeffici
     block_on_record = by_method.get(Method.BLOCK_ON_RECORD, math.nan)
     mechanism_on_pulse = by_method.get(Method.MECHANISM_ON_PULSE, math.nan)
     prediction = case.prediction
+    block = prediction.side if prediction else None
     response = case.response
     estimate = case.overturning_estimate
     return ComparisonRow(
@@ -471,7 +485,13 @@ def comparison_row(identity: ComponentRow, case: "CaseResult", friction_coeffici
         within_factor_two=within_factor_two(predicted, integrated),
         agreement=agreement(predicted, integrated),
         regime=prediction.maximum.regime if prediction else None,
+        predicted_arc_ratio=prediction.largest_x if prediction else math.nan,
+        block_frequency_parameter_rad_s=block.frequency_parameter if block else math.nan,
+        block_acceleration_scale=block.acceleration_scale if block else math.nan,
+        block_uplift_multiplier=block.uplift_multiplier if block else math.nan,
+        block_restitution=block.restitution if block else math.nan,
         printed_rotation_ratio=prediction.printed_rotation_ratio if prediction else math.nan,
+        printed_uplift_rotation_ratio=prediction.printed_uplift_rotation_ratio if prediction else math.nan,
         block_on_record_rotation_ratio=block_on_record,
         mechanism_on_pulse_rotation_ratio=mechanism_on_pulse,
         pulse_rank=prediction.pulse_rank if prediction else None,

@@ -18,7 +18,7 @@ from rocking.tables import Row, column, row
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-_P = "p of the equivalent block"
+_P = "p of the equivalent block linearised about the critical rotation"
 _ETA = "Ratio of angular velocities after and before an impact"
 CAPACITY_POINTS = 21
 """Rotations of a capacity curve, from rest to the critical one."""
@@ -33,6 +33,9 @@ class StructureRow(Row):
     geometry: str = column("Sizes of the structure with their units")
     crack: str = column("Hinge or crack, whose place is open; empty where none is")
     frequency_parameter_rad_s: float = column(_P, equation="Eq. 11")
+    frequency_parameter_at_rest_rad_s: float = column(
+        "p of the block exact at rest, which predicts unless the settings name another one"
+    )
     critical_rotation_rad: float = column("Critical rotation; empty to a side it cannot overturn to")
     uplift_multiplier: float = column("Uplift acceleration in g", equation="Eq. 7")
     static_multiplier: float = column("Least uplift acceleration in g over all cracks")
@@ -95,11 +98,13 @@ def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow
         if not side.can_overturn:
             yield held
             continue
+        at_rest = mechanism.equivalent_block("rest")
         linearised = mechanism.equivalent_block("linearised")
         uplift = mechanism.equivalent_block("uplift")
         yield replace(
             held,
             frequency_parameter_rad_s=side.frequency_parameter,
+            frequency_parameter_at_rest_rad_s=at_rest.frequency_parameter,
             critical_rotation_rad=side.critical_rotation,
             acceleration_scale_linearised=linearised.acceleration_scale,
             acceleration_scale_uplift=uplift.acceleration_scale,
@@ -119,6 +124,7 @@ def _held_row(name: str, structure: Structure) -> StructureRow:
         geometry=geometry,
         crack=structure.crack_name,
         frequency_parameter_rad_s=math.nan,
+        frequency_parameter_at_rest_rad_s=math.nan,
         critical_rotation_rad=math.nan,
         uplift_multiplier=mechanism.uplift_multiplier,
         static_multiplier=structure.static_multiplier,

@@ -71,7 +71,8 @@ def test_a_row_of_the_comparison_holds_what_each_method_says(case):
     row = comparison_row(IDENTITY, case, friction_coefficient=0.6)
     block = case.prediction.block
     for method, ratio_alone in (
-        (Method.PRINTED, printed_maximum(block, PULSE)),
+        (Method.PRINTED, printed_maximum(BLOCK.mechanism().equivalent_block("linearised"), PULSE)),
+        (Method.PRINTED_UPLIFT, printed_maximum(BLOCK.mechanism().equivalent_block("uplift"), PULSE)),
         (Method.CLOSED_FORM, predict_maximum(block, PULSE).rotation_ratio),
         (Method.BLOCK_ON_RECORD, integrate(block, RECORD).rotation_ratio),
         (Method.MECHANISM_ON_PULSE, integrate(BLOCK, PULSE).rotation_ratio),

@@ -1,0 +1,112 @@
+"""The ratios of the closed forms, computed again from the cells of the CSV tables alone."""
+
+import csv
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.constants import g
+from scipy.integrate import simpson
+
+from rocking.assessment.assess import Extent, assess_record
+from rocking.assessment.rows import StructureRow, rows_of_record, structure_rows
+from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
+from rocking.pulses import Pulse
+from rocking.records import Accelerogram
+from rocking.structures import Arch, Block, Side, Wall
+from rocking.tables import write_rows
+from tests.oracles.sine_on_block import largest_rotation
+
+STRUCTURES = {
+    "arch 10 m": Arch(10, 1.5, math.radians(157.5), restitution=0.9),
+    "storey wall": Wall.of_size(3.2, 0.25, hinge_height=1.6),
+    "block": Block.of_size(0.8, 2.4),
+}
+STEP = 0.005
+
+
+def cells(path: Path) -> list[dict[str, str]]:
+    with path.open(encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+@pytest.fixture(scope="module", params=["rest", "linearised", "uplift", "mean"])
+def folder(request, tmp_path_factory) -> Path:
+    """Tables of a pulse of 0.45 g and 0.45 s, by each kind of equivalent block."""
+    folder = tmp_path_factory.mktemp(request.param)
+    motion = Pulse(0.45 * g, 2 * math.pi / 0.45, 1.0).acceleration(np.arange(1000) * STEP)
+    settings = AssessmentSettings(acceleration_scale=request.param, ensemble=EnsembleSettings(members=0))
+    result = assess_record("made", [Accelerogram(motion, STEP)], STRUCTURES, Extent(settings))
+    rows_of_record(result).write(folder)
+    write_rows(StructureRow, structure_rows(STRUCTURES), folder / "structures.csv")
+    return folder
+
+
+def arc(side: Side, rotation_ratio: float) -> float:
+    """∫ √(I/I(0)) dφ up to a rotation over the critical one (theory: section 9), the x of a block exact at rest."""
+
+    rotations = np.linspace(0.0, rotation_ratio * side.critical_rotation, 20001)
+    return simpson(np.sqrt(side.inertia(rotations) / side.inertia(np.zeros(()))), x=rotations)
+
+
+def pulse_of(folder: Path, row: dict[str, str]) -> tuple[float, float]:
+    """Amplitude [m/s²] and circular frequency [rad/s] of the pulse that predicts."""
+    (pulse,) = [
+        each
+        for each in cells(folder / "pulses.csv")
+        if each["kind"] == "alternative" and each["rank"] == row["pulse_rank"]
+    ]
+    return float(pulse["amplitude_m_s2"]), float(pulse["circular_frequency_rad_s"])
+
+
+def test_the_closed_form_follows_from_the_block_in_its_row(folder):
+    """x of the block by the flights of an oracle; where the block is linearised, x is the rotation ratio.
+
+    1e-7: the search of the oracle for the instant of an impact, and its integral of the arc, carried on.
+    """
+    for row in cells(folder / "comparison.csv"):
+        amplitude, omega = pulse_of(folder, row)
+        names = ("frequency_parameter_rad_s", "acceleration_scale", "uplift_multiplier", "restitution")
+        p, scale, multiplier, eta = (float(row[f"block_{name}"]) for name in names)
+        assert 1 < float(row["amplitude_ratio"]) == pytest.approx(amplitude / (g * multiplier), rel=1e-12)
+        assert float(row["frequency_ratio"]) == pytest.approx(omega / p, rel=1e-12)
+        x = largest_rotation(p, eta, amplitude / (g * multiplier), omega)
+        assert 0.01 < x < math.inf
+        assert x == pytest.approx(float(row["predicted_arc_ratio"]), rel=1e-7)
+        rotation = float(row["predicted_rotation_ratio"])
+        if folder.name.startswith("rest"):
+            side = STRUCTURES[row["structure"]].mechanism().positive
+            assert arc(side, rotation) / arc(side, 1.0) == pytest.approx(x, rel=1e-7)
+        else:
+            assert rotation == pytest.approx(x, rel=1e-7)
+        (structure,) = [
+            each for each in cells(folder / "structures.csv") if each["structure"] == row["structure"]
+        ]
+        assert multiplier * scale == pytest.approx(float(structure["critical_rotation_rad"]), rel=1e-12)
+
+
+def test_equation_15_is_fed_the_blocks_of_its_paper(folder):
+    """Eqs. 15 and 16 written out, with the paper's p, a_sc and a_sc,alt of structures.csv, whichever block predicts."""
+    of_structure = {each["structure"]: each for each in cells(folder / "structures.csv")}
+    for row in cells(folder / "comparison.csv"):
+        amplitude, omega_g = pulse_of(folder, row)
+        structure = of_structure[row["structure"]]
+        p = float(structure["frequency_parameter_rad_s"])
+        critical = float(structure["critical_rotation_rad"])
+        for scale, printed in (
+            ("acceleration_scale_linearised", "printed_rotation_ratio"),
+            ("acceleration_scale_uplift", "printed_uplift_rotation_ratio"),
+        ):
+            a = amplitude * float(structure[scale]) / (g * critical)
+            w = omega_g / p
+            s = math.sqrt(a**2 - 1)
+            e = math.exp((2 * math.pi - math.asin(1 / a)) / w)
+            bracket = w**2 - 2 * a**2 + 1 + (s + w) * a / e + (s - w) * a * e
+            d0 = (w / (w**2 + 1)) ** 2 * bracket
+            radicand = 1 - float(structure["restitution"]) ** 2 * (1 - d0)
+            expected = 1 - math.sqrt(radicand) if radicand >= 0 else math.nan
+            # 1e-9: the terms of Eq. 16 cancel to a thousandth of themselves.
+            assert float(row[printed] or "nan") == pytest.approx(expected, rel=1e-9, nan_ok=True), row[
+                "structure"
+            ]
