@@ -65,6 +65,15 @@ def test_what_a_header_says(name: str) -> None:
     assert {record.source.format for record in records} == {format_of(name)}
 
 
+@pytest.mark.parametrize("dash", ["\N{MINUS SIGN}", "\N{EN DASH}"])
+@pytest.mark.parametrize("name", sorted(set(MADE) - {"titled column: two headers"}))
+def test_a_dash_of_typography_before_a_number_is_refused_by_name(name: str, dash: str) -> None:
+    """The file with two headers is then of no known format."""
+    before, after = re.split(r"-(?=[\d.])(?!.*-[\d.])", content_of(name).decode("latin-1"), flags=re.S)
+    with pytest.raises(RecordError, match=r"line \d+ of the samples holds '.*must be a plain decimal number"):
+        read_content(f"{before}{dash}{after}".encode(), "made", MADE[name][2])
+
+
 @pytest.mark.parametrize(("line", "corner"), [
     ("HP=0.13 HZ, LP=40.0 HZ", 0.13), ("HP= 1 HZ", 1.0), ("HP= 0.0 HZ", None), ("HP=0.1.2 HZ", None),
     ("FILTER POINTS: HP=. HZ", None), ("4 POLE @ 30. HZ LOW, 4 POLE @ .15 HZ HIGH", 0.15),
