@@ -11,6 +11,7 @@ from made_files import MADE, MADE_BINARY, content_of, format_of, read_text
 
 from rocking.errors import RecordError
 from rocking.records.formats import Options, binary
+from rocking.records.formats.header import Layout, keyed
 from rocking.records.read import read_content
 
 FIELDS = ("component", "azimuth", "station", "network", "event", "processed", "high_pass_frequency")
@@ -72,6 +73,11 @@ def test_a_dash_of_typography_before_a_number_is_refused_by_name(name: str, dash
     before, after = re.split(r"-(?=[\d.])(?!.*-[\d.])", content_of(name).decode("latin-1"), flags=re.S)
     with pytest.raises(RecordError, match=r"line \d+ of the samples holds '.*must be a plain decimal number"):
         read_content(f"{before}{dash}{after}".encode(), "made", MADE[name][2])
+
+
+def test_a_pattern_of_a_fact_that_no_header_states_is_refused() -> None:
+    with pytest.raises(ValueError, match="states no peka, but one of component"):
+        Layout("cm/s2", keyed(peka="PGA", samples="NDATA"))
 
 
 @pytest.mark.parametrize(("line", "corner"), [

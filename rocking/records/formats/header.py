@@ -5,7 +5,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
-from typing import Any
+from typing import Any, Literal, get_args
 
 import numpy as np
 
@@ -18,7 +18,13 @@ from rocking.records.instrument import is_down_hole, refuse_other_quantity, site
 from rocking.records.plausibility import agree_with_header, agree_with_mean_square
 
 NUMBER = r"([+-]?(?:\d+\.?\d*|\.\d+)(?:E[+-]?\d+)?)"
-_NAMES = "component", "station", "event", "event_time"
+Fact = Literal[
+    "component", "station", "event", "event_time", "network", "magnitude", "place", "latitude", "longitude",
+    "elevation", "distance", "location", "orientation", "channels", "quantity", "unit", "samples", "step", "rate",
+    "duration", "start", "high_pass", "corrected", "peak", "peak_time", "rms",
+]  # fmt: skip
+"""What a header may state; see Layout."""
+_NAMES: tuple[Fact, ...] = ("component", "station", "event", "event_time")
 
 
 def key(name: str, value: str = "(.*)") -> str:
@@ -41,7 +47,8 @@ class Layout:
     place: like "40.941N, 123.633W"; latitude, longitude: degrees north and east; elevation: m; distance: from the
     epicentre, km; high_pass: Hz; corrected: what says that the numbers are processed, without which a high-pass does;
     start: time of the first sample, hours ahead of universal time; location: of the instrument in a structure; peak,
-    rms: in peak_unit, the peak within half a unit of its last digit; peak_time: s after the first sample.
+    rms: in peak_unit, the peak within half a unit of its last digit; peak_time: s after the first sample; orientation,
+    channels: of all channels of a file. Raises ValueError for a pattern of a fact that is none of these.
     unit: of the numbers in every file of the format. mandatory: facts without which a file is refused. code: of the
     network, where it is not read. per_line, width: numbers on a line, characters of each, 0 where none touch,
     and of the margin before the first.
@@ -49,7 +56,7 @@ class Layout:
 
     unit: str
     patterns: Mapping[str, str]
-    mandatory: tuple[str, ...] = ()
+    mandatory: tuple[Fact, ...] = ()
     duration_steps: float = 1.001
     duration_digits: float = 0.5
     peak_unit: str = ""
@@ -60,15 +67,21 @@ class Layout:
     width: int = 0
     margin: int = 0
 
-    def text(self, name: str, head: str) -> str:
+    def __post_init__(self) -> None:
+        if unknown := sorted(set(self.patterns) - set(get_args(Fact))):
+            raise ValueError(
+                f"a header states no {', '.join(unknown)}, but one of {', '.join(get_args(Fact))}."
+            )
+
+    def text(self, name: Fact, head: str) -> str:
         """Return what `head` says of the fact `name`, "" where it does not."""
         return optional(self.patterns.get(name, ""), head)
 
-    def number(self, name: str, head: str) -> float | None:
+    def number(self, name: Fact, head: str) -> float | None:
         """Return the number that what is said of `name` begins with, None where it begins with none."""
         return optional_number(rf"^\s*{NUMBER}", self.text(name, head))
 
-    def required(self, name: str, head: str) -> str:
+    def required(self, name: Fact, head: str) -> str:
         """Return what `head` says of `name`. Raises RecordError when it says nothing."""
         return required(name, self.patterns.get(name, ""), head)[1].strip()
 
@@ -166,7 +179,9 @@ class Layout:
         return self.unit or unit
 
     def _facts(self, head: str) -> dict[str, Any]:
-        north, east, height = (self.number(name, head) for name in ("latitude", "longitude", "elevation"))
+        north = self.number("latitude", head)
+        east = self.number("longitude", head)
+        height = self.number("elevation", head)
         stated = self.number("high_pass", head) or 0.0
         high_pass = stated if 0 < stated < 100 else None  # no -999
         return {
