@@ -25,6 +25,7 @@ from rocking.assessment.contacts import contact_share, doubt
 from rocking.assessment.cracks import cracks, ensemble_over_cracks
 from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
 from rocking.assessment.ground_motions import GroundMotions, processed
+from rocking.assessment.reserve import Reserve
 from rocking.assessment.reserve_search import reserve
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.variations import candidates, processed_variants
@@ -143,6 +144,16 @@ def assess_record(
                 stations |= _not_carried(carried, component_names(horizontal), str(error))
                 continue
         found, failed = _assess_carried(carried, components, vertical, support, extent, store, clock)
+        stations |= found
+        failures += failed
+        if support is None:
+            found, failed = _with_reserves(found, grounds, vertical, extent, store, clock)
+            stations |= found
+            failures += failed
+    for name in _worst_periods(stations):
+        station = {name: stations[name]}
+        components = floors[_support(stations[name].body)]
+        found, failed = _with_reserves(station, components, vertical, extent, store, clock)
         stations |= found
         failures += failed
     return RecordResult(
@@ -341,6 +352,76 @@ def _direction_cases(
     return results
 
 
+def _worst_periods(stations: Mapping[str, StationResult]) -> list[str]:
+    """The names of the structures on a support at the worst period with members, which is the one that reports print."""
+    worst: dict[tuple[str, str], StationResult] = {}
+    for station in stations.values():
+        standing = station.body.standing if isinstance(station.body, Structure) else None
+        if standing is None or standing.support is None or station.decisive is None:
+            continue
+        key = (standing.listed_structure, standing.place)
+        if key not in worst or station.severity > worst[key].severity:
+            worst[key] = station
+    return [station.structure for station in worst.values()]
+
+
+def _with_reserves(
+    stations: Mapping[str, StationResult],
+    components: Sequence[Component],
+    vertical: Accelerogram | None,
+    extent: Extent,
+    store: Store | None,
+    clock: Clock,
+) -> tuple[dict[str, StationResult], list[tuple[str, Failure]]]:
+    """The stations with the reserve of the crack that governs the case that decides, and the failures.
+
+    components: as they arrive where the structures stand. vertical: of the record. With fidelity: auto, which asks for
+    the verdict alone, no reserve is sought, nor where nothing can overturn the structure.
+    """
+    settings = extent.settings
+    found = dict(stations)
+    failures: list[tuple[str, Failure]] = []
+    if settings.fidelity == "auto" or not settings.ensemble.reserve:
+        return found, failures
+    grounds = [(each.ground or each).accelerogram for each in components]
+    of_component = dict(zip(component_names(grounds), components, strict=True))
+    for name, station in stations.items():
+        case = station.decisive
+        if case is None:
+            continue
+        if case is station.directions:
+            motion = Motion(tuple(grounds), vertical, _support(station.body))
+        else:
+            motion = _motion_of(of_component[case.component])
+        try:
+            with clock.stage("reserve"):
+                found[name] = station.with_reserve(_reserve(case, station.body, motion, extent, store))
+        except RockingError as error:
+            failures.append((case.component, Failure("reserve", f"{name}: {error}")))
+    return found, failures
+
+
+def _reserve(
+    case: CaseResult, structure: Structure | Mechanism, motion: Motion, extent: Extent, store: Store | None
+) -> Reserve | None:
+    """The reserve of the crack that governs a case under its motion, from the store where it holds it."""
+    assert case.ensembles is not None
+    several = cracks(structure)
+    description = case.ensembles.governing.description
+    governing = next((each for each in several if each.description == description), several[0])
+    if not governing.mechanism.can_overturn:
+        return None
+    fingerprint = sha256_of("reserve", case.fingerprint) if case.fingerprint else ""
+    kept = store.find(Reserve, fingerprint) if store is not None else None
+    if kept is not None:
+        return kept
+    ensemble = extent.settings.ensemble
+    sought = reserve(governing.mechanism, _ground_motions(motion, ensemble.processing), ensemble)
+    if store is not None and fingerprint:
+        store.keep(fingerprint, sought)
+    return sought
+
+
 # One case -------------------------------------------------------------------------------------------------
 
 
@@ -423,7 +504,7 @@ def _case(
     )
     if not alone:
         return case
-    motions = _motion_of(component).ground_motions(settings.ensemble.processing)
+    motions = _ground_motions(_motion_of(component), settings.ensemble.processing)
     if members and answer.method is Method.MECHANISM_ON_RECORD:
         case = with_ensembles(case, structure, motions, settings)
         return with_contacts(case, structure, motions, settings, check.bounces)
@@ -438,21 +519,9 @@ def with_ensembles(
     motions: GroundMotions,
     settings: AssessmentSettings,
 ) -> CaseResult:
-    """Return the case with the ensembles of its cracks, and with the reserve of the one that governs.
-
-    With fidelity: auto, which asks for the verdict alone, no reserve is sought, nor where nothing can overturn it.
-    """
+    """Return the case with the ensembles of its cracks; with fidelity: auto, as far as the verdict asks for them."""
     auto = settings.fidelity == "auto"
-    ensembles = ensemble_over_cracks(structure, motions, settings, verdict_only=auto)
-    case = replace(case, ensembles=ensembles)
-    if auto or not settings.ensemble.reserve:
-        return case
-    several = cracks(structure)
-    description = ensembles.governing.description
-    governing = next((each for each in several if each.description == description), several[0])
-    if not governing.mechanism.can_overturn:
-        return case
-    return replace(case, reserve=reserve(governing.mechanism, motions, settings.ensemble))
+    return replace(case, ensembles=ensemble_over_cracks(structure, motions, settings, verdict_only=auto))
 
 
 def with_contacts(
@@ -619,7 +688,7 @@ def _processings(component: Component) -> tuple[Mapping[str, Accelerogram], Acce
 
 @lru_cache(maxsize=2)
 def _ground_motions(motion: Motion, processing: bool) -> GroundMotions:
-    """The motions that a pair stands for, made once for all structures."""
+    """The motions that one motion stands for, made once for all structures and for their reserves."""
     return motion.ground_motions(processing)
 
 

@@ -34,9 +34,11 @@ DECISIVE = ("responses", "directions")
 """Stages whose failure leaves a structure without a result; the others only leave out what stands beside it."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Motion:
     """The motion that a structure meets: one horizontal component of the ground or a pair, the vertical one, a support.
+
+    Motions of the same accelerograms on equal supports are equal, so that what they stand for is made once.
 
     components: one or two, with the same samples where they are two. vertical: sample by sample as the components; None
     where none acts. support: takes them to where the structure stands; None on the ground.
@@ -136,7 +138,8 @@ class CaseResult:
     component: name of the motion. prediction: None without a pulse. responses: by method. check: whether the model held
     along the response of the mechanism to the record. answer: of the mechanism on the record, or of the cheapest method
     that settles the case; None of a pair, and where the case failed. ensembles: of the cracks that were followed; None
-    where none ran. reserve: of the crack that governs; None where it was not sought. overturning_estimate: from the
+    where none ran. reserve: of the crack that governs; None where it was not sought; a store keeps it apart, as it is
+    sought for what is printed alone. overturning_estimate: from the
     peak velocity, where no ensemble ran; None of a structure unlike those behind the estimate. variations: other
     cracks, then other processings. durations: CPU time of each method that was compared, s. fingerprint: of motion,
     structure, settings and version of the computation.
@@ -168,7 +171,7 @@ class CaseResult:
         answer = self.answer
         if answer is not None and answer.response is not None:
             answer = replace(answer, response=_without_history(answer.response))
-        return replace(self, prediction=None, responses=responses, answer=answer, durations={})
+        return replace(self, prediction=None, responses=responses, answer=answer, reserve=None, durations={})
 
     @property
     def ensemble(self) -> Ensemble | None:
@@ -287,6 +290,16 @@ class StationResult(Judgement):
     def reserve(self) -> Reserve | None:
         """The factors on the record at which 5, 50 and 95 % of the members overturn; None where it was not sought."""
         return self.decisive.reserve if self.decisive else None
+
+    def with_reserve(self, reserve: Reserve | None) -> "StationResult":
+        """Return the result with the reserve of the case that decides."""
+        case = self.decisive
+        if case is None:
+            return self
+        with_it = replace(case, reserve=reserve)
+        if case is self.directions:
+            return replace(self, directions=with_it)
+        return replace(self, cases={**self.cases, case.component: with_it})
 
     @property
     def reserve_doubts(self) -> tuple[Remark, ...]:

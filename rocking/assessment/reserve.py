@@ -2,7 +2,8 @@
 
 There is no first factor at which a structure falls: most stand again at a somewhat larger one, so that it would move
 with the step of the search. The share of the members of an ensemble that overturn is smooth, and the reserve is the
-factors on the record at which it reaches 5, 50 and 95 %. `reserve_search` looks for them.
+factors on the record at which it reaches 5, 50 and 95 %. `reserve_search` looks for them, of a structure on a support
+on the ground and at the worst of its periods.
 """
 
 import math

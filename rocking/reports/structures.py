@@ -280,6 +280,8 @@ def _reserve(each: CheckedStructure) -> str:
     reached = lows[~np.isnan(lows)]
     limit = max(reserve.limit for reserve in each.reserves)
     of_all = f"all {counted(lows.size, 'record')}" if lows.size > 1 else "that record"
+    if lows.size < each.records:  # on a support it is sought at the worst period of each record
+        of_all = f"the {counted(lows.size, 'record')} of {each.records} of which this is the worst period"
     if not reached.size:
         words = f"Under {of_all} fewer than 5 % of its members fall up to {limit:g} times the record"
     else:
@@ -287,9 +289,9 @@ def _reserve(each: CheckedStructure) -> str:
         if lows.size > 1:
             median = float(np.quantile(np.where(np.isnan(lows), np.inf, lows), 0.5, method="lower"))
             middle = f"beyond {limit:g}" if math.isinf(median) else f"at {number(median, 2)}"
-            words = (
-                f"{words}, and {middle} times the record in the median over {counted(lows.size, 'record')}"
-            )
+            words = f"{words}, and {middle} times the record in the median over {of_all.removeprefix('all ')}"
+        elif lows.size < each.records:
+            words = f"{words}, over {of_all}"
     if each.reserve_doubts:
         reasons = " and ".join(str(Remark(kind)) for kind in each.reserve_doubts)
         words = f"{words}; this is the reserve of the mechanism alone, and too high where {reasons}"

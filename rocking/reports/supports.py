@@ -118,12 +118,15 @@ def _draw_shares(axes: Axes, structures: Sequence[OverPeriods]) -> None:
 
 
 def _draw_reserves(axes: Axes, panel: SupportPanel) -> None:
-    """Draw on a scale of its own the factor on the record at which half of the members overturn, where there is one."""
+    """Draw on a scale of its own the factor on the record at which half of the members overturn, where there is one.
+
+    Single points, with nothing between them: it is sought on the ground and at the worst period.
+    """
     beside = axes.twinx()
-    for line, each in zip(_LINES * len(panel.structures), panel.structures, strict=False):
+    for each in panel.structures:
         found = [panel.reserves.get(standing.name) for standing in each.standings]
         factors = [reserve.median if reserve else np.nan for reserve in found]
-        beside.plot(each.periods, factors, line, marker="x", color=PREDICTED, linewidth=0.7, markersize=3.5)
+        beside.plot(each.periods, factors, linestyle="", marker="x", color=PREDICTED, markersize=3.5)
     beside.set(ylim=(0, max(reserve.limit for reserve in panel.reserves.values())))
     beside.set_ylabel("median reserve [×]", color=PREDICTED)
     beside.spines["right"].set_visible(True)

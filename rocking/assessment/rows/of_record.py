@@ -267,7 +267,9 @@ class VerdictRow(MembersRow, Judgement):
     reserve_low: float = column("Factor on the record at which 5 % of the members overturn; empty: none")
     reserve_median: float = column("Factor on the record at which half of the members overturn; empty: none")
     reserve_high: float = column("Factor on the record at which 95 % of the members overturn; empty: none")
-    reserve_limit: float = column("Largest factor on the record that was tried; empty without a reserve")
+    reserve_limit: float = column(
+        "Largest factor on the record that was tried; empty without a reserve (on a support, but at its worst period)"
+    )
     reserve_doubts: tuple[Kind, ...] = column(
         "Kinds of doubt for which the reserve may be too high: it is that of the mechanism alone"
     )

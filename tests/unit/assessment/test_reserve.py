@@ -7,14 +7,18 @@ import numpy as np
 import pytest
 
 import rocking
+from rocking.assessment.assess import Extent, assess_record
+from rocking.assessment.case import StationResult
 from rocking.assessment.causes import CAUSES, lattice
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.reserve_search import reserve
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
+from rocking.assessment.store import RecordStore
 from rocking.errors import ConfigurationError
 from rocking.records import Accelerogram
 from rocking.structures import Block
+from rocking.structures.standing import support_from_config
 
 STEP = 0.01
 TIMES = np.arange(0, 20, STEP)
@@ -142,3 +146,29 @@ def test_a_pair_has_one_over_its_directions():
     found = rocking.assess(pair, BLOCK).reserve
     assert found is not None
     assert found.low < found.median
+
+
+def test_on_a_support_it_is_sought_on_the_ground_and_at_the_worst_period_alone(tmp_path, monkeypatch):
+    """There it is that of a structure whose list has this period and no other, and a store gives it back."""
+    record = _record(1.5, 1)
+    body = Block(0.6, 0.25)
+    extent = Extent(AssessmentSettings(ensemble=EnsembleSettings(members=16, reserve=30.0)))
+
+    def assessed(period: float | list[float], store: RecordStore | None = None) -> dict[str, StationResult]:
+        roof = support_from_config({"name": "roof", "period_s": period, "participation": 1.3})
+        bodies = {each.name: body.standing_on(each) for each in roof.standings("parapet")}
+        return dict(assess_record("made", [record], bodies, extent, store=store).stations)
+
+    store = RecordStore(tmp_path / "cases")
+    stations = assessed([0.15, 0.6], store)
+    store.save()
+    worst = max((each for name, each in stations.items() if "T_b" in name), key=lambda each: each.severity)
+    sought = {name: each.reserve for name, each in stations.items() if each.reserve is not None}
+    assert set(sought) == {"parapet, on the ground", worst.structure}
+    assert worst.body.standing is not None
+    alone = assessed(worst.body.standing.period)
+    assert {name: each.reserve for name, each in alone.items()} == sought
+
+    monkeypatch.setattr("rocking.assessment.assess.reserve", None)
+    again = assessed([0.15, 0.6], RecordStore(tmp_path / "cases"))
+    assert {name: each.reserve for name, each in again.items() if each.reserve is not None} == sought
