@@ -255,11 +255,17 @@ def explanation(
 ) -> dict[str, float]:
     """Return how well the levels (r, k), and the `figures` (r,) beside them, explain the outcomes (r, k).
 
-    By column of the table intensity_measures: its efficiency alone for fewer than four stations or equal figures. Every
+    By column of the table intensity_measures: its efficiency alone for fewer than four stations or equal figures. A
+    record that was tried at no level says nothing, and a figure that differs in such a record alone is equal. Every
     outcome counts, also of records that never overturn or that stand again above the level that overturned them. The
     error of the slope is that between stations, so that two components of one are no two observations, and the slope
     over it is held against Student's law for the number of stations less three.
     """
+    tried = np.isfinite(exceedance).any(axis=1)
+    log_levels = log_levels[tried]
+    exceedance = exceedance[tried]
+    figures = figures[tried]
+    stations = np.asarray(stations)[tried].tolist()
     (_, steepness), _ = _probit([log_levels], exceedance, stations)
     columns = {"efficiency": float(1 / steepness) if steepness > 0 else np.nan}
     freedom = len(set(stations)) - 3

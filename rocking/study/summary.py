@@ -37,6 +37,7 @@ from rocking.study.results import (
     table_lines,
 )
 from rocking.study.seal import SEAL
+from rocking.study.terminal import log_error
 from rocking.tables import Row, data_package, frame, write_tables, write_whole
 from rocking.tables.workbook import workbook
 
@@ -194,8 +195,16 @@ def write_fragility(
                 row = rows.fragility_summary_row(name, curve, governing, hazard)
                 tables[rows.FragilityRow] += rows.fragility_rows(name, curve, governing)
                 tables[rows.FragilitySummaryRow].append(row)
-        of_measures = rows.intensity_measure_rows(name, structure.mechanism(), accelerograms, analysis)
-        tables[rows.IntensityMeasureRow] += of_measures
+        try:
+            mechanism = structure.mechanism()
+            of_measures = list(rows.intensity_measure_rows(name, mechanism, accelerograms, analysis))
+            tables[rows.IntensityMeasureRow] += of_measures
+        except Exception as error:  # the curves are finished, and no table beside them may take them along
+            log_error(error)
+            reasons.append(
+                f"{name}: {rows.IntensityMeasureRow.table.file_name} has no row of it, because of a fault of rocking "
+                f"({type(error).__name__}: {error}); the log holds its traceback; please report it."
+            )
         tell(f"{count} of {len(study.structures)}: {name}")
     write_tables(tables, folder, "rocking-fragility")
     return reasons

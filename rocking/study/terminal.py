@@ -5,9 +5,10 @@ import os
 import sys
 import tempfile
 import time
+import traceback
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from threading import Thread
 from types import TracebackType
@@ -28,6 +29,8 @@ _FEW = 3
 _MARKS = {Verdict.UNDECIDED: "?", Verdict.UNKNOWN: "–"}
 _PIPE = "ROCKING_PROGRESS"
 """The variable of the environment that names the pipe from the jobs to the one who waits."""
+_LOGS: list[Path] = []
+"""The log that this process has begun, to which the error that ends it is added."""
 _LONGEST = 1000
 """Characters of a line: what the system writes to a pipe at once, by whatever process, is at least 4096 bytes."""
 
@@ -191,6 +194,7 @@ def tell(job: str, line: str) -> None:
 def line_writer(log: Path) -> Callable[[str], None]:
     """Return what adds a line to `log`, begun anew, and tells it."""
     new_log(log).close()
+    _LOGS[:] = [log]
 
     def add(line: str) -> None:
         with log.open("a", encoding="utf-8") as stream:
@@ -211,7 +215,15 @@ def tell_error(kind: type[BaseException], error: BaseException, trace: Traceback
         tell(
             "error", f"a job ended with {kind.__name__}: {' '.join(str(error).split())}; its log tells where"
         )
+    log_error(error)
     sys.__excepthook__(kind, error, trace)
+
+
+def log_error(error: BaseException) -> None:
+    """Add the traceback of an error to the log that this process has begun, if any."""
+    for log in _LOGS:
+        with suppress(OSError), log.open("a", encoding="utf-8") as stream:
+            traceback.print_exception(error, file=stream)
 
 
 def fitting(line: str, stream: TextIO) -> str:

@@ -45,6 +45,16 @@ def test_the_slope_and_the_scatter_are_those_behind_the_outcomes():
     assert unlike["efficiency"] == pytest.approx(0.4, rel=0.12)
 
 
+def test_a_figure_that_differs_only_in_a_record_that_no_level_reaches_explains_nothing():
+    """Beside the intercept it made the matrix singular, or a slope out of rounding."""
+    rng = np.random.default_rng(0)
+    levels, falls = outcomes(0.4 * rng.standard_normal(7))
+    falls[6] = np.nan
+    columns = explanation(levels, falls, np.array([0.3] * 6 + [1.3]), list("abcdefg"))
+    assert columns == explanation(levels[:6], falls[:6], np.full(6, 0.3), list("abcdef"))
+    assert set(columns) == {"efficiency"}
+
+
 def test_the_scatter_of_outcomes_that_a_level_parts_cleanly_is_that_of_the_penalised_fit():
     """−log L + 1e-9 n b²/2, where b is the slope for one standard deviation of the levels, is least there by scipy."""
     levels, falls = outcomes(np.zeros(4))

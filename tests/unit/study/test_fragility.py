@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from importlib import import_module
 from itertools import pairwise
 from pathlib import Path
 
@@ -23,7 +24,8 @@ from rocking.structures.standing import support_from_config
 from rocking.study.job import Study
 from rocking.study.settings import Settings, StudyFragility
 from rocking.study.summary import write_fragility
-from rocking.tables import read_rows
+from rocking.study.terminal import line_writer
+from rocking.tables import read_rows, read_table
 from tests.made_structures import HELD
 
 STRUCTURES = {"slender": Block.of_size(0.5, 3.0), "stout": Block.of_size(1.0, 3.0), "spire": Spire(1.0, 6.0)}
@@ -54,6 +56,22 @@ def test_what_cannot_overturn_is_left_out_and_said(tmp_path):
     with pytest.raises(ConfigurationError, match="no structure of the list can overturn"):
         write_fragility(records, replace(both, structures={"held": HELD}), tmp_path / "none")
     assert not (tmp_path / "none").exists()
+
+
+def test_a_table_beside_the_curves_fails_alone(tmp_path, monkeypatch):
+    """A singular matrix in what explains the curves took the finished fragility along."""
+
+    def singular(*_: object) -> None:
+        raise np.linalg.LinAlgError("Singular matrix")
+
+    monkeypatch.setattr(import_module("rocking.fragility.rows"), "explanation", singular)
+    tell = line_writer(tmp_path / "fragility.log")
+    study = replace(_study(), structures={"slender": STRUCTURES["slender"]})
+    (reason,) = write_fragility(_records(tmp_path, 2), study, tmp_path / "out", tell)
+    assert reason.startswith("slender: intensity_measures.csv has no row of it")
+    assert "LinAlgError: Singular matrix\n" in (tmp_path / "fragility.log").read_text()
+    rows = {name: read_table(each, tmp_path / "out") for name, each in FRAGILITY_TABLES.items()}
+    assert {name for name, held in rows.items() if not held} == {"intensity_measures"}
 
 
 def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):

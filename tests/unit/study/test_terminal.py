@@ -84,6 +84,18 @@ def test_what_is_sent_stands_in_the_log_and_on_the_terminal(tmp_path: Path) -> N
     assert stream.getvalue().splitlines() == ["one: rests: pier", "trade: 1 of 12: one, pier: 14 runs"]
 
 
+def test_the_log_holds_the_error_that_ends_a_job(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    line_writer(log := tmp_path / "fragility.log")("1 of 2: pier")
+    try:
+        raise ZeroDivisionError("by nothing")
+    except ZeroDivisionError as error:
+        terminal.tell_error(type(error), error, error.__traceback__)
+    told, *trace = log.read_text().splitlines()
+    assert told == "1 of 2: pier"
+    assert trace[-1] == "ZeroDivisionError: by nothing"
+    assert "its log tells where" in capsys.readouterr().err
+
+
 class Terminal(io.StringIO):
     def isatty(self) -> bool:
         return True
