@@ -152,6 +152,12 @@ def four_digits(value: float, unit: str = "") -> str:
     return f"{value:.4g}{_in(unit)}"
 
 
+def percent(share: float) -> str:
+    """Return a share in percent: one digit below 10, whole from there on, 0 where it is rounding."""
+    value = 100 * share
+    return f"{value:.0f}" if value >= 10 or value < 1e-6 else f"{value:.1g}"
+
+
 def counted(number: int, name: str) -> str:
     """Return "1 impact", "2 impacts"."""
     return f"{number} {name}" if number == 1 else f"{number} {name}s"

@@ -36,6 +36,24 @@ class Kind(StrEnum):
     CONTACTS_OPEN = auto(), "contacts open"
     COURSES_THROWN = auto(), "courses above a rocking body may be thrown"
 
+    # What else makes a decision doubtful.
+    COMPONENT_MISSING = auto(), "a component gave no result"
+    OTHER_CRACK_WORSE = auto(), "another crack than the one given is worse"
+    MEMBERS_FAILED = auto(), "members could not be followed"
+    HELD_BEYOND = auto(), "a held wall turns so far that its mechanism may say too little"
+
+    # What would tell more of a decision.
+    TIE_STRENGTH = auto(), "the strength of the ties"
+    FRICTION = auto(), "the friction of the joint"
+    INPUT = auto(), "a record or settings that can be followed"
+    ENSEMBLE = auto(), "an ensemble of members"
+    TOLERANCE = auto(), "a restitution below 1, or another tolerance"
+    CRACK = auto(), "where it cracks"
+    RESTITUTION = auto(), "the restitution"
+    PROCESSING = auto(), "a processed record of the network"
+    CONTACT_DYNAMICS = auto(), "contact dynamics"
+    COMPONENT = auto(), "the component that gave no result"
+
 
 @dataclass(frozen=True)
 class Remark:

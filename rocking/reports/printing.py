@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from rocking.assessment.verdict import NEGLIGIBLE, Method, Verdict, rests
-from rocking.quantities import counted
+from rocking.quantities import counted, percent
 from rocking.reports.units import unit_of, units_in_words
 from rocking.tables import Row
 
@@ -76,12 +76,6 @@ def plain(value: float | None) -> str:
     if value is None or math.isnan(value):
         return NOTHING
     return _typeset(str(value) if isinstance(value, int) else f"{value:.6g}")
-
-
-def percent(share: float) -> str:
-    """Return a share in percent: one digit below 10, whole from there on, 0 where it is rounding."""
-    value = 100 * share
-    return _typeset(f"{value:.0f}" if abs(value) >= 10 or abs(value) < 1e-6 else f"{value:.1g}")
 
 
 def words(text: str | Sequence[str] | None) -> str:

@@ -26,7 +26,7 @@ from rocking.assessment.rows import (
 from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Verdict, agreement
 from rocking.codes.settings import DesignSettings
 from rocking.pulses import Flag
-from rocking.quantities import GRAVITY, counted
+from rocking.quantities import GRAVITY, counted, percent
 from rocking.records.dates import day_of
 from rocking.reports import printing
 from rocking.reports import record_figures as figures
@@ -406,9 +406,9 @@ def _pulse_sentence(tables: RecordRows, motion: Trace) -> str:
     pulse = (
         f"Component {words(component)}: amplitude {printing.quantity(abs(row.amplitude_m_s2), 'm/s²')}, "
         f"period {number(row.period_s)} s, from {number(row.start_time_s)} s on; it "
-        f"explains {printing.percent(row.explained_energy)}\u00a0% of the acceleration energy."
+        f"explains {percent(row.explained_energy)}\u00a0% of the acceleration energy."
     )
-    alike = printing.percent(row.same_outcome_share)
+    alike = percent(row.same_outcome_share)
     value = (
         f"Where a pulse explains so much, closed form and integration end alike in {alike}\u00a0% of cases."
     )

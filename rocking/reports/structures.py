@@ -16,13 +16,13 @@ from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
 from rocking.codes.rows import KINDS, disagreement
 from rocking.codes.selection import Selection
 from rocking.codes.static_check import Check
-from rocking.quantities import counted
+from rocking.quantities import counted, percent
 from rocking.remarks import Kind, Remark
 from rocking.reports import printing
 from rocking.reports.document import compile_document
 from rocking.reports.drawings import draw_dimensions, draw_structure
 from rocking.reports.panels import ZERO, plot
-from rocking.reports.printing import Cell, number, percent, plain, quantity, table, words
+from rocking.reports.printing import Cell, number, plain, quantity, table, words
 from rocking.reports.style import PREDICTED, PULSE, new_figure, panel_at, picture, room_for_texts, styled
 from rocking.reports.units import displaying, unit_of
 from rocking.structures import Structure

@@ -1,0 +1,445 @@
+"""The decision: what becomes of a structure under a motion, with all uncertain inputs considered.
+
+`decide` is the only place where a verdict is decided. It is given facts alone, and what it returns is what every table,
+report and line prints: a word, the share behind it and its interval, the reason, what is doubtful and what would tell
+more.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from rocking.quantities import percent
+from rocking.remarks import Kind, Remark
+
+UNANIMOUS = 64
+"""Members of which none overturns, or none stands, that settle a verdict."""
+FAR = 0.3
+"""Rotation ratio that fewer members must all stay below to settle that the structure stands. The target `calibrate`
+measures how many verdicts this changes, on sites that took no part in any fit."""
+LATTICE_ERROR = 4.0
+"""Members times the error of a probability that all but few cases stay below; `calibrate_ensemble` counts them."""
+ONE_THIRD, TWO_THIRDS = 1 / 3, 2 / 3
+"""Shares at which a structure no longer probably stands, and from which on it probably overturns."""
+BEYOND = 0.4
+"""Share of the critical rotation beyond which a chain of a held wall may fall though its mechanism stands (theory:
+section on ties)."""
+
+
+class Verdict(StrEnum):
+    """The verdict on a structure under a ground motion, with all uncertain inputs considered.
+
+    >>> [str(verdict) for verdict in rocking.assessment.decide.Verdict][:3]
+    ['stands', 'probably stands', 'uncertain']
+    """
+
+    STANDS = "stands"
+    PROBABLY_STANDS = "probably stands"
+    UNCERTAIN = "uncertain"
+    PROBABLY_OVERTURNS = "probably overturns"
+    OVERTURNS = "overturns"
+    CANNOT_BE_TOLD = "cannot be told"
+    """It could not be computed, or what was computed leaves out what may decide."""
+    CANNOT_OVERTURN = "cannot overturn"
+    """It stands under this motion, and what holds it lets go under no other."""
+
+    @property
+    def stays_up(self) -> bool:
+        """Whether the structure stays up, because this motion does not overturn it or because none can."""
+        return self in (Verdict.STANDS, Verdict.CANNOT_OVERTURN)
+
+    @property
+    def badness(self) -> int:
+        """The place from the safest, 0, to the worst."""
+        return len(ORDER) - 1 - ORDER.index(self)
+
+
+ORDER = (
+    Verdict.OVERTURNS,
+    Verdict.PROBABLY_OVERTURNS,
+    Verdict.CANNOT_BE_TOLD,
+    Verdict.UNCERTAIN,
+    Verdict.PROBABLY_STANDS,
+    Verdict.STANDS,
+    Verdict.CANNOT_OVERTURN,
+)
+"""The worst verdict first."""
+
+
+def worse(*words: Verdict) -> Verdict:
+    """Return the worst of several verdicts."""
+    return max(words, key=lambda word: word.badness)
+
+
+def better(*words: Verdict) -> Verdict:
+    """Return the safest of several verdicts."""
+    return min(words, key=lambda word: word.badness)
+
+
+def share_error(falls: int, members: int, farthest: float = math.inf) -> float:
+    """Return the most by which the share of `members` that fall differs from that of very many.
+
+    It falls with the number of members itself, as they stand on a lattice, not with its root. It counts as none where
+    UNANIMOUS members or more agree, or where fewer all stay FAR from overturning. farthest: largest rotation ratio.
+    """
+    many_agree = members >= UNANIMOUS and falls in (0, members)
+    return 0.0 if many_agree or farthest <= FAR else LATTICE_ERROR / max(members, 1)
+
+
+def step(falls: int, members: int, farthest: float = math.inf, risk: float = 0.05) -> Verdict:
+    """Return the word of `members` of which `falls` overturn: where the error counts, it counts on the unsafe side.
+
+    risk: largest probability of the opposite outcome.
+
+    >>> [str(step(falls, 64)) for falls in (0, 1, 20, 41, 64)]
+    ['stands', 'probably stands', 'uncertain', 'probably overturns', 'overturns']
+    """
+    error = share_error(falls, members, farthest) * members  # in members, so that no edge hangs on rounding
+    if falls + error <= risk * members:
+        return Verdict.STANDS
+    if members - falls + error <= risk * members:
+        return Verdict.OVERTURNS
+    tripled = 3 * falls + 1.5 * error
+    if tripled <= members:
+        return Verdict.PROBABLY_STANDS
+    return Verdict.UNCERTAIN if tripled < 2 * members else Verdict.PROBABLY_OVERTURNS
+
+
+def near_an_edge(falls: int, members: int, farthest: float = math.inf, risk: float = 0.05) -> bool:
+    """Whether one of the four edges between the words lies within the error, so that more members may change it."""
+    error = share_error(falls, members, farthest)
+    return error > 0 and any(
+        abs(falls / members - edge) <= error for edge in (risk, ONE_THIRD, TWO_THIRDS, 1 - risk)
+    )
+
+
+@dataclass(frozen=True)
+class CrackFacts:
+    """The fate of the members with one crack.
+
+    name: of the crack; "" where only one may form. falls: of those `followed`, that overturn. failed: members that
+    could not be followed. farthest: largest rotation ratio of those followed; nan without any. slides: whether its
+    joint slides before it lifts, under a motion that reaches so far. Raises ValueError.
+    """
+
+    name: str
+    falls: int
+    followed: int
+    failed: int = 0
+    farthest: float = math.nan
+    slides: bool = False
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.falls <= self.followed or self.failed < 0:
+            counts = f"{self.falls} falls, {self.followed} followed, {self.failed} failed"
+            raise ValueError(
+                f"crack {self.name!r}: {counts}, but must be 0 ≤ falls ≤ followed and failed ≥ 0."
+            )
+        if math.isnan(self.farthest) == (self.followed > 0) or (self.farthest == math.inf) != (
+            self.falls > 0
+        ):
+            raise ValueError(
+                f"crack {self.name!r}: farthest {self.farthest}, but must be inf where a member falls, nan where none "
+                "was followed."
+            )
+
+    @property
+    def members(self) -> int:
+        """Members that were followed or failed."""
+        return self.followed + self.failed
+
+    @property
+    def share(self) -> float:
+        """Share of the members that overturn, those that failed counted as falling; nan without members."""
+        return (self.falls + self.failed) / self.members if self.members else math.nan
+
+    @property
+    def lowest_share(self) -> float:
+        """The same, those that failed counted as standing."""
+        return self.falls / self.members if self.members else math.nan
+
+    @property
+    def count(self) -> str:
+        """Members that overturn, of how many: "12 of 64", "12 to 14 of 64" where two failed."""
+        up_to = f" to {self.falls + self.failed}" if self.failed else ""
+        return f"{self.falls}{up_to} of {self.members}"
+
+    def step(self, risk: float) -> Verdict:
+        """Return the word of its members, those that failed counted as falling."""
+        return step(
+            self.falls + self.failed, self.members, self.farthest if not self.failed else math.inf, risk
+        )
+
+    def step_of_followed(self, risk: float) -> Verdict:
+        """Return the word of those that were followed alone.
+
+        Beside members that failed, so few falls that the error of the share holds them all bear out no word of falling.
+        """
+        if not self.followed:
+            return Verdict.UNCERTAIN
+        word = step(self.falls, self.followed, self.farthest, risk)
+        return better(word, Verdict.UNCERTAIN) if self.failed and self.falls <= LATTICE_ERROR else word
+
+    def severity(self, risk: float) -> tuple[int, float, float]:
+        """Key by which the worst of several comes last: the word, the share that overturns, then the rotation."""
+        farthest = -1.0 if math.isnan(self.farthest) else self.farthest
+        return self.step(risk).badness, -1.0 if math.isnan(self.share) else self.share, farthest
+
+
+CONTACTS = (Kind.CONTACTS_OPEN, Kind.COURSES_THROWN)
+"""Doubts that contact dynamics settles."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Facts:
+    """The facts that are known of one structure under one motion.
+
+    cracks: those that were followed, first the one that is `given` or that statics chooses. rests: whether nothing can
+    lift. run_ratio: largest rotation ratio of single runs, where no members were followed; nan without one. settled:
+    the word of a cheaper method that settled it. never_lets_go: why no motion can overturn it with a crack that
+    counts; "" where one can. slides_at: acceleration [g] at which its joints slide, where the motion reaches it; else
+    nan. doubts: what one degree of freedom does not follow. held: whether it is a wall that is held above its foot,
+    and beyond: whether some chain of it goes beyond BEYOND of its critical rotation in any member. stacks: stacks of
+    courses that fall in contact dynamics, of how many; None where none was followed. remarks: what would tell more of
+    members that disagree. failures: why components gave no result. risk: largest probability of the outcome opposite
+    to "stands" or "overturns". Raises ValueError.
+    """
+
+    cracks: tuple[CrackFacts, ...] = ()
+    given: bool = False
+    rests: bool = False
+    run_ratio: float = math.nan
+    settled: Verdict | None = None
+    never_lets_go: str = ""
+    slides_at: float = math.nan
+    doubts: tuple[Remark, ...] = ()
+    held: bool = False
+    beyond: bool = False
+    stacks: tuple[int, int] | None = None
+    remarks: tuple[Remark, ...] = ()
+    failures: tuple[str, ...] = ()
+    risk: float = 0.05
+
+    def __post_init__(self) -> None:
+        if self.stacks is not None and not 0 <= self.stacks[0] <= self.stacks[1] != 0:
+            raise ValueError(f"stacks {self.stacks}, but must be those that fall, of at least one.")
+        if self.settled not in (None, Verdict.STANDS, Verdict.OVERTURNS):
+            raise ValueError(f"settled {self.settled}, but an estimate settles that it stands or overturns.")
+        if odd := [str(each.kind) for each in self.doubts if each.kind not in CONTACTS]:
+            raise ValueError(f"doubts {odd}, but must be of {[str(kind) for kind in CONTACTS]}.")
+        if not 0 < self.risk < 0.5:
+            raise ValueError(f"risk {self.risk}, but must be above 0 and below 0.5.")
+
+    @property
+    def counting(self) -> tuple[CrackFacts, ...]:
+        """The cracks that count: the one that is given; else those that lift before they slide, where there are any."""
+        if self.given:
+            return self.cracks[:1]
+        return tuple(each for each in self.cracks if not each.slides) or self.cracks
+
+    @property
+    def followed(self) -> tuple[CrackFacts, ...]:
+        """Those of them that have members."""
+        return tuple(each for each in self.counting if each.members)
+
+    @property
+    def governing(self) -> CrackFacts | None:
+        """The worst crack of them; the first among equals, None without members."""
+        return max(self.followed, key=lambda each: each.severity(self.risk), default=None)
+
+
+@dataclass(frozen=True)
+class Decision:
+    """The fate of a structure, as every table and report prints it.
+
+    word: the verdict. share: of the members that overturn with the crack that governs; of a single run 0 or 1, nan
+    where none can be said. interval: of the share, from the first crack to the worst, with what failed or is not
+    known; nan where nothing is known. why: the reason, in words. doubts: what may make it worse than said. tells: what
+    would tell more.
+    """
+
+    word: Verdict
+    share: float
+    interval: tuple[float, float]
+    why: str
+    doubts: tuple[Remark, ...] = ()
+    tells: tuple[Remark, ...] = ()
+
+    @property
+    def share_in_words(self) -> str:
+        """The share as it is printed: "31 %", "0–100 %", "at least 31 %", "one run"; "" where there is none."""
+        low, high = self.interval
+        if math.isnan(low) or self.word is Verdict.CANNOT_OVERTURN:
+            return ""
+        if any(each.kind is Kind.ENSEMBLE for each in self.tells):
+            return "one run"
+        if math.isnan(self.share) and high == 1:
+            return f"at least {percent(low)}\u00a0%"
+        between = "" if low == high else f"–{percent(high)}"
+        return f"{percent(low)}{between}\u00a0%"
+
+    @property
+    def severity(self) -> tuple[int, float]:
+        """Key by which the worst of several comes last: the word, then the share."""
+        share = self.interval[0] if math.isnan(self.share) else self.share
+        return self.word.badness, -1.0 if math.isnan(share) else share
+
+
+# Whole on purpose: the rows of the table, one after another.
+def decide(facts: Facts) -> Decision:
+    """Return the decision on `facts`.
+
+    The step of a crack is the word of its members (`step`), those that failed counted as falling. The first row whose
+    test holds ends, but for rows 5 to 7, which name a step, and rows 8b and 9, which limit it.
+
+    ===  ================================================================  =============================================
+    row  facts                                                             word
+    ===  ================================================================  =============================================
+    1    no crack that counts can overturn, no doubt                       cannot overturn
+    2    nothing can lift                                                  stands
+    3    every crack that counts slides before it lifts, and the motion    cannot be told
+         reaches so far
+    4    no result at all                                                  cannot be told
+    5    one run: settled by an estimate / stands up to FAR / else         as settled / probably stands / uncertain
+    6    cracks, none given                                                step of the worst one, but no worse than
+                                                                           uncertain where the first (probably) stands,
+                                                                           no worse than probably overturns where the
+                                                                           first does not overturn
+    7    a crack without one member, or only with the members that failed  cannot be told
+         does it (probably) overturn
+    8    the step is overturns                                             overturns
+    8b   a held wall some chain of which goes beyond BEYOND, and fewer     no safer than probably stands
+         than UNANIMOUS runs of contact dynamics
+    9    contact dynamics ran                                              the worse of its step and that of the members
+    10   contacts open or courses may be thrown and contact dynamics did   cannot be told
+         not run, or a component is missing; and it does not (probably)
+         overturn
+    11   else                                                              the step
+    ===  ================================================================  =============================================
+
+    A further doubt, failure or fall never makes the word safer. Under row 7 the share is empty, and its interval
+    reaches from the members that fall to those that fall or failed; under row 10 from the share at least to 1.
+    """
+    risk = facts.risk
+    counting = facts.counting
+    followed = facts.followed
+    governing = facts.governing
+    unsettled = facts.doubts if facts.stacks is None else ()
+    missing = (Remark(Kind.COMPONENT_MISSING),) if facts.failures else ()
+    worse_beside = _worse_than_given(facts)
+    beside = (*unsettled, *missing, *([Remark(Kind.OTHER_CRACK_WORSE)] if worse_beside else []))
+    tells: tuple[Remark, ...]
+
+    # 1, 2, 3: what no member needs to tell.
+    if facts.never_lets_go and not facts.doubts:
+        tells = (Remark(Kind.TIE_STRENGTH),)
+        return Decision(Verdict.CANNOT_OVERTURN, 0.0, (0.0, 0.0), facts.never_lets_go, beside, tells)
+    if facts.rests:
+        why = "the ground never reaches the uplift acceleration"
+        return Decision(Verdict.STANDS, 0.0, (0.0, 0.0), why, beside)
+    if not math.isnan(facts.slides_at) and all(each.slides for each in counting):
+        why = f"slides before it lifts, at {facts.slides_at:.2g} g"
+        tells = (Remark(Kind.FRICTION),)
+        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), why, beside, tells)
+
+    # 4
+    if governing is None and math.isnan(facts.run_ratio) and facts.settled is None:
+        why = "; ".join(facts.failures) or "no component gave a result"
+        tells = (Remark(Kind.INPUT),)
+        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), why, beside, tells)
+
+    if governing is None:
+        # 5: one run, whose scatter nobody knows.
+        word = Verdict.PROBABLY_STANDS if facts.run_ratio <= FAR else Verdict.UNCERTAIN
+        why = "one run as recorded, without an ensemble"
+        tells = (Remark(Kind.ENSEMBLE),)
+        share = float(facts.run_ratio == math.inf)
+        interval = share, share
+        if facts.settled is not None:
+            word = facts.settled
+            why = "settled by an estimate"
+            tells = ()
+            share = float(word is Verdict.OVERTURNS)
+            interval = share, share
+    else:
+        # 6: the worst crack; statics' own keeps a word in it.
+        word = _over_cracks([each.step(risk) for each in followed])
+        tells = facts.remarks
+        share = governing.share
+        why = _counted(facts, worse_beside)
+        ends = {governing, followed[0]} if governing.step(risk) is not followed[0].step(risk) else {governing}
+        interval = min(each.lowest_share for each in ends), max(each.share for each in ends)
+        # 7: failed members count as falling, but alone they make nothing fall.
+        falls_without = _over_cracks([each.step_of_followed(risk) for each in followed])
+        open_ = word.badness >= Verdict.PROBABLY_OVERTURNS.badness or not all(
+            each.followed for each in followed
+        )
+        if open_ and falls_without.badness < Verdict.PROBABLY_OVERTURNS.badness:
+            word = Verdict.CANNOT_BE_TOLD
+            tells = (Remark(Kind.TOLERANCE),)
+        if any(each.failed for each in followed):
+            beside = (*beside, Remark(Kind.MEMBERS_FAILED))
+
+    # 8
+    if word is Verdict.OVERTURNS:
+        return Decision(word, share, interval, why, beside)
+    # 8b, 9: what bounds the step of the mechanism.
+    if facts.held and facts.beyond and (facts.stacks is None or facts.stacks[1] < UNANIMOUS):
+        word = worse(word, Verdict.PROBABLY_STANDS)
+        beside = (*beside, Remark(Kind.HELD_BEYOND))
+        tells = (*tells, Remark(Kind.CONTACT_DYNAMICS))
+    if facts.stacks is not None:
+        fallen, runs = facts.stacks
+        of_stacks = step(fallen, runs, risk=risk)
+        why = f"{why}; {fallen} of {runs} stacks of courses fall in contact dynamics"
+        if of_stacks is not word:
+            interval = min(interval[0], fallen / runs), max(interval[1], fallen / runs)
+        word = worse(word, of_stacks)
+    # 10: a mechanism that stands says nothing of what it does not follow.
+    if (unsettled or missing) and word.badness < Verdict.PROBABLY_OVERTURNS.badness:
+        reasons = [*map(str, unsettled), *facts.failures]
+        tells = (Remark(Kind.CONTACT_DYNAMICS),) if unsettled else ()
+        tells += (Remark(Kind.COMPONENT),) if missing else ()
+        at_least = interval[0], 1.0
+        return Decision(Verdict.CANNOT_BE_TOLD, math.nan, at_least, "; ".join([*reasons, why]), beside, tells)
+    # 11
+    told = math.nan if word is Verdict.CANNOT_BE_TOLD else share
+    return Decision(word, told, interval, why, beside, tells)
+
+
+def _over_cracks(steps: Sequence[Verdict]) -> Verdict:
+    """The word of several cracks, the one that statics chooses first, which is the likeliest to form."""
+    if not steps:
+        return Verdict.STANDS
+    worst = worse(*steps)
+    if steps[0] in (Verdict.STANDS, Verdict.PROBABLY_STANDS):
+        return better(worst, Verdict.UNCERTAIN)
+    return worst if steps[0] is Verdict.OVERTURNS else better(worst, Verdict.PROBABLY_OVERTURNS)
+
+
+def _worse_than_given(facts: Facts) -> CrackFacts | None:
+    """The worst crack beside one that is given, where its word is worse."""
+    if not facts.given:
+        return None
+    others = [each for each in facts.cracks[1:] if each.members and not each.slides]
+    worst = max(others, key=lambda each: each.severity(facts.risk), default=None)
+    if worst is None or worst.step(facts.risk).badness <= facts.cracks[0].step(facts.risk).badness:
+        return None
+    return worst
+
+
+def _counted(facts: Facts, worse_beside: CrackFacts | None) -> str:
+    """The count of members that overturn, and with which crack."""
+    governing = facts.governing
+    assert governing is not None
+    first = facts.followed[0]
+    with_crack = f" with the {governing.name}" if governing.name else ""
+    words = f"{governing.count} members overturn{with_crack}"
+    if worse_beside is not None:
+        words += f" as given; should the {worse_beside.name} form instead, {worse_beside.count} do"
+    elif governing is not first:
+        words += f", {first.count} with the {first.name} of statics"
+    if governing.failed:
+        words += f"; {governing.failed} could not be followed"
+    return words

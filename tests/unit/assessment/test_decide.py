@@ -1,0 +1,420 @@
+"""The decision: its table row by row, beside an oracle that shares no code with it, and what never makes it safer."""
+
+import itertools
+import math
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from rocking.assessment.decide import ORDER, CrackFacts, Facts, Verdict, decide, near_an_edge, step
+from rocking.remarks import Kind, Remark
+
+OPEN, THROWN = Remark(Kind.CONTACTS_OPEN), Remark(Kind.COURSES_THROWN)
+SAFEST_FIRST = (
+    "cannot overturn",
+    "stands",
+    "probably stands",
+    "uncertain",
+    "cannot be told",
+    "probably overturns",
+    "overturns",
+)
+
+
+def crack(falls, members=64, failed=0, farthest=0.8, name="hinge", slides=False):
+    """A crack of so many members, of which some failed and some of the others fall."""
+    followed = members - failed
+    farthest = math.nan if not followed else math.inf if falls else farthest
+    return CrackFacts(name, falls, followed, failed, farthest, slides)
+
+
+def word(**facts):
+    return str(decide(Facts(**facts)).word)
+
+
+def kinds(remarks):
+    return [each.kind for each in remarks]
+
+
+# The step -----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("members", "ends"),
+    [(16, (-1, 3, 8, 16, 16)), (64, (0, 19, 40, 63, 64)), (256, (8, 83, 168, 247, 256))],
+)
+def test_the_counts_at_which_the_words_change(members, ends):
+    """The last count of each word; of 16 none overturns and none stands for sure unless all stay far."""
+    words = ("stands", "probably stands", "uncertain", "probably overturns", "overturns")
+    for falls in range(members + 1):
+        expected = next(word for word, end in zip(words, ends, strict=True) if falls <= end)
+        assert str(step(falls, members)) == expected
+
+
+def test_sixteen_members_that_all_stay_far_stand():
+    assert str(step(0, 16, 0.3)) == "stands"
+    assert str(step(0, 16, 0.31)) == "probably stands"
+
+
+@pytest.mark.parametrize(
+    ("falls", "near"), [(0, False), (1, True), (7, True), (8, False), (17, False), (18, True)]
+)
+def test_more_members_are_asked_for_near_an_edge(falls, near):
+    """e is 1/16 of 64 members, so that 5 % is near up to 7 falls and 1/3 from 18 on."""
+    assert near_an_edge(falls, 64) is near
+    assert near_an_edge(64 - falls, 64) is near
+
+
+def test_sixteen_members_are_near_an_edge_unless_all_stay_far():
+    assert all(near_an_edge(falls, 16) for falls in range(17))
+    assert not near_an_edge(0, 16, 0.3)
+
+
+# The rows -----------------------------------------------------------------------------------------------------
+
+
+def test_1_what_nothing_overturns_cannot_overturn():
+    held = Facts(cracks=(crack(0),), never_lets_go="stays tied", failures=("component X is cut",))
+    decision = decide(held)
+    assert str(decision.word) == "cannot overturn"
+    assert decision.why == "stays tied"
+    assert kinds(decision.tells) == [Kind.TIE_STRENGTH]
+    assert decision.share_in_words == ""
+    assert word(cracks=(crack(0),), never_lets_go="stays tied", doubts=(OPEN,)) == "cannot be told"
+
+
+def test_2_what_nothing_lifts_stands():
+    decision = decide(Facts(cracks=(crack(0, farthest=0.0),), rests=True))
+    assert (str(decision.word), decision.share, decision.share_in_words) == ("stands", 0.0, "0\u00a0%")
+
+
+def test_3_what_slides_first_cannot_be_told():
+    decision = decide(Facts(cracks=(crack(0, slides=True),), slides_at=0.6))
+    assert str(decision.word) == "cannot be told"
+    assert decision.why == "slides before it lifts, at 0.6 g"
+    assert kinds(decision.tells) == [Kind.FRICTION]
+    assert math.isnan(decision.share) and decision.share_in_words == ""
+    # a motion that does not reach so far lets nothing slide
+    assert word(cracks=(crack(0),)) == "stands"
+
+
+def test_3_a_crack_that_slides_first_is_left_out_where_another_is_left():
+    cracks = (crack(0, name="base"), crack(64, name="upper", slides=True))
+    assert word(cracks=cracks, slides_at=0.6) == "stands"
+    assert (
+        word(cracks=(crack(0, slides=True), crack(64, name="upper")), given=True, slides_at=0.6)
+        == "cannot be told"
+    )
+
+
+def test_4_without_a_result_it_cannot_be_told():
+    decision = decide(Facts(failures=("the motion is too long",)))
+    assert (str(decision.word), decision.why) == ("cannot be told", "the motion is too long")
+    assert kinds(decision.tells) == [Kind.INPUT]
+    assert word() == "cannot be told"
+
+
+@pytest.mark.parametrize(
+    ("ratio", "expected"),
+    [(0.3, "probably stands"), (0.31, "uncertain"), (math.inf, "uncertain")],
+)
+def test_5_one_run_is_never_sure(ratio, expected):
+    decision = decide(Facts(run_ratio=ratio))
+    assert str(decision.word) == expected
+    assert decision.share_in_words == "one run"
+    assert kinds(decision.tells) == [Kind.ENSEMBLE]
+
+
+@pytest.mark.parametrize("settled", [Verdict.STANDS, Verdict.OVERTURNS])
+def test_5_an_estimate_settles(settled):
+    assert decide(Facts(settled=settled, run_ratio=0.2)).word is settled
+
+
+@pytest.mark.parametrize(
+    ("first", "worst", "expected"),
+    [
+        (0, 64, "uncertain"),
+        (10, 64, "uncertain"),
+        (0, 10, "probably stands"),
+        (30, 64, "probably overturns"),
+        (30, 35, "uncertain"),
+        (50, 64, "probably overturns"),
+        (64, 0, "overturns"),
+    ],
+)
+def test_6_the_worst_crack_decides_within_what_statics_leaves(first, worst, expected):
+    assert word(cracks=(crack(first), crack(worst, name="upper"))) == expected
+
+
+def test_6_cracks_whose_words_differ_have_a_range():
+    decision = decide(Facts(cracks=(crack(0), crack(63, name="upper"))))
+    assert decision.interval == (0.0, 63 / 64)
+    assert decision.share == 63 / 64
+    assert decision.share_in_words == "0–98\u00a0%"
+    assert "63 of 64 members overturn with the upper, 0 of 64 with the hinge of statics" in decision.why
+    alike = decide(Facts(cracks=(crack(21), crack(30, name="upper"))))
+    assert alike.interval == (30 / 64, 30 / 64)
+
+
+def test_6_a_given_crack_decides_alone_and_a_worse_one_is_a_doubt_beside_it():
+    decision = decide(Facts(cracks=(crack(0), crack(64, name="upper")), given=True))
+    assert (str(decision.word), decision.share) == ("stands", 0.0)
+    assert kinds(decision.doubts) == [Kind.OTHER_CRACK_WORSE]
+    assert "as given; should the upper form instead, 64 of 64 do" in decision.why
+
+
+def test_7_failed_members_count_as_falling():
+    assert word(cracks=(crack(0, 65, failed=1),)) == "probably stands"
+    assert word(cracks=(crack(0, failed=30),)) == "uncertain"
+
+
+def test_7_a_crack_without_one_member_cannot_be_told():
+    assert word(cracks=(crack(0, failed=64),)) == "cannot be told"
+    assert word(cracks=(crack(0), crack(0, failed=64, name="upper"))) == "cannot be told"
+    assert word(cracks=(crack(60), crack(0, failed=64, name="upper"))) == "probably overturns"
+    assert word(cracks=(crack(0, failed=64),), stacks=(24, 24)) == "probably overturns"
+
+
+def test_7_members_that_failed_make_nothing_fall():
+    """63 of 64 fail: neither stands it, as it did without them, nor does it fall."""
+    decision = decide(Facts(cracks=(crack(0, failed=63, farthest=0.2),)))
+    assert str(decision.word) == "cannot be told"
+    assert decision.interval == (0.0, 63 / 64)
+    assert kinds(decision.doubts) == [Kind.MEMBERS_FAILED]
+    assert kinds(decision.tells) == [Kind.TOLERANCE]
+    assert math.isnan(decision.share)
+
+
+def test_8_members_that_fall_decide_whatever_else_is_doubtful():
+    facts = {"doubts": (OPEN,), "failures": ("component Y is cut",), "stacks": (0, 64)}
+    assert word(cracks=(crack(64),), **facts) == "overturns"
+    assert word(cracks=(crack(64, 66, failed=2),)) == "overturns"
+
+
+@pytest.mark.parametrize(("runs", "expected"), [(24, "probably stands"), (64, "stands")])
+def test_8b_a_held_wall_that_turns_far_needs_contact_dynamics_of_many_runs(runs, expected):
+    far = {"cracks": (crack(0),), "held": True, "beyond": True}
+    assert word(**far) == "probably stands"
+    assert word(cracks=(crack(0),), held=True) == "stands"
+    assert word(**far, stacks=(0, runs)) == expected
+
+
+@pytest.mark.parametrize(
+    ("members", "fallen", "runs", "expected"),
+    [
+        (0, 0, 24, "probably stands"),
+        (0, 0, 64, "stands"),
+        (20, 0, 64, "uncertain"),
+        (0, 20, 24, "probably overturns"),
+        (0, 24, 24, "probably overturns"),
+        (0, 64, 64, "overturns"),
+        (50, 0, 6, "probably overturns"),
+    ],
+)
+def test_9_contact_dynamics_may_only_make_it_worse(members, fallen, runs, expected):
+    decision = decide(Facts(cracks=(crack(members),), doubts=(THROWN,), stacks=(fallen, runs)))
+    assert str(decision.word) == expected
+    assert f"{fallen} of {runs} stacks" in decision.why
+
+
+def test_9_both_shares_are_told():
+    decision = decide(Facts(cracks=(crack(0),), stacks=(20, 24)))
+    assert decision.interval == (0.0, 20 / 24)
+    assert decision.why.startswith("0 of 64 members overturn")
+
+
+def test_10_a_doubt_leaves_only_the_least_share():
+    decision = decide(Facts(cracks=(crack(12),), doubts=(OPEN,)))
+    assert str(decision.word) == "cannot be told"
+    assert decision.interval == (12 / 64, 1.0)
+    assert decision.share_in_words == "at least 19\u00a0%"
+    assert kinds(decision.tells) == [Kind.CONTACT_DYNAMICS]
+    assert decision.why == "contacts open; 12 of 64 members overturn with the hinge"
+
+
+def test_10_a_missing_component_is_not_settled_by_contact_dynamics():
+    missing = {"failures": ("the component X gave no result: too short",), "stacks": (0, 64)}
+    decision = decide(Facts(cracks=(crack(0),), **missing))
+    assert str(decision.word) == "cannot be told"
+    assert kinds(decision.doubts) == [Kind.COMPONENT_MISSING]
+    assert kinds(decision.tells) == [Kind.COMPONENT]
+    assert "too short" in decision.why
+    assert word(cracks=(crack(50),), **missing) == "probably overturns"
+
+
+def test_11_tells_what_decides():
+    decision = decide(Facts(cracks=(crack(30),), remarks=(Remark(Kind.RESTITUTION),)))
+    assert kinds(decision.tells) == [Kind.RESTITUTION]
+    assert decision.share_in_words == "47\u00a0%"
+
+
+# At birth -----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("made", "message"),
+    [
+        (lambda: CrackFacts("a", 3, 2, farthest=math.inf), "0 ≤ falls ≤ followed"),
+        (lambda: CrackFacts("a", 0, 2, -1, farthest=0.1), "failed ≥ 0"),
+        (lambda: CrackFacts("a", 1, 2, farthest=0.1), "inf where a member falls"),
+        (lambda: CrackFacts("a", 0, 2), "inf where a member falls"),
+        (lambda: Facts(stacks=(3, 2)), "stacks"),
+        (lambda: Facts(stacks=(0, 0)), "stacks"),
+        (lambda: Facts(settled=Verdict.UNCERTAIN), "settled"),
+        (lambda: Facts(doubts=(Remark(Kind.FRICTION),)), "doubts"),
+        (lambda: Facts(risk=0.5), "risk"),
+    ],
+)
+def test_facts_that_contradict_themselves_are_refused(made, message):
+    with pytest.raises(ValueError, match=message):
+        made()
+
+
+def test_the_order_of_badness_is_that_of_the_table():
+    assert tuple(map(str, reversed(ORDER))) == SAFEST_FIRST
+
+
+# Drawn facts --------------------------------------------------------------------------------------------------
+
+
+def drawn(chance):
+    """Facts of any kind: a case with up to three cracks or single runs, with what may go wrong.
+
+    chance: gives the next number between 0 and 1.
+    """
+
+    def one_of(*values):
+        return values[int(chance() * len(values))]
+
+    cracks = []
+    for place in range(one_of(0, 1, 2, 3)):
+        members = one_of(16, 64, 256)
+        failed = one_of(0, 0, 0, 1, 5, members // 2, members - 1, members)
+        falls = min(one_of(0, 1, members, int(chance() * members)), members - failed)
+        farthest = one_of(0.0, 0.2, 0.3, 0.8)
+        cracks.append(crack(falls, members, failed, farthest, f"crack {place}", slides=chance() < 0.1))
+    runs = one_of(6, 24, 64)
+    fallen = one_of(0, 1, runs, int(chance() * runs))
+    return Facts(
+        cracks=tuple(cracks),
+        given=chance() < 0.2,
+        rests=chance() < 0.03,
+        run_ratio=one_of(math.nan, 0.1, 0.5, math.inf),
+        settled=one_of(Verdict.STANDS, Verdict.OVERTURNS) if chance() < 0.1 else None,
+        never_lets_go="stays tied" if chance() < 0.05 else "",
+        slides_at=0.6 if chance() < 0.1 else math.nan,
+        doubts=one_of((), (), (), (OPEN,), (THROWN,)),
+        held=chance() < 0.3,
+        beyond=chance() < 0.3,
+        stacks=(fallen, runs) if chance() < 0.3 else None,
+        failures=("component X is cut",) if chance() < 0.1 else (),
+    )
+
+
+def numbers(seed):
+    """A function that gives numbers between 0 and 1, one after another, drawn many at a time."""
+    random = np.random.default_rng(seed)
+    return itertools.chain.from_iterable(random.random(10_000).tolist() for _ in itertools.count()).__next__
+
+
+# Whole on purpose: the table of the specification once more, in its own words and in fractions.
+def oracle(facts):
+    """The word of the table, by somebody who has not seen the code."""
+
+    def word_of(falls, members, far):
+        error = Fraction(0) if far or (members >= 64 and falls in (0, members)) else Fraction(4, members)
+        share = Fraction(falls, members)
+        if share + error <= Fraction(1, 20):
+            return 1
+        if 1 - share + error <= Fraction(1, 20):
+            return 6
+        return 2 if share + error / 2 <= Fraction(1, 3) else 3 if share + error / 2 < Fraction(2, 3) else 5
+
+    def with_failed(each):
+        return word_of(
+            each.falls + each.failed, each.followed + each.failed, not each.failed and each.farthest <= 0.3
+        )
+
+    def without_failed(each):
+        if each.followed == 0:
+            return 3
+        word = word_of(each.falls, each.followed, each.farthest <= 0.3)
+        return min(word, 3) if each.failed and each.falls <= 4 else word
+
+    def of_all(words):
+        if words[0] <= 2:
+            return min(max(words), 3)
+        return max(words) if words[0] == 6 else min(max(words), 5)
+
+    lifting = [each for each in facts.cracks if not each.slides]
+    count = list(facts.cracks[:1]) if facts.given else lifting or list(facts.cracks)
+    if facts.never_lets_go and not facts.doubts:
+        return SAFEST_FIRST[0]
+    if facts.rests:
+        return SAFEST_FIRST[1]
+    if facts.slides_at == 0.6 and not [each for each in count if not each.slides]:
+        return SAFEST_FIRST[4]
+    if count:
+        borne_out = of_all([without_failed(each) for each in count])
+        place = of_all([with_failed(each) for each in count])
+        if borne_out < 5 and (place >= 5 or any(each.followed == 0 for each in count)):
+            place = 4
+    elif facts.settled is not None:
+        place = {"stands": 1, "overturns": 6}[facts.settled]
+    elif math.isnan(facts.run_ratio):
+        return SAFEST_FIRST[4]
+    else:
+        place = 2 if facts.run_ratio <= 0.3 else 3
+    if place == 6:
+        return SAFEST_FIRST[6]
+    if facts.held and facts.beyond and not (facts.stacks and facts.stacks[1] >= 64):
+        place = max(place, 2)
+    if facts.stacks:
+        place = max(place, word_of(*facts.stacks, False))
+    if place < 4 and (facts.failures or (facts.doubts and not facts.stacks)):
+        return SAFEST_FIRST[4]
+    return SAFEST_FIRST[place]
+
+
+def test_the_decision_is_that_of_the_table():
+    chance = numbers(51)
+    met = set()
+    for _ in range(10_000):
+        facts = drawn(chance)
+        assert str(decide(facts).word) == oracle(facts), facts
+        met.add(str(decide(facts).word))
+    assert met == set(SAFEST_FIRST)
+
+
+def worsened(facts, chance):
+    """The facts with one thing gone worse: a doubt, a component, a member or a stack more."""
+    ways = [{"failures": (*facts.failures, "component Y is cut")}, {"beyond": True}]
+    ways += [{"doubts": (*facts.doubts, each)} for each in (OPEN, THROWN) if each not in facts.doubts]
+    if not math.isnan(facts.run_ratio):
+        ways.append({"run_ratio": math.inf})
+    if facts.stacks and facts.stacks[0] < facts.stacks[1]:
+        ways.append({"stacks": (facts.stacks[0] + 1, facts.stacks[1])})
+    for place, each in enumerate(facts.cracks):
+        falls, followed, failed = each.falls, each.followed, each.failed
+        worse = [(falls, followed, failed + 1, each.farthest)]
+        if falls < followed:
+            left = each.farthest if followed > 1 else math.nan
+            worse += [(falls, followed - 1, failed + 1, left), (falls + 1, followed, failed, math.inf)]
+        for counts in worse:
+            other = CrackFacts(each.name, *counts, each.slides)
+            ways.append({"cracks": (*facts.cracks[:place], other, *facts.cracks[place + 1 :])})
+    return replace(facts, **ways[int(chance() * len(ways))])
+
+
+def test_a_further_doubt_failure_or_fall_never_makes_a_word_safer():
+    chance = numbers(8)
+    changed = 0
+    for _ in range(50_000):
+        facts = drawn(chance)
+        worse = worsened(facts, chance)
+        before, after = (SAFEST_FIRST.index(decide(each).word) for each in (facts, worse))
+        assert after >= before, (facts, worse)
+        changed += after > before
+    assert changed > 1_000
