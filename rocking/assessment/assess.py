@@ -151,9 +151,9 @@ def assess_record(
             stations |= found
             failures += failed
     for name in _worst_periods(stations):
-        station = {name: stations[name]}
-        components = floors[_support(stations[name].body)]
-        found, failed = _with_reserves(station, components, vertical, extent, store, clock)
+        support = _support(stations[name].body)
+        components = grounds if support is None else floors[support]
+        found, failed = _with_reserves({name: stations[name]}, components, vertical, extent, store, clock)
         stations |= found
         failures += failed
     return RecordResult(
@@ -353,7 +353,7 @@ def _direction_cases(
 
 
 def _worst_periods(stations: Mapping[str, StationResult]) -> list[str]:
-    """The names of the structures on a support at the worst period with members, which is the one that reports print."""
+    """The names of the structures on a support at the worst period with members, which reports print."""
     worst: dict[tuple[str, str], StationResult] = {}
     for station in stations.values():
         standing = station.body.standing if isinstance(station.body, Structure) else None

@@ -129,7 +129,7 @@ def test_what_is_timed_adds_up_to_no_more_than_was_spent(case):
     result = assess_record("made", [RECORD], {"block": BLOCK, "stout": Block(2.0, 0.3)})
     spent = process_time() - started
     durations = dict(result.durations)
-    stages = [durations.pop(name) for name in ("pulses", "responses", "variations")]
+    stages = [durations.pop(name) for name in ("pulses", "responses", "variations", "reserve")]
     assert min(stages) > 0 and sum(stages) <= spent
     assert set(durations) == {*case.responses, Method.CLOSED_FORM}
     assert 0 < sum(durations.values()) <= stages[1]
