@@ -1,4 +1,5 @@
-# make: set up and run the shipped example.  make test: the tests of minutes.  make test-all: every test, within an hour.
+# make: set up and run the shipped example.  make test: the tests of the code.  make test-runs: those that start
+# processes.  make test-all: every test, within an hour.
 PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
@@ -12,7 +13,10 @@ COMPILE := uv pip compile --universal --python-version 3.11 --generate-hashes --
 EXECUTOR := snakemake-executor-plugin-slurm
 SLURM := workflow/profiles/slurm/requirements.lock
 
-.PHONY: all run setup slurm test test-all bench check schema paper documentation wheel release lock clean
+# Tests start many processes, and each would compile the whole package again to bytecode.
+unexport PYTHONDONTWRITEBYTECODE
+
+.PHONY: all run setup slurm test test-runs test-all bench check schema paper documentation wheel release lock clean
 
 all: run
 
@@ -40,6 +44,10 @@ slurm: setup
 
 test: $(TOOLS)
 	$(BIN)/python -m pytest -n logical --dist loadfile
+
+# Snakemake, commands, browsers and other processes.
+test-runs: $(TOOLS)
+	$(BIN)/python -m pytest -n logical --dist loadfile -m "process and not slow"
 
 # The slow ones too: research, every page, ten thousand damaged files, and twenty runs that are killed and go on.
 test-all: $(TOOLS)

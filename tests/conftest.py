@@ -4,6 +4,7 @@ import csv
 import os
 import random
 import shutil
+import sys
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,6 +13,8 @@ from typing import Any
 import pytest
 from hypothesis import settings
 
+from tests import kernels
+
 _VARIABLE = "ROCKING_RECORDS"
 _BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 
@@ -19,19 +22,50 @@ _BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 settings.register_profile("any machine", deadline=None)
 settings.load_profile("any machine")
 
-ON_DEMAND = Path(__file__).parent / "research"
-"""The tests of docs/research, each marked slow: `make test-all` runs them."""
+MARKED = {Path(__file__).parent / "research": "slow", Path(__file__).parent / "workflow": "process"}
+"""The mark of every test in a folder: docs/research is run on demand, and what runs the workflow starts processes."""
+
+STARTS = {"subprocess.Popen", "os.exec", "os.fork", "os.forkpty", "os.posix_spawn", "os.system"}
+"""How Python tells its audit hooks that a process is started."""
+
+_running: list[pytest.Item] = []
+
+
+def _hold_to_mark(event: str, _: tuple) -> None:
+    """Refuse a process to a test that runs by `make test`."""
+    if event in STARTS and _running and not {"process", "slow"} & _running[-1].keywords.keys():
+        raise RuntimeError(f"{_running[-1].nodeid} starts a process: mark it with pytest.mark.process")
+
+
+sys.addaudithook(_hold_to_mark)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
+    """Name the test that runs, for the audit hook."""
+    _running.append(item)
+    try:
+        return (yield)
+    finally:
+        _running.pop()
+
+
+def pytest_sessionstart(session: pytest.Session) -> None:
+    """Compile once for all workers, or fetch what was compiled of the same kernels before."""
+    if not hasattr(session.config, "workerinput") and not session.config.option.collectonly:
+        kernels.fetch()
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark every test of research as slow, before the slow ones are left out.
+    """Mark the tests of a folder, before those of some marks are left out.
 
     ROCKING_ORDER, a number, draws the order of the files and of the tests in each: none may lean on another.
     """
     for item in items:
-        if item.path.is_relative_to(ON_DEMAND):
-            item.add_marker(pytest.mark.slow)
+        for folder, mark in MARKED.items():
+            if item.path.is_relative_to(folder):
+                item.add_marker(mark)
     if seed := os.environ.get("ROCKING_ORDER"):
         draw = random.Random(seed)
         files = {item.path: draw.random() for item in items}
@@ -57,12 +91,14 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
     for reason, number in skips.most_common():
         terminal.write_line(f"{number} of the tests: {reason}")
     if left_out:
-        terminal.write_line(f"{left_out} of the tests: slow or not asked for; make test-all runs every one")
+        terminal.write_line(f"{left_out} of the tests: left out by their mark; make test-all runs every one")
 
 
 @pytest.hookimpl(trylast=True)
 def pytest_sessionfinish(session: pytest.Session) -> None:
     """With ROCKING_STRICT a skip fails the run, unless it says that the machine lacks something."""
+    if not hasattr(session.config, "workerinput") and not session.config.option.collectonly:
+        kernels.keep()
     reporter = session.config.pluginmanager.get_plugin("terminalreporter")
     if reporter and os.environ.get("ROCKING_STRICT"):
         avoidable = [each for each in _skips(reporter) if not any(word in each for word in _LACKS)]

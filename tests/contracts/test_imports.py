@@ -10,6 +10,8 @@ from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
 
+import pytest
+
 import rocking
 
 PACKAGE = Path(rocking.__file__).parent
@@ -156,6 +158,7 @@ def test_heavy_libraries_stay_in_their_place():
             assert place.startswith(homes), f"{place} imports {name}"
 
 
+@pytest.mark.process
 def test_reading_a_text_file_and_assessing_a_structure_imports_no_more_than_it_uses():
     """In a process of its own, for this one has imported everything."""
     code = """

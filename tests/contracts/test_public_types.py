@@ -90,6 +90,7 @@ def test_the_example_of_a_public_name_runs(name, monkeypatch):
         assert not shown, "".join(shown)
 
 
+@pytest.mark.process
 def test_importing_the_package_imports_nothing_heavy():
     """What costs time: numpy a tenth of a second, numba and obspy several."""
     heavy = ("numpy", "scipy", "obspy", "numba", "matplotlib", "pandas", "typst")

@@ -70,6 +70,7 @@ def tree(tmp_path) -> Path:
     return Path(shutil.copytree(ROOT, tmp_path / "tree", ignore=left_out, copy_function=os.symlink))
 
 
+@pytest.mark.process
 @pytest.mark.parametrize("name", RECIPES)
 def test_a_recipe_can_be_followed_to_the_letter(tree, name):
     steps = blocks(RECIPES[name])

@@ -141,6 +141,7 @@ def test_declarations_are_checked(tmp_path: Path) -> None:
     assert read(path, unit="G", time_step=0.01)[0].time_step == 0.01
 
 
+@pytest.mark.process
 def test_reading_at2_needs_no_heavy_library(tmp_path: Path) -> None:
     path = written(tmp_path, at2(["0.1", "0.2"]))
     code = (

@@ -50,6 +50,7 @@ def sixty(noun: str, count: int) -> list[str]:
     ]
 
 
+@pytest.mark.process
 @pytest.mark.parametrize("count", [1, 9, 40])
 def test_no_table_goes_on_over_a_page_after_one_row(count, tmp_path):
     """Wherever it begins on a page: at least four rows stand together, or the whole table."""
@@ -67,6 +68,7 @@ def test_no_table_goes_on_over_a_page_after_one_row(count, tmp_path):
     assert torn or count <= 8
 
 
+@pytest.mark.process
 @pytest.mark.parametrize("count", COUNTS)
 def test_the_report_of_a_record_is_well_laid(example, count):
     """With names of 60 characters too."""
@@ -77,6 +79,7 @@ def test_the_report_of_a_record_is_well_laid(example, count):
     assert numbers == {f"{number}." for number in range(1, 6)}, "each table has a number of its own"
 
 
+@pytest.mark.process
 @pytest.mark.parametrize(("count", "records"), list(zip(COUNTS, (1, 13, 13), strict=True)))
 def test_the_summary_is_well_laid(example, count, records):
     """Structures that overturn, rock and rest in turn, under one record and under many."""

@@ -130,6 +130,7 @@ def extracted(document: bytes) -> str:
     return "".join(word[4] for page in pages(document) for word in page)
 
 
+@pytest.mark.process
 def test_hostile_names_are_printed_as_they_are_and_the_factor_wherever_numbers_are(hostile):
     document = hostile.pdf()
     assert replace(hostile).pdf() == document
@@ -163,6 +164,7 @@ def test_of_a_hundred_structures_all_are_in_the_tables_and_few_are_drawn(example
     assert "Another 90 structures" in data["histories-note"]
 
 
+@pytest.mark.process
 @pytest.mark.parametrize("message", ["records/x.at2: #panic(1) $x^$ <b>.", "", "W" * 300])
 def test_a_failure_is_one_page_that_says_why(message):
     document = failure_report("bad #record$", message)
@@ -253,6 +255,7 @@ def test_a_report_in_g_and_centimetres_prints_the_same_numbers_in_them(example):
     assert example.data() == plain, "the units are those of one report"
 
 
+@pytest.mark.process
 def test_page_one_says_what_to_do_and_by_how_much_the_record_may_be_stronger():
     """The courses of a spire that rocks may be thrown, which contact dynamics tells."""
     structures = {"spire": Spire(3.0, 15.0, 0.25, crack_height=5.0), "block": Block.of_size(1.0, 4.0)}

@@ -225,6 +225,7 @@ def test_start_writes_the_shipped_settings_and_points_to_its_own_structures(tmp_
     assert (tmp_path / own["structures"]).exists()
 
 
+@pytest.mark.process
 def test_run_plans_a_study_in_its_own_folder(study, monkeypatch, capfd):
     monkeypatch.chdir(study.parent)
     assert main(["run", study.name, "--", "--dry-run"]) == 0
@@ -327,6 +328,7 @@ def test_a_config_that_hangs_or_is_read_in_silence_is_refused(tmp_path, text, wo
         check_config_file(tmp_path / "config.yaml")
 
 
+@pytest.mark.process
 @pytest.mark.parametrize(("text", "words"), [(BOMB, "an anchor or an alias"), ("", "no regular file")])
 def test_plain_snakemake_refuses_it_too(tmp_path, text, words):
     """Its own reader would expand an alias bomb, and wait at a pipe for ever."""

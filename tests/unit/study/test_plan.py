@@ -46,6 +46,7 @@ def _refusal(settings: dict[str, object]) -> str:
     return str(caught.value)
 
 
+@pytest.mark.process
 def test_a_blank_hash_is_filled_in_and_checked_from_then_on(tmp_path: Path) -> None:
     (tmp_path / "a.AT2").write_bytes(b"one")
     settings = _write(tmp_path, "a,a.AT2,\nb,b.AT2,\n")
@@ -69,8 +70,10 @@ def test_all_defects_of_all_three_files_stand_in_one_message(tmp_path: Path) -> 
     assert "taken is a file, but must be a folder" in message
 
 
+@pytest.mark.process
 @pytest.mark.parametrize(
-    ("name", "old", "new"), [("catalogue", SHA256, "1" * 64), ("structures", "height_m: 6", "height_m: 7")]
+    ("name", "old", "new"),
+    [("catalogue", SHA256, "1" * 64), ("structures", "height_m: 6", "height_m: 7")],
 )
 def test_what_was_edited_after_planning_stops_the_job(tmp_path: Path, name: str, old: str, new: str) -> None:
     settings = _write(tmp_path, f"a,a.AT2,{SHA256}\nb,b.AT2,{SHA256}\n", records_per_job=10)
