@@ -25,15 +25,18 @@ settings.load_profile("any machine")
 MARKED = {Path(__file__).parent / "research": "slow", Path(__file__).parent / "workflow": "process"}
 """The mark of every test in a folder: docs/research is run on demand, and what runs the workflow starts processes."""
 
-STARTS = {"subprocess.Popen", "os.exec", "os.fork", "os.forkpty", "os.posix_spawn", "os.system"}
-"""How Python tells its audit hooks that a process is started."""
+PROGRAMS = {os.path.basename(sys.executable), "bash", "pdftotext", "snakemake"}
+"""What only a test marked as one of processes may start. Libraries ask small programs: obspy asks git for its version."""
 
 _running: list[pytest.Item] = []
 
 
-def _hold_to_mark(event: str, _: tuple) -> None:
+def _hold_to_mark(event: str, arguments: tuple) -> None:
     """Refuse a process to a test that runs by `make test`."""
-    if event in STARTS and _running and not {"process", "slow"} & _running[-1].keywords.keys():
+    starts = event == "os.fork" or (
+        event == "subprocess.Popen" and os.path.basename(os.fsdecode(arguments[0])) in PROGRAMS
+    )
+    if starts and _running and not {"process", "slow"} & _running[-1].keywords.keys():
         raise RuntimeError(f"{_running[-1].nodeid} starts a process: mark it with pytest.mark.process")
 
 
