@@ -26,7 +26,7 @@ MARKED = {Path(__file__).parent / "research": "slow", Path(__file__).parent / "w
 """The mark of every test in a folder: docs/research is run on demand, and what runs the workflow starts processes."""
 
 PROGRAMS = {os.path.basename(sys.executable), "bash", "pdftotext", "snakemake"}
-"""What only a test marked as one of processes may start. Libraries ask small programs: obspy asks git for its version."""
+"""What only a test marked `process` may start; libraries ask other programs, as obspy asks git for its version."""
 
 _running: list[pytest.Item] = []
 
