@@ -55,8 +55,11 @@ class Store(Protocol):
     def find(self, kind: type[T], fingerprint: str) -> T | None:
         """Return the `kind` that was kept by this fingerprint; None where there is none."""
 
-    def keep(self, fingerprint: str, result: object) -> None:
-        """Keep a result by its fingerprint."""
+    def durations(self, fingerprint: str) -> Mapping[str, float]:
+        """Return the CPU time of each stage that computed what is kept by this fingerprint, s."""
+
+    def keep(self, fingerprint: str, result: object, durations: Mapping[str, float]) -> None:
+        """Keep a result by its fingerprint, and the CPU time of each stage that computed it."""
 
 
 @dataclass(frozen=True)
@@ -107,6 +110,16 @@ class Clock:
             yield
         finally:
             self.durations[name] += process_time() - started
+
+    def add(self, durations: Mapping[str, float]) -> None:
+        """Add what was measured elsewhere, also in the run that computed what a store has kept."""
+        for name, duration in durations.items():
+            self.durations[name] += duration
+
+
+def _shared(clock: Clock, parts: int) -> dict[str, float]:
+    """Return an equal part of each stage, for each of what was computed in one go."""
+    return {name: duration / parts for name, duration in clock.durations.items()}
 
 
 # One record -----------------------------------------------------------------------------------------------
@@ -261,19 +274,23 @@ def _components(
         kept = [store.find(ComponentPulses, fingerprint) for fingerprint in fingerprints]
         pulses = [each for each in kept if each is not None]
         if len(pulses) == len(horizontal):
+            for fingerprint in fingerprints:
+                clock.add(store.durations(fingerprint))
             triples = zip(pulses, horizontal, beside, strict=True)
             return tuple(each.beside(accelerogram, lift) for each, accelerogram, lift in triples)
     of_pair = [HorizontalMotion()] * len(horizontal)
+    own = Clock()
     if extent.motion_measures:
-        with clock.stage("velocity pulse"):
+        with own.stage("velocity pulse"):
             of_pair = horizontal_motions(horizontal)
     components = []
     for accelerogram, lift, motion in zip(horizontal, beside, of_pair, strict=True):
-        with clock.stage("pulses"):
+        with own.stage("pulses"):
             components.append(component_of(accelerogram, extent.settings.pulse, lift, motion))
+    clock.add(own.durations)
     for fingerprint, component in zip(fingerprints, components, strict=False):
         if store is not None:
-            store.keep(fingerprint, ComponentPulses.of(component))
+            store.keep(fingerprint, ComponentPulses.of(component), _shared(own, len(components)))
     return tuple(components)
 
 
@@ -300,23 +317,30 @@ def _component_cases(
             mechanism = _mechanism(structures[name])
             if component.candidates and kept.answer is not None and mechanism.can_overturn:
                 prediction = predict(mechanism, component.candidates, extent.settings)
-            results[name] = replace(kept, structure=name, prediction=prediction)
+            durations = store.durations(fingerprint) if store is not None else {}
+            results[name] = replace(kept, structure=name, prediction=prediction, durations=durations)
     missing = {name: structure for name, structure in structures.items() if name not in results}
     computed = {}
-    with clock.stage("responses"):
-        for name, structure in missing.items():
-            computed[name] = assess_case(name, structure, component, extent.settings, alone)
-    with clock.stage("variations"):
+    for name, structure in missing.items():
+        own = Clock()
+        with own.stage("responses"):
+            case = assess_case(name, structure, component, extent.settings, alone)
+        computed[name] = replace(case, durations={**case.durations, **own.durations})
+    together = Clock()
+    with together.stage("variations"):
         computed = _with_variations(computed, missing, component, extent)
     for name, result in computed.items():
         fingerprint = fingerprints.get(name, "")
-        results[name] = replace(result, fingerprint=fingerprint)
+        durations = {**result.durations, **_shared(together, len(computed))}
+        results[name] = replace(result, fingerprint=fingerprint, durations=durations)
         if store is not None and fingerprint:
-            store.keep(fingerprint, results[name].kept)
+            store.keep(fingerprint, results[name].kept, durations)
+    for stage in ("responses", "variations"):
+        clock.add({stage: sum(each.durations.get(stage, 0.0) for each in results.values())})
     for method in Method:
         spent = [each.durations[method] for each in results.values() if method in each.durations]
         if spent:  # the first case of a process loads compiled code, so not the sum
-            clock.durations[method] += len(spent) * median(spent)
+            clock.add({method: len(spent) * median(spent)})
     return {name: results[name] for name in structures}
 
 
@@ -338,17 +362,20 @@ def _direction_cases(
         if store is not None and isinstance(structure, Structure):
             fingerprint = extent.fingerprint(pair, structure, alone=True)
             known = store.find(CaseResult, fingerprint)
-        if known is not None:
+        if known is not None and store is not None:
             results[name] = replace(known, structure=name)
+            clock.add(store.durations(fingerprint))
             continue
         bounces = any(case.check.bounces for case in cases[name].values())
-        with clock.stage("directions"):
+        own = Clock()
+        with own.stage("directions"):
             result = replace(
                 assess_directions(name, structure, pair, extent.settings, bounces), fingerprint=fingerprint
             )
         results[name] = result
+        clock.add(own.durations)
         if store is not None and fingerprint:
-            store.keep(fingerprint, result)
+            store.keep(fingerprint, result, own.durations)
     return results
 
 
@@ -394,15 +421,19 @@ def _with_reserves(
         else:
             motion = _motion_of(of_component[case.component])
         try:
-            with clock.stage("reserve"):
-                found[name] = station.with_reserve(_reserve(case, station.body, motion, extent, store))
+            found[name] = station.with_reserve(_reserve(case, station.body, motion, extent, store, clock))
         except RockingError as error:
             failures.append((case.component, Failure("reserve", f"{name}: {error}")))
     return found, failures
 
 
 def _reserve(
-    case: CaseResult, structure: Structure | Mechanism, motion: Motion, extent: Extent, store: Store | None
+    case: CaseResult,
+    structure: Structure | Mechanism,
+    motion: Motion,
+    extent: Extent,
+    store: Store | None,
+    clock: Clock,
 ) -> Reserve | None:
     """The reserve of the crack that governs a case under its motion, from the store where it holds it."""
     assert case.ensembles is not None
@@ -413,12 +444,16 @@ def _reserve(
         return None
     fingerprint = sha256_of("reserve", case.fingerprint) if case.fingerprint else ""
     kept = store.find(Reserve, fingerprint) if store is not None else None
-    if kept is not None:
+    if kept is not None and store is not None:
+        clock.add(store.durations(fingerprint))
         return kept
     ensemble = extent.settings.ensemble
-    sought = reserve(governing.mechanism, _ground_motions(motion, ensemble.processing), ensemble)
+    own = Clock()
+    with own.stage("reserve"):
+        sought = reserve(governing.mechanism, _ground_motions(motion, ensemble.processing), ensemble)
+    clock.add(own.durations)
     if store is not None and fingerprint:
-        store.keep(fingerprint, sought)
+        store.keep(fingerprint, sought, own.durations)
     return sought
 
 
@@ -546,11 +581,11 @@ def with_contacts(
 
 def _compared_methods(
     mechanism: Mechanism, component: Component, settings: AssessmentSettings
-) -> tuple[Prediction | None, dict[Method, Response], dict[Method, float]]:
+) -> tuple[Prediction | None, dict[Method, Response], dict[str, float]]:
     """The closed form and, with fidelity: full, every integration, with the CPU time of each, s."""
     # The block is made before the clock of the closed form starts, which does not count it.
     block = mechanism.equivalent_block(settings.acceleration_scale)
-    durations: dict[Method, float] = {}
+    durations: dict[str, float] = {}
     prediction = None
     # The block of what cannot overturn would: it says nothing of it.
     if component.candidates and mechanism.can_overturn:

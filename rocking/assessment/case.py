@@ -141,8 +141,8 @@ class CaseResult:
     where none ran. reserve: of the crack that governs; None where it was not sought; a store keeps it apart, as it is
     sought for what is printed alone. overturning_estimate: from the
     peak velocity, where no ensemble ran; None of a structure unlike those behind the estimate. variations: other
-    cracks, then other processings. durations: CPU time of each method that was compared, s. fingerprint: of motion,
-    structure, settings and version of the computation.
+    cracks, then other processings. durations: CPU time of each stage, and of each method within responses, s.
+    fingerprint: of motion, structure, settings and version of the computation.
     """
 
     structure: str
@@ -158,7 +158,7 @@ class CaseResult:
     contact: ContactShare | None = None
     variations: tuple[Variation, ...] = ()
     failures: tuple[Failure, ...] = ()
-    durations: Mapping[Method, float] = field(default_factory=dict)
+    durations: Mapping[str, float] = field(default_factory=dict)
     fingerprint: str = ""
 
     @property

@@ -43,11 +43,16 @@ def computation_version() -> str:
 class RecordStore:
     """The results of one record in a file; `save` writes those that were asked for, and drops the others.
 
-    tell: takes a sentence where the file is ignored.
+    tell: takes a sentence where the file is ignored. timings: the file for the times that the results took, which
+    differs between two runs of the same input; None keeps no times.
     """
 
-    def __init__(self, path: Path, tell: Callable[[str], object] = lambda _: None) -> None:
+    def __init__(
+        self, path: Path, tell: Callable[[str], object] = lambda _: None, timings: Path | None = None
+    ) -> None:
         self._path = path
+        self._timings = timings
+        self._durations = _durations_in(timings) if timings is not None else {}
         self._before: Mapping[str, Any] = {}
         self._now: dict[str, Any] = {}
         if path.is_file():
@@ -70,9 +75,14 @@ class RecordStore:
         self._now[fingerprint] = kept
         return result
 
-    def keep(self, fingerprint: str, result: object) -> None:
-        """Keep a result by its fingerprint."""
+    def durations(self, fingerprint: str) -> Mapping[str, float]:
+        """Return the CPU time of each stage that computed what is kept, s; {} where it is not known."""
+        return self._durations.get(fingerprint, {})
+
+    def keep(self, fingerprint: str, result: object, durations: Mapping[str, float]) -> None:
+        """Keep a result by its fingerprint, and the CPU time of each stage that computed it, s."""
         self._now[fingerprint] = encoded(result)
+        self._durations[fingerprint] = dict(durations)
 
     def save(self) -> None:
         """Write the file, if it holds something else than before."""
@@ -81,6 +91,21 @@ class RecordStore:
         content = json.dumps(self._now, separators=(",", ":")).encode()
         head = f"{computation_version()} {sha256_of_bytes(content)}\n"
         write_whole(self._path, [head.encode(), content])
+        if self._timings is not None:
+            own = {each: self._durations[each] for each in self._now if each in self._durations}
+            write_whole(self._timings, json.dumps(own).encode())
+
+
+def _durations_in(path: Path) -> dict[str, dict[str, float]]:
+    """The times in a file, by fingerprint and stage; none where it is missing or damaged."""
+    try:
+        content = json.loads(read_whole(path, LARGEST, RockingError))
+        return {
+            fingerprint: {stage: float(duration) for stage, duration in stages.items()}
+            for fingerprint, stages in content.items()
+        }
+    except (RockingError, OSError, ValueError, TypeError, AttributeError):
+        return {}
 
 
 def _opened(path: Path) -> Mapping[str, Any]:

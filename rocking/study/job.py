@@ -26,7 +26,7 @@ from rocking.records.station import station_of
 from rocking.structures import Structure, load_structures
 from rocking.study.folder import locked
 from rocking.study.plan import JOBS, structures_sha256
-from rocking.study.results import SPECTRA, cases_of, remove_copies, written_part
+from rocking.study.results import SPECTRA, case_timings_of, cases_of, remove_copies, written_part
 from rocking.study.settings import Settings, read_settings
 from rocking.study.terminal import record_line, tell, tell_error
 from rocking.tables import write_rows, write_whole
@@ -136,7 +136,8 @@ def run_job(
     """
     with written_part(part) as add:
         for record in records:
-            store = RecordStore(cases_of(results, record.id), tell)
+            timings = case_timings_of(results, record.id)
+            store = RecordStore(cases_of(results, record.id), tell, timings)
             result = assess_catalogued(record, study, store=store)
             store.save()
             if study.settings.reports or study.settings.histories:

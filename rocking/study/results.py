@@ -41,11 +41,17 @@ def cases_of(results: Path, record: str) -> Path:
     return results / "summary" / "cases" / f"{record}.json"
 
 
+def case_timings_of(results: Path, record: str) -> Path:
+    """Return the file that keeps how long those results took, beside the other measurements of a run."""
+    return results / "summary" / "benchmarks" / "cases" / f"{record}.json"
+
+
 def remove_other_cases(results: Path, records: Collection[str]) -> None:
     """Remove what is kept of records that the study does not hold any more."""
-    for path in cases_of(results, "").parent.glob("*.json"):
-        if path.stem not in records:
-            path.unlink(missing_ok=True)
+    for folder in (cases_of(results, "").parent, case_timings_of(results, "").parent):
+        for path in folder.glob("*.json"):
+            if path.stem not in records:
+                path.unlink(missing_ok=True)
 
 
 @contextmanager

@@ -39,7 +39,7 @@ EXTENT = Extent(
 
 
 def computed(path: Path, records=PAIR, structures=STRUCTURES, extent=EXTENT, tell=print) -> RecordResult:
-    kept = RecordStore(path, tell)
+    kept = RecordStore(path, tell, path.with_name("timings.json"))
     result = assess_record("made", records, structures, extent, store=kept)
     kept.save()
     return result
@@ -79,6 +79,19 @@ def test_what_is_kept_comes_back_to_the_last_digit(tmp_path, cases, records):
     whole = with_histories(again, EXTENT.settings.tolerance)
     for name, response in first.responses.items():
         assert np.array_equal(whole.responses[name].rotation, response.rotation)
+
+
+def test_what_is_kept_keeps_the_times_that_it_took(tmp_path):
+    """A run from the store told that all responses take 7e-5 s."""
+    first = computed(tmp_path / "made.json").durations
+    again = computed(tmp_path / "made.json").durations
+    assert set(first) > {"velocity pulse", "pulses", "responses", "variations", "directions", "reserve"}
+    not_kept = {"directions"}  # making the pair is no part of a case, and is measured in each run
+    for stage in set(first) - not_kept:
+        assert again[stage] == pytest.approx(first[stage], rel=1e-12), stage
+    assert again["directions"] == pytest.approx(first["directions"], rel=0.2)
+    (tmp_path / "timings.json").write_text("{")
+    assert computed(tmp_path / "made.json").durations["responses"] == 0.0
 
 
 def test_only_what_changed_is_computed(tmp_path, cases):
