@@ -1,8 +1,12 @@
 """Result tables: a row is a frozen dataclass whose fields say what its columns are; all else derives from it.
 
-    @row("spectrum", "One row per equivalent block")
-    class SpectrumRow(Row):
-        frequency_parameter_rad_s: float = column("p of the equivalent block", equation="Eq. 11")
+    of_block = Columns(EquivalentBlock)
+
+    @row("blocks", "One row per equivalent block")
+    class BlockRow(RowOf[EquivalentBlock]):
+        restitution: float = of_block("Ratio of angular velocities", lambda block: block.restitution, equation="Eq. 2")
+
+    BlockRow.of(block)
 
 A field is a float (nan: not known), int, bool, str, StrEnum, one of these or None, or a tuple of texts. From the class
 come the CSV (`write_rows`, `read_rows`), its description (`data_package`) and data frames (`frame`). The unit of a
@@ -26,7 +30,9 @@ from rocking.tables.files import regular_file as regular_file
 from rocking.tables.files import whole as whole
 from rocking.tables.files import write_whole as write_whole
 from rocking.tables.files import written_together as written_together
+from rocking.tables.row import Columns as Columns
 from rocking.tables.row import Row as Row
+from rocking.tables.row import RowOf as RowOf
 from rocking.tables.row import Table as Table
 from rocking.tables.row import cell as cell
 from rocking.tables.row import column as column

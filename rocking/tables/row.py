@@ -5,7 +5,7 @@ import re
 from collections.abc import Callable
 from dataclasses import MISSING, dataclass, replace
 from enum import Enum, StrEnum
-from typing import Any, ClassVar, TypeVar, dataclass_transform
+from typing import Any, ClassVar, Generic, Self, TypeVar, dataclass_transform, get_args
 
 from rocking.described import Described, described, described_values, number_hint
 from rocking.quantities import shown
@@ -56,12 +56,54 @@ def empty(column: Described) -> Any:
 
 
 R = TypeVar("R", bound=Row)
+S = TypeVar("S")
+T = TypeVar("T")
+
+
+class RowOf(Row, Generic[S]):
+    """Root of the rows about one kind of subject: each column says on its own line what it reads of the subject."""
+
+    __slots__ = ()
+
+    @classmethod
+    def of(cls, subject: S) -> Self:
+        """Return the row about `subject`."""
+        made: Any = cls
+        row: Self = made(**{each.name: each.more["of"](subject) for each in cls.table.columns})
+        return row
+
+
+class Columns(Generic[S]):
+    """Declaration of the columns of rows about subjects of one class.
+
+    of_case = Columns(Case)
+
+    @row("cases")
+    class CaseRow(RowOf[Case]):
+        members: int = of_case("Number of members", lambda case: case.members)
+
+    mypy holds what the function takes to the class, and what it returns to the type of the field.
+    """
+
+    def __init__(self, subject: type[S]) -> None:
+        self.subject = subject
+
+    def __call__(
+        self, meaning: str, of: Callable[[S], T], *, equation: str = "", unit: str = "", last: bool = False
+    ) -> T:
+        """Declare a column that holds what `of` says of a subject; the rest as of `column`."""
+        more: dict[str, Any] = {"of": of, "subject": self.subject}
+        value: T = described(MISSING, meaning, unit, equation=equation, last=last, **more)
+        return value
 
 
 def column(
     meaning: str, *, equation: str = "", unit: str = "", last: bool = False, default: Any = MISSING
 ) -> Any:
-    """Declare a field of a row. unit: where the name cannot say it. last: after the columns of the subclasses."""
+    """Declare a field of a row that whoever makes it fills.
+
+    unit: where the name cannot say it. last: after the columns of the subclasses.
+    """
     return described(default, meaning, unit, equation=equation, last=last)
 
 
@@ -80,10 +122,26 @@ def row(name: str = "", description: str = "") -> Callable[[type[R]], type[R]]:
             columns.append(replace(each, unit=each.unit or next(ends, "")))
         summary = description or (cls.__doc__ or "").partition("\n")[0].rstrip(".")
         row_class.table = Table(name, summary, tuple(columns))
+        _check_subjects(row_class)
         result: type[R] = row_class
         return result
 
     return made
+
+
+def _check_subjects(row_class: type[Row]) -> None:
+    """Raise TypeError where a column of a row about one kind of subject reads another kind, or none."""
+    if not issubclass(row_class, RowOf):
+        return
+    for base in getattr(row_class, "__orig_bases__", ()):
+        for subject in get_args(base):
+            subject = getattr(subject, "__bound__", subject)
+            for each in row_class.table.columns:
+                own = each.more.get("subject")
+                if own is None or not issubclass(subject, own):
+                    raise TypeError(
+                        f"{row_class.__name__}.{each.name} is not read from a {subject.__name__}."
+                    )
 
 
 _FORMULA = re.compile(r"'*[=+\-@\t\r]")

@@ -1,4 +1,4 @@
-"""The rows of the result tables: each class says what its columns are, and a function beside it fills them.
+"""The rows of the result tables: each column says on its own line what it means and what it reads.
 
 Rows about a record and about a study are imported from here. Those about checks by the code and about fragility are
 imported from their files, for they ask the methods themselves, which take a quarter of a second to load.
@@ -6,22 +6,24 @@ imported from their files, for they ask the methods themselves, which take a qua
 
 from rocking.assessment.rows.of_record import RATIO_COLUMNS as RATIO_COLUMNS
 from rocking.assessment.rows.of_record import RECORD_TABLES as RECORD_TABLES
+from rocking.assessment.rows.of_record import ComparedCase as ComparedCase
 from rocking.assessment.rows.of_record import ComparisonRow as ComparisonRow
+from rocking.assessment.rows.of_record import FailedCase as FailedCase
 from rocking.assessment.rows.of_record import FailureRow as FailureRow
 from rocking.assessment.rows.of_record import HistoryRow as HistoryRow
+from rocking.assessment.rows.of_record import Identity as Identity
+from rocking.assessment.rows.of_record import JudgedStation as JudgedStation
 from rocking.assessment.rows.of_record import PulseRow as PulseRow
+from rocking.assessment.rows.of_record import ReadComponent as ReadComponent
 from rocking.assessment.rows.of_record import RecordRow as RecordRow
 from rocking.assessment.rows.of_record import RecordRows as RecordRows
 from rocking.assessment.rows.of_record import SupportRow as SupportRow
+from rocking.assessment.rows.of_record import TimedStage as TimedStage
 from rocking.assessment.rows.of_record import TimingRow as TimingRow
 from rocking.assessment.rows.of_record import VerdictRow as VerdictRow
-from rocking.assessment.rows.of_record import comparison_row as comparison_row
 from rocking.assessment.rows.of_record import history_rows as history_rows
-from rocking.assessment.rows.of_record import identity_of as identity_of
-from rocking.assessment.rows.of_record import pulse_rows as pulse_rows
-from rocking.assessment.rows.of_record import record_row as record_row
+from rocking.assessment.rows.of_record import pulses_found as pulses_found
 from rocking.assessment.rows.of_record import rows_of_record as rows_of_record
-from rocking.assessment.rows.of_record import verdict_row as verdict_row
 from rocking.assessment.rows.of_study import AGREEMENT_COLUMNS as AGREEMENT_COLUMNS
 from rocking.assessment.rows.of_study import SUMMARY_TABLES as SUMMARY_TABLES
 from rocking.assessment.rows.of_study import AgreementRow as AgreementRow

@@ -14,12 +14,11 @@ from rocking.assessment.case import CaseResult, Failure, StationResult
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer
-from rocking.assessment.rows import ComparisonRow, FailureRow, VerdictRow, identity_of, verdict_row
+from rocking.assessment.rows import ComparisonRow, FailedCase, FailureRow, Identity, JudgedStation, VerdictRow
 from rocking.assessment.settings import EnsembleSettings
 from rocking.assessment.verdict import BOTH_COMPONENTS, Method
 from rocking.errors import StructureError
 from rocking.motion.response import Response
-from rocking.records import Accelerogram
 from rocking.structures import Block, Outcome
 from rocking.tables.row import Row, empty
 
@@ -88,11 +87,11 @@ def station(*cases: CaseResult, falls_in_directions: int | None = None) -> Stati
 
 def verdicts(stations: Sequence[StationResult], record: str = "a") -> list[VerdictRow]:
     """Their rows."""
-    identity = identity_of(record, Accelerogram(np.zeros(2), 0.01), "")
-    return [verdict_row(identity, each) for each in stations]
+    return [
+        VerdictRow.of(JudgedStation(Identity(record, each.component, 1.0, "", ""), each.structure, each))
+        for each in stations
+    ]
 
 
 def failure(component: str, structure: str = "pier", message: str = "No.", record: str = "a") -> FailureRow:
-    return FailureRow(
-        record=record, component=component, structure=structure, stage="responses", message=message
-    )
+    return FailureRow.of(FailedCase(record, component, structure, Failure("responses", message)))

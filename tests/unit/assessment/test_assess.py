@@ -14,11 +14,14 @@ from rocking.assessment.case import CaseResult
 from rocking.assessment.component import Component, HorizontalMotion, component_of, horizontal_motions
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
+    ComparedCase,
+    ComparisonRow,
+    Identity,
+    PulseRow,
+    ReadComponent,
+    RecordRow,
     capacity_rows,
-    comparison_row,
-    identity_of,
-    pulse_rows,
-    record_row,
+    pulses_found,
 )
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings, PredictingPulse
 from rocking.assessment.verdict import NEGLIGIBLE, Method, agreement, ratio, rests, rocks, within_factor_two
@@ -33,13 +36,17 @@ PULSE = Pulse(3.0, 2 * np.pi / 0.8, 2.0)
 RECORD = Accelerogram(PULSE.acceleration(np.arange(1000) * STEP), STEP, component="H1")
 BLOCK = Block(2.0, 0.2)
 SETTINGS = AssessmentSettings()
-IDENTITY = identity_of("made", RECORD, "")
+IDENTITY = Identity.of("made", RECORD, "")
 MOTION = Pulse(3.0, math.pi, 10.0).acceleration(np.arange(3000) * STEP)
 
 
 def assessed(record: Accelerogram, settings: AssessmentSettings = SETTINGS, vertical=None) -> CaseResult:
     """The block under one component."""
     return assess_case("block", BLOCK, component_of(record, settings.pulse, vertical), settings)
+
+
+def compared(case: CaseResult) -> ComparisonRow:
+    return ComparisonRow.of(ComparedCase(IDENTITY, case.structure, case, friction_coefficient=0.6))
 
 
 @pytest.fixture(scope="module")
@@ -56,19 +63,20 @@ def test_a_record_that_is_one_pulse_is_predicted_by_its_pulse(case):
 def test_a_case_without_an_ensemble_alone_has_an_estimate_in_its_row(case):
     settings = AssessmentSettings(ensemble=EnsembleSettings(members=0))
     alone = assessed(RECORD, settings)
-    assert comparison_row(IDENTITY, alone, 0.6).overturning_estimate == alone.overturning_estimate.share
-    assert math.isnan(comparison_row(IDENTITY, case, 0.6).overturning_estimate)
+    assert compared(alone).overturning_estimate == alone.overturning_estimate.share
+    assert math.isnan(compared(case).overturning_estimate)
 
 
 def test_the_ranked_rows_of_pulses_are_the_alternatives_in_their_order():
     component = component_of(RECORD, SETTINGS.pulse)
-    rows = [row for row in pulse_rows(IDENTITY, component) if row.ranked]
+    rows = [PulseRow.of(found) for found in pulses_found(IDENTITY, component)]
+    rows = [row for row in rows if row.ranked]
     assert [row.pulse for row in rows] == [evidence.pulse for evidence in component.analysis.ranked]
     assert [row.rank for row in rows] == list(range(1, len(rows) + 1)) and rows[0].gain_ratio == 1
 
 
 def test_a_row_of_the_comparison_holds_what_each_method_says(case):
-    row = comparison_row(IDENTITY, case, friction_coefficient=0.6)
+    row = compared(case)
     block = case.prediction.block
     for method, ratio_alone in (
         (Method.PRINTED, printed_maximum(BLOCK.mechanism().equivalent_block("linearised"), PULSE)),
@@ -93,7 +101,7 @@ def test_a_fragile_case_is_repeated_and_its_row_and_its_history_say_at_which_tol
     settings = AssessmentSettings(ensemble=EnsembleSettings(members=0))
     result = assess_record("made", [record], {"block": block}, Extent(settings))
     (kept,) = result.stations["block"].cases.values()
-    row = comparison_row(IDENTITY, kept, friction_coefficient=0.6)
+    row = compared(kept)
     assert (row.fragile, row.tolerance) == (True, 1e-9)
     assert row.integrated_rotation_ratio == pytest.approx(1.11640268442, rel=1e-8)
 
@@ -101,7 +109,7 @@ def test_a_fragile_case_is_repeated_and_its_row_and_its_history_say_at_which_tol
     (again,) = with_histories(without, settings.tolerance).stations["block"].cases.values()
     assert again.response.times is not None
     assert (again.response.rotation_ratio, again.response.fragile) == (row.integrated_rotation_ratio, True)
-    calm = comparison_row(IDENTITY, assessed(RECORD, settings), friction_coefficient=0.6)
+    calm = compared(assessed(RECORD, settings))
     assert (calm.fragile, calm.tolerance) == (False, 1e-6)
 
 
@@ -210,7 +218,7 @@ def row_of(record: Accelerogram, motion: HorizontalMotion, dominant: Pulse | Non
     if dominant is not None:
         evidence = PulseEvidence(dominant, 1.0, 0.5, 0.0)
         analysis = PulseAnalysis(record, (evidence,), (), record.acceleration, (), (0.1, 5.0))
-    return record_row(IDENTITY, Component(record, vertical, motion, analysis, ()), "")
+    return RecordRow.of(ReadComponent(IDENTITY, Component(record, vertical, motion, analysis, ()), ""))
 
 
 def component(share: float, name: str, azimuth: float | None = None, **changes) -> Accelerogram:

@@ -14,6 +14,7 @@ from rocking.assessment.rows import (
     FailureRow,
     RecordRow,
     RecordRows,
+    TimedStage,
     TimingRow,
     VerdictRow,
     agreement_rows,
@@ -135,7 +136,7 @@ def test_the_map_holds_sign_and_share_with_the_worst_record_and_structure_first(
 def test_each_method_is_held_against_the_integration_and_no_time_is_told(example):
     """Two runs of the same study would else differ."""
     tables = summarised(example.tables, example.structures)
-    timings = frame(TimingRow, [TimingRow(record="one", stage="closed form", duration_s=0.002)])
+    timings = frame(TimingRow, [TimingRow.of(TimedStage("one", "closed form", 0.002))])
     assert summary_report(tables | {"timings": timings}, SETTINGS) == summary_report(tables, SETTINGS)
     table = summary_data(tables, SETTINGS)["methods"]
     rows = {row[0]: row[1:] for row in table["rows"]}

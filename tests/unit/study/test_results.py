@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import rocking
-from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, StructureRow, TimingRow
+from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, StructureRow, TimedStage, TimingRow
 from rocking.errors import RockingError
 from rocking.study.cli import main
 from rocking.study.results import cases_of, part, remove_copies, remove_other_cases
@@ -13,7 +13,7 @@ from rocking.tables import read_rows, write_rows
 
 
 def _timing(record: str) -> TimingRow:
-    return TimingRow(record=record, stage="read", duration_s=0.5)
+    return TimingRow.of(TimedStage(record, "read", 0.5))
 
 
 @pytest.fixture
