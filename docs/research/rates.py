@@ -120,7 +120,7 @@ def rates_of_sites(curve: Fragility, pool: np.ndarray, slope: float) -> np.ndarr
         replace(curve, probability=own, exceedance=own[None], stations=(str(place),))
         for place, own in enumerate(pool)
     )
-    return np.array([annual_rate(each, points)["annual_rate"] for each in of_each])
+    return np.array([annual_rate(each, points).value for each in of_each])
 
 
 def _lognormal(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:

@@ -7,13 +7,10 @@ from statistics import median
 from time import process_time
 from typing import TypeVar
 
-import numpy as np
-
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.ground_motions import GroundMotions
-from rocking.assessment.rows import TradeMethod, TradeRow
+from rocking.assessment.rows import TimedAnswer, TradeMethod, TradeRow, TriedMethod
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.verdict import Agreement, agreement, ratio, rests
 from rocking.errors import PulseError, RockingError
 from rocking.motion import integrate
 from rocking.pulses import DEMAND_CANDIDATES, Pulse, extract_pulses
@@ -48,8 +45,7 @@ def trade(
     """
     chosen = settings or AssessmentSettings()
     mechanisms = {name: structure.mechanism() for name, structure in structures.items()}
-    # (method, structure), and of each case rotation ratio, that of the reference, processor times of case and record
-    answers: dict[tuple[TradeMethod, str], list[tuple[float, float, float, float]]] = {}
+    answers: dict[tuple[TradeMethod, str], list[TimedAnswer]] = {}
     for number, record in enumerate(records, start=1):
         sines, searched_s = _timed(partial(best_sines, record, chosen))
         for name, mechanism in mechanisms.items():
@@ -59,13 +55,13 @@ def trade(
                     rotation_ratio, cpu_s = _timed(run, 0 if method is TradeMethod.ENSEMBLE else REPEATS)
                     record_s = searched_s if method in (TradeMethod.ONE_SINE, TradeMethod.SINES) else 0.0
                     for whose in ("", name):
-                        case = rotation_ratio, reference, cpu_s, record_s
-                        answers.setdefault((method, whose), []).append(case)
+                        answer = TimedAnswer(rotation_ratio, reference, cpu_s, record_s)
+                        answers.setdefault((method, whose), []).append(answer)
             except RockingError as error:
                 tell(f"record {number}, {name}: {error}")
         tell(f"record {number}: {len(mechanisms)} structures")
     return [
-        _row(method, structure, answers[method, structure])
+        TradeRow.of(TriedMethod(method, structure, answers[method, structure]))
         for structure in ("", *mechanisms)
         for method in TradeMethod
         if (method, structure) in answers
@@ -95,25 +91,6 @@ def _runs(
         **{method: partial(rotation, mechanism, tolerance) for method, tolerance in TOLERANCES.items()},
         TradeMethod.ENSEMBLE: middle,
     }
-
-
-def _row(
-    method: TradeMethod, structure: str, answers: Sequence[tuple[float, float, float, float]]
-) -> TradeRow:
-    pairs = [(own, true) for own, true, *_ in answers if not (rests(own) and rests(true))]
-    verdicts = [agreement(own, true) for own, true in pairs]
-    errors = [abs(ratio(own, true) - 1) for own, true in pairs if not math.isnan(ratio(own, true))]
-    return TradeRow(
-        method=method,
-        structure=structure,
-        cases=len(pairs),
-        error=median(errors) if errors else math.nan,
-        error_high=float(np.quantile(errors, 0.95)) if errors else math.nan,
-        wrong_verdicts=sum(each is not Agreement.SAME for each in verdicts),
-        unsafe_verdicts=verdicts.count(Agreement.TOO_LOW),
-        cpu_s=median(cpu_s for *_, cpu_s, _ in answers),
-        preparation_record_s=median(record_s for *_, record_s in answers),
-    )
 
 
 def best_sines(record: Accelerogram, settings: AssessmentSettings) -> tuple[Pulse, ...]:

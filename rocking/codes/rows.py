@@ -2,12 +2,14 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
-from rocking.assessment.rows.meanings import STRUCTURE
+from rocking.assessment.rows import Named, StructureNameRow
 from rocking.codes.dynamic_check import DynamicCheck, StructureCheck
+from rocking.codes.local_mechanism import LimitPoint, LocalMechanism
 from rocking.codes.static_check import Check
 from rocking.quantities import counted
-from rocking.tables import Row, column, row
+from rocking.tables import Columns, row
 
 KINDS = {
     "C8.7.1.8": "linear",
@@ -19,84 +21,115 @@ KINDS = {
 """The name of a check, by its clause."""
 
 
+@dataclass(frozen=True)
+class MadeCheck(Named):
+    """One check of one structure, with all that was found of it."""
+
+    check: Check
+    checked: StructureCheck
+
+    @property
+    def dynamic(self) -> DynamicCheck | None:
+        """The check, where it is the dynamic one."""
+        return self.check if isinstance(self.check, DynamicCheck) else None
+
+    @property
+    def governing(self) -> LocalMechanism:
+        """The mechanism that governs."""
+        return self.checked.governing
+
+    @property
+    def limit(self) -> LimitPoint | None:
+        """The point of the limit state on its capacity curve."""
+        return self.checked.limit
+
+    def capacity(self, unit: str) -> float:
+        """Return the capacity where it is of this unit, else nan."""
+        return self.check.capacity if self.check.unit == unit else math.nan
+
+    def demand(self, unit: str) -> float:
+        """Return the demand where it is of this unit, else nan."""
+        return self.check.demand if self.check.unit == unit else math.nan
+
+
+of_check = Columns(MadeCheck)
+
+
 @row("code_checks")
-class CodeCheckRow(Row):
+class CodeCheckRow(StructureNameRow[MadeCheck]):
     """One row per structure and check of the Italian code at the design level; written by the target checks."""
 
-    structure: str = column(STRUCTURE)
-    check: str = column("linear, nonlinear or dynamic")
-    clause: str = column("Clause of the Circolare 7/2019")
-    limit_state: str = column("Limit state: SLV or SLC")
-    mechanism: str = column("Mechanism that decides: what opens, and to which side it falls")
-    passed: bool = column("Whether the check is met")
-    ratio: float = column("Capacity over demand; 1 or more where it is met")
-    level_capacity_m_s2: float = column(
-        "a_g at which the limit state is reached; empty for the dynamic check"
+    check: str = of_check("linear, nonlinear or dynamic", lambda of: KINDS[of.check.clause])
+    clause: str = of_check("Clause of the Circolare 7/2019", lambda of: of.check.clause)
+    limit_state: str = of_check("Limit state: SLV or SLC", lambda of: of.check.limit_state)
+    mechanism: str = of_check(
+        "Mechanism that decides: what opens, and to which side it falls", lambda of: of.check.mechanism
     )
-    level_demand_m_s2: float = column("a_g of the design level; empty for the dynamic check")
-    displacement_capacity_m: float = column("Displacement of the limit state; of the dynamic check alone")
-    displacement_demand_m: float = column(
-        "Mean of the largest displacements of the set; of the dynamic check alone"
+    passed: bool = of_check("Whether the check is met", lambda of: of.check.passed)
+    ratio: float = of_check("Capacity over demand; 1 or more where it is met", lambda of: of.check.ratio)
+    level_capacity_m_s2: float = of_check(
+        "a_g at which the limit state is reached; empty for the dynamic check", lambda of: of.capacity("m/s²")
     )
-    exceeding_motions: int | None = column(
-        "Motions of the set under which d_0 is exceeded; of the dynamic check alone"
+    level_demand_m_s2: float = of_check(
+        "a_g of the design level; empty for the dynamic check", lambda of: of.demand("m/s²")
     )
-    motions: int | None = column("Motions of the set; of the dynamic check alone")
-    sets: int | None = column("Sets that were drawn; of the dynamic check alone")
-    sets_share: float = column("Share of these that meet the check")
-    sets_share_low: float = column("Lower end of its 90 % interval for sets of other stations")
-    sets_share_high: float = column("Upper end of that interval")
-    onset_multiplier: float = column("α_0 of the mechanism that governs", equation="C8.7.1.1")
-    participating_mass_ratio: float = column("e* of that mechanism", equation="C8.7.1.5")
-    ultimate_displacement_m: float = column("d_0 of that mechanism; empty: none", equation="C8.7.1.4")
-    limit_displacement_m: float = column("Displacement of the limit state of that mechanism")
-    secant_period_s: float = column("Secant period at that displacement")
-    confidence_factor: float = column("Confidence factor FC")
-    why: str = column("Why a check is not called met, or others were not made")
+    displacement_capacity_m: float = of_check(
+        "Displacement of the limit state; of the dynamic check alone", lambda of: of.capacity("m")
+    )
+    displacement_demand_m: float = of_check(
+        "Mean of the largest displacements of the set; of the dynamic check alone", lambda of: of.demand("m")
+    )
+    exceeding_motions: int | None = of_check(
+        "Motions of the set under which d_0 is exceeded; of the dynamic check alone",
+        lambda of: of.dynamic.exceeding if of.dynamic else None,
+    )
+    motions: int | None = of_check(
+        "Motions of the set; of the dynamic check alone",
+        lambda of: of.dynamic.motions if of.dynamic else None,
+    )
+    sets: int | None = of_check(
+        "Sets that were drawn; of the dynamic check alone",
+        lambda of: of.dynamic.sets if of.dynamic else None,
+    )
+    sets_share: float = of_check(
+        "Share of these that meet the check", lambda of: of.dynamic.share if of.dynamic else math.nan
+    )
+    sets_share_low: float = of_check(
+        "Lower end of its 90 % interval for sets of other stations",
+        lambda of: of.dynamic.interval[0] if of.dynamic else math.nan,
+    )
+    sets_share_high: float = of_check(
+        "Upper end of that interval", lambda of: of.dynamic.interval[1] if of.dynamic else math.nan
+    )
+    onset_multiplier: float = of_check(
+        "α_0 of the mechanism that governs", lambda of: of.governing.onset_multiplier, equation="C8.7.1.1"
+    )
+    participating_mass_ratio: float = of_check(
+        "e* of that mechanism", lambda of: of.governing.participating_mass_ratio, equation="C8.7.1.5"
+    )
+    ultimate_displacement_m: float = of_check(
+        "d_0 of that mechanism; empty: none",
+        lambda of: _where_it_is(of.governing.ultimate_displacement),
+        equation="C8.7.1.4",
+    )
+    limit_displacement_m: float = of_check(
+        "Displacement of the limit state of that mechanism",
+        lambda of: _where_it_is(of.limit.displacement) if of.limit else math.nan,
+    )
+    secant_period_s: float = of_check(
+        "Secant period at that displacement", lambda of: of.limit.period if of.limit else math.nan
+    )
+    confidence_factor: float = of_check("Confidence factor FC", lambda of: of.governing.confidence_factor)
+    why: str = of_check(
+        "Why a check is not called met, or others were not made",
+        lambda of: of.check.refusal or of.checked.remark,
+    )
 
 
 def code_check_rows(structure: str, checked: StructureCheck) -> Iterator[CodeCheckRow]:
     """Yield the row of each check of a structure."""
-    governing = checked.governing
-    point = checked.limit
     for each in checked.checks:
-        dynamic = each if isinstance(each, DynamicCheck) else None
-        check = KINDS[each.clause]
-        low, high = dynamic.interval if dynamic else (math.nan, math.nan)
-        level_capacity = _of(each, "m/s²", each.capacity)
-        level_demand = _of(each, "m/s²", each.demand)
-        displacement_capacity = _of(each, "m", each.capacity)
-        displacement_demand = _of(each, "m", each.demand)
-        yield CodeCheckRow(
-            structure=structure,
-            check=check,
-            clause=each.clause,
-            limit_state=each.limit_state,
-            mechanism=each.mechanism,
-            passed=each.passed,
-            ratio=each.ratio,
-            level_capacity_m_s2=level_capacity,
-            level_demand_m_s2=level_demand,
-            displacement_capacity_m=displacement_capacity,
-            displacement_demand_m=displacement_demand,
-            exceeding_motions=dynamic.exceeding if dynamic else None,
-            motions=dynamic.motions if dynamic else None,
-            sets=dynamic.sets if dynamic else None,
-            sets_share=dynamic.share if dynamic else math.nan,
-            sets_share_low=low,
-            sets_share_high=high,
-            onset_multiplier=governing.onset_multiplier,
-            participating_mass_ratio=governing.participating_mass_ratio,
-            ultimate_displacement_m=_where_it_is(governing.ultimate_displacement),
-            limit_displacement_m=_where_it_is(point.displacement) if point else math.nan,
-            secant_period_s=point.period if point else math.nan,
-            confidence_factor=governing.confidence_factor,
-            why=each.refusal or checked.remark,
-        )
-
-
-def _of(check: Check, unit: str, value: float) -> float:
-    return value if check.unit == unit else math.nan
+        yield CodeCheckRow.of(MadeCheck(structure, each, checked))
 
 
 def _where_it_is(displacement: float) -> float:

@@ -4,6 +4,7 @@ From records scaled to common levels (incremental dynamic analysis) or left as r
 the lognormal one, with intervals by station; and how well an intensity measure explains which record overturns when.
 """
 
+import math
 import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -250,13 +251,27 @@ def _probit(
     return coefficients / scale, covariance / np.outer(scale, scale)
 
 
+@dataclass(frozen=True)
+class Explanation:
+    """How well levels of an intensity measure, and a figure of the record beside them, explain which records overturn.
+
+    efficiency: standard deviation of the logarithm of the level that overturns. slope: change of that logarithm for one
+    standard deviation of the figure. p_value: of no change. power: share of samples of as many stations that would show
+    such a slope at 5 %. The last three are nan for fewer than four stations or equal figures.
+    """
+
+    efficiency: float
+    slope: float = math.nan
+    p_value: float = math.nan
+    power: float = math.nan
+
+
 def explanation(
     log_levels: np.ndarray, exceedance: np.ndarray, figures: np.ndarray, stations: Sequence[str]
-) -> dict[str, float]:
+) -> Explanation:
     """Return how well the levels (r, k), and the `figures` (r,) beside them, explain the outcomes (r, k).
 
-    By column of the table intensity_measures: its efficiency alone for fewer than four stations or equal figures. A
-    record that was tried at no level says nothing, and a figure that differs in such a record alone is equal. Every
+    A record that was tried at no level says nothing, and a figure that differs in such a record alone is equal. Every
     outcome counts, also of records that never overturn or that stand again above the level that overturned them. The
     error of the slope is that between stations, so that two components of one are no two observations, and the slope
     over it is held against Student's law for the number of stations less three.
@@ -267,18 +282,21 @@ def explanation(
     figures = figures[tried]
     stations = np.asarray(stations)[tried].tolist()
     (_, steepness), _ = _probit([log_levels], exceedance, stations)
-    columns = {"efficiency": float(1 / steepness) if steepness > 0 else np.nan}
+    efficiency = float(1 / steepness) if steepness > 0 else math.nan
     freedom = len(set(stations)) - 3
-    if freedom >= 1 and np.ptp(figures) > 0:
-        scaled = (figures - figures.mean()) / figures.std()
-        beside = np.broadcast_to(scaled[:, None], log_levels.shape)
-        (_, level, figure), covariance = _probit([log_levels, beside], exceedance, stations)
-        t = abs(figure) / np.sqrt(covariance[2, 2])
-        limit = stdtrit(freedom, 0.975)
-        columns["slope"] = float(-figure / level)
-        columns["p_value"] = float(2 * stdtr(freedom, -t))
-        columns["power"] = float(ndtr(t - limit) + ndtr(-t - limit))
-    return columns
+    if freedom < 1 or np.ptp(figures) == 0:
+        return Explanation(efficiency)
+    scaled = (figures - figures.mean()) / figures.std()
+    beside = np.broadcast_to(scaled[:, None], log_levels.shape)
+    (_, level, figure), covariance = _probit([log_levels, beside], exceedance, stations)
+    t = abs(figure) / np.sqrt(covariance[2, 2])
+    limit = stdtrit(freedom, 0.975)
+    return Explanation(
+        efficiency=efficiency,
+        slope=float(-figure / level),
+        p_value=float(2 * stdtr(freedom, -t)),
+        power=float(ndtr(t - limit) + ndtr(-t - limit)),
+    )
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -2,15 +2,19 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 from scipy.special import stdtrit
 
 from rocking.assessment.fidelity import peak_velocity
-from rocking.assessment.rows.meanings import RECORD, STRUCTURE
+from rocking.assessment.rows import Named, StructureNameRow
+from rocking.assessment.rows.meanings import RECORD
 from rocking.errors import ConfigurationError
-from rocking.fragility.curves import Fragility, IncrementalDynamicAnalysis, explanation
+from rocking.fragility.curves import Explanation, Fragility, IncrementalDynamicAnalysis, explanation
 from rocking.fragility.measures import (
     INTENSITY_MEASURES,
     MEASURES_IN_WORDS,
@@ -18,7 +22,7 @@ from rocking.fragility.measures import (
 )
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism
-from rocking.tables import Row, column, read_rows, read_whole, row
+from rocking.tables import Columns, Row, column, read_rows, read_whole, row
 
 _STEPS = 400
 """Steps of the integral over the hazard curve, in equal parts of the logarithm of the level."""
@@ -62,13 +66,22 @@ def read_hazard(path: Path) -> list[HazardRow]:
     return points
 
 
-def annual_rate(fragility: Fragility, points: Sequence[HazardRow]) -> dict[str, float]:
-    """Return ∫ P dν [1/year] over the hazard curve ν, by column of the summary; both are linear in the logarithm of the
-    level between their points.
+@dataclass(frozen=True)
+class AnnualRate:
+    """The annual rate of exceedance with its 90 % interval, and the most that it may lack, 1/year."""
+
+    value: float
+    low: float
+    high: float
+    remainder: float
+
+
+def annual_rate(fragility: Fragility, points: Sequence[HazardRow]) -> AnnualRate:
+    """Return ∫ P dν over the hazard curve ν; both are linear in the logarithm of the level between their points.
 
     The rate is the mean over the stations of the rate of each. Below its levels a station's curve counts as 0, above
     them as its last value, and where it was not tried as the share of the others; beyond the last point of the hazard
-    curve all is counted there. The interval is that of `rate_interval`. annual_rate_remainder is the most that the rate
+    curve all is counted there. The interval is that of `rate_interval`. The remainder is the most that the rate
     may lack: because the curve ends below a probability of 1, and because levels below the first point of the hazard
     curve are left out, which occur as often as the hazard curve, continued by its first slope, says.
     """
@@ -91,12 +104,12 @@ def annual_rate(fragility: Fragility, points: Sequence[HazardRow]) -> dict[str, 
     lower = np.linspace(min(levels[0], logs[0]), logs[0], _STEPS + 1)
     continued = np.exp(log_rates[0] + slope * (logs[0] - lower))
     below = np.interp((lower[1:] + lower[:-1]) / 2, levels, pooled, left=0.0) @ -np.diff(continued)
-    return {
-        "annual_rate": rate,
-        "annual_rate_low": min(low, rate),
-        "annual_rate_high": max(rate, min(high, points[0].annual_rate)),
-        "annual_rate_remainder": float(above + below),
-    }
+    return AnnualRate(
+        value=rate,
+        low=min(low, rate),
+        high=max(rate, min(high, points[0].annual_rate)),
+        remainder=float(above + below),
+    )
 
 
 def _curves_of_stations(fragility: Fragility, pooled: np.ndarray) -> np.ndarray:
@@ -141,166 +154,274 @@ def rate_interval(of_stations: np.ndarray) -> tuple[float, float]:
     return math.exp(low), math.exp(min(high, 700.0))
 
 
+@dataclass(frozen=True)
+class ScaledRecord(Named):
+    """One record scaled to one level. place, step: of record and level in the analysis."""
+
+    record: str
+    analysis: IncrementalDynamicAnalysis
+    place: int
+    step: int
+
+    @property
+    def level(self) -> float:
+        """The level to which it is scaled."""
+        return float(self.analysis.levels[self.step])
+
+    @property
+    def rotation_ratios(self) -> np.ndarray:
+        """(m,) rotation ratios of the members; nan for all where the record does not reach the level."""
+        of_members: np.ndarray = self.analysis.rotation_ratios[self.place, self.step]
+        return of_members
+
+    @property
+    def governing_overturning_share(self) -> float:
+        """The share of the members that overturn with the worst crack; nan where no other was followed."""
+        worst = self.analysis.governing_ratios
+        return math.nan if worst is None else float(np.isinf(worst[self.place, self.step]).mean())
+
+
+of_scaled = Columns(ScaledRecord)
+
+
 @row("ida")
-class IdaRow(Row):
+class IdaRow(StructureNameRow[ScaledRecord]):
     """One row per structure, record and level: incremental dynamic analysis."""
 
-    structure: str = column(STRUCTURE)
-    record: str = column(RECORD)
-    station: str = column("Event and station, which count as one independent record")
-    intensity_measure: str = column(_MEASURE)
-    level: float = column("Level to which the record is scaled")
-    scale_factor: float = column("Factor on the record to reach the level")
-    members: int = column("Number of members")
-    rotation_ratio_median: float = column("Median of largest rotation over critical rotation")
-    overturning_share: float = column("Share of the members that overturn")
-    governing_overturning_share: float = column("Share of the members that overturn with the worst crack")
-
-
-@row()
-class CurveRow(Row):
-    """A row about the curve of a structure: for which crack, intensity measure and rotation it holds."""
-
-    structure: str = column(STRUCTURE)
-    governing: bool = column("Whether the worst crack that may form counts, not that of statics")
-    intensity_measure: str = column(_MEASURE)
-    threshold: float = column("Rotation over critical rotation that is exceeded; INF: overturning")
-
-
-@row("fragility")
-class FragilityRow(CurveRow):
-    """One row per structure, rotation that is exceeded and level: the curves with 90 % intervals."""
-
-    level: float = column("Level of the intensity measure")
-    stations: int = column("Number of stations whose records reach the level within the largest factor")
-    probability: float = column("Share of the stations that exceed the rotation")
-    probability_low: float = column("Lower end of the 90 % interval of the probability")
-    probability_high: float = column("Upper end of the 90 % interval of the probability")
-    lognormal: float = column("Probability by the lognormal curve of maximum likelihood")
-
-
-@row("fragility_summary")
-class FragilitySummaryRow(CurveRow):
-    """One row per structure and rotation that is exceeded: what its curve comes down to."""
-
-    records: int = column("Number of records")
-    stations: int = column("Number of stations")
-    stations_out: int = column(
-        "Number of stations that do not reach the highest level within the largest factor"
+    record: str = of_scaled(RECORD, lambda of: of.record)
+    station: str = of_scaled(
+        "Event and station, which count as one independent record",
+        lambda of: of.analysis.stations[of.place],
     )
-    largest_scale_factor: float = column("Largest factor on a record that was used")
-    median: float = column("Level at which the empirical curve crosses one half; INF: it does not")
-    median_low: float = column("Lower end of the 90 % interval of the median, by resampling stations")
-    median_high: float = column("Upper end of the 90 % interval of the median; INF: none at the levels tried")
-    lognormal_median: float = column("Median of the lognormal curve, for those who need two parameters")
-    dispersion: float = column("Standard deviation of the logarithm, lognormal curve")
-    misfit: float = column("Largest distance of the lognormal from the empirical curve")
-    reversals: int = column("Number of records that, scaled up, let the structure stand again")
-    annual_rate: float = column("Annual rate of exceedance; empty without a hazard curve", unit="1/year")
-    annual_rate_low: float = column("Lower end of the 90 % interval of the rate, by stations", unit="1/year")
-    annual_rate_high: float = column("Upper end of the 90 % interval of the rate, by stations", unit="1/year")
-    annual_rate_remainder: float = column("Most that the rate may lack beyond both curves", unit="1/year")
-
-
-@row("intensity_measures")
-class IntensityMeasureRow(Row):
-    """One row per structure, intensity measure and other figure of the record: what explains overturning."""
-
-    structure: str = column(STRUCTURE)
-    intensity_measure: str = column(_MEASURE)
-    efficiency: float = column("Dispersion of the level that overturns: standard deviation of its logarithm")
-    figure: str = column("Figure of the record that may say more: PGV/PGA, magnitude or ln of the distance")
-    records: int = column("Number of records with the measure and the figure")
-    stations: int = column("Number of stations")
-    slope: float = column("Change of the logarithm of that level for one standard deviation of the figure")
-    p_value: float = column("p-value of no change; below 0.05 the measure does not suffice")
-    power: float = column("Share of samples of as many stations that would show such a slope at 5 %")
+    intensity_measure: str = of_scaled(_MEASURE, lambda of: of.analysis.measure.name)
+    level: float = of_scaled("Level to which the record is scaled", lambda of: of.level)
+    scale_factor: float = of_scaled(
+        "Factor on the record to reach the level",
+        lambda of: of.level / float(of.analysis.intensities[of.place]),
+    )
+    members: int = of_scaled("Number of members", lambda of: of.rotation_ratios.size)
+    rotation_ratio_median: float = of_scaled(
+        "Median of largest rotation over critical rotation",
+        lambda of: float(np.sort(of.rotation_ratios)[(of.rotation_ratios.size - 1) // 2]),
+    )
+    overturning_share: float = of_scaled(
+        "Share of the members that overturn", lambda of: float(np.isinf(of.rotation_ratios).mean())
+    )
+    governing_overturning_share: float = of_scaled(
+        "Share of the members that overturn with the worst crack",
+        lambda of: of.governing_overturning_share,
+    )
 
 
 def ida_rows(
     structure: str, records: Sequence[str], analysis: IncrementalDynamicAnalysis
 ) -> Iterator[IdaRow]:
-    """Yield a row for each record and level that it reaches."""
-    worst = analysis.governing_ratios
-    for place, (record, station) in enumerate(zip(records, analysis.stations, strict=True)):
-        for step, level in enumerate(analysis.levels.tolist()):
-            ratios = analysis.rotation_ratios[place, step]
-            if np.isnan(ratios).all():
-                continue  # the record does not reach the level within the largest factor
-            scale_factor = level / float(analysis.intensities[place])
-            rotation_ratio_median = float(np.sort(ratios)[(ratios.size - 1) // 2])
-            overturning_share = float(np.isinf(ratios).mean())
-            governing_overturning_share = math.nan
-            if worst is not None:
-                governing_overturning_share = float(np.isinf(worst[place, step]).mean())
-            yield IdaRow(
-                structure=structure,
-                record=record,
-                station=station,
-                intensity_measure=analysis.measure.name,
-                level=level,
-                scale_factor=scale_factor,
-                members=ratios.size,
-                rotation_ratio_median=rotation_ratio_median,
-                overturning_share=overturning_share,
-                governing_overturning_share=governing_overturning_share,
-            )
+    """Yield a row for each record and level that it reaches within the largest factor."""
+    for place, record in enumerate(records):
+        for step, _ in enumerate(analysis.levels):
+            scaled = ScaledRecord(structure, record, analysis, place, step)
+            if not np.isnan(scaled.rotation_ratios).all():
+                yield IdaRow.of(scaled)
+
+
+@dataclass(frozen=True)
+class DrawnCurve(Named):
+    """The curve of one structure. governing: whether it is that of the worst of the cracks that may form."""
+
+    curve: Fragility
+    governing: bool
+
+    def reaching(self, place: int) -> int:
+        """Return how many stations have a record that reaches the level at `place` within the largest factor."""
+        tried = np.isfinite(self.curve.exceedance[:, place])
+        return len({name for name, each in zip(self.curve.stations, tried, strict=True) if each})
+
+
+D = TypeVar("D", bound=DrawnCurve)
+of_curve = Columns(DrawnCurve)
+
+
+@row()
+class CurveRow(StructureNameRow[D]):
+    """A row about the curve of a structure: for which crack, intensity measure and rotation it holds."""
+
+    governing: bool = of_curve(
+        "Whether the worst crack that may form counts, not that of statics", lambda of: of.governing
+    )
+    intensity_measure: str = of_curve(_MEASURE, lambda of: of.curve.measure)
+    threshold: float = of_curve(
+        "Rotation over critical rotation that is exceeded; INF: overturning", lambda of: of.curve.threshold
+    )
+
+
+@dataclass(frozen=True)
+class CurvePoint(DrawnCurve):
+    """One level of a curve. place: of the level."""
+
+    place: int
+
+
+of_point = Columns(CurvePoint)
+
+
+@row("fragility")
+class FragilityRow(CurveRow[CurvePoint]):
+    """One row per structure, rotation that is exceeded and level: the curves with 90 % intervals."""
+
+    level: float = of_point("Level of the intensity measure", lambda of: float(of.curve.levels[of.place]))
+    stations: int = of_point(
+        "Number of stations whose records reach the level within the largest factor",
+        lambda of: of.reaching(of.place),
+    )
+    probability: float = of_point(
+        "Share of the stations that exceed the rotation", lambda of: float(of.curve.probability[of.place])
+    )
+    probability_low: float = of_point(
+        "Lower end of the 90 % interval of the probability",
+        lambda of: float(of.curve.probability_low[of.place]),
+    )
+    probability_high: float = of_point(
+        "Upper end of the 90 % interval of the probability",
+        lambda of: float(of.curve.probability_high[of.place]),
+    )
+    lognormal: float = of_point(
+        "Probability by the lognormal curve of maximum likelihood",
+        lambda of: float(of.curve.lognormal[of.place]),
+    )
 
 
 def fragility_rows(structure: str, curve: Fragility, governing: bool) -> Iterator[FragilityRow]:
     """Yield a row for each level. governing: whether it is the curve with the worst of the cracks that may form."""
-    tried = np.isfinite(curve.exceedance)
-    for place, level in enumerate(curve.levels.tolist()):
-        reaching = {name for name, each in zip(curve.stations, tried[:, place], strict=True) if each}
-        yield FragilityRow(
-            structure=structure,
-            governing=governing,
-            intensity_measure=curve.measure,
-            threshold=curve.threshold,
-            level=level,
-            stations=len(reaching),
-            probability=float(curve.probability[place]),
-            probability_low=float(curve.probability_low[place]),
-            probability_high=float(curve.probability_high[place]),
-            lognormal=float(curve.lognormal[place]),
-        )
+    for place, _ in enumerate(curve.levels):
+        yield FragilityRow.of(CurvePoint(structure, curve, governing, place))
 
 
-def fragility_summary_row(
-    structure: str, curve: Fragility, governing: bool, hazard: Sequence[HazardRow] | None
-) -> FragilitySummaryRow:
-    """Return what a curve comes down to. hazard: of its intensity measure."""
-    rates = annual_rate(curve, hazard) if hazard else {}
-    records = len(curve.stations)  # the station of each is named
-    at_the_top = np.isfinite(curve.exceedance[:, -1])
-    reaching = {name for name, each in zip(curve.stations, at_the_top, strict=True) if each}
-    stations_out = curve.independent - len(reaching)
-    median_low, median_high = curve.interval
-    reversals = int((curve.reversals > 0).sum())
-    largest = math.nan
-    if curve.analysis is not None:
-        factors = curve.levels / curve.analysis.intensities[:, None]
-        largest = float(factors[np.isfinite(curve.exceedance)].max())
-    return FragilitySummaryRow(
-        structure=structure,
-        governing=governing,
-        intensity_measure=curve.measure,
-        threshold=curve.threshold,
-        records=records,
-        stations=curve.independent,
-        stations_out=stations_out,
-        largest_scale_factor=largest,
-        median=curve.median,
-        median_low=median_low,
-        median_high=median_high,
-        lognormal_median=curve.lognormal_median,
-        dispersion=curve.dispersion,
-        misfit=curve.misfit,
-        reversals=reversals,
-        annual_rate=rates.get("annual_rate", math.nan),
-        annual_rate_low=rates.get("annual_rate_low", math.nan),
-        annual_rate_high=rates.get("annual_rate_high", math.nan),
-        annual_rate_remainder=rates.get("annual_rate_remainder", math.nan),
+@dataclass(frozen=True)
+class SummarisedCurve(DrawnCurve):
+    """One curve with the hazard curve of its intensity measure, where there is one."""
+
+    hazard: Sequence[HazardRow] | None
+
+    @cached_property
+    def rate(self) -> AnnualRate | None:
+        """The annual rate of exceedance; None without a hazard curve."""
+        return annual_rate(self.curve, self.hazard) if self.hazard else None
+
+    @property
+    def largest_scale_factor(self) -> float:
+        """The largest factor on a record that was used; nan of outcomes alone."""
+        if self.curve.analysis is None:
+            return math.nan
+        factors = self.curve.levels / self.curve.analysis.intensities[:, None]
+        return float(factors[np.isfinite(self.curve.exceedance)].max())
+
+
+of_summary = Columns(SummarisedCurve)
+
+
+@row("fragility_summary")
+class FragilitySummaryRow(CurveRow[SummarisedCurve]):
+    """One row per structure and rotation that is exceeded: what its curve comes down to."""
+
+    records: int = of_summary("Number of records", lambda of: len(of.curve.stations))
+    stations: int = of_summary("Number of stations", lambda of: of.curve.independent)
+    stations_out: int = of_summary(
+        "Number of stations that do not reach the highest level within the largest factor",
+        lambda of: of.curve.independent - of.reaching(-1),
+    )
+    largest_scale_factor: float = of_summary(
+        "Largest factor on a record that was used", lambda of: of.largest_scale_factor
+    )
+    median: float = of_summary(
+        "Level at which the empirical curve crosses one half; INF: it does not", lambda of: of.curve.median
+    )
+    median_low: float = of_summary(
+        "Lower end of the 90 % interval of the median, by resampling stations",
+        lambda of: of.curve.interval[0],
+    )
+    median_high: float = of_summary(
+        "Upper end of the 90 % interval of the median; INF: none at the levels tried",
+        lambda of: of.curve.interval[1],
+    )
+    lognormal_median: float = of_summary(
+        "Median of the lognormal curve, for those who need two parameters",
+        lambda of: of.curve.lognormal_median,
+    )
+    dispersion: float = of_summary(
+        "Standard deviation of the logarithm, lognormal curve", lambda of: of.curve.dispersion
+    )
+    misfit: float = of_summary(
+        "Largest distance of the lognormal from the empirical curve", lambda of: of.curve.misfit
+    )
+    reversals: int = of_summary(
+        "Number of records that, scaled up, let the structure stand again",
+        lambda of: int((of.curve.reversals > 0).sum()),
+    )
+    annual_rate: float = of_summary(
+        "Annual rate of exceedance; empty without a hazard curve",
+        lambda of: of.rate.value if of.rate else math.nan,
+        unit="1/year",
+    )
+    annual_rate_low: float = of_summary(
+        "Lower end of the 90 % interval of the rate, by stations",
+        lambda of: of.rate.low if of.rate else math.nan,
+        unit="1/year",
+    )
+    annual_rate_high: float = of_summary(
+        "Upper end of the 90 % interval of the rate, by stations",
+        lambda of: of.rate.high if of.rate else math.nan,
+        unit="1/year",
+    )
+    annual_rate_remainder: float = of_summary(
+        "Most that the rate may lack beyond both curves",
+        lambda of: of.rate.remainder if of.rate else math.nan,
+        unit="1/year",
+    )
+
+
+@dataclass(frozen=True)
+class ExplainedOverturning(Named):
+    """One intensity measure, and one other figure of the record, that may explain which records overturn a structure.
+
+    stations: of the records that have both.
+    """
+
+    measure: IntensityMeasure
+    figure: str
+    stations: Sequence[str]
+    explanation: Explanation
+
+
+of_explained = Columns(ExplainedOverturning)
+
+
+@row("intensity_measures")
+class IntensityMeasureRow(StructureNameRow[ExplainedOverturning]):
+    """One row per structure, intensity measure and other figure of the record: what explains overturning."""
+
+    intensity_measure: str = of_explained(_MEASURE, lambda of: of.measure.name)
+    efficiency: float = of_explained(
+        "Dispersion of the level that overturns: standard deviation of its logarithm",
+        lambda of: of.explanation.efficiency,
+    )
+    figure: str = of_explained(
+        "Figure of the record that may say more: PGV/PGA, magnitude or ln of the distance",
+        lambda of: of.figure,
+    )
+    records: int = of_explained(
+        "Number of records with the measure and the figure", lambda of: len(of.stations)
+    )
+    stations: int = of_explained("Number of stations", lambda of: len(set(of.stations)))
+    slope: float = of_explained(
+        "Change of the logarithm of that level for one standard deviation of the figure",
+        lambda of: of.explanation.slope,
+    )
+    p_value: float = of_explained(
+        "p-value of no change; below 0.05 the measure does not suffice", lambda of: of.explanation.p_value
+    )
+    power: float = of_explained(
+        "Share of samples of as many stations that would show such a slope at 5 %",
+        lambda of: of.explanation.power,
     )
 
 
@@ -319,21 +440,12 @@ def intensity_measure_rows(
         for figure, values in _figures(records).items():
             both = np.isfinite(logs) & np.isfinite(values)
             stations = np.array(analysis.stations)[both].tolist()
-            records_with_both = len(stations)
             if len(set(stations)) < 2:
                 continue
             levels = logs[both, None] + factors[both]
             explained = explanation(levels, falls[both], values[both], stations)
-            yield IntensityMeasureRow(
-                structure=structure,
-                intensity_measure=measure.name,
-                efficiency=explained["efficiency"],
-                figure=figure,
-                records=records_with_both,
-                stations=len(set(stations)),
-                slope=explained.get("slope", math.nan),
-                p_value=explained.get("p_value", math.nan),
-                power=explained.get("power", math.nan),
+            yield IntensityMeasureRow.of(
+                ExplainedOverturning(structure, measure, figure, stations, explained)
             )
 
 

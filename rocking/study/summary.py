@@ -192,9 +192,9 @@ def write_fragility(
         for threshold in rows.ROTATION_RATIOS:
             for governing in (True, False) if analysis.governing_ratios is not None else (False,):
                 curve = analysis.fragility(threshold, governing=governing)
-                row = rows.fragility_summary_row(name, curve, governing, hazard)
+                summarised = rows.SummarisedCurve(name, curve, governing, hazard)
                 tables[rows.FragilityRow] += rows.fragility_rows(name, curve, governing)
-                tables[rows.FragilitySummaryRow].append(row)
+                tables[rows.FragilitySummaryRow].append(rows.FragilitySummaryRow.of(summarised))
         try:
             mechanism = structure.mechanism()
             of_measures = list(rows.intensity_measure_rows(name, mechanism, accelerograms, analysis))

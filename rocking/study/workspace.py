@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import chain
 from pathlib import Path
 
@@ -19,7 +19,7 @@ from rocking.structures import Structure, load_structures
 from rocking.study.job import Study, assess_catalogued, rows_of, write_report
 from rocking.study.plan import settings_sha256, workflow_folder
 from rocking.study.settings import Settings, commented_yaml
-from rocking.tables import write_tables, write_whole
+from rocking.tables import Row, write_tables, write_whole
 
 
 def start(folder: Path) -> list[Path]:
@@ -116,7 +116,10 @@ def assess_file(
     rows = rows_of(result, record, study)
     if output is not None:
         write_report(result, rows, study, output / record.id)
-        tables = {StructureRow: structure_rows(chosen), CapacityRow: capacity_rows(chosen)}
+        tables: dict[type[Row], Iterable[Row]] = {
+            StructureRow: structure_rows(chosen),
+            CapacityRow: capacity_rows(chosen),
+        }
         write_tables(tables, output / "summary")
     lines = [line for station in result.worst_first for line in _told(station, record.scale_factor)]
     return lines + [f"not assessed: {each.structure or each.stage}: {each.message}" for each in rows.failures]

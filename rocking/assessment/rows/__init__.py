@@ -28,10 +28,14 @@ from rocking.assessment.rows.of_study import AGREEMENT_COLUMNS as AGREEMENT_COLU
 from rocking.assessment.rows.of_study import SUMMARY_TABLES as SUMMARY_TABLES
 from rocking.assessment.rows.of_study import AgreementRow as AgreementRow
 from rocking.assessment.rows.of_study import CapacityRow as CapacityRow
+from rocking.assessment.rows.of_study import Named as Named
 from rocking.assessment.rows.of_study import SpectrumRow as SpectrumRow
+from rocking.assessment.rows.of_study import StructureNameRow as StructureNameRow
 from rocking.assessment.rows.of_study import StructureRow as StructureRow
+from rocking.assessment.rows.of_study import TimedAnswer as TimedAnswer
 from rocking.assessment.rows.of_study import TradeMethod as TradeMethod
 from rocking.assessment.rows.of_study import TradeRow as TradeRow
+from rocking.assessment.rows.of_study import TriedMethod as TriedMethod
 from rocking.assessment.rows.of_study import agreement_rows as agreement_rows
 from rocking.assessment.rows.of_study import capacity_rows as capacity_rows
 from rocking.assessment.rows.of_study import spectrum_rows as spectrum_rows

@@ -1,22 +1,27 @@
 """Rows about a whole study: its structures, their blocks, its counts, its spectrum and what accuracy costs."""
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from enum import StrEnum
+from functools import cached_property
 from itertools import product
-from typing import TYPE_CHECKING
+from statistics import median
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
 from rocking.assessment.rows import of_record as rows
 from rocking.assessment.rows.meanings import COMPONENT, RECORD_SHA256, SCALE_FACTOR, STRUCTURE
+from rocking.assessment.verdict import Agreement, agreement, ratio, rests
 from rocking.records import Accelerogram
-from rocking.structures import Structure
-from rocking.tables import Row, column, row
+from rocking.structures import Mechanism, Side, Structure
+from rocking.structures.capacity import CapacityCurve
+from rocking.structures.equivalent_block import BlockDefects, EquivalentBlock, Scale
+from rocking.tables import Columns, Row, RowOf, row
 
 if TYPE_CHECKING:
-    from pandas import DataFrame
+    from pandas import DataFrame, Series
 
 _P = "p of the equivalent block linearised about the critical rotation"
 _ETA = "Ratio of angular velocities after and before an impact"
@@ -24,116 +29,152 @@ CAPACITY_POINTS = 21
 """Rotations of a capacity curve, from rest to the critical one."""
 
 
+@dataclass(frozen=True)
+class Named:
+    """Anything about one structure of the list, whatever the records. structure: its name."""
+
+    structure: str
+
+
+N = TypeVar("N", bound=Named)
+of_named = Columns(Named)
+
+
+@row()
+class StructureNameRow(RowOf[N]):
+    """A row about one structure of the list."""
+
+    structure: str = of_named(STRUCTURE, lambda named: named.structure)
+
+
+@dataclass(frozen=True)
+class ListedStructure(Named):
+    """One structure of the list."""
+
+    body: Structure
+
+    @cached_property
+    def mechanism(self) -> Mechanism:
+        """Its mechanism."""
+        return self.body.mechanism()
+
+    @property
+    def side(self) -> Side | None:
+        """The positive side; None where it cannot overturn to it."""
+        return self.mechanism.positive if self.mechanism.positive.can_overturn else None
+
+    @property
+    def defects(self) -> BlockDefects | None:
+        """The distance of its block from the mechanism; None where it has no block."""
+        return self.mechanism.block_defects if self.side else None
+
+    def block(self, scale: Scale) -> EquivalentBlock | None:
+        """Return its equivalent block; None where it has none, as what cannot overturn."""
+        return self.mechanism.equivalent_block(scale) if self.side else None
+
+    def of_block(self, scale: Scale, read: Callable[[EquivalentBlock], float]) -> float:
+        """Return a figure of its equivalent block; nan where it has none."""
+        block = self.block(scale)
+        return read(block) if block else math.nan
+
+
+of_listed = Columns(ListedStructure)
+
+
 @row("structures")
-class StructureRow(Row):
+class StructureRow(StructureNameRow[ListedStructure]):
     """One row per structure: its mechanism and its equivalent block."""
 
-    structure: str = column(STRUCTURE)
-    type: str = column("Type of the structure, as in the structure list")
-    geometry: str = column("Sizes of the structure with their units")
-    crack: str = column("Hinge or crack, whose place is open; empty where none is")
-    frequency_parameter_rad_s: float = column(_P, equation="Eq. 11")
-    frequency_parameter_at_rest_rad_s: float = column(
-        "p of the block exact at rest, which predicts unless the settings name another one"
+    type: str = of_listed("Type of the structure, as in the structure list", lambda of: of.body.type_name)
+    geometry: str = of_listed("Sizes of the structure with their units", lambda of: of.body.description)
+    crack: str = of_listed(
+        "Hinge or crack, whose place is open; empty where none is", lambda of: of.body.crack_name
     )
-    critical_rotation_rad: float = column("Critical rotation; empty to a side it cannot overturn to")
-    uplift_multiplier: float = column("Uplift acceleration in g", equation="Eq. 7")
-    static_multiplier: float = column("Least uplift acceleration in g over all cracks")
-    acceleration_scale_linearised: float = column("Scale a_sc of the linearised block", equation="Eq. 11")
-    acceleration_scale_uplift: float = column("Scale a_sc,alt of the true uplift", equation="Eq. 13")
-    linearised_over_true_uplift: float = column("Uplift acceleration over the true one", equation="Eq. 12")
-    restitution: float = column(_ETA, equation="Eq. 2")
-    restoring_defect: float = column("Largest error of the block's restoring force, relative")
-    forcing_defect: float = column("Growth of the forcing up to φ_cr; unsafe where above 0")
-
-
-@row("capacity")
-class CapacityRow(Row):
-    """One row per structure, side and rotation: the static load multiplier against displacement."""
-
-    structure: str = column(STRUCTURE)
-    side: str = column("Side of the rotation: positive or negative")
-    rotation_rad: float = column("Rotation")
-    multiplier: float = column("Horizontal acceleration in g that holds the balance", equation="G/B")
-    displacement_m: float = column("Displacement of the corner that moves farthest sideways")
-    effective_displacement_m: float = column("Displacement d* = d_k Σ P δ²/(δ_k Σ P δ)")
-    participating_mass_ratio: float = column("Mass ratio e* = (Σ P δ)²/(Σ P · Σ P δ²)")
-
-
-@row("agreement")
-class AgreementRow(Row):
-    """One row per structure and one for all: the closed form under the dominant pulse against the full integration."""
-
-    structure: str = column("Name of the structure in the structure list; empty for all together")
-    records: int = column("Number of records")
-    cases: int = column("Number of cases with a prediction and an integration")
-    both_rock: int = column("Number of cases in which both rock")
-    within_factor_two: int = column("Number of these with a ratio between 1/2 and 2")
-    median_ratio: float = column("Median of predicted over integrated rotation where both rock")
-    overturning: int = column("Number of cases that overturn in the integration")
-    overturning_hits: int = column("Number of these that overturn in the closed form")
-    overturning_misses: int = column("Number of these that stand in the closed form")
-    overturning_false_alarms: int = column("Number of cases that overturn in the closed form alone")
-
-
-@row("spectrum")
-class SpectrumRow(Row):
-    """One row per component and equivalent block under the whole record; written by rocking spectrum."""
-
-    component: str = column(COMPONENT)
-    frequency_parameter_rad_s: float = column(_P, equation="Eq. 11")
-    uplift_multiplier: float = column("Uplift acceleration of the equivalent block in g", equation="Eq. 12")
-    restitution: float = column(_ETA, equation="Eq. 2")
-    rotation_ratio: float = column("Largest rotation over critical rotation; INF if it overturns")
-    scale_factor: float = column(SCALE_FACTOR)
-    record_sha256: str = column(RECORD_SHA256)
+    frequency_parameter_rad_s: float = of_listed(
+        _P, lambda of: of.side.frequency_parameter if of.side else math.nan, equation="Eq. 11"
+    )
+    frequency_parameter_at_rest_rad_s: float = of_listed(
+        "p of the block exact at rest, which predicts unless the settings name another one",
+        lambda of: of.of_block("rest", lambda block: block.frequency_parameter),
+    )
+    critical_rotation_rad: float = of_listed(
+        "Critical rotation; empty to a side it cannot overturn to",
+        lambda of: of.side.critical_rotation if of.side else math.nan,
+    )
+    uplift_multiplier: float = of_listed(
+        "Uplift acceleration in g", lambda of: of.mechanism.uplift_multiplier, equation="Eq. 7"
+    )
+    static_multiplier: float = of_listed(
+        "Least uplift acceleration in g over all cracks", lambda of: of.body.static_multiplier
+    )
+    acceleration_scale_linearised: float = of_listed(
+        "Scale a_sc of the linearised block",
+        lambda of: of.of_block("linearised", lambda block: block.acceleration_scale),
+        equation="Eq. 11",
+    )
+    acceleration_scale_uplift: float = of_listed(
+        "Scale a_sc,alt of the true uplift",
+        lambda of: of.of_block("uplift", lambda block: block.acceleration_scale),
+        equation="Eq. 13",
+    )
+    linearised_over_true_uplift: float = of_listed(
+        "Uplift acceleration over the true one",
+        lambda of: (
+            of.of_block("linearised", lambda block: block.uplift_multiplier)
+            / of.mechanism.positive.uplift_multiplier
+        ),
+        equation="Eq. 12",
+    )
+    restitution: float = of_listed(_ETA, lambda of: of.mechanism.positive.restitution, equation="Eq. 2")
+    restoring_defect: float = of_listed(
+        "Largest error of the block's restoring force, relative",
+        lambda of: of.defects.restoring if of.defects else math.nan,
+    )
+    forcing_defect: float = of_listed(
+        "Growth of the forcing up to φ_cr; unsafe where above 0",
+        lambda of: of.defects.forcing if of.defects else math.nan,
+    )
 
 
 def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow]:
     """Yield the row of each structure."""
-    for name, structure in structures.items():
-        held = _held_row(name, structure)
-        mechanism = structure.mechanism()
-        side = mechanism.positive
-        if not side.can_overturn:
-            yield held
-            continue
-        at_rest = mechanism.equivalent_block("rest")
-        linearised = mechanism.equivalent_block("linearised")
-        uplift = mechanism.equivalent_block("uplift")
-        yield replace(
-            held,
-            frequency_parameter_rad_s=side.frequency_parameter,
-            frequency_parameter_at_rest_rad_s=at_rest.frequency_parameter,
-            critical_rotation_rad=side.critical_rotation,
-            acceleration_scale_linearised=linearised.acceleration_scale,
-            acceleration_scale_uplift=uplift.acceleration_scale,
-            linearised_over_true_uplift=linearised.uplift_multiplier / side.uplift_multiplier,
-            restoring_defect=mechanism.block_defects.restoring,
-            forcing_defect=mechanism.block_defects.forcing,
-        )
+    for each in structures.items():
+        yield StructureRow.of(ListedStructure(*each))
 
 
-def _held_row(name: str, structure: Structure) -> StructureRow:
-    """Return the row of a structure without the figures of its equivalent block, which only what overturns has."""
-    mechanism = structure.mechanism()
-    geometry = structure.description
-    return StructureRow(
-        structure=name,
-        type=structure.type_name,
-        geometry=geometry,
-        crack=structure.crack_name,
-        frequency_parameter_rad_s=math.nan,
-        frequency_parameter_at_rest_rad_s=math.nan,
-        critical_rotation_rad=math.nan,
-        uplift_multiplier=mechanism.uplift_multiplier,
-        static_multiplier=structure.static_multiplier,
-        acceleration_scale_linearised=math.nan,
-        acceleration_scale_uplift=math.nan,
-        linearised_over_true_uplift=math.nan,
-        restitution=mechanism.positive.restitution,
-        restoring_defect=math.nan,
-        forcing_defect=math.nan,
+@dataclass(frozen=True)
+class CapacityPoint(Named):
+    """One point of the capacity curve of one side. place: its place on the curve."""
+
+    side: str
+    curve: CapacityCurve
+    place: int
+
+
+of_point = Columns(CapacityPoint)
+
+
+@row("capacity")
+class CapacityRow(StructureNameRow[CapacityPoint]):
+    """One row per structure, side and rotation: the static load multiplier against displacement."""
+
+    side: str = of_point("Side of the rotation: positive or negative", lambda at: at.side)
+    rotation_rad: float = of_point("Rotation", lambda at: float(at.curve.rotation[at.place]))
+    multiplier: float = of_point(
+        "Horizontal acceleration in g that holds the balance",
+        lambda at: float(at.curve.multiplier[at.place]),
+        equation="G/B",
+    )
+    displacement_m: float = of_point(
+        "Displacement of the corner that moves farthest sideways",
+        lambda at: float(at.curve.displacement[at.place]),
+    )
+    effective_displacement_m: float = of_point(
+        "Displacement d* = d_k Σ P δ²/(δ_k Σ P δ)",
+        lambda at: float(at.curve.effective_displacement[at.place]),
+    )
+    participating_mass_ratio: float = of_point(
+        "Mass ratio e* = (Σ P δ)²/(Σ P · Σ P δ²)", lambda at: at.curve.participating_mass_ratio
     )
 
 
@@ -143,23 +184,8 @@ def capacity_rows(structures: Mapping[str, Structure]) -> Iterator[CapacityRow]:
         both = {"positive": 1, "negative": -1}
         for side, sign in list(both.items())[: len(structure.mechanism().sides)]:
             curve = structure.capacity_curve(sign, CAPACITY_POINTS)
-            points = zip(
-                curve.rotation.tolist(),
-                curve.multiplier.tolist(),
-                curve.displacement.tolist(),
-                curve.effective_displacement.tolist(),
-                strict=True,
-            )
-            for rotation, multiplier, displacement, effective_displacement in points:
-                yield CapacityRow(
-                    structure=name,
-                    side=side,
-                    rotation_rad=rotation,
-                    multiplier=multiplier,
-                    displacement_m=displacement,
-                    effective_displacement_m=effective_displacement,
-                    participating_mass_ratio=curve.participating_mass_ratio,
-                )
+            for place in range(curve.rotation.size):
+                yield CapacityRow.of(CapacityPoint(name, side, curve, place))
 
 
 AGREEMENT_COLUMNS = (
@@ -170,7 +196,68 @@ AGREEMENT_COLUMNS = (
     "prediction_over_integration",
     "within_factor_two",
 )
-"""The columns that `agreement_rows` needs of the comparison table."""
+"""The columns of the comparison table that are counted."""
+
+
+@dataclass(frozen=True, eq=False)
+class CountedCases:
+    """The cases of one structure ("": of all) that have both ratios, from the comparison table as a data frame."""
+
+    structure: str
+    cases: "DataFrame"
+
+    @property
+    def predicted(self) -> "Series":
+        """Whether each overturns in the closed form."""
+        return np.isinf(self.cases["predicted_rotation_ratio"])
+
+    @property
+    def integrated(self) -> "Series":
+        """Whether each overturns in the integration."""
+        return np.isinf(self.cases["integrated_rotation_ratio"])
+
+    @property
+    def ratios(self) -> "Series":
+        """Predicted over integrated rotation of each; nan where one of them does not rock."""
+        return self.cases["prediction_over_integration"]
+
+
+of_cases = Columns(CountedCases)
+
+
+@row("agreement")
+class AgreementRow(RowOf[CountedCases]):
+    """One row per structure and one for all: the closed form under the dominant pulse against the full integration."""
+
+    structure: str = of_cases(
+        "Name of the structure in the structure list; empty for all together", lambda of: of.structure
+    )
+    records: int = of_cases("Number of records", lambda of: int(of.cases["record"].nunique()))
+    cases: int = of_cases("Number of cases with a prediction and an integration", lambda of: len(of.cases))
+    both_rock: int = of_cases("Number of cases in which both rock", lambda of: int(of.ratios.count()))
+    within_factor_two: int = of_cases(
+        "Number of these with a ratio between 1/2 and 2",
+        lambda of: int(of.cases["within_factor_two"].sum()),
+    )
+    median_ratio: float = of_cases(
+        "Median of predicted over integrated rotation where both rock",
+        lambda of: float(of.ratios.median()),
+    )
+    overturning: int = of_cases(
+        "Number of cases that overturn in the integration", lambda of: int(of.integrated.sum())
+    )
+    overturning_hits: int = of_cases(
+        "Number of these that overturn in the closed form",
+        lambda of: int((of.predicted & of.integrated).sum()),
+    )
+    overturning_misses: int = of_cases(
+        "Number of these that stand in the closed form",
+        lambda of: int((of.integrated & ~of.predicted).sum()),
+    )
+    overturning_false_alarms: int = of_cases(
+        "Number of cases that overturn in the closed form alone",
+        lambda of: int((of.predicted & ~of.integrated).sum()),
+    )
 
 
 def agreement_rows(comparison: "DataFrame") -> Iterator[AgreementRow]:
@@ -178,27 +265,40 @@ def agreement_rows(comparison: "DataFrame") -> Iterator[AgreementRow]:
     ratios = comparison[["predicted_rotation_ratio", "integrated_rotation_ratio"]]
     compared = comparison[ratios.notna().all(axis="columns")]
     for structure, cases in [("", compared), *compared.groupby("structure", sort=False)]:
-        predicted, integrated = np.isinf(cases[list(ratios)].to_numpy()).T
-        overturning_hits = int((predicted & integrated).sum())
-        overturning_misses = int((integrated & ~predicted).sum())
-        overturning_false_alarms = int((predicted & ~integrated).sum())
-        where_both_rock = cases["prediction_over_integration"]
-        records = cases["record"].nunique()
-        both_rock = int(where_both_rock.count())
-        within_factor_two = int(cases["within_factor_two"].sum())
-        overturning = int(integrated.sum())
-        yield AgreementRow(
-            structure=str(structure),
-            records=records,
-            cases=len(cases),
-            both_rock=both_rock,
-            within_factor_two=within_factor_two,
-            median_ratio=float(where_both_rock.median()),
-            overturning=overturning,
-            overturning_hits=overturning_hits,
-            overturning_misses=overturning_misses,
-            overturning_false_alarms=overturning_false_alarms,
-        )
+        yield AgreementRow.of(CountedCases(str(structure), cases))
+
+
+@dataclass(frozen=True)
+class BlockUnderRecord:
+    """One equivalent block under one component of a whole record."""
+
+    accelerogram: Accelerogram
+    frequency_parameter: float
+    uplift_multiplier: float
+    restitution: float
+    rotation_ratio: float
+
+
+of_spectrum = Columns(BlockUnderRecord)
+
+
+@row("spectrum")
+class SpectrumRow(RowOf[BlockUnderRecord]):
+    """One row per component and equivalent block under the whole record; written by rocking spectrum."""
+
+    component: str = of_spectrum(COMPONENT, lambda of: of.accelerogram.component)
+    frequency_parameter_rad_s: float = of_spectrum(_P, lambda of: of.frequency_parameter, equation="Eq. 11")
+    uplift_multiplier: float = of_spectrum(
+        "Uplift acceleration of the equivalent block in g",
+        lambda of: of.uplift_multiplier,
+        equation="Eq. 12",
+    )
+    restitution: float = of_spectrum(_ETA, lambda of: of.restitution, equation="Eq. 2")
+    rotation_ratio: float = of_spectrum(
+        "Largest rotation over critical rotation; INF if it overturns", lambda of: of.rotation_ratio
+    )
+    scale_factor: float = of_spectrum(SCALE_FACTOR, lambda of: of.accelerogram.scale_factor)
+    record_sha256: str = of_spectrum(RECORD_SHA256, lambda of: of.accelerogram.source.sha256)
 
 
 def spectrum_rows(
@@ -213,16 +313,8 @@ def spectrum_rows(
     for accelerogram in accelerograms:
         ratios = rocking_spectrum(accelerogram, frequency_parameters, uplift_multipliers, restitution)
         blocks = product(frequency_parameters.tolist(), uplift_multipliers.tolist())
-        for (frequency, multiplier), ratio in zip(blocks, np.ravel(ratios).tolist(), strict=True):
-            yield SpectrumRow(
-                component=accelerogram.component,
-                frequency_parameter_rad_s=frequency,
-                uplift_multiplier=multiplier,
-                restitution=restitution,
-                rotation_ratio=ratio,
-                scale_factor=accelerogram.scale_factor,
-                record_sha256=accelerogram.source.sha256,
-            )
+        for block, rotation_ratio in zip(blocks, np.ravel(ratios).tolist(), strict=True):
+            yield SpectrumRow.of(BlockUnderRecord(accelerogram, *block, restitution, rotation_ratio))
 
 
 SUMMARY_TABLES: tuple[type[Row], ...] = (
@@ -256,19 +348,84 @@ class TradeMethod(StrEnum):
     """The mechanism with its uncertain inputs; its rotation is the median of the members."""
 
 
+@dataclass(frozen=True)
+class TimedAnswer:
+    """The answer of one method to one record beside the reference: largest rotations over the critical one, and times.
+
+    cpu: of the response, s. preparation: of the search for the record's pulses, s.
+    """
+
+    rotation_ratio: float
+    reference: float
+    cpu: float
+    preparation: float
+
+
+@dataclass(frozen=True)
+class TriedMethod:
+    """One method with its answers for one structure ("": for all)."""
+
+    method: TradeMethod
+    structure: str
+    answers: Sequence[TimedAnswer]
+
+    @cached_property
+    def moving(self) -> list[tuple[float, float]]:
+        """Answer and reference of the cases in which one of the two does not rest."""
+        pairs = [(each.rotation_ratio, each.reference) for each in self.answers]
+        return [pair for pair in pairs if not all(map(rests, pair))]
+
+    @cached_property
+    def errors(self) -> list[float]:
+        """Relative errors of the rotation where both rock."""
+        ratios = [ratio(*pair) for pair in self.moving]
+        return [abs(each - 1) for each in ratios if not math.isnan(each)]
+
+    @cached_property
+    def agreements(self) -> list[Agreement]:
+        """The outcome of each of these cases against that of the reference."""
+        return [agreement(*pair) for pair in self.moving]
+
+
+of_tried = Columns(TriedMethod)
+
+
 @row("trade")
-class TradeRow(Row):
+class TradeRow(RowOf[TriedMethod]):
     """One row per method and structure, and one of all structures: error and time of one response.
 
     The reference is the mechanism at a tolerance of 1e-12.
     """
 
-    method: TradeMethod = column("Method")
-    structure: str = column("Name of the structure; empty: all structures together")
-    cases: int = column("Records in which the method has an answer, and it or the reference does not rest")
-    error: float = column("Median relative error of the largest rotation where method and reference rock")
-    error_high: float = column("95 % quantile of that error")
-    wrong_verdicts: int = column("Cases that rest, rock or overturn otherwise than the reference")
-    unsafe_verdicts: int = column("Those in which the method says less than the reference")
-    cpu_s: float = column("Processor time of one response, median, with all preparations at hand")
-    preparation_record_s: float = column("Processor time once for each record, median: search for its pulses")
+    method: TradeMethod = of_tried("Method", lambda of: of.method)
+    structure: str = of_tried(
+        "Name of the structure; empty: all structures together", lambda of: of.structure
+    )
+    cases: int = of_tried(
+        "Records in which the method has an answer, and it or the reference does not rest",
+        lambda of: len(of.moving),
+    )
+    error: float = of_tried(
+        "Median relative error of the largest rotation where method and reference rock",
+        lambda of: median(of.errors) if of.errors else math.nan,
+    )
+    error_high: float = of_tried(
+        "95 % quantile of that error",
+        lambda of: float(np.quantile(of.errors, 0.95)) if of.errors else math.nan,
+    )
+    wrong_verdicts: int = of_tried(
+        "Cases that rest, rock or overturn otherwise than the reference",
+        lambda of: sum(each is not Agreement.SAME for each in of.agreements),
+    )
+    unsafe_verdicts: int = of_tried(
+        "Those in which the method says less than the reference",
+        lambda of: of.agreements.count(Agreement.TOO_LOW),
+    )
+    cpu_s: float = of_tried(
+        "Processor time of one response, median, with all preparations at hand",
+        lambda of: median(each.cpu for each in of.answers),
+    )
+    preparation_record_s: float = of_tried(
+        "Processor time once for each record, median: search for its pulses",
+        lambda of: median(each.preparation for each in of.answers),
+    )

@@ -278,8 +278,8 @@ def test_the_rate_is_that_of_the_closed_form():
     rates = annual_rate(curve, _points(levels[[0, -1]], scale * levels[[0, -1]] ** -slope))
     exact = scale * median**-slope * math.exp(slope**2 * dispersion**2 / 2)
     # Steps of 2 % in the level, half a step of lag in a curve that is counted: 2.5 x 1 % of the rate.
-    assert rates["annual_rate"] == pytest.approx(exact, rel=0.03)
-    assert rates["annual_rate_low"] < rates["annual_rate"] < rates["annual_rate_high"]
+    assert rates.value == pytest.approx(exact, rel=0.03)
+    assert rates.low < rates.value < rates.high
 
 
 @pytest.mark.parametrize("slope", [1.5, 2.5, 3.5])
@@ -324,13 +324,13 @@ def test_what_curve_and_hazard_leave_out_is_said():
     points = _points([0.5, 8.0], [0.16, 0.01])  # rate 0.08/x
     rates = annual_rate(curve, points)
     # above 2.0 there occurs 0.04 a year, of which the curve counts a half; the steps of the integral are 0.7 %
-    assert rates["annual_rate_remainder"] == pytest.approx(0.02, rel=0.02)
+    assert rates.remainder == pytest.approx(0.02, rel=0.02)
     # the same where the hazard curve ends at the last level: all that is rarer occurs beyond it
     ended = annual_rate(curve, _points([0.5, 2.0], [0.16, 0.04]))
-    assert ended["annual_rate_remainder"] == pytest.approx(0.02, rel=1e-9)
+    assert ended.remainder == pytest.approx(0.02, rel=1e-9)
     falling = fragility_of(np.array([0.1, 0.2]), np.ones((4, 2)), list("abcd"))
     # between 0.1 and 0.5, which the hazard curve does not reach, there occurs 0.8 − 0.16
-    assert annual_rate(falling, points)["annual_rate_remainder"] == pytest.approx(0.64, rel=0.02)
+    assert annual_rate(falling, points).remainder == pytest.approx(0.64, rel=0.02)
 
 
 def test_of_statics_or_of_what_governs_as_it_is_asked():
