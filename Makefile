@@ -51,7 +51,7 @@ test-runs: $(TOOLS)
 
 # The slow ones too: research, every page, ten thousand damaged files, and twenty runs that are killed and go on.
 test-all: $(TOOLS)
-	ROCKING_KILLS=20 $(BIN)/python -m pytest -n logical --dist loadfile -m ""
+	ROCKING_KILLS=20 $(BIN)/python -m pytest -n logical --dist loadfile -m "" --hypothesis-profile thorough
 
 bench: $(TOOLS)
 	for script in tests/benchmarks/bench_*.py; do $(BIN)/python $$script || exit 1; done

@@ -19,8 +19,9 @@ _VARIABLE = "ROCKING_RECORDS"
 _BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 
 # By default an example must end within 0.2 s of the clock.
-settings.register_profile("any machine", deadline=None)
-settings.load_profile("any machine")
+settings.register_profile("thorough", deadline=None)
+settings.register_profile("quick", deadline=None, max_examples=24)
+settings.load_profile("quick")
 
 MARKED = {Path(__file__).parent / "research": "slow", Path(__file__).parent / "workflow": "process"}
 """The mark of every test in a folder: docs/research is run on demand, and what runs the workflow starts processes."""

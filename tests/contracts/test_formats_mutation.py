@@ -54,17 +54,18 @@ CANNOT_TELL = {
 two lines too many that loses two others; a time step that stands in one place only."""
 
 
-def test_damage_does_not_pass_in_silence() -> None:
+@pytest.mark.parametrize("mutations", [300, pytest.param(1200, marks=pytest.mark.slow)])
+def test_damage_does_not_pass_in_silence(mutations: int) -> None:
     """What tests/fuzz/mutate_records.py does at length: two lines exchanged leave no trace, all else is told."""
     kinds = dict(mutate_records.KINDS)
     del kinds["swap_lines"]
-    found = mutate_records.run(mutate_records.made(), 1200, seed=5, kinds=kinds)
+    found = mutate_records.run(mutate_records.made(), mutations, seed=5, kinds=kinds)
     silent = {(name, kind) for name, kind, _ in found if name}
-    assert silent <= CANNOT_TELL and found["", "drop_line", "made"] > 100
+    assert silent <= CANNOT_TELL and found["", "drop_line", "made"] > mutations / 12
 
 
 @pytest.mark.real_records
-@pytest.mark.parametrize(("mutations", "seed"), [(700, 1), pytest.param(10_000, 2, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(("mutations", "seed"), [(150, 1), pytest.param(10_000, 2, marks=pytest.mark.slow)])
 def test_a_mutated_file_is_read_or_refused(real_records: Path, mutations: int, seed: int) -> None:
     dice = random.Random(seed)
     wholes = mutate_records.real(real_records)

@@ -19,7 +19,7 @@ ARCH = Arch(10.0, 1.5, np.deg2rad(157.5), restitution=0.9).mechanism()
 VOUSSOIRS = Arch(10.0, 1.5, np.deg2rad(157.5), voussoirs=7, restitution=0.9).mechanism()
 MECHANISMS = {"block": BLOCK, "wall": WALL, "arch": ARCH, "voussoirs": VOUSSOIRS}
 SEEDS = st.integers(0, 2**31)
-FEW = settings(max_examples=25, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
+FEW = settings(deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
 
 
 def noise(seed: int, mechanism, strength: float = 1.5, count: int = 200, step: float = 0.02) -> Accelerogram:

@@ -21,7 +21,12 @@ from rocking.structures.contacts import UnknownContacts
 from rocking.structures.structure_list import TYPES, load_structures, structure_from_config, structures_schema
 
 UNCHECKED = [HealthCheck.too_slow, HealthCheck.filter_too_much]
-FEW = settings(max_examples=12, deadline=None, derandomize=True, suppress_health_check=UNCHECKED)
+FEW = settings(
+    max_examples=settings.default.max_examples // 4,
+    deadline=None,
+    derandomize=True,
+    suppress_health_check=UNCHECKED,
+)
 REGISTERED = [
     pytest.param(kind, form, id=f"{kind} {number}")
     for kind, each in TYPES.items()

@@ -25,7 +25,7 @@ def descriptions(draw):
     return {"type": kind, **{key: draw(values) for key in form.keys if draw(st.integers(0, 9))}}
 
 
-@settings(max_examples=400, **SLOW)
+@settings(max_examples=4 * settings.default.max_examples, **SLOW)
 @given(descriptions())
 @pytest.mark.filterwarnings("ignore::rocking.errors.StructureWarning")
 def test_a_description_makes_a_structure_or_one_sentence(mapping):

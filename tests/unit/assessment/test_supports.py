@@ -16,7 +16,7 @@ from rocking.structures.standing import support_from_config
 
 STEP = 0.01
 BODY = Block(semi_diagonal=0.5, slenderness=0.25)
-FULL = Extent(AssessmentSettings(fidelity="full", ensemble=EnsembleSettings(members=16)))
+FULL = Extent(AssessmentSettings(fidelity="full", ensemble=EnsembleSettings(members=16, reserve=0.0)))
 ROOF = {"name": "roof", "damping_ratio": 0.05, "participation": 1.3}
 
 

@@ -71,18 +71,19 @@ def _made(rng: np.random.Generator, stations: int, median: float = 1.0, dispersi
     return exceedance, [str(k // 2) for k in range(2 * stations)]
 
 
-def test_the_intervals_cover_a_known_curve():
+@pytest.mark.parametrize(("trials", "scatter"), [(16, 0.12), pytest.param(60, 0.08, marks=pytest.mark.slow)])
+def test_the_intervals_cover_a_known_curve(trials, scatter):
     rng = np.random.default_rng(5)
     truth = norm.cdf(np.log(LEVELS) / 0.5)
     middle = (truth > 0.02) & (truth < 0.98)
     covered, medians = [], []
-    for _ in range(60):
+    for _ in range(trials):
         curve = fragility_of(LEVELS, *_made(rng, 25))
         inside = (curve.probability_low <= truth) & (truth <= curve.probability_high)
         covered.append(inside[middle].mean())
         medians.append(curve.interval[0] <= 1.0 <= curve.interval[1])
-    # 60 trials of a coverage of 0.9 scatter by 0.04; three deviations of a single proportion are 0.12.
-    assert np.mean(covered) == pytest.approx(0.9, abs=0.08) and np.mean(medians) >= 0.78
+    # 60 trials of a coverage of 0.9 scatter by 0.04, 16 by 0.075; three deviations of a single proportion are 0.12.
+    assert np.mean(covered) == pytest.approx(0.9, abs=scatter) and np.mean(medians) >= 0.78
 
 
 def test_a_curve_that_is_no_lognormal_has_the_median_of_the_rising_curve_beside_it():

@@ -18,7 +18,7 @@ def lifting(mechanism, times):
     return times * g * max(side.uplift_multiplier for side in mechanism.sides)
 
 
-@pytest.mark.parametrize("name, seed", [(name, 1) for name in MECHANISMS] + [("block", 2), ("wall", 2)])
+@pytest.mark.parametrize("name, seed", [(name, 1) for name in MECHANISMS] + [("block", 2)])
 def test_records_against_the_oracle(name, seed):
     """Both are run at 1e-12 or tighter; ten flights, each amplifying errors a few times, make 1e-9."""
     mechanism = MECHANISMS[name]
@@ -49,7 +49,7 @@ FINE, COARSE = (50, 0.02, 1.5, 12), (30, 1.0, 1.3, 3)
 
 
 @pytest.mark.parametrize("sampling", [FINE, COARSE], ids=["fine", "coarse"])
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (2, 3, 4))])
 def test_equivalent_block_against_the_oracle(seed, sampling):
     """The exact response has no time-stepping error: what remains is the oracle's 1e-12, amplified."""
     block = MECHANISMS["block"].equivalent_block()

@@ -32,27 +32,28 @@ def steady(structure, record, members, k, ratio):
     return stronger.rotation_ratio == ratio or abs(stronger.rotation_ratio / ratio - 1) < 1e-7
 
 
+@pytest.mark.parametrize("count", [16, pytest.param(40, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("name", STRUCTURES)
-def test_members_equal_one_response_at_a_time(name):
+def test_members_equal_one_response_at_a_time(name, count):
     """At a tolerance of 1e-10, of the members that are steady. Each kind of variation occurs."""
     structure, rng = STRUCTURES[name], np.random.default_rng(3)
     lift = max(side.uplift_multiplier for side in getattr(structure, "sides", (structure,))) * g
     record = RECORD.scaled(lift / RECORD.peak_acceleration)
     members = Members(
-        scale_factor=rng.uniform(0.8, 3, 40),
-        polarity=rng.choice([-1, 1], 40),
-        vertical=rng.random(40) < 0.5,
-        restitution=rng.uniform(0.5, 0.9, (40, 2)),
+        scale_factor=rng.uniform(0.8, 3, count),
+        polarity=rng.choice([-1, 1], count),
+        vertical=rng.random(count) < 0.5,
+        restitution=rng.uniform(0.5, 0.9, (count, 2)),
     )
     found = integrate_members(structure, record, members, 1e-10, vertical=VERTICAL)
-    alone = [one_by_one(structure, record, members, k, VERTICAL, 1e-10) for k in range(40)]
+    alone = [one_by_one(structure, record, members, k, VERTICAL, 1e-10) for k in range(count)]
     expected = np.array([response.rotation_ratio for response in alone])
-    kept = np.array([steady(structure, record, members, k, expected[k]) for k in range(40)])
-    assert kept.sum() >= 30
+    kept = np.array([steady(structure, record, members, k, expected[k]) for k in range(count)])
+    assert kept.sum() >= 0.75 * count
     assert found.rotation_ratio[kept] == pytest.approx(expected[kept], rel=1e-7)
     rocks = found.lifted & ~found.overturns & kept
     assert np.array_equal(found.peak_side[rocks], np.array([each.peak_side for each in alone])[rocks])
-    assert rocks.sum() > 5
+    assert rocks.sum() > count / 8
     assert not found.reasons
 
 

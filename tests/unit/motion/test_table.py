@@ -41,8 +41,8 @@ def test_table_equals_direct_evaluation(name):
     for k, side in enumerate(mechanism.sides):
         own = table.sides[k]
         rotation = np.concatenate([
-            np.linspace(0, side.critical_rotation, 301),
-            np.linspace(0, float(own.rotation(np.array(own.end))) * (1 - 1e-12), 301)
+            np.linspace(0, side.critical_rotation, 101),
+            np.linspace(0, float(own.rotation(np.array(own.end))) * (1 - 1e-12), 101)
         ])  # fmt: skip
         found = evaluated(table, k, np.vectorize(own.arc)(rotation))
         scale = np.sqrt(side.inertia(rotation) * side.at("inertia", 0.0))
@@ -54,7 +54,7 @@ def test_table_equals_direct_evaluation(name):
 @pytest.mark.parametrize("name", ALL)
 def test_hold_bounds_every_rotation_further_out(name):
     side, own = ALL[name].positive, table_of(ALL[name]).side(1)
-    rotation = np.linspace(0, float(own.rotation(np.array(own.end))), 2001)
+    rotation = np.linspace(0, float(own.rotation(np.array(own.end))), 501)
     balance = -side.gravity(rotation) / np.abs(side.ground(rotation))
     grid = table_of(ALL[name]).kernel.grid
     least = np.minimum.accumulate(balance[::-1])[::-1]

@@ -122,7 +122,7 @@ def test_a_peak_beyond_numbers_is_refused(record, size):
     samples=arrays(float, st.integers(30, 120), elements=st.floats(-50, 50, allow_subnormal=False)),
     step=st.sampled_from([0.005, 0.02, 0.1, 1.0]),
 )
-@settings(deadline=None, max_examples=150)
+@settings(deadline=None, max_examples=2 * settings.default.max_examples)
 def test_any_record_gives_a_pulse_within_it_or_a_sentence(samples, step):
     record = Accelerogram(samples, step)
     try:

@@ -86,7 +86,7 @@ def test_all_defects_of_a_list_stand_in_one_message(load):
         "- {name: a, type: block, breadth_m: 1, height_m: 4}\n"
         "- {name: a, type: block, breadth_m: 1, height_m: 5}\n"
         "- {type: block, breadth_m: 1, height_m: 5}\n"
-        "- {name: thin, type: arch, radius_m: 10, thickness_m: 1, embrace_angle_deg: 180}\n"
+        "- {name: thick, type: arch, radius_m: 10, thickness_m: 21, embrace_angle_deg: 115}\n"
         "- {name: typo, type: wall, height_m: 3, hinge_heigth_m: 1, thickness_m: 0.3}\n"
     )
     with pytest.raises(ConfigurationError) as caught:
@@ -95,7 +95,7 @@ def test_all_defects_of_a_list_stand_in_one_message(load):
     assert [line.split(": ")[1].split(" (")[0] for line in lines] == [f"structure {n}" for n in (2, 3, 4, 5)]
     assert "already taken" in lines[0]
     assert "name is None" in lines[1]
-    assert "1.07478038 m" in lines[2]
+    assert "less than twice the radius" in lines[2]
     assert "did you mean hinge_height_m?" in lines[3]
 
 
