@@ -32,6 +32,7 @@ class Kind(StrEnum):
         kind.value_names = tuple(sorted(named - {"about"}))
         return kind
 
+    # fmt: off
     # What one degree of freedom does not follow.
     CONTACTS_OPEN = auto(), "contacts open"
     COURSES_THROWN = auto(), "courses above a rocking body may be thrown"
@@ -53,6 +54,194 @@ class Kind(StrEnum):
     PROCESSING = auto(), "a processed record of the network"
     CONTACT_DYNAMICS = auto(), "contact dynamics"
     COMPONENT = auto(), "the component that gave no result"
+
+    # The samples of a record.
+    STEP_UNUSUAL = auto(), (
+        "The time step is {time_step_s:g} s: accelerographs sample strong motion at steps from {shortest_s:g} to "
+        "{longest_s:g} s."
+    )
+    PEAK_IMPOSSIBLE = auto(), (
+        "The peak acceleration is above the 5 g that no ground has reached; check the unit and the factor."
+    )
+    PEAK_RARE = auto(), (
+        "The peak acceleration is {peak_g:.3g} g, above 3 g: almost no ground moves so; check unit and file."
+    )
+    PEAK_RARE_BY_FACTOR = auto(), (
+        "Multiplied by {factor:g} the peak acceleration is {peak_g:.3g} g, above 3 g: almost no ground moves so; check "
+        "the factor."
+    )
+    PEAK_TINY = auto(), "The peak acceleration is {peak_g:.3g} g, below 1e-5 g: noise, or a wrong unit."
+    PEAK_TINY_BY_UNIT = auto(), (
+        "The peak acceleration is {peak_g:.3g} g, below 1e-5 g: noise, or a wrong unit; multiplied {factors} it would "
+        "be plausible."
+    )
+    SCALED_FAR = auto(), (
+        "Scaled by {factor:.3g}, beyond a factor of {largest:g}: a motion so far from that strength has another "
+        "duration and other periods; choose another record."
+    )
+    SAMPLE_ALONE = auto(), (
+        "The sample at {time_s:g} s is {peak_g:.3g} g and stands alone; without it the peak acceleration is "
+        "{others_g:.3g} g: a number is damaged, or the instrument was struck."
+    )
+    ZEROS_IN_SHAKING = auto(), "Within the strong shaking {samples} samples in a row are zero: a filled gap?"
+    STILL_STRETCH = auto(), (
+        "From {time_s:g} s on {samples} samples in a row are the same, while those before and after change: a filled "
+        "gap?"
+    )
+    LINES_EXCHANGED = auto(), (
+        "Around {time_s:g} s two lines of numbers seem to be exchanged: turned they would join smoothly."
+    )
+    STRETCH_COPIED = auto(), (
+        "The {samples} samples from {time_s:g} s on are those from {first_s:g} s on, digit by digit: lines are "
+        "repeated, or copied over others."
+    )
+    ROW_REPEATED = auto(), (
+        "At {time_s:g} s all channels repeat the sample before: a row of numbers is repeated."
+    )
+    HALF_REPEATED = auto(), (
+        "The second half of the samples repeats the first, {samples} numbers: the file may be appended to itself."
+    )
+    NEVER_NEGATIVE = auto(), (
+        "No number of {about} is below zero: it is a spectrum, a series of magnitudes, or a record whose offset was "
+        "not removed."
+    )
+    NUMBER_CUT = auto(), (
+        "The last number has fewer decimals than those above it and no line end: the file may be cut."
+    )
+    UNEVEN = auto(), (
+        "The {samples} samples are unevenly spaced; interpolated linearly to {number} at their median step, "
+        "{time_step_s:g} s."
+    )
+    UNEVEN_FILM = auto(), (
+        "The {samples} samples are unevenly spaced; interpolated linearly to {number}, {time_step_s:g} s apart."
+    )
+    CUT_TO_THE_SHORTER = auto(), (
+        "The components hold {short} and {long} samples; the longer was cut to the shorter."
+    )
+    STILL_RINGING = auto(), (
+        "The support still rings at {share:.1%} of its peak where its motion is cut off, {after_s:.0f} s after the "
+        "record."
+    )
+
+    # The header of a record against its samples.
+    PEAK_UNLIKE_HEADER = auto(), (
+        "The peak is {peak_m_s2:.6g} m/s², but the header states {stated_m_s2:.6g} m/s², which is more than rounding: "
+        "a number or a factor is damaged."
+    )
+    PEAK_ELSEWHERE = auto(), (
+        "The header puts the peak at {stated_s:g} s, but it stands at {time_s:g} s: lines may be missing, repeated or "
+        "out of order before it, or the time step is another."
+    )
+    MEAN_SQUARE_UNLIKE_HEADER = auto(), (
+        "The root mean square of the samples is {value:.6g} {unit}, but the header states {stated:.6g} {unit}: numbers "
+        "are damaged, missing or repeated, or a factor is wrong."
+    )
+    VELOCITY_UNLIKE_THERE = auto(), (
+        "Around {time_s:g} s the file's own velocity is not the integral of its acceleration: numbers of one of them "
+        "are damaged there."
+    )
+    VELOCITY_UNLIKE = auto(), (
+        "The file's own velocity is not the integral of its acceleration: it is damaged."
+    )
+    SAMPLES_SURPLUS = auto(), (
+        "The header declares {declared} samples, but the file holds {held}; all are kept."
+    )
+    LINE_SURPLUS = auto(), (
+        "The header declares {declared} samples; the 1 surplus line repeats the end and is left out."
+    )
+    LINES_SURPLUS = auto(), (
+        "The header declares {declared} samples; the {lines} surplus lines repeat the end and are left out."
+    )
+    CHANNELS_UNLIKE_HEADER = auto(), "The header speaks of {announced:g} channels, but the file holds {held}."
+    CHANNELS_OF_GEONET = auto(), "A GeoNet file holds 3 components, but this one holds {held}."
+    LENGTH_UNLIKE_HEADER = auto(), (
+        "The header gives the series a length of {stated_s:g} s, but its samples last {lasts_s:g} s."
+    )
+    RATE_NO_NUMBER = auto(), (
+        "The header gives a rate of {rate!r}, which is no number: the file may be damaged."
+    )
+    RATE_UNLIKE_STEP = auto(), (
+        "The header gives a rate of {rate_hz:g} Hz, but duration and count a step of {time_step_s:g} s."
+    )
+    MATCHED_TO_SPECTRUM = auto(), (
+        "The header says that the record is matched to a spectrum: artificial, not a recorded motion."
+    )
+    SCALE_APPLIED = auto(), "Samples multiplied by the SCALE that the header states, {factor:g}."
+    FACTOR_NOT_APPLIED = auto(), (
+        "The text above the numbers speaks of a factor or of counts ({text}): no factor is applied, and they are read "
+        "as they stand."
+    )
+    SENSITIVITY_UNLIKE_STAGES = auto(), (
+        "The overall sensitivity of {about} is more than 5 % off what the stages of its response give at the frequency "
+        "it is stated for; the stages were used: ask the network which one holds."
+    )
+
+    # What was read of a file, and what was not.
+    FIRST_IS_COUNT = auto(), "The first of the numbers is the number of samples, and no sample."
+    FIRST_ARE_COUNT_AND_STEP = auto(), (
+        "The first of the numbers is the number of samples and the time step, and no sample."
+    )
+    FIRST_ARE_COUNT_AND_RATE = auto(), (
+        "The first of the numbers is the number of samples and the rate, and no sample."
+    )
+    FIRST_ARE_STEP_AND_COUNT = auto(), (
+        "The first of the numbers is the time step and the number of samples, and no sample."
+    )
+    FIRST_IS_STEP = auto(), "The first of the numbers is the time step, and no sample."
+    ROW_FILLED_UP = auto(), "The last row is filled up with NaN, which are left out."
+    INTEGRAL_LEFT_OUT = auto(), (
+        "Left out, for it is the integral of another column, a velocity or a displacement: column {column}."
+    )
+    LINE_ENDS_DOUBLED = auto(), (
+        "The line ends are doubled (CR CR LF) by a faulty conversion; the numbers are unharmed."
+    )
+    FILES_NOT_READ = auto(), "Of the archive these files were not read: {names}."
+    MORE_FILES_NOT_READ = auto(), "Of the archive these files were not read: {names} and {more} more."
+    BLOCKS_OVERLAP = auto(), (
+        "Blocks of {about} overlap by {overlap_s:g} s at {time}: repeated or overwritten."
+    )
+    BLOCKS_LEAP = auto(), (
+        "Block number {after} follows number {before}: blocks are missing, repeated or overwritten."
+    )
+    TOLD_BY_OBSPY = auto(), "obspy: {text}."
+
+    # Where a component points, and where its instrument stood.
+    DIRECTION_UNKNOWN = auto(), (
+        "The direction of the component {about} is unknown: its name is neither a direction nor an angle, and it is "
+        "taken as horizontal; leave it out in the catalogue if it is not."
+    )
+    DIRECTION_CONTRADICTED = auto(), (
+        "The header of {about} lets the channel point {direction}, which its code contradicts; the header is followed: "
+        "see which of the two is true, and name the horizontal ones in the column component."
+    )
+    SOME_MAY_BE_VERTICAL = auto(), (
+        "Of the {channels} channels {names} may be vertical, for nothing says which one is: name the horizontal ones "
+        "in the column component of the catalogue, or as --component."
+    )
+    LONE_MAY_BE_VERTICAL = auto(), (
+        "The direction of the component {about} is unknown, for its name is neither a direction nor an angle, and it "
+        "may be vertical: if it is horizontal, name it in the column component of the catalogue, or as --component."
+    )
+    VERTICAL_BY_NAME = auto(), (
+        "Only the name of the file says that the motion is vertical ({word}): if it is horizontal, name it in the "
+        "column component of the catalogue, or as --component."
+    )
+    VERTICAL_AS_HORIZONTAL = auto(), (
+        "Component {about} is vertical, but the catalogue takes it as horizontal."
+    )
+    ANGLE_UNKNOWN = auto(), (
+        "The angle between components {first} and {second} is not known: they are taken to be at right angles."
+    )
+    DOWN_HOLE = auto(), "The instrument stood down-hole ({place}): this is not the motion of the surface."
+    IN_A_STRUCTURE = auto(), (
+        "The instrument stood in a structure ({place}): its motion may not be that of the ground."
+    )
+    CHANNEL_NO_MOTION = auto(), "The channel code {about} is that of a {sensor}: leave the channel out."
+    CHANNEL_OF_VELOCITY = auto(), (
+        "The channel code {about} is that of a {sensor}, which measures velocity and clips in strong motion; an "
+        "accelerometer has N in second place."
+    )
+    # fmt: on
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.quantities import finite
 from rocking.records.accelerogram import SHORTEST_STEP, Accelerogram
+from rocking.remarks import Kind, Remark
 
 INTERPOLATION_ERROR = 1e-4
 """Largest error of straight lines between the samples of a floor's motion, over its peak. A rotation is up to ten times
@@ -166,8 +167,7 @@ class Support:
             return made
         share = left / made.peak_acceleration
         return made.warned(
-            f"The support still rings at {share:.1%} of its peak where its motion is cut off, "
-            f"{after * record.time_step:.0f} s after the record."
+            Remark.of(Kind.STILL_RINGING, share=float(share), after_s=after * record.time_step)
         )
 
 

@@ -13,6 +13,7 @@ from rocking.errors import RecordError, about
 from rocking.hashes import sha256_of_bytes
 from rocking.quantities import GRAVITY, UNPRINTABLE, finite, four_digits, positive
 from rocking.records.traces import OBSPY_EXTRAS
+from rocking.remarks import Kind, Remark
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -44,7 +45,7 @@ class Accelerogram(Drawn):
 
     acceleration: (n,) m/s², n ≥ 2, finite, stored as a read-only float64 copy. time_step: s. scale_factor: what the
     file's numbers were multiplied by, beyond their unit. processing: the steps that made these numbers from the file's,
-    in order; warnings: what the reader noticed that a user must know; one sentence each. high_pass_frequency: corner in
+    in order; warnings: what the reader noticed that a user must know. high_pass_frequency: corner in
     Hz if a high-pass is known to have been applied. location: code that tells apart the instruments of one station.
     start_time: of the first sample, ISO 8601 in universal time. azimuth: direction of positive acceleration, degrees
     clockwise from north. magnitude, on the scale magnitude_type (Mw, Ms, ML, mb or M), and event_time, as the file
@@ -62,7 +63,7 @@ class Accelerogram(Drawn):
     source: Source = field(default_factory=Source)
     scale_factor: float = 1.0
     processing: tuple[str, ...] = ()
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Remark, ...] = ()
     high_pass_frequency: float | None = None
     network: str = ""
     location: str = ""
@@ -93,12 +94,16 @@ class Accelerogram(Drawn):
             if doubt not in self.warnings:
                 object.__setattr__(self, "warnings", (*self.warnings, doubt))
 
-    def _doubts(self) -> Iterator[str]:
+    def _doubts(self) -> Iterator[Remark]:
         if not SHORTEST_STEP <= self.time_step <= LONGEST_STEP:
-            limits = f"from {SHORTEST_STEP:g} to {LONGEST_STEP:g} s"
-            yield f"The time step is {self.time_step:g} s: accelerographs sample strong motion at steps {limits}."
+            yield Remark.of(
+                Kind.STEP_UNUSUAL,
+                time_step_s=self.time_step,
+                shortest_s=SHORTEST_STEP,
+                longest_s=LONGEST_STEP,
+            )
         if self.peak_acceleration > LARGEST_PEAK:
-            yield "The peak acceleration is above the 5 g that no ground has reached; check the unit and the factor."
+            yield Remark(Kind.PEAK_IMPOSSIBLE)
 
     def __repr__(self) -> str:
         names = [name for name in (self.component, self.station, self.event) if name]
@@ -160,9 +165,9 @@ class Accelerogram(Drawn):
         """Return a copy with new samples and one more processing sentence."""
         return replace(self, acceleration=acceleration, processing=(*self.processing, step), **changes)
 
-    def warned(self, *sentences: str) -> "Accelerogram":
+    def warned(self, *remarks: Remark) -> "Accelerogram":
         """Return a copy with more warnings."""
-        return replace(self, warnings=(*self.warnings, *sentences))
+        return replace(self, warnings=(*self.warnings, *remarks))
 
     @classmethod
     def from_obspy(

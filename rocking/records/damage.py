@@ -11,12 +11,13 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
+from rocking.remarks import Kind, Remark
 
 _ODDS = 100.0
 """The odds of damage against chance that a warning asks, over all places of a record at which it could stand."""
 
 
-def damage_warnings(record: Accelerogram, per_line: int) -> tuple[str, ...]:
+def damage_warnings(record: Accelerogram, per_line: int) -> tuple[Remark, ...]:
     """Return a warning for each kind of damage in a record, of whose samples `per_line` stand on a line of its file."""
     tests = (
         _sample_alone(record),
@@ -25,7 +26,7 @@ def damage_warnings(record: Accelerogram, per_line: int) -> tuple[str, ...]:
         _exchanged_lines(record, per_line),
         _copied_stretch(record, per_line),
     )
-    return tuple(filter(None, tests))
+    return tuple(each for each in tests if each is not None)
 
 
 _ALONE = 3.0, 2.0
@@ -35,23 +36,25 @@ Of the strongest real records a peak reaches 2.6 and 1.1, or 1.7 and 1.6 times.
 """
 _NEIGHBOURS = 3
 _SHORTEST = 100
-"""Samples below which a record is too short for a sentence about its course."""
+"""Samples below which a record is too short for a remark on its course."""
 
 
-def _sample_alone(record: Accelerogram) -> str:
+def _sample_alone(record: Accelerogram) -> Remark | None:
     """Return a warning on a sample alone far above all others."""
     magnitudes = np.abs(record.acceleration)
     if magnitudes.size < _SHORTEST or not magnitudes.any():
-        return ""
+        return None
     at = int(magnitudes.argmax())
     peak = float(magnitudes[at])
     others = np.delete(magnitudes, at)
     near = others[max(0, at - _NEIGHBOURS) : at + _NEIGHBOURS].max()
     if peak <= _ALONE[0] * near or peak <= _ALONE[1] * others.max():
-        return ""
-    return (
-        f"The sample at {at * record.time_step:g} s is {peak / GRAVITY:.3g} g and stands alone; without it the "
-        f"peak acceleration is {others.max() / GRAVITY:.3g} g: a number is damaged, or the instrument was struck."
+        return None
+    return Remark.of(
+        Kind.SAMPLE_ALONE,
+        time_s=at * record.time_step,
+        peak_g=peak / GRAVITY,
+        others_g=float(others.max()) / GRAVITY,
     )
 
 
@@ -59,18 +62,18 @@ _ZEROS = 50
 """Exact zeros in a row that no recorder writes while the ground shakes; real files hold at most 14."""
 
 
-def _zeros_in_shaking(record: Accelerogram) -> str:
+def _zeros_in_shaking(record: Accelerogram) -> Remark | None:
     """Return a warning on zeros within strong shaking, between 5 and 95 % of the energy."""
     magnitudes = np.abs(record.acceleration)
     if magnitudes.size < 2 * _ZEROS or not magnitudes.any():
-        return ""
+        return None
     spent = np.cumsum(np.square(magnitudes))
     begin, end = np.searchsorted(spent, np.array([0.05, 0.95]) * spent[-1])
     moving = np.flatnonzero(magnitudes[begin : end + 1])
     longest = int(np.diff(moving).max(initial=0)) - 1
     if longest < _ZEROS:
-        return ""
-    return f"Within the strong shaking {longest} samples in a row are zero: a filled gap?"
+        return None
+    return Remark.of(Kind.ZEROS_IN_SHAKING, samples=longest)
 
 
 _BESIDE = 100
@@ -81,7 +84,7 @@ _LIVELY = 0.5
 """Share of the steps beside a still stretch that must change the value: in files of few digits even noise is still."""
 
 
-def _still_stretch(record: Accelerogram) -> str:
+def _still_stretch(record: Accelerogram) -> Remark | None:
     """Return a warning where the value stays what it is for longer than the samples on both sides allow.
 
     Where a share q of the steps beside it change the value, n steps in a row change nothing in (1 - q)ⁿ of cases.
@@ -89,7 +92,7 @@ def _still_stretch(record: Accelerogram) -> str:
     values = record.acceleration
     changes = np.flatnonzero(np.diff(values))
     if changes.size < 2 * _BESIDE // 5:
-        return ""
+        return None
     steps = np.diff(changes) - 1
     # Not of the longest alone: a record that begins or ends still has a longer one there.
     for place in np.argsort(steps, kind="stable")[::-1].tolist():
@@ -102,11 +105,8 @@ def _still_stretch(record: Accelerogram) -> str:
         share = min(before, after)
         by_chance = (last - first) * math.log1p(-min(share, 1 - 1 / _BESIDE)) + math.log(values.size)
         if share >= _LIVELY and by_chance <= -3 * math.log(_ODDS):
-            return (
-                f"From {first * record.time_step:g} s on {last - first + 1} samples in a row are the same, while those "
-                "before and after change: a filled gap?"
-            )
-    return ""
+            return Remark.of(Kind.STILL_STRETCH, time_s=first * record.time_step, samples=last - first + 1)
+    return None
 
 
 def _share_of_changes(values: np.ndarray) -> float:
@@ -123,7 +123,7 @@ _AROUND = 51
 _FEWEST_ROWS = 8
 
 
-def _exchanged_lines(record: Accelerogram, per_line: int) -> str:
+def _exchanged_lines(record: Accelerogram, per_line: int) -> Remark | None:
     """Return a warning where two neighbouring lines of `per_line` samples seem to be exchanged.
 
     Each sample is foretold from those before it by coefficients fitted to the record. What the first samples of a line
@@ -134,9 +134,9 @@ def _exchanged_lines(record: Accelerogram, per_line: int) -> str:
     order = min(_ORDER, per_line)
     rows = record.acceleration.size // max(1, per_line)
     if per_line < 4 or rows < _FEWEST_ROWS or record.acceleration.size < _SHORTEST:
-        return ""
+        return None
     if not record.acceleration.any():
-        return ""
+        return None
     table = record.acceleration[: rows * per_line].reshape(rows, per_line)
     weights = _foretelling(record.acceleration, order)
     following = _surprise(table[:-1], table[1:], weights)
@@ -148,9 +148,9 @@ def _exchanged_lines(record: Accelerogram, per_line: int) -> str:
     ratio = (as_it_stands + usual[1:-1]) / (exchanged + usual[1:-1])
     at = int(ratio.argmax())
     if 1.5 * order * math.log(float(ratio[at])) < math.log(_ODDS * rows):
-        return ""
+        return None
     time = (at + 2) * per_line * record.time_step
-    return f"Around {time:g} s two lines of numbers seem to be exchanged: turned they would join smoothly."
+    return Remark.of(Kind.LINES_EXCHANGED, time_s=time)
 
 
 def _foretelling(values: np.ndarray, order: int) -> np.ndarray:
@@ -212,26 +212,23 @@ _RIVALS = 3.0
 _LARGEST_SHARE = 0.3
 
 
-def _copied_stretch(record: Accelerogram, per_line: int) -> str:
+def _copied_stretch(record: Accelerogram, per_line: int) -> Remark | None:
     """Return a warning where one stretch of the samples stands in the record twice, digit by digit."""
     values = record.acceleration
     size = per_line if 4 <= per_line <= _LEAST_COPY else _LEAST_COPY
     if values.size < _SHORTEST:
-        return ""
+        return None
     first, second = _same_windows(values, size)
     if not first.size:
-        return ""
+        return None
     starts, lengths = _runs(first, second)
     longest = _loud_runs(values, starts, lengths + size - 1, _LOUD * record.peak_acceleration)
     place, length = next(longest, (0, 0))
     _, rival = next(longest, (0, 0))
     if not length or length < _RIVALS * rival or length > _LARGEST_SHARE * values.size:
-        return ""
+        return None
     one, two = (sample * record.time_step for sample in starts[place])
-    return (
-        f"The {length} samples from {two:g} s on are those from {one:g} s on, digit by digit: "
-        "lines are repeated, or copied over others."
-    )
+    return Remark.of(Kind.STRETCH_COPIED, samples=length, time_s=two, first_s=one)
 
 
 def _loud_runs(
@@ -281,20 +278,20 @@ _STILL = 1 / 200
 """Least share of steps without a change that is believed of a channel, from the two hundred beside."""
 
 
-def repeated_rows(records: Sequence[Accelerogram]) -> str:
+def repeated_rows(records: Sequence[Accelerogram]) -> Remark | None:
     """Return a warning where a row of numbers, one of each of several channels, stands twice in succession.
 
     By chance no channel changes in the product of the shares in which each does not, from the steps beside it.
     """
     sizes = {record.acceleration.size for record in records}
     if len(records) < 2 or len(sizes) > 1 or min(sizes) < 2 * _BESIDE:
-        return ""
+        return None
     still = np.array([np.diff(record.acceleration) == 0 for record in records])
     at = next(_unlikely(still), None)
     if at is None:
-        return ""
+        return None
     time = (at + 1) * records[0].time_step
-    return f"At {time:g} s all channels repeat the sample before: a row of numbers is repeated."
+    return Remark.of(Kind.ROW_REPEATED, time_s=time)
 
 
 def _unlikely(still: np.ndarray) -> Iterator[int]:

@@ -263,7 +263,8 @@ def _remarks(group: Sequence[ListedFile], level: Sequence[ListedChannel]) -> Ite
     if angle is not None and abs(angle - 90) > SQUARE:
         names = f"{level[0].component} and {level[1].component}"
         yield f"Components {names} are {min(angle, 180 - angle):g}° apart, not at right angles."
-    yield direction_doubt(level)
+    if doubt := direction_doubt(level):
+        yield str(doubt)
 
 
 _LONGEST_ID = 70

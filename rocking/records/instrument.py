@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from rocking.errors import RecordError
+from rocking.remarks import Kind, Remark
 
 _VERTICAL = {
     "UP", "-UP", "DOWN", "DN", "DWN", "V", "Z", "UD", "U-D", "U", "VER", "VERT", "VERTICAL", "UPDO", "U/D", "UPWARD",
@@ -79,34 +80,28 @@ def directed(fields: dict[str, Any]) -> dict[str, Any]:
     return fields | {"vertical": vertical, "azimuth": along}
 
 
-def direction_warnings(component: str, along: float | None, vertical: bool) -> tuple[str, ...]:
+def direction_warnings(component: str, along: float | None, vertical: bool) -> tuple[Remark, ...]:
     """Return a warning when nothing says where a component points: neither its header, nor its name."""
     if not _has_unknown_direction(component, along, vertical):
         return ()
-    return (
-        f"The direction of the component {component.strip()} is unknown: its name is neither a direction nor an angle, "
-        "and it is taken as horizontal; leave it out in the catalogue if it is not.",
-    )
+    return (Remark(Kind.DIRECTION_UNKNOWN, component.strip()),)
 
 
-def contradiction(component: str, along: float | None, vertical: bool) -> str:
-    """Return a sentence where a channel code (HNE) points elsewhere than the header of its record, "" where not.
+def contradiction(component: str, along: float | None, vertical: bool) -> Remark | None:
+    """Return a remark where a channel code (HNE) points elsewhere than the header of its record.
 
     along: degrees. A code is taken at its word where N and E are near their axes, whichever way they point.
     """
     code = _BAND.fullmatch(component.strip().upper())
     axis = {"N": 0.0, "E": 90.0}.get(code[1][2]) if code else None
     if code is None or (axis is None and code[1][2] != "Z"):
-        return ""
+        return None
     is_same = vertical == code[1].endswith("Z")
     off_axis = 0.0 if along is None or axis is None or vertical else abs((along - axis + 90) % 180 - 90)
     if is_same and off_axis <= _OFF_AXIS:
-        return ""
+        return None
     direction = "upwards" if vertical else "to no known azimuth" if along is None else f"to {along:g}°"
-    return (
-        f"The header of {component.strip()} lets the channel point {direction}, which its code contradicts; the header "
-        "is followed: see which of the two is true, and name the horizontal ones in the column component."
-    )
+    return Remark.of(Kind.DIRECTION_CONTRADICTED, component.strip(), direction=direction)
 
 
 _OFF_AXIS = 45.0
@@ -126,34 +121,31 @@ def _has_unknown_direction(component: str, along: float | None, vertical: bool) 
     return is_beyond or is_combined or not is_longer_angle
 
 
-def vertical_doubt(components: Sequence[str], along: Sequence[float | None], vertical: Sequence[bool]) -> str:
-    """Return a sentence where a channel may be vertical, and nothing says whether it is.
+def vertical_doubt(
+    components: Sequence[str], along: Sequence[float | None], vertical: Sequence[bool]
+) -> Remark | None:
+    """Return a remark where a channel may be vertical, and nothing says whether it is.
 
     That is so of three channels or more without directions, and of a lone one with a code of unknown direction.
     """
     if any(vertical):
-        return ""
+        return None
     if len(components) == 1:
         return _lone_doubt(components[0], along[0])
     of_unknown = [name for name, azimuth in zip(components, along, strict=True) if azimuth is None]
     if len(components) < _OF_A_STATION or not of_unknown:
-        return ""
-    return (
-        f"Of the {len(components)} channels {', '.join(of_unknown[:_OF_A_STATION])} may be vertical, for nothing says "
-        "which one is: name the horizontal ones in the column component of the catalogue, or as --component."
-    )
+        return None
+    names = ", ".join(of_unknown[:_OF_A_STATION])
+    return Remark.of(Kind.SOME_MAY_BE_VERTICAL, channels=len(components), names=names)
 
 
-def _lone_doubt(component: str, along: float | None) -> str:
-    """A sentence on a lone channel with a code. A heading of a table is prose, and no less horizontal for that."""
+def _lone_doubt(component: str, along: float | None) -> Remark | None:
+    """A remark on a lone channel with a code. A heading of a table is prose, and no less horizontal for that."""
     code = component.strip()
     is_code = _SEED.fullmatch(code) and not names_acceleration(code)
     if not is_code or not _has_unknown_direction(code, along, vertical=False):
-        return ""
-    return (
-        f"The direction of the component {code} is unknown, for its name is neither a direction nor an angle, and it "
-        "may be vertical: if it is horizontal, name it in the column component of the catalogue, or as --component."
-    )
+        return None
+    return Remark(Kind.LONE_MAY_BE_VERTICAL, code)
 
 
 def names_acceleration(component: str) -> bool:
@@ -242,25 +234,24 @@ def is_down_hole(place: str) -> bool:
     return max(depths) >= _BURIED if depths else bool(re.search(r"(?i)(down|bore)-?hole", place))
 
 
-def site_warnings(place: str) -> tuple[str, ...]:
+def site_warnings(place: str) -> tuple[Remark, ...]:
     """Return a warning when the `place` of an instrument is in a structure or below the ground."""
     if _DOWN_HOLE.search(place):
-        return (f"The instrument stood down-hole ({place}): this is not the motion of the surface.",)
+        return (Remark.of(Kind.DOWN_HOLE, place=place),)
     if _STRUCTURE.search(place) and not _FREE.search(place):
-        return (f"The instrument stood in a structure ({place}): its motion may not be that of the ground.",)
+        return (Remark.of(Kind.IN_A_STRUCTURE, place=place),)
     return ()
 
 
-def channel_warnings(component: str) -> tuple[str, ...]:
+def channel_warnings(component: str) -> tuple[Remark, ...]:
     """Return a warning when a channel code is that of a seismometer (BH?, HH?, HL?), not of an accelerometer (?N?)."""
     code = _CODE.fullmatch(component.strip().upper())
     if not code:
         return ()
     if other := _NO_MOTION.get(code[1] or code[2]):
-        return (f"The channel code {component.strip()} is that of a {other}: leave the channel out.",)
+        return (Remark.of(Kind.CHANNEL_NO_MOTION, component.strip(), sensor=other),)
     kind = {"H": "high-gain seismometer", "L": "low-gain seismometer", "M": "mass position", "P": "geophone"}
-    not_of = "which measures velocity and clips in strong motion; an accelerometer has N in second place"
-    return (f"The channel code {component.strip()} is that of a {kind[code[1]]}, {not_of}.",)
+    return (Remark.of(Kind.CHANNEL_OF_VELOCITY, component.strip(), sensor=kind[code[1]]),)
 
 
 _ACCELERATION = re.compile(r"(?<![a-z])(acc|acel|beschl)", re.I)

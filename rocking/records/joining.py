@@ -12,6 +12,7 @@ from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.instrument import names_acceleration
 from rocking.records.read import is_unnamed
+from rocking.remarks import Kind, Remark
 
 SAME_STEP = 1e-6
 """Share by which the time steps of one station's files may differ: the rounding of their headers."""
@@ -137,17 +138,17 @@ _ACROSS = ({"L", "T"}, {"R", "T"}, {"FN", "FP"}, {"SN", "SP"}, {"X", "Y"}, {"H1"
 _CODE = re.compile(r"([A-Z][HNGL])([RT12XY])")
 
 
-def direction_doubt(horizontal: Sequence[Component]) -> str:
-    """Return a sentence where the angle of two horizontal components is neither known nor said by their names."""
+def direction_doubt(horizontal: Sequence[Component]) -> Remark | None:
+    """Return a remark where the angle of two horizontal components is neither known nor said by their names."""
     if len(horizontal) != 2 or any(each.vertical for each in horizontal):
-        return ""
+        return None
     if angle_between(*horizontal) is not None:
-        return ""
+        return None
     names = [each.component for each in horizontal]
     if all(map(names_no_direction, names)) or _are_across(names):
-        return ""
-    both = " and ".join(names)
-    return f"The angle between components {both} is not known: they are taken to be at right angles."
+        return None
+    first, second = names
+    return Remark.of(Kind.ANGLE_UNKNOWN, first=first, second=second)
 
 
 def _are_across(names: Sequence[str]) -> bool:

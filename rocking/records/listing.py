@@ -137,7 +137,7 @@ def read_for_listing(raw: bytes, sha256: str, path: Path, declared: Mapping[str,
     is_unit_known = "unit" not in missing or bool(declared["unit"])
     doubts: dict[str, list[str]] = {}
     for channel in channels:
-        for sentence in channel.warnings:
+        for sentence in map(str, channel.warnings):
             if is_unit_known or not _OF_UNIT.search(sentence):
                 doubts.setdefault(sentence, []).append(channel.component)
     remarks = [s if len(of) == len(channels) else f"{', '.join(of)}: {s}" for s, of in doubts.items()]

@@ -7,10 +7,10 @@ from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, acceleration_factor
 from rocking.records.accelerogram import LARGEST_PEAK, Accelerogram
 from rocking.records.processing import integral
+from rocking.remarks import Kind, Remark
 
 RARE_PEAK = 3 * GRAVITY
 """m/s²; a handful of records of the world exceed it."""
-_RARE = "almost no ground moves so"
 SMALLEST_PEAK = 1e-5 * GRAVITY
 """m/s²; below, a record is noise or has a wrong unit."""
 _FACTORS = {
@@ -63,10 +63,7 @@ def agree_with_header(
             f"states {stated:.6g} m/s², a factor {factor}; the two must agree within 1 %."
         )
     if off > max(_ROUNDING * stated, digit):
-        record = record.warned(
-            f"The peak is {peak_read:.6g} m/s², but the header states {stated:.6g} m/s², which is more than rounding: "
-            "a number or a factor is damaged."
-        )
+        record = record.warned(Remark.of(Kind.PEAK_UNLIKE_HEADER, peak_m_s2=peak_read, stated_m_s2=stated))
     if at is None:
         return record
     instants = np.arange(magnitudes.size) * record.time_step if times is None else times
@@ -81,10 +78,8 @@ def _peak_in_place(
     around = magnitudes[max(0, place - _NEIGHBOURS) : place + _NEIGHBOURS + 1]
     if around.max() >= 0.98 * magnitudes.max():
         return record
-    return record.warned(
-        f"The header puts the peak at {at:g} s, but it stands at {instants[magnitudes.argmax()]:g} s: "
-        "lines may be missing, repeated or out of order before it, or the time step is another."
-    )
+    stands_at = float(instants[magnitudes.argmax()])
+    return record.warned(Remark.of(Kind.PEAK_ELSEWHERE, stated_s=at, time_s=stands_at))
 
 
 def scaled(record: Accelerogram, factor: float) -> Accelerogram:
@@ -93,11 +88,10 @@ def scaled(record: Accelerogram, factor: float) -> Accelerogram:
     peak = enlarged.peak_acceleration
     if peak <= max(RARE_PEAK, record.peak_acceleration):
         return enlarged
-    enlargement = f"Multiplied by {factor:g} the peak acceleration is {peak / GRAVITY:.3g} g"
-    return enlarged.warned(f"{enlargement}, above 3 g: {_RARE}; check the factor.")
+    return enlarged.warned(Remark.of(Kind.PEAK_RARE_BY_FACTOR, factor=factor, peak_g=peak / GRAVITY))
 
 
-def pass_limits(record: Accelerogram, form: str = "") -> tuple[str, ...]:
+def pass_limits(record: Accelerogram, form: str = "") -> tuple[Remark, ...]:
     """Return warnings on a peak that is below 1e-5 g or above 3 g; raise RecordError when it is above 5 g.
 
     form: the name of the format, by which the sentence says what to do.
@@ -106,13 +100,14 @@ def pass_limits(record: Accelerogram, form: str = "") -> tuple[str, ...]:
     if SMALLEST_PEAK <= record.peak_acceleration <= RARE_PEAK:
         return ()
     if RARE_PEAK < record.peak_acceleration <= LARGEST_PEAK:
-        return (f"The peak acceleration is {peak:.3g} g, above 3 g: {_RARE}; check unit and file.",)
+        return (Remark.of(Kind.PEAK_RARE, peak_g=peak),)
     is_small = peak < 1
     plausible = {f: _PLAUSIBLE[0] < (peak * f if is_small else peak / f) < _PLAUSIBLE[1] for f in _FACTORS}
     fits = ", ".join(f"by {f:g} ({meaning})" for f, meaning in _FACTORS.items() if plausible[f])
     if is_small:
-        hint = f"; multiplied {fits} it would be plausible" if fits else ""
-        return (f"The peak acceleration is {peak:.3g} g, below 1e-5 g: noise, or a wrong unit{hint}.",)
+        if fits:
+            return (Remark.of(Kind.PEAK_TINY_BY_UNIT, peak_g=peak, factors=fits),)
+        return (Remark.of(Kind.PEAK_TINY, peak_g=peak),)
     beyond = (
         f"peak acceleration is {peak:.6g} g read as {record.source.unit or 'm/s2'}, above the 5 g that no ground has "
         "reached"
@@ -144,8 +139,7 @@ def agree_with_mean_square(record: Accelerogram, stated: float, unit: str, digit
     if stated <= 0 or abs(in_samples - stated) <= digit + _ROUNDING * stated:
         return record
     return record.warned(
-        f"The root mean square of the samples is {in_samples:.6g} {unit}, but the header states {stated:.6g} {unit}: "
-        "numbers are damaged, missing or repeated, or a factor is wrong."
+        Remark.of(Kind.MEAN_SQUARE_UNLIKE_HEADER, value=in_samples, stated=stated, unit=unit)
     )
 
 
@@ -173,16 +167,13 @@ def agree_with_velocity(record: Accelerogram, stated: np.ndarray) -> Accelerogra
     if stated.size != record.acceleration.size:
         return record
     if (at := _stray_step(record, stated)) is not None:
-        return record.warned(
-            f"Around {at * record.time_step:g} s the file's own velocity is not the integral of its acceleration: "
-            "numbers of one of them are damaged there."
-        )
+        return record.warned(Remark.of(Kind.VELOCITY_UNLIKE_THERE, time_s=at * record.time_step))
     times = np.linspace(-1, 1, stated.size)
     differing = stated - integral(record.acceleration, record.time_step)
     differing = differing - differing.mean() - times * np.sum(times * differing) / np.sum(times * times)
     if differing.std() <= _VELOCITY_OFF * stated.std():
         return record
-    return record.warned("The file's own velocity is not the integral of its acceleration: it is damaged.")
+    return record.warned(Remark(Kind.VELOCITY_UNLIKE))
 
 
 def _last_digit(values: np.ndarray) -> float:

@@ -31,6 +31,7 @@ from rocking.records.instrument import (
     vertical_in_name,
 )
 from rocking.records.plausibility import pass_limits
+from rocking.remarks import Kind, Remark
 from rocking.tables import read_whole
 
 LARGEST_FILE = 8 * 2**20
@@ -91,8 +92,10 @@ def _read_archive(path: Path, options: Options) -> list[Accelerogram]:
             raise next((error for error in reasons if isinstance(error, UndeclaredError)), reasons[0])
     if refused:
         names = ", ".join(printable(name) for name, _ in refused[:_LISTED])
-        more = f" and {len(refused) - _LISTED} more" if len(refused) > _LISTED else ""
-        records[0] = records[0].warned(f"Of the archive these files were not read: {names}{more}.")
+        unread = Remark.of(Kind.FILES_NOT_READ, names=names)
+        if len(refused) > _LISTED:
+            unread = Remark.of(Kind.MORE_FILES_NOT_READ, names=names, more=len(refused) - _LISTED)
+        records[0] = records[0].warned(unread)
     return records
 
 
@@ -121,14 +124,16 @@ def read_content(
         records = distinct_channels(_named_by_file(reader.read(text, replace(options, file=name)), name))
         if not records:
             raise RecordError("the file holds no channel of acceleration; use the acceleration file.")
-        notes = (_DOUBLED,) if b"\r\r\n" in content[:2000] and text is not content else ()
+        is_doubled = b"\r\r\n" in content[:2000] and text is not content
+        notes = [Remark(Kind.LINE_ENDS_DOUBLED)] if is_doubled else []
         per_line = numbers_per_line(text)
-        repeated = tuple(filter(None, [repeated_rows(records)]))
+        of_rows = repeated_rows(records)
+        repeated = [of_rows] if of_rows is not None else []
         for i, record in enumerate(records):
             own = replace(source, format=reader.name, unit=record.source.unit)
             doubts = (*record.warnings, *notes, *pass_limits(record, reader.name))
             damage = (*damage_warnings(record, per_line), *repeated)
-            records[i] = replace(record, source=own, warnings=tuple(dict.fromkeys(doubts + damage)))
+            records[i] = replace(record, source=own, warnings=tuple(dict.fromkeys((*doubts, *damage))))
         return records
 
 
@@ -158,9 +163,6 @@ def bare_text(content: bytes) -> bytes:
     if b"\r" in body:
         body = body.replace(b"\r\r\n", b"\n").replace(b"\r\n", b"\n").replace(b"\r", b"\n")
     return body + b"\n" if ended else body
-
-
-_DOUBLED = "The line ends are doubled (CR CR LF) by a faulty conversion; the numbers are unharmed."
 
 
 _BY_OBSPY = "which is read by way of obspy: rocking.from_obspy(obspy.read(path), unit=...)"
@@ -283,11 +285,11 @@ def _named_by_file(records: list[Accelerogram], name: str) -> list[Accelerogram]
     is_open = record.azimuth is None and not record.vertical and not record.borehole
     if not is_open or (record.component and not names_acceleration(record.component)):
         return records
-    return [replace(record, vertical=True).warned(f"{ONLY_BY_NAME} ({word}): {_NAME_IT}")]
+    return [replace(record, vertical=True).warned(Remark.of(Kind.VERTICAL_BY_NAME, word=word))]
 
 
-ONLY_BY_NAME = "Only the name of the file says that the motion is vertical"
-_NAME_IT = "if it is horizontal, name it in the column component of the catalogue, or as --component."
+ONLY_BY_NAME = Kind.VERTICAL_BY_NAME.sentence.partition(" (")[0]
+"""The beginning of a sentence, by which a listing, which keeps sentences, knows the remark again."""
 
 
 def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
@@ -309,16 +311,15 @@ def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
     for place, record in enumerate(records, 1):
         name = record.component or f"channel {place}"
         name += f" (channel {place})" if shared[record.component] > 1 else ""
-        directions_in_doubt: tuple[str, ...] = (upwards,)
-        if not upwards:
-            directions_in_doubt = direction_warnings(record.component, record.azimuth, record.vertical)
+        pointing = record.component, record.azimuth, record.vertical
+        contradicted = contradiction(*pointing)
         doubts = (
             *record.warnings,
             *channel_warnings(record.component),
-            *filter(None, [contradiction(record.component, record.azimuth, record.vertical)]),
+            *([contradicted] if contradicted else []),
             *site_warnings(record.station),
             *site_warnings(record.component),
-            *directions_in_doubt,
+            *([upwards] if upwards else direction_warnings(*pointing)),
         )
         channels.append(replace(record, component=name, warnings=tuple(dict.fromkeys(doubts))))
     return channels

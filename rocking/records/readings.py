@@ -138,6 +138,6 @@ def _channel(values: dict[str, Any]) -> ListedChannel:
 def _version() -> str:
     """Return a hash of the sources by which files are read: another reader may read them otherwise."""
     package = Path(__file__).parents[1]
-    sources = [package / "quantities.py", package / "tables" / "files.py"]
+    sources = [package / "quantities.py", package / "remarks.py", package / "tables" / "files.py"]
     sources += sorted((package / "records").rglob("*.py"))
     return sha256_of_sources(package, sources)

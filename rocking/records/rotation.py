@@ -8,6 +8,7 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.quantities import finite
 from rocking.records.accelerogram import Accelerogram
+from rocking.remarks import Kind, Remark
 
 _FLATTEST = np.sin(np.radians(30.0))
 
@@ -44,8 +45,8 @@ def rotate(first: Accelerogram, second: Accelerogram, angle: float) -> Accelerog
     changes: dict[str, Any] = {"component": f"{degrees:.0f}° from {one}"}
     changes["azimuth"] = azimuth_of_axis(first.azimuth, second.azimuth, angle)
     short, long = sorted((first.acceleration.size, second.acceleration.size))
-    cut = f"The components hold {short} and {long} samples; the longer was cut to the shorter."
-    warnings = dict.fromkeys((*first.warnings, *second.warnings, *([cut] if short < long else [])))
+    cut = [Remark.of(Kind.CUT_TO_THE_SHORTER, short=short, long=long)] if short < long else []
+    warnings = dict.fromkeys((*first.warnings, *second.warnings, *cut))
     changes["warnings"] = tuple(warnings)
     for name in ("initial_velocity", "initial_displacement"):
         changes[name] = shares[0] * getattr(first, name) + shares[1] * getattr(second, name)

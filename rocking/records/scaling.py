@@ -14,14 +14,12 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.text import is_number
 from rocking.records.plausibility import scaled
 from rocking.records.processing import velocity
+from rocking.remarks import Kind, Remark
 
 FORM = "a measure, pga or pgv, a number and its unit, as in pga 0.35 g or pgv 50 cm/s"
 _SPELLING = re.compile(r"(pga|pgv)\s+([-+.,\d]+(?:e[-+]?\d+)?|nan|inf)\s*([a-z].*)", re.I)
 LARGEST_FACTOR = 10.0
 """Factor up to which a record may be scaled without a word, as for fragility."""
-_OTHER_MOTION = (
-    "a motion so far from that strength has another duration and other periods; choose another record"
-)
 _SPEEDS = {"m/s": 1.0, "cm/s": 0.01}
 """Factor from each unit of velocity to m/s."""
 
@@ -93,11 +91,7 @@ def scaled_to(
     )
 
     is_far = not 1 / LARGEST_FACTOR <= factor <= LARGEST_FACTOR
-    doubt = (
-        (f"Scaled by {factor:.3g}, beyond a factor of {LARGEST_FACTOR:g}: {_OTHER_MOTION}.",)
-        if is_far
-        else ()
-    )
+    doubt = [Remark.of(Kind.SCALED_FAR, factor=factor, largest=LARGEST_FACTOR)] if is_far else []
 
     def enlarged(record: Accelerogram) -> Accelerogram:
         larger = scaled(record, factor).warned(*doubt)

@@ -16,8 +16,7 @@ from rocking.records.joining import direction_doubt, joined, names_no_direction
 from rocking.records.plausibility import scaled
 from rocking.records.read import bytes_of, read_raw
 from rocking.records.scaling import ScalingTarget, scaled_to
-
-_SIDEWAYS = "Component {} is vertical, but the catalogue takes it as horizontal."
+from rocking.remarks import Kind, Remark
 
 
 @dataclass(frozen=True)
@@ -83,7 +82,7 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
         vertical = _vertical(channels, record)
         horizontal = _horizontal(channels, record, vertical)
         if record.components:
-            horizontal = _without_doubt(horizontal, channels)
+            horizontal = _without_doubt(horizontal)
         else:
             _check_upright([*horizontal, *filter(None, [vertical])])
         if doubt := direction_doubt(horizontal):
@@ -105,8 +104,7 @@ def _named_by_row(channels: Sequence[Accelerogram], record: CatalogueRecord) -> 
 
 def _called_now(channel: Accelerogram, name: str) -> Accelerogram:
     """Return a channel with another name, and with what is in doubt of the direction that this one says."""
-    before = direction_warnings(channel.component, channel.azimuth, channel.vertical)
-    kept = tuple(sentence for sentence in channel.warnings if sentence not in before)
+    kept = tuple(each for each in channel.warnings if each.kind is not Kind.DIRECTION_UNKNOWN)
     named = replace(channel, **directed({"component": name}), warnings=kept)
     return named.warned(*direction_warnings(name, named.azimuth, named.vertical))
 
@@ -122,21 +120,22 @@ def _check_names(channels: Sequence[Accelerogram], record: CatalogueRecord) -> N
 def _check_upright(channels: Sequence[Accelerogram]) -> None:
     """Raise RecordError where one of the channels may be the vertical one of a station, and nothing says which."""
     if doubt := _doubt(channels):
-        raise RecordError(doubt)
+        raise RecordError(str(doubt))
 
 
-def _without_doubt(
-    horizontal: Sequence[Accelerogram], channels: Sequence[Accelerogram]
-) -> list[Accelerogram]:
-    """Return the components that the row names, without the question among `channels` that it thereby answers."""
-    answered = _doubt(channels)
+def _without_doubt(horizontal: Sequence[Accelerogram]) -> list[Accelerogram]:
+    """Return the components that the row names, without the question of its file that it thereby answers."""
     return [
-        replace(channel, warnings=tuple(each for each in channel.warnings if each != answered))
+        replace(channel, warnings=tuple(each for each in channel.warnings if each.kind not in _ANSWERED))
         for channel in horizontal
     ]
 
 
-def _doubt(channels: Sequence[Accelerogram]) -> str:
+_ANSWERED = (Kind.SOME_MAY_BE_VERTICAL, Kind.LONE_MAY_BE_VERTICAL)
+"""What is no longer in doubt once a row names the horizontal components."""
+
+
+def _doubt(channels: Sequence[Accelerogram]) -> Remark | None:
     names = [channel.component for channel in channels]
     directions = [channel.azimuth for channel in channels]
     return vertical_doubt(names, directions, [channel.vertical for channel in channels])
@@ -161,7 +160,9 @@ def _horizontal(
     named = [_called(name, channels) for name in record.components]
     if named and len(record.files) == 1:
         return [
-            channel.warned(_SIDEWAYS.format(channel.component)) if channel.vertical else channel
+            channel.warned(Remark(Kind.VERTICAL_AS_HORIZONTAL, channel.component))
+            if channel.vertical
+            else channel
             for channel in named
         ]
     surface = named or [channel for channel in channels if not channel.borehole]

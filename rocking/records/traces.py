@@ -13,6 +13,7 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
+from rocking.remarks import Kind, Remark
 
 OBSPY_EXTRAS = (
     "component",
@@ -84,7 +85,7 @@ class Calibrated:
 
     acceleration: np.ndarray
     sentence: str
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Remark, ...] = ()
 
 
 def calibrated(trace: Any, inventory: Any, response: str) -> Calibrated:
@@ -140,14 +141,9 @@ def _by_response(trace: Any, inventory: Any) -> Calibrated:
         raise RecordError(f"the response of {trace.id} cannot be removed, {error}.") from error
     limits = " and ".join(f"{band[i]:g}-{band[i + 1]:g} Hz" for i in (0, 2))
     removed = f"full instrument response removed to acceleration between {limits}"
-    doubts = (_UNLIKE.format(trace.id),) if any("sensitivities" in line for line in lines) else ()
+    is_unlike = any("sensitivities" in line for line in lines)
+    doubts = (Remark(Kind.SENSITIVITY_UNLIKE_STAGES, trace.id),) if is_unlike else ()
     return Calibrated(clean.data, f"Mean removed, 5 % cosine taper, {removed}.", doubts)
-
-
-_UNLIKE = (
-    "The overall sensitivity of {0} is more than 5 % off what the stages of its response give at the frequency it is "
-    "stated for; the stages were used: ask the network which one holds."
-)
 
 
 @contextmanager

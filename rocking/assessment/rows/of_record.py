@@ -284,7 +284,7 @@ class RecordRow(ComponentRow[ReadComponent]):
         "Steps applied to the numbers of the file, in order", lambda read: read.accelerogram.processing
     )
     warnings: tuple[str, ...] = of_component(
-        "Warnings of the reader about the file", lambda read: read.accelerogram.warnings
+        "Warnings of the reader about the file", lambda read: tuple(map(str, read.accelerogram.warnings))
     )
 
 

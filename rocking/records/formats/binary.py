@@ -18,6 +18,7 @@ from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.text import LARGEST_SERIES
 from rocking.records.instrument import azimuth
 from rocking.records.traces import calibrated, first_line, joined, names, site
+from rocking.remarks import Kind, Remark
 from rocking.tables import read_whole
 
 _DAMAGE = re.compile(r"integrity|not a SEED record|unexpected end|will not be read|corrupt|mismatch", re.I)
@@ -31,7 +32,7 @@ def _stream(content: bytes, form: str, **options: Any) -> Any:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
-            notes = _check_blocks(content) if form == "MSEED" else set()
+            notes = _check_blocks(content) if form == "MSEED" else []
             result = obspy.read(io.BytesIO(content), format=form, check_compression=False, **options)
         except RecordError:
             raise
@@ -43,15 +44,15 @@ def _stream(content: bytes, form: str, **options: Any) -> Any:
         raise RecordError(f"damaged {form} file, {damage[0]}; fetch it again.")
     if not any(trace.stats.npts for trace in result):
         raise RecordError(f"the {form} file holds no samples.")
-    notes |= {f"obspy: {text}." for text in messages}
+    notes += [Remark.of(Kind.TOLD_BY_OBSPY, text=text) for text in messages]
     for _, station, _, channel, _, begin, length, _ in result.get_gaps():
         if length < 0:
-            overlap = f"overlap by {-length:g} s at {begin}: repeated or overwritten"
-            notes.add(f"Blocks of {station} {channel} {overlap}.")
-    return joined(result), tuple(sorted(notes))
+            of = f"{station} {channel}"
+            notes.append(Remark.of(Kind.BLOCKS_OVERLAP, of, overlap_s=float(-length), time=str(begin)))
+    return joined(result), tuple(sorted(set(notes), key=str))
 
 
-def _check_blocks(content: bytes) -> set[str]:
+def _check_blocks(content: bytes) -> list[Remark]:
     """Check by the heads of its blocks that a miniSEED file is whole and not too large; a warning of a leap."""
     import obspy  # which takes a second to import
     from obspy.io.mseed.util import get_record_information
@@ -74,10 +75,10 @@ def _check_blocks(content: bytes) -> set[str]:
     numbers = np.array([int(mark) for mark in marks if mark.isdigit()])
     leaps = np.flatnonzero((np.diff(numbers) != 1) & (numbers[1:] != 1))
     if not 0 < 2 * leaps.size < numbers.size - 1:
-        return set()
-    before = numbers[leaps[0]]
-    after = numbers[leaps[0] + 1]
-    return {f"Block number {after} follows number {before}: blocks are missing, repeated or overwritten."}
+        return []
+    before = int(numbers[leaps[0]])
+    after = int(numbers[leaps[0] + 1])
+    return [Remark.of(Kind.BLOCKS_LEAP, before=before, after=after)]
 
 
 def _sac_direction(header: dict[str, float], component: str) -> dict[str, Any]:
@@ -160,8 +161,8 @@ def _sac_motion(trace: Any, options: Options) -> tuple[str, np.ndarray, dict[str
     unit = options.unit_of(None)
     values, offset = without_offset(trace.data.astype(float) * trace.stats.calib, unit)
     scale = float(trace.stats.calib)
-    scaled = (f"Samples multiplied by the SCALE that the header states, {scale:g}.",) if scale != 1 else ()
-    return unit, values, {"processing": (*scaled, offset), "warnings": scaled}
+    scaled = (Remark.of(Kind.SCALE_APPLIED, factor=scale),) if scale != 1 else ()
+    return unit, values, {"processing": (*map(str, scaled), offset), "warnings": scaled}
 
 
 _SAC_SILENT = (

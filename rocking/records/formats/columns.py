@@ -17,6 +17,7 @@ from rocking.records.formats.remarks import Declarations, factor_warnings, speak
 from rocking.records.formats.stamps import in_seconds
 from rocking.records.formats.titled import LONGEST_STEP, heading_of
 from rocking.records.instrument import directed, names_acceleration, refuse_by_name, refuse_other_quantity
+from rocking.remarks import Kind, Remark
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
 _EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
@@ -277,12 +278,12 @@ _END = re.compile(
 _FILLING = re.compile(rb"(?i)(?:[ \t]+nan)+\s*\Z")
 
 
-def _without_filling(body: bytes, table: _Table) -> tuple[bytes, tuple[str, ...]]:
+def _without_filling(body: bytes, table: _Table) -> tuple[bytes, tuple[Remark, ...]]:
     """Return the numbers of a series on several columns without the NaN that fill its last row up, and what says so."""
     bare = body[:-_TAIL] + _FILLING.sub(b"\n", body[-_TAIL:])
     if table.labels or table.width < 3 or bare == body:
         return body, ()
-    return bare, ("The last row is filled up with NaN, which are left out.",)
+    return bare, (Remark(Kind.ROW_FILLED_UP),)
 
 
 def _series(values: np.ndarray, table: _Table, options: Options, said: Declarations) -> Accelerogram:
@@ -360,21 +361,18 @@ _FEWEST_OF_BOTH_SIGNS = 100
 """Samples from which on a motion has some of either sign."""
 
 
-def _never_negative(record: Accelerogram) -> tuple[str, ...]:
+def _never_negative(record: Accelerogram) -> tuple[Remark, ...]:
     """Return a warning where no number is below zero: the ground moves both ways."""
     if record.acceleration.size < _FEWEST_OF_BOTH_SIGNS or record.acceleration.min() < 0:
         return ()
     if record.peak_acceleration == 0:
         return ()
-    return (
-        f"No number of {record.component or 'the column'} is below zero: it is a spectrum, a series of magnitudes, or "
-        "a record whose offset was not removed.",
-    )
+    return (Remark(Kind.NEVER_NEGATIVE, record.component or "the column"),)
 
 
 def _without_count(
     values: np.ndarray, declared: float | None
-) -> tuple[np.ndarray, float | None, tuple[str, ...]]:
+) -> tuple[np.ndarray, float | None, tuple[Remark, ...]]:
     """Return the samples without what stands above them as first numbers, and the time step [s] among that.
 
     That is their number, their number and the time step or the rate, or the time step that the caller declares.
@@ -383,30 +381,29 @@ def _without_count(
         if values.size > above + 2 and values[0] == values.size - above:
             second = float(values[1])
             if above == 1:
-                return values[1:], None, (_FIRST_IS.format("number of samples"),)
+                return values[1:], None, (Remark(Kind.FIRST_IS_COUNT),)
             if 0 < second <= LONGEST_STEP:
-                return values[2:], second, (_FIRST_IS.format("number of samples and the time step"),)
+                return values[2:], second, (Remark(Kind.FIRST_ARE_COUNT_AND_STEP),)
             if _RATES[0] <= second <= _RATES[1] and second == round(second):
-                return values[2:], 1 / second, (_FIRST_IS.format("number of samples and the rate"),)
+                return values[2:], 1 / second, (Remark(Kind.FIRST_ARE_COUNT_AND_RATE),)
     if values.size > 4 and values[1] == values.size - 2 and 0 < values[0] <= LONGEST_STEP:
-        return values[2:], float(values[0]), (_FIRST_IS.format("time step and the number of samples"),)
+        return values[2:], float(values[0]), (Remark(Kind.FIRST_ARE_STEP_AND_COUNT),)
     if declared is not None and values.size > _FEWEST_ROWS and values[0] == declared:
-        return values[1:], None, (_FIRST_IS.format("time step"),)
+        return values[1:], None, (Remark(Kind.FIRST_IS_STEP),)
     return values, None, ()
 
 
-_FIRST_IS = "The first of the numbers is the {}, and no sample."
 _RATES = 20.0, 2000.0
 """Hz; of recorders."""
 
 
-def _cut_number(body: bytes) -> tuple[str, ...]:
+def _cut_number(body: bytes) -> tuple[Remark, ...]:
     """Return a warning when the last number has fewer decimals than all above it, and no line end: the file is cut."""
     tail = [] if body.endswith(b"\n") else text.lines(body[-_TAIL:])[1:]
     decimals = [len(match[1]) for line in tail if line.strip() and (match := _DECIMALS.search(line))]
     if len(decimals) < 3 or decimals[-1] >= min(decimals[:-1]):
         return ()
-    return ("The last number has fewer decimals than those above it and no line end: the file may be cut.",)
+    return (Remark(Kind.NUMBER_CUT),)
 
 
 def _time_first(values: np.ndarray, width: int) -> bool:
@@ -416,12 +413,11 @@ def _time_first(values: np.ndarray, width: int) -> bool:
     return first.size > 2 and first[0] >= 0 and steps.min() > 0 and float(np.ptp(steps)) < 0.01 * steps[0]
 
 
-def _repeats(values: np.ndarray) -> tuple[str, ...]:
+def _repeats(values: np.ndarray) -> tuple[Remark, ...]:
     """Return a warning when numbers without count or times come twice."""
     half, odd = divmod(values.size, 2)
     is_twice = not odd and half > 1 and np.any(values) and np.array_equal(values[:half], values[half:])
-    sentence = f"The second half of the samples repeats the first, {half} numbers: the file may be appended to itself."
-    return (sentence,) if is_twice else ()
+    return (Remark.of(Kind.HALF_REPEATED, samples=half),) if is_twice else ()
 
 
 def _pointing(record: Accelerogram, component: str) -> Accelerogram:
@@ -460,8 +456,8 @@ def _timed_columns(
     if not records:
         _refuse_others(labels, others)
     integrals = [place + 1 for place, what in others.items() if what == _INTEGRAL]
-    note = "Left out, for it is the integral of another column, a velocity or a displacement: column {}."
-    return [record.warned(*(note.format(place) for place in integrals)) for record in records]
+    left_out = [Remark.of(Kind.INTEGRAL_LEFT_OUT, column=place) for place in integrals]
+    return [record.warned(*left_out) for record in records]
 
 
 _INTEGRAL = "the integral of another column"
@@ -535,7 +531,7 @@ def _column(
     times: np.ndarray | None,
     values: np.ndarray,
     options: Options,
-    repeats: tuple[str, ...],
+    repeats: tuple[Remark, ...],
     said: Declarations,
 ) -> Accelerogram:
     """The accelerogram of one column of a table.
@@ -547,9 +543,10 @@ def _column(
     if times is not None:
         step = text.even_step(times)
         if step is None:
-            step, even, sentence = text.resampled(times)
+            step, even, remark = text.resampled(times)
             values = np.interp(even, times, values)
-            processing = repeats = (sentence,)
+            processing = (str(remark),)
+            repeats = (remark,)
     facts: dict[str, Any] = {"component": label.component, "processing": processing, "warnings": repeats}
     return options.accelerogram(label.unit or said.unit, values, step, processed=None, **facts)
 

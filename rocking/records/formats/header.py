@@ -16,6 +16,7 @@ from rocking.records.formats.format import Options
 from rocking.records.formats.text import count, fields, lines, number, whole
 from rocking.records.instrument import is_down_hole, refuse_other_quantity, site_warnings
 from rocking.records.plausibility import agree_with_header, agree_with_mean_square
+from rocking.remarks import Kind, Remark
 
 NUMBER = r"([+-]?(?:\d+\.?\d*|\.\d+)(?:E[+-]?\d+)?)"
 Fact = Literal[
@@ -132,8 +133,7 @@ class Layout:
         record = options.accelerogram(unit, values, step, **facts)
         announced = optional_number(r"\(\s*(\d+)\s+Chns\s+of", head) or 0.0
         if total < announced < 1e4:
-            sentence = f"The header speaks of {announced:g} channels, but the file holds {total}."
-            record = record.warned(sentence)
+            record = record.warned(Remark.of(Kind.CHANNELS_UNLIKE_HEADER, announced=announced, held=total))
         record = record.warned(*site_warnings(self.text("location", head)))
         if duration := self.text("duration", head):
             rounding = self.duration_digits * 10.0 ** -len(duration.partition(".")[2])

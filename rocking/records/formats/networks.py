@@ -15,6 +15,7 @@ from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.header import Layout, key, keyed
 from rocking.records.instrument import azimuth, is_vertical
 from rocking.records.plausibility import agree_with_velocity
+from rocking.remarks import Kind, Remark
 
 
 def _in_zone(time: str, zone: str) -> str:
@@ -194,7 +195,7 @@ def _read_unam(content: bytes, options: Options) -> list[Accelerogram]:
     return [_unam_channel(own, values, options, notes + surplus) for own, values in channels]
 
 
-def _unam_channel(head: str, values: np.ndarray, options: Options, notes: tuple[str, ...]) -> Accelerogram:
+def _unam_channel(head: str, values: np.ndarray, options: Options, notes: tuple[Remark, ...]) -> Accelerogram:
     step = text.number("INTERVALO DE MUESTREO", _UNAM.required("step", head))
     keys = "VEL. DE MUESTREO", "FACTOR DE DECIMACION", "ACEL. MAX."
     rate, decimation, place = (header.optional_number(key(name) + "$", head) for name in keys)
@@ -223,7 +224,7 @@ def _of_channel(head: Sequence[str], channel: int) -> str:
     return "\n".join(own)
 
 
-def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tuple[str, ...]]:
+def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tuple[Remark, ...]]:
     """Return `table` without one or two surplus lines at its end that repeat the lines before, and a warning if so."""
     surplus = len(table) - declared
     if not 1 <= surplus <= _REPEATED or declared < 2:
@@ -232,9 +233,10 @@ def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tupl
     before = table[declared - surplus : declared]
     if not (np.array_equal(last, before) or np.all(last == table[declared - 1])):
         return table, ()
-    what = "line repeats the end and is" if surplus == 1 else "lines repeat the end and are"
-    sentence = f"The header declares {declared} samples; the {surplus} surplus {what} left out."
-    return table[:declared], (sentence,)
+    remark = Remark.of(Kind.LINE_SURPLUS, declared=declared)
+    if surplus > 1:
+        remark = Remark.of(Kind.LINES_SURPLUS, declared=declared, lines=surplus)
+    return table[:declared], (remark,)
 
 
 _JAPAN = 9.0  # h ahead of universal time
@@ -335,7 +337,7 @@ After GNS accelerogram data files, Standard Format (2008).
 
 
 def _geonet_channel(block: list[str], options: Options, total: int) -> Accelerogram:
-    note = f"A GeoNet file holds 3 components, but this one holds {total}."
+    note = Remark.of(Kind.CHANNELS_OF_GEONET, held=total)
     head = "\n".join(block[:_TEXT])
     samples = _GEONET.count(head)
     rows = [row for row in block[_HEADER:] if row.strip()]
@@ -445,8 +447,8 @@ def _smc_digitised(
     step = text.even_step(times)
     if step is not None:
         return _SMC.channel(head, values, options, step=step, **facts)
-    step, even, sentence = text.through_points(times)
-    facts |= {"processing": (sentence,), "warnings": (sentence,)}
+    step, even, remark = text.through_points(times)
+    facts |= {"processing": (str(remark),), "warnings": (remark,)}
     facts["file_samples"] = values * acceleration_factor(_SMC.unit)
     facts["file_times"] = times
     return _SMC.channel(head, np.interp(even, times, values), options, step=step, **facts)

@@ -8,6 +8,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Options
 from rocking.records.formats.header import Layout
 from rocking.records.formats.text import after_lines, count, is_number, lines, number, numbers, whole
+from rocking.remarks import Kind, Remark
 
 _STEPS = (
     re.compile(
@@ -41,7 +42,6 @@ _DATE_AT_END = re.compile(r"\s*\b\d{1,2}/\d{1,2}/\d{2,4}(?:,? +\d{1,2}:?\d\d)?$"
 """In a title like "DUZCE 11/12/99": the date stands in a fact of its own."""
 _HEADER_LINES = 8
 _LONGEST_COMPONENT = 16
-_MATCHED = "The header says that the record is matched to a spectrum: artificial, not a recorded motion."
 
 
 def _header(content: bytes) -> tuple[list[str], re.Match[str]] | None:
@@ -86,7 +86,7 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     corner = points[1] if points else poles[1][1] if len(poles) > 1 and poles[1][0] != "0" else "0"
     facts: dict[str, Any] = {"component": _component(title), "processed": True, "warnings": warnings}
     if re.search(r"\bmatched\b", head[0], re.I):
-        facts["warnings"] += (_MATCHED,)
+        facts["warnings"] += (Remark(Kind.MATCHED_TO_SPECTRUM),)
     if len(parts) >= 3:
         undated = _DATE_AT_END.sub("", parts[0])
         facts |= {"station": parts[-2], "event": undated or parts[0]}

@@ -7,6 +7,7 @@ from typing import TypeVar
 
 from rocking.quantities import acceleration_unit
 from rocking.records.instrument import azimuth, is_vertical
+from rocking.remarks import Kind, Remark
 
 
 @dataclass(frozen=True)
@@ -114,15 +115,12 @@ def speaks_of_factor(remark: str) -> bool:
     return bool(_SCALED.search(remark) or (_TIMES.search(remark) and OF_ACCELERATION.search(remark)))
 
 
-def factor_warnings(remarks: Sequence[str]) -> tuple[str, ...]:
+def factor_warnings(remarks: Sequence[str]) -> tuple[Remark, ...]:
     """Return a warning where remarks speak of a factor: none is applied."""
     spoken = [remark.strip() for remark in remarks if speaks_of_factor(remark)]
     if not spoken:
         return ()
-    return (
-        f"The text above the numbers speaks of a factor or of counts ({spoken[0][:60]}): no factor is applied, and "
-        "they are read as they stand.",
-    )
+    return (Remark.of(Kind.FACTOR_NOT_APPLIED, text=spoken[0][:60]),)
 
 
 def _units(remark: str) -> set[str]:

@@ -8,6 +8,7 @@ from contextlib import suppress
 import numpy as np
 
 from rocking.errors import RecordError
+from rocking.remarks import Kind, Remark
 
 _NUMERIC = b"0123456789+-.eE \t\n\r"
 _LARGEST = 1e100
@@ -137,7 +138,7 @@ def column_width(row: str) -> int:
     return points[1] - points[0] if len(points) > 1 else max(1, len(row.rstrip()))
 
 
-def whole(values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray, tuple[str, ...]]:
+def whole(values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray, tuple[Remark, ...]]:
     """Return `values`, with a warning if there are up to a line more than `declared`.
 
     Raises RecordError when there are fewer (the file is cut) or many more (something else stands in it).
@@ -151,7 +152,7 @@ def whole(values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray,
         raise RecordError(f"{stated}: it is truncated or its header is another's; fetch the whole file.")
     if values.size > declared + per_line:
         raise RecordError(f"{stated}: more than one line too many; mend the header or cut the file.")
-    return values, (f"T{stated[1:]}; all are kept.",)
+    return values, (Remark.of(Kind.SAMPLES_SURPLUS, declared=declared, held=values.size),)
 
 
 def filled(rows: list[str], declared: int, per_line: int, width: int, margin: int = 0) -> np.ndarray:
@@ -215,8 +216,8 @@ def only_even_step(times: np.ndarray) -> float:
     return step
 
 
-def resampled(times: np.ndarray) -> tuple[float, np.ndarray, str]:
-    """Return (step, even times, the sentence that says so) for uneven `times`: linear, at their median step.
+def resampled(times: np.ndarray) -> tuple[float, np.ndarray, Remark]:
+    """Return (step, even times, the remark that says so) for uneven `times`: linear, at their median step.
 
     Raises RecordError at a gap of more than five of these steps: a line across it would be no record.
     """
@@ -225,9 +226,8 @@ def resampled(times: np.ndarray) -> tuple[float, np.ndarray, str]:
     number = int(min((times[-1] - times[0]) / step, 1e12)) + 1 if step > 0 else 0
     if not 2 <= number <= LARGEST_SERIES:
         raise RecordError(f"the times are uneven and would make {number} samples {step:g} s apart.")
-    change = f"interpolated linearly to {number} at their median step, {step:g} s"
-    sentence = f"The {times.size} samples are unevenly spaced; {change}."
-    return step, times[0] + step * np.arange(number), sentence
+    remark = Remark.of(Kind.UNEVEN, samples=times.size, number=number, time_step_s=step)
+    return step, times[0] + step * np.arange(number), remark
 
 
 _APART = 0.005
@@ -236,15 +236,14 @@ _LONGEST_LINE = 0.25
 """s; the longest line between two points of film."""
 
 
-def through_points(times: np.ndarray) -> tuple[float, np.ndarray, str]:
-    """Return (step, even times, the sentence that says so) for points of film, a dozen to a hundred a second.
+def through_points(times: np.ndarray) -> tuple[float, np.ndarray, Remark]:
+    """Return (step, even times, the remark that says so) for points of film, a dozen to a hundred a second.
 
     They stand where the trace bends and are joined by lines. Raises RecordError at a gap.
     """
     check_no_gap(times, _LONGEST_LINE)
     even = np.arange(round(times[0] / _APART), int(times[-1] / _APART + 1e-6) + 1) * _APART
-    change = f"interpolated linearly to {even.size}, {_APART:g} s apart"
-    return _APART, even, f"The {times.size} samples are unevenly spaced; {change}."
+    return _APART, even, Remark.of(Kind.UNEVEN_FILM, samples=times.size, number=even.size, time_step_s=_APART)
 
 
 def check_no_gap(times: np.ndarray, longest: float) -> None:

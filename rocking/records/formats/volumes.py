@@ -17,6 +17,7 @@ from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.header import Layout
 from rocking.records.instrument import is_vertical
 from rocking.records.plausibility import agree_with_mean_square, agree_with_velocity
+from rocking.remarks import Kind, Remark
 
 _COSMOS = Layout("", {
     "event": r"\A.*\n(?:Rcrd|Record)?[ \t]*(?:of)?[ \t]*(.*)", "station": r"Code:\s*(\S+)",
@@ -73,7 +74,7 @@ def _cosmos(block: list[str], options: Options, total: int) -> Accelerogram | No
     lasts = values.size * step
     wrong = 0 < length < 1e5 and abs(length - lasts) > 1.5 * step + 5e-4  # not all agencies fill it
     stated = [None if abs(real - _UNKNOWN) < 1e-3 else real for real in reals]
-    note = f"The header gives the series a length of {length:g} s, but its samples last {lasts:g} s."
+    note = Remark.of(Kind.LENGTH_UNLIKE_HEADER, stated_s=length, lasts_s=lasts)
     facts: dict[str, Any] = {"component": _component(head), "warnings": (note,) if wrong else ()}
     facts |= {"elevation": stated[_ELEVATION], "epicentral_distance": header.distance(stated[_DISTANCE])}
     facts |= {"peak": stated[_PEAK], "peak_time": stated[_PEAK_TIME]}
@@ -169,7 +170,7 @@ def _digitised(
     if step is not None:
         return layout.channel(head, values, options, step=step, total=total)
     step, even, note = text.through_points(times)
-    more: dict[str, Any] = {"processing": (note,), "warnings": (note,), "total": total, "step": step}
+    more: dict[str, Any] = {"processing": (str(note),), "warnings": (note,), "total": total, "step": step}
     more["file_samples"] = values * acceleration_factor("g/10")
     more["file_times"] = times
     return layout.channel(head, np.interp(even, times, values), options, **more)
@@ -183,13 +184,13 @@ def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
     reals = " ".join(block[_REALS_AT : _REALS_AT + 2]).split()
     printed = reals[_RATE] if len(reals) > _RATE else "0"
     rate = float(printed) if text.is_number(printed) else 0.0
-    note = ""
+    notes: tuple[Remark, ...] = ()
     if not text.is_number(printed):
-        note = f"The header gives a rate of {printed!r}, which is no number: the file may be damaged."
+        notes = (Remark.of(Kind.RATE_NO_NUMBER, rate=printed),)
     elif 1 <= rate <= 1e4 and abs(rate * step - 1) > 1e-3:
-        note = f"The header gives a rate of {rate:g} Hz, but duration and count a step of {step:g} s."
+        notes = (Remark.of(Kind.RATE_UNLIKE_STEP, rate_hz=rate, time_step_s=step),)
     letter = _BHRC.text("component", head)[:1].upper()
-    facts: dict[str, Any] = {"processing": (offset,), "warnings": (note,) if note else ()}
+    facts: dict[str, Any] = {"processing": (offset,), "warnings": notes}
     facts["vertical"] = is_vertical(letter)
     if letter in ("L", "T"):
         facts["azimuth"] = header.optional_number(rf"Azimuth\b.*\b{letter}\s+(\d+)", head)

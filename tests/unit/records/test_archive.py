@@ -14,6 +14,7 @@ from rocking.records.catalogue import catalogue_text
 from rocking.records.files import fill_hashes, local_files
 from rocking.records.folder import catalogue_of_folder, list_folder
 from rocking.records.station import open_station
+from rocking.remarks import Kind, Remark
 from tests.contracts.made_files import TRUE, peer
 
 FILES = {"quake/RSN1_MADE_ST000.AT2": peer(), "quake/RSN1_MADE_ST090.AT2": peer().replace(", 45", ", 135")}
@@ -33,7 +34,7 @@ def test_every_member_is_read_as_the_file_is(tmp_path):
         "45",
         "135",
     )
-    assert first.warnings == ("Of the archive these files were not read: readme.pdf.",)
+    assert first.warnings == (Remark.of(Kind.FILES_NOT_READ, names="readme.pdf"),)
     (alone,) = read(archive / "quake/RSN1_MADE_ST090.AT2")
     assert alone.source.sha256 == second.source.sha256 and alone.source.path.endswith(
         ".zip/quake/RSN1_MADE_ST090.AT2"
@@ -106,7 +107,8 @@ def test_what_swells_or_is_damaged_is_refused_member_by_member(tmp_path):
     content[content.find(b"ACCELERATION TIME")] ^= 1
     archive.write_bytes(content)
     (record,) = read(archive)
-    assert "ST000.AT2" in record.warnings[0]
+    assert record.warnings[0].kind is Kind.FILES_NOT_READ
+    assert "ST000.AT2" in record.warnings[0]["names"]
     with pytest.raises(RecordError, match="damaged there"):
         read(archive / "quake/RSN1_MADE_ST000.AT2")
     with pytest.raises(RecordError, match="no such file"):

@@ -22,6 +22,7 @@ from rocking.records.catalogue import catalogue_text, repeated
 from rocking.records.files import download, fill_hashes, path_of
 from rocking.records.folder import list_folder
 from rocking.records.listing import listing_text
+from rocking.remarks import Kind, Remark
 
 ROWS = (f"{i / 100},{i % 5},{i % 7},{i % 3}\n" for i in range(50))
 TABLE = "time,NS (gal),EW (gal),UD (gal)\n" + "".join(ROWS)
@@ -71,7 +72,7 @@ def test_components_by_name_and_in_the_order_given(folder: Path) -> None:
     (record,) = load_catalogue(write(folder, row(component="UD; NS")))
     vertical, horizontal = open_record(record)
     assert (vertical.component, horizontal.component) == ("UD", "NS") and not horizontal.warnings
-    assert "is vertical, but the catalogue takes it as horizontal" in vertical.warnings[-1]
+    assert vertical.warnings[-1] == Remark(Kind.VERTICAL_AS_HORIZONTAL, "UD")
     (record,) = load_catalogue(write(folder, row(component="XX")))
     with pytest.raises(RecordError, match=r"table.csv: .*'XX', but the file holds NS, EW, UD"):
         open_record(record)

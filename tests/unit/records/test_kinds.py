@@ -11,6 +11,7 @@ from rocking.errors import RecordError
 from rocking.records import Accelerogram, read
 from rocking.records.formats.header import coordinates
 from rocking.records.instrument import azimuth, is_vertical
+from rocking.remarks import Kind, Remark
 from tests.contracts.made_files import TRUE, columns, cwb, smc
 
 TIMES = np.arange(600) * 0.01
@@ -96,8 +97,8 @@ def test_points_of_film_in_smc_are_joined_by_lines(tmp_path):
     assert np.allclose(
         100 * record.acceleration, np.interp(even, times, values), atol=0.05
     )  # times to 1e-4 s
-    assert len(record.warnings) == 1  # the header puts the peak where it is among the points
-    assert "unevenly spaced" in record.warnings[0]
+    (told,) = record.warnings  # the header puts the peak where it is among the points
+    assert told.kind is Kind.UNEVEN_FILM
 
 
 def test_the_disc_of_1999_is_read_as_its_later_files_are(tmp_path):
@@ -190,7 +191,7 @@ def test_a_sac_header_that_contradicts_its_channel_code_is_told(
     SACTrace(data=numbers, delta=0.01, kcmpnm=code, cmpaz=azimuth, cmpinc=inclination).write(str(path))
     (record,) = read(path, unit="m/s2")
     assert (record.azimuth, record.vertical) == (along, vertical)
-    assert any("which its code contradicts" in sentence for sentence in record.warnings) == is_told
+    assert (Kind.DIRECTION_CONTRADICTED in {each.kind for each in record.warnings}) == is_told
 
 
 def test_the_scale_of_a_sac_file_is_told(tmp_path):
@@ -199,4 +200,4 @@ def test_the_scale_of_a_sac_file_is_told(tmp_path):
     SACTrace(data=numbers, delta=0.01, kcmpnm="HNE", scale=2.0).write(str(path))
     (record,) = read(path, unit="m/s2")
     assert record.acceleration == pytest.approx(2 * (numbers - numbers.mean()), abs=1e-5)
-    assert any("multiplied by the SCALE" in sentence for sentence in record.warnings)
+    assert Remark.of(Kind.SCALE_APPLIED, factor=2.0) in record.warnings

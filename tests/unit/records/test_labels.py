@@ -10,6 +10,7 @@ from rocking.quantities import acceleration_factor
 from rocking.records import Accelerogram, read
 from rocking.records.formats.labels import ColumnLabel
 from rocking.records.instrument import azimuth, is_vertical
+from rocking.remarks import Kind, Remark
 
 TIMES = np.arange(600) * 0.01
 WAVES = [
@@ -141,7 +142,7 @@ def test_velocity_and_displacement_beside_acceleration_are_left_out(tmp_path, he
 def test_an_unnamed_column_that_is_the_integral_of_another_is_left_out_and_told(tmp_path):
     (record,) = opened(tmp_path, table("", TIMES, FIRST, VELOCITY), unit="m/s2")
     assert np.allclose(record.acceleration, FIRST, atol=1e-6)
-    assert any("integral of another column" in sentence for sentence in record.warnings)
+    assert Remark.of(Kind.INTEGRAL_LEFT_OUT, column=3) in record.warnings
     assert len(opened(tmp_path, table("", TIMES, *WAVES), unit="m/s2")) == 3
 
 
@@ -227,20 +228,21 @@ def test_a_count_and_a_step_above_two_columns(tmp_path):
 def test_three_channels_of_which_none_is_called_vertical_are_told(tmp_path):
     content = table("time (s),Ch1 (m/s2),Ch2 (m/s2),Ch3 (m/s2)\n", TIMES, *WAVES)
     for record in opened(tmp_path, content):
-        assert any("nothing says which one is" in sentence for sentence in record.warnings)
-        assert not any("seismometer" in sentence for sentence in record.warnings)
+        kinds = {each.kind for each in record.warnings}
+        assert Kind.SOME_MAY_BE_VERTICAL in kinds
+        assert Kind.CHANNEL_OF_VELOCITY not in kinds
     named = table("time (s),X (m/s2),Y (m/s2),Z (m/s2)\n", TIMES, *WAVES)
-    assert not any("which one is" in sentence for sentence in opened(tmp_path, named)[0].warnings)
+    assert Kind.SOME_MAY_BE_VERTICAL not in {each.kind for each in opened(tmp_path, named)[0].warnings}
 
 
 def test_numbers_none_of_which_is_negative_are_told(tmp_path):
     (record,) = opened(tmp_path, table("", TIMES, np.abs(FIRST) + 0.01), unit="m/s2")
-    assert any("is below zero" in sentence for sentence in record.warnings)
+    assert Kind.NEVER_NEGATIVE in {each.kind for each in record.warnings}
 
 
 def test_a_column_of_a_floor_is_told(tmp_path):
     _, roof = opened(tmp_path, table("time (s),ground (g),roof (g)\n", TIMES, FIRST, WAVES[1]))
-    assert any("stood in a structure (roof)" in sentence for sentence in roof.warnings)
+    assert Remark.of(Kind.IN_A_STRUCTURE, place="roof") in roof.warnings
 
 
 def test_text_above_a_table_is_passed_over_where_nothing_is_left_open(tmp_path):
@@ -356,7 +358,7 @@ def test_the_filling_of_the_last_row_is_left_out(tmp_path):
     (record,) = opened(tmp_path, "# Component: HNZ\n# units: m/s2, dt = 0.01 s\n" + rows)
     assert record.vertical
     assert record.acceleration == pytest.approx(FIRST, abs=1e-6)
-    assert "filled up with NaN" in " ".join(record.warnings)
+    assert Kind.ROW_FILLED_UP in {each.kind for each in record.warnings}
     with pytest.raises(RecordError, match="NaN"):
         opened(tmp_path, "# units: m/s2, dt = 0.01 s\n" + rows.replace(numbers[300], "NaN", 1))
 

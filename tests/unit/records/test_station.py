@@ -11,6 +11,7 @@ from rocking.errors import RecordError
 from rocking.records import Accelerogram, CatalogueRecord, aligned, open_station
 from rocking.records.folder import catalogue_of_folder, list_folder, unlisted
 from rocking.records.listing import doubts_of
+from rocking.remarks import Kind
 
 VALUES = np.sin(np.arange(300) * 0.3)
 
@@ -174,8 +175,9 @@ def test_a_channel_that_may_be_vertical_is_asked_for(tmp_path):
     ):
         open_station(table(["QQX"]))
     (alone,) = open_station(replace(table(["QQX"]), component="QQX")).horizontal
-    assert alone.component == "QQX" and not any("may be vertical" in each for each in alone.warnings)
-    assert not any("may be vertical" in each for channel in named.horizontal for each in channel.warnings)
+    assert alone.component == "QQX"
+    kinds = {each.kind for channel in (alone, *named.horizontal) for each in channel.warnings}
+    assert not kinds & {Kind.LONE_MAY_BE_VERTICAL, Kind.SOME_MAY_BE_VERTICAL}
     upright = open_station(table(["A", "B", "UP"]))
     assert [channel.component for channel in upright.horizontal] == ["A", "B"]
     assert upright.vertical.component == "UP"
