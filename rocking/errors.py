@@ -10,12 +10,23 @@ from contextlib import contextmanager
 class RockingError(Exception):
     """Root of every error this package raises on purpose.
 
+    places: the record and the file that it is about, the outer one first, where those who raised it did not know them.
+
     >>> try:
     ...     rocking.Block.of_size(breadth=-1, height=3)
     ... except rocking.RockingError as error:
     ...     print(error)
     breadth is -1 m, but must be a number from 0.0001 to 100000.
     """
+
+    places: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return self.beside("")
+
+    def beside(self, place: str) -> str:
+        """Return the sentence for where `place`, one of the places, already stands beside it."""
+        return ": ".join((*(each for each in self.places if each != place), super().__str__()))
 
 
 class RecordError(RockingError):
@@ -68,9 +79,9 @@ class StructureWarning(UserWarning):
 
 @contextmanager
 def about(what: str) -> Iterator[None]:
-    """Put `what`, the name of a file or of a record, before the message of an error that is raised within."""
+    """Add `what`, the name of a file or of a record, to the places of an error that is raised within."""
     try:
         yield
     except RockingError as error:
-        error.args = (f"{what}: {error}",)
+        error.places = (what, *error.places)
         raise

@@ -189,7 +189,7 @@ def assess_catalogued(
         with clock.stage("read"):
             horizontal, vertical = opened or study.open(record)
     except RockingError as error:
-        unread = Failure("read", str(error))
+        unread = Failure("read", error.beside(record.id))
         return RecordResult(record=record.id, failures=(("", unread),), durations=dict(clock.durations))
     return assess_record(
         record.id,

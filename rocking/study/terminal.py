@@ -46,10 +46,7 @@ def record_line(
     """
     swept = list(swept)
     in_sentences = {judgement.structure for each in swept for judgement in each.judgements}
-    reasons = (
-        (f"{each.structure}: " if each.structure else "") + each.message.removeprefix(f"{each.record}: ")
-        for each in failures
-    )
+    reasons = ((f"{each.structure}: " if each.structure else "") + each.message for each in failures)
     parts: dict[str, list[str]] = {"failed": [" ".join(reasons)], **{word: [] for word in ORDER}}
     alone = (each for each in judgements if each.structure not in in_sentences)
     for each in sorted(alone, key=lambda each: each.severity, reverse=True):
@@ -100,7 +97,8 @@ def check_any_read(summary: Path, records: Collection[str]) -> None:
     unread = {row.record: row.message for row in read_table(FailureRow, summary) if row.stage == "read"}
     if set(unread) >= set(records):
         number = counted(len(records), "record")
-        raise RecordError(f"none of {number} could be read; the first: {next(iter(unread.values()))}")
+        record, message = next(iter(unread.items()))
+        raise RecordError(f"none of {number} could be read; the first: {record}: {message}")
 
 
 def paths_to_read(results: Path, verdicts: Iterable[VerdictRow]) -> Iterator[str]:

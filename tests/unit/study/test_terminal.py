@@ -36,7 +36,7 @@ def test_undecided_is_ordered_by_share_and_counted_where_there_is_much_of_it() -
 
 
 def test_a_failure_stands_first_without_repeating_the_record() -> None:
-    failures = [failure("", "wall", "it cannot stand."), failure("", "", "a: it cannot be read.")]
+    failures = [failure("", "wall", "it cannot stand."), failure("", "", "it cannot be read.")]
     line = record_line([station(case("", 0.5))], failures)
     assert line == "failed: wall: it cannot stand. it cannot be read.; stands: pier 0.5"
 
