@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
@@ -15,7 +15,8 @@ from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, whole
 from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import Value, restitution_value
-from rocking.structures.linkage import STILL, Hung, Restitution, Turning
+from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
+from rocking.structures.linkage import STILL, Hung, Linkage, Restitution, Turning
 from rocking.structures.stack import (
     Course,
     Held,
@@ -48,8 +49,11 @@ class Facade(Tied):
     stays "flat" and so rests on the corner that rises.
     thrust: of a vault or a roof outwards, N/m, at thrust_height above the ground, m; None is the top. crack_storey: 1
     is the ground floor. crack_height: above the ground, m, of a crack at another joint than the foot of a storey. Where
-    neither is given it may open at any joint. restitution: η in [0, 1] or "momentum" (the default), for both sides;
-    inward_restitution: of the inward side instead. Ties and one_sided: as `Tied`.
+    neither is given it may open at any joint. behind: what stands behind it, "nothing" (the default), "floors" at the
+    top of every storey that bears one (of every storey where no load is given), which hold it inwards there, or
+    "cross_walls", which hold it inwards everywhere; one_sided is an older name, True for cross walls and False for
+    nothing. restitution: η in [0, 1] or "momentum" (the default), for both sides; inward_restitution: of the inward
+    side instead. Where something stands behind it must be a number, that of the impact on it. Ties: as `Tied`.
     Raises StructureError when it cannot stand.
 
     >>> rocking.Facade((3.5, 3.0), (0.6, 0.5), unit_weight=20e3, restitution=0.8).mechanism().positive
@@ -102,6 +106,23 @@ class Facade(Tied):
         ),
     ] = field(default=None, kw_only=True)
     restitution: Annotated[Restitution, restitution_value("momentum")] = None
+    behind: Annotated[
+        Literal["nothing", "floors", "cross_walls"] | None,
+        Value(
+            "What stands behind it: nothing, floors that hold it inwards at the top of each storey that bears one, or "
+            "cross_walls that hold it inwards everywhere",
+            "nothing",
+            phrase="{value} behind",
+        ),
+    ] = field(default=None, kw_only=True)
+    one_sided: Annotated[
+        bool | None,
+        Value(
+            "Rocks outwards only: true is behind: cross_walls, false is behind: nothing",
+            False,
+            phrase="one-sided",
+        ),
+    ] = field(default=None, kw_only=True)  # type: ignore[assignment]
     inward_restitution: Annotated[
         float | None,
         Value(
@@ -115,11 +136,15 @@ class Facade(Tied):
     def __post_init__(self) -> None:
         super().__post_init__()
         self._check_storeys()
+        self._stand_before()
         self._check_ties()
+        if self.opening is not None:
+            return
         self.mechanism()  # one that is pushed over at rest is refused at birth
         grows = any(above > below for below, above in pairwise(self.thicknesses))
         if self.crack != "known" and (self.thrust or grows):
             self.candidates()  # and one that is with another crack
+            self.mechanisms()
 
     def _check_storeys(self) -> None:
         heights = self.storey_heights
@@ -149,6 +174,26 @@ class Facade(Tied):
                 f"crack_height is {self.crack_height!r} m, but must lie on the façade, from 0 to below its height of "
                 f"{self.height:.6g} m."
             )
+
+    def _stand_before(self) -> None:
+        """Hold what stands behind against one_sided, which says whether it moves outwards only as it opens here."""
+        if self.behind is None:
+            return
+        said = {"nothing": True, "floors": False, "cross_walls": False}[self.behind]
+        if self.one_sided is said:
+            raise StructureError(
+                f"one_sided is {self.one_sided!r}, but behind is {self.behind!r}; leave one_sided out, which is an "
+                "older name of behind: true for cross_walls, false for nothing."
+            )
+        if self.behind != "nothing" and not isinstance(self.restitution, float):
+            raise StructureError(
+                f"restitution is {self.restitution!r}, but must be a number between 0 and 1 for a façade with "
+                f"{self.behind.replace('_', ' ')} behind, which take part in the impact; give it."
+            )
+        opening = self.opening or Opening(self.crack_position)
+        leans = self.held_wall.other_way(opening) is None
+        # Not False where it is free inwards above its floors: that would be said of another crack, too.
+        object.__setattr__(self, "one_sided", True if leans else None)
 
     @property
     def height(self) -> float:
@@ -187,16 +232,71 @@ class Facade(Tied):
     @property
     def caution(self) -> str:
         """A sentence where floors stand behind it through which the model lets it rock."""
-        if self.one_sided or not (any(self.floor_loads) or self.tie_heights):
+        if self.behind or self.one_sided or not (any(self.floor_loads) or self.tie_heights):
             return ""
         return (
             "It rocks inwards as freely as outwards, though the floors that it carries or is tied to stand behind it: "
-            "with one_sided: true and the restitution of its impact on them it rocks outwards only; neither is the "
+            "with behind: floors or cross_walls and the restitution of its impact on them it does not; neither is the "
             "safe side in every case, so follow both"
         )
 
-    def _linkage(self, mirrored: bool) -> Turning:
+    @cached_property
+    def held_wall(self) -> HeldWall:
+        levels = self.levels.tolist()
+        storeys = [
+            Storey(low, high, -thickness, 0.0, self.unit_weight * thickness)
+            for (low, high), thickness in zip(pairwise(levels), self.thicknesses, strict=True)
+        ]
+        loads = []
+        last = len(levels) - 2
+        for storey, load in enumerate(self.floor_loads):
+            middle = -self.thicknesses[storey] / 2
+            rides = not self.loads_held
+            if storey == last and self.top_slab == "flat":
+                loads.append(Load(middle, levels[storey + 1], load, rides, slab=-middle))
+            elif load:
+                loads.append(Load(middle - self.eccentricity, levels[storey + 1], load, rides))
+        bears = self.floor_loads if any(self.floor_loads) else [1.0] * len(storeys)
+        floors = [level for level, load in zip(levels[1:], bears, strict=True) if load]
+        if self.behind != "floors":
+            floors = []
+        holds = [Hold(height, "tie", self._yield_force, height in floors) for height in self._tie_levels]
+        holds += [Hold(each, "floor", 0.0, inwards=True) for each in floors if each not in self._tie_levels]
+        thrust_height = self.height if self.thrust_height is None else self.thrust_height
+        return HeldWall(
+            tuple(storeys),
+            tuple(loads),
+            tuple(sorted(holds)),
+            ((thrust_height, self.thrust),) if self.thrust else (),
+            backed=self.behind == "cross_walls" or bool(self.behind is None and self.one_sided),
+        )
+
+    @cached_property
+    def _tie_levels(self) -> tuple[float, ...]:
+        """The heights of the ties, each at a level of the storeys where it is one but for rounding, m."""
+        near = 1e-9 * self.height
+        levels = self.levels.tolist()
+        heights = {
+            next((level for level in levels if abs(level - height) < near), height)
+            for height in self.tie_heights
+        }
+        return tuple(sorted(heights))
+
+    def opened(self, opening: Opening) -> "Facade":
+        cracked = self._cracked_there_only.cracked_at(opening.foot)
+        return cracked if opening.hinge is None else replace(cracked, opening=opening)
+
+    def _part_at(self, height: float) -> int:
+        """The body, from 0, to which what acts at `height` [m] belongs, or STILL."""
+        if self.opening is not None:
+            return self.opening.part_at(height)
+        return 0 if height > self.crack_position else STILL
+
+    def _linkage(self, mirrored: bool) -> Linkage:
         """The storeys above the crack about their outer toe, or in the mirror about the inner one."""
+        opened = self._opened_linkage(mirrored)
+        if opened is not None:
+            return opened
         base = self._lowest_storey
         outwards = -1.0 if mirrored else 1.0
         thicknesses = np.array(self.thicknesses)[base:]
@@ -216,31 +316,41 @@ class Facade(Tied):
             return self.inward_restitution
         return super()._impact(mirrored)
 
+    @property
+    def _given_restitution(self) -> Restitution:
+        # Between and above its floors it hits nothing behind: the number is that of the floors.
+        rocks_freely = self.behind == "floors" and not self.one_sided
+        return None if rocks_freely else self.restitution
+
     def _hung(self, mirrored: bool) -> list[Hung]:
         outwards = -1.0 if mirrored else 1.0
+        way = self._way(mirrored)
+        lean = outwards if way is None else way.lean_of_top
         hung = []
         last = len(self.floor_loads) - 1
+        levels = self.levels.tolist()
         for storey, load in enumerate(self.floor_loads):
-            if storey < self._lowest_storey or not load:
+            level = levels[storey + 1]
+            part = self._part_at(level)
+            if part == STILL or not load:
                 continue
             across = -self.thicknesses[storey] / 2 - self.eccentricity
             if storey == last and self.top_slab == "flat":
-                across = 0.0 if mirrored else -self.thicknesses[storey]
-            bearing = complex(outwards * across, self.levels[storey + 1])
-            hung.append(self._load(bearing, 0, load, self.loads_held))
+                across = -self.thicknesses[storey] * (1 + lean) / 2  # the edge that rises
+            hung.append(self._load(complex(outwards * across, level), part, load, self.loads_held))
         if self.thrust:
             height = self.height if self.thrust_height is None else self.thrust_height
-            part = 0 if height > self.crack_position else STILL
-            hung.append(Hung("thrust", 1j * height, part, complex(outwards * self.thrust)))
-        for height in self.tie_heights:
-            part = 0 if height > self.crack_position else STILL
-            hung.append(Hung("tie", 1j * height, part, tie=None if mirrored else self._tie))
+            force = complex(outwards * self.thrust)
+            hung.append(Hung("thrust", 1j * height, self._part_at(height), force))
+        for height in self._tie_levels:
+            tie = self._tie_on(height, mirrored)
+            hung.append(Hung("tie", 1j * height, self._part_at(height), tie=tie))
         return hung
 
     def stack(self, courses: int | None = None) -> Stack:
         """Return all above the crack as one body where it is known, else courses that end at the feet of storeys."""
         free_to_both_sides(self)
-        whole_body = courses is None and self.crack == "known"
+        whole_body = courses is None and self.crack == "known" and self.opening is None
         if whole_body:
             body = [joined(list(self._storey_courses(1, self.crack_position)))]
         else:
@@ -309,6 +419,8 @@ class Facade(Tied):
         return replace(self, crack_storey=1, crack_height=height)
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
+        if self.opening is not None:
+            return self.held_wall.outlines(self.opening)
         parts = []
         for (low, high), thickness in zip(pairwise(self.levels), self.thicknesses, strict=True):
             crack = min(max(self.crack_position, low), high)

@@ -1,5 +1,6 @@
 """Every structure: mechanism, bodies, drawing, contacts, candidates, capacity, and how a file describes it."""
 
+import math
 import warnings
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
@@ -19,7 +20,7 @@ from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.drawing import Dimension, Mark, Path, plane
 from rocking.structures.fields import Field, Form, Value, constructor
 from rocking.structures.linkage import STILL, Linkage, Motion, Restitution, momentum_balance
-from rocking.structures.mechanism import Mechanism
+from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.stack import Stack
 from rocking.structures.standing import Standing
 
@@ -332,6 +333,10 @@ class Structure(ABC):
         """The candidates in their order."""
         return (Candidate("as given", np.nan, self),)
 
+    def mechanisms(self) -> "tuple[Candidate, ...]":
+        """Return every mechanism in which it may fall; that of a wall held at several heights has many by name."""
+        return self.candidates()
+
     @property
     def crack_is_given(self) -> bool:
         """Whether it says where it is cracked, so that this crack decides and not the one that statics chooses."""
@@ -484,16 +489,47 @@ class Candidate:
     """One mechanism that may form: a `structure` whose crack is known, at `position` [m] above the base.
 
     description: in words, "hinge at 2.56 m". position: nan where a height does not tell it, as of an arch's hinges.
+    name: what it does, "bulges between foot and tie". limit: its λ by limit analysis, in which a tie pulls with the
+    force at which it yields; None where it has no such tie. sign: of the rotation to the side to which it falls; 0:
+    both sides.
     """
 
     description: str
     position: float
     structure: Structure
+    name: str = "overturns"
+    limit: float | None = None
+    sign: int = 0
 
     @property
     def multiplier(self) -> float:
         """λ of its mechanism."""
         return self.structure.mechanism().uplift_multiplier
+
+    @property
+    def uplift_multiplier(self) -> float:
+        """λ of limit analysis, with ties at the force at which they yield; without ties where its motion begins."""
+        return self.multiplier if self.limit is None else self.limit
+
+    @property
+    def critical_rotation(self) -> float:
+        """φ_cr of its mechanism to its side, rad; nan where its motion cannot be followed, as `refusal` says."""
+        return math.nan if self.refusal else self._side.critical_rotation
+
+    @cached_property
+    def refusal(self) -> str:
+        """Why its motion cannot be followed; "" where it can."""
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", StructureWarning)  # nobody asked for its restitution
+                self.structure.mechanism()
+        except StructureError as wrong:
+            return str(wrong)
+        return ""
+
+    @property
+    def _side(self) -> Side:
+        return self.structure.mechanism().sides[-1 if self.sign < 0 else 0]
 
 
 @dataclass(frozen=True, repr=False)

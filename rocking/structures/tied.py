@@ -3,16 +3,17 @@
 from abc import abstractmethod
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
 
-from rocking.errors import StructureError
+from rocking.errors import DoesNotStandError, StructureError
 from rocking.structures.drawing import Mark, plane
 from rocking.structures.fields import OneSided, Value
-from rocking.structures.linkage import STILL, Hung
+from rocking.structures.held_wall import HeldWall, Opening
+from rocking.structures.linkage import STILL, Hung, Linkage
 from rocking.structures.mechanism import Tie
-from rocking.structures.structure import CrackedAtHeight
+from rocking.structures.structure import Candidate, CrackedAtHeight
 
 UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"ge": 1e-6})]
 Eccentricity = Annotated[
@@ -58,7 +59,11 @@ class Tied(CrackedAtHeight):
     N/m, None for elastic ties, and tie_plastic_elongation, m, by which they yield before they break. A tie pulls
     inwards only; one that is tightened needs a structure that cannot rock inwards.
     one_sided: it leans on cross walls and rocks outwards only; restitution must then be a number.
+    opening: of one of its `mechanisms()`, in which alone it moves; files do not give it.
     """
+
+    loads_rise_only: ClassVar[bool] = False
+    """Whether loads with a mass move up and down only, as something holds them sideways."""
 
     tie_heights: Annotated[
         tuple[float, ...], Value("Heights of the ties above the ground", [1.6], "m", (0.2, 60), "z")
@@ -87,6 +92,7 @@ class Tied(CrackedAtHeight):
         ),
     ] = field(default=0.0, kw_only=True)
     one_sided: OneSided = field(default=False, kw_only=True)
+    opening: Opening | None = field(default=None, kw_only=True)
 
     @property
     def side_names(self) -> tuple[str, str]:
@@ -101,6 +107,73 @@ class Tied(CrackedAtHeight):
     @abstractmethod
     def _hung(self, mirrored: bool) -> list[Hung]:
         """The loads and ties, as seen from one side."""
+
+    @property
+    @abstractmethod
+    def held_wall(self) -> HeldWall:
+        """The wall as limit analysis sees it: its masonry, what bears on it and what holds it."""
+
+    @abstractmethod
+    def opened(self, opening: Opening) -> Self:
+        """Return this wall where it opens so and nowhere else."""
+
+    def mechanisms(self) -> tuple[Candidate, ...]:
+        """Return the family of mechanisms in which it may fall, by their λ of limit analysis (theory: section 12).
+
+        One, the structure as given, where the crack is known. The same objects at every call.
+        """
+        return self.candidates() if self.crack == "known" else self._family
+
+    @cached_property
+    def _family(self) -> tuple[Candidate, ...]:
+        wall = self.held_wall
+        family = []
+        for opening, multiplier in wall.family():
+            if not multiplier > 0:
+                raise DoesNotStandError(
+                    f"the structure does not stand: at rest it {wall.name(opening)}; mend its loads or its sizes."
+                )
+            place = opening.foot if opening.hinge is None else opening.hinge
+            what = "crack" if opening.hinge is None else "hinge"
+            family.append(
+                Candidate(
+                    f"{what} at {place:.4g} m",
+                    place,
+                    self.opened(opening),
+                    name=wall.name(opening),
+                    limit=multiplier,
+                    sign=1 if opening.outwards else -1,
+                )
+            )
+        return tuple(family)
+
+    def _way(self, mirrored: bool) -> Opening | None:
+        """The way it opens to one side; None: about the crack as it is described."""
+        if self.opening is None or self.opening.outwards != mirrored:
+            return self.opening
+        return self.held_wall.other_way(self.opening)
+
+    def _opened_linkage(self, mirrored: bool) -> Linkage | None:
+        """The bodies of its opening as they move to one side; None where it has none."""
+        way = self._way(mirrored)
+        if self.opening is None or way is None:
+            return None
+        hung = self._hung(mirrored)
+        return self.held_wall.linkage(way, self.opening, hung, guided=self.loads_rise_only)
+
+    def _tie_on(self, height: float, mirrored: bool) -> Tie | None:
+        """The tie at `height` [m] where it pulls on one side: inwards it goes slack, and a hold does not move."""
+        way = self._way(mirrored)
+        stays = False
+        if way is not None and way.hold is not None:
+            stays = height == way.hold or (way.upright and height > way.hold)
+        return None if mirrored or stays else self._tie
+
+    @cached_property
+    def _yield_force(self) -> float:
+        """The force of each tie as it yields, N per metre; inf of one that never does."""
+        strength = np.inf if self.tie_strength is None else self.tie_strength
+        return strength if self.tie_stiffness else self.tie_pretension
 
     @staticmethod
     def _load(start: complex, part: int, load: float, weight_only: bool) -> Hung:

@@ -5,6 +5,7 @@ x is measured from the middle of the wall, outwards (to the right) positive; the
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Annotated, ClassVar, Literal, Self, TypedDict, Unpack
 
 import numpy as np
@@ -14,6 +15,7 @@ from rocking.quantities import GRAVITY, finite
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import OneSided, Value, length, restitution_value
+from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
 from rocking.structures.linkage import Hung, Linkage, Motion, Restitution, cross, keeps_last
 from rocking.structures.stack import Course, Held, Stack, counted_courses, course_at, courses_between, slab
 from rocking.structures.structure import HIGHEST_SHARE, CrackedAtHeight, free_to_both_sides
@@ -223,7 +225,7 @@ class CrackedWall(CrackedAtHeight):
     def _place_is_given(self) -> bool:
         return True
 
-    def _linkage(self, mirrored: bool) -> WallLinkage:
+    def _linkage(self, mirrored: bool) -> Linkage:
         return WallLinkage(self.lower_height, self.upper_height, self.thickness)
 
     def stack(self, courses: int | None = None) -> Stack:
@@ -353,6 +355,7 @@ class LoadedWall(CrackedWall, Tied):
     """
 
     type_name: ClassVar[str] = "loaded_wall"
+    loads_rise_only: ClassVar[bool] = True
     described_as: ClassVar[dict[str, str]] = {
         "of_size": "Wall between supports with a load on top and ties; forces per metre of wall"
     }
@@ -373,7 +376,8 @@ class LoadedWall(CrackedWall, Tied):
         super().__post_init__()
         check_eccentricity(self.eccentricity, self.thickness)
         self._check_ties()
-        self.mechanism()  # one that its load pushes over is refused at birth
+        if self.opening is None:
+            self.mechanism()  # one that its load pushes over is refused at birth
 
     @classmethod
     def of_size(
@@ -411,7 +415,32 @@ class LoadedWall(CrackedWall, Tied):
         bears_off_the_middle = self.top_load and self.top_slab == "hinged" and self.eccentricity != 0
         return not self.tie_heights and not bears_off_the_middle
 
-    def _linkage(self, mirrored: bool) -> WallLinkage:
+    @cached_property
+    def held_wall(self) -> HeldWall:
+        half = self.thickness / 2
+        top = self.height
+        ties = {height for height in self.tie_heights if height < top}
+        holds = [Hold(height, "tie", self._yield_force, inwards=False) for height in sorted(ties)]
+        slab = self.top_slab == "flat"
+        across = 0.0 if slab else -self.eccentricity
+        load = Load(across, top, self.top_load, rides=False, slab=half * slab)
+        return HeldWall(
+            (Storey(0.0, top, -half, half, self.unit_weight * self.thickness),),
+            (load,) if self.top_load else (),
+            (*holds, Hold(top, "top", np.inf, inwards=True)),
+            backed=self.one_sided,
+        )
+
+    def opened(self, opening: Opening) -> Self:
+        return replace(self, crack="known", opening=opening)
+
+    def _parts(self) -> list[tuple[int, np.ndarray]]:
+        return super()._parts() if self.opening is None else self.held_wall.outlines(self.opening)
+
+    def _linkage(self, mirrored: bool) -> Linkage:
+        opened = self._opened_linkage(mirrored)
+        if opened is not None:
+            return opened
         weight = self.unit_weight * self.height * self.thickness
         return WallLinkage(self.lower_height, self.upper_height, self.thickness, weight, self._hung(mirrored))
 
@@ -444,14 +473,20 @@ class LoadedWall(CrackedWall, Tied):
         half = self.thickness / 2
         outwards = -1.0 if mirrored else 1.0
         hung = []
+        way = self._way(mirrored)
+        # The upper body leans back; a slab rests on the edge that rises, the bearing of a hinge lies inwards.
+        lean = -outwards if way is None else way.lean_of_top
         if self.top_load:
-            # A slab rests on the edge in contact; the bearing of a hinge lies inwards.
-            across = half if self.top_slab == "flat" else -outwards * self.eccentricity
-            hung.append(self._load(complex(across, self.height), 1, self.top_load, self.load_held))
+            across = -lean * half if self.top_slab == "flat" else -self.eccentricity
+            bearing = complex(outwards * across, self.height)
+            hung.append(self._load(bearing, self._part_at(self.height), self.top_load, self.load_held))
         for height in self.tie_heights:
-            part = 0 if height <= self.lower_height else 1
             start = complex(outwards * half, height)
-            # A tie goes slack where the wall moves inwards.
-            tie = None if mirrored else self._tie
-            hung.append(Hung("tie", start, part, tie=tie))
+            hung.append(Hung("tie", start, self._part_at(height), tie=self._tie_on(height, mirrored)))
         return hung
+
+    def _part_at(self, height: float) -> int:
+        """The body, from 0, to which what acts at `height` [m] belongs."""
+        if self.opening is not None:
+            return self.opening.part_at(height)
+        return 0 if height <= self.lower_height else 1

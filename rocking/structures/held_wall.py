@@ -1,0 +1,424 @@
+"""A wall that something holds at several heights, and its family of mechanisms (theory: section 12).
+
+x outwards, z up from the ground; forces per metre of wall. To first order the wall is a row of kinks: at a joint z_j
+the part above turns against the part below by ω_j, outwards positive, about the edge in contact, so that a point moves
+outwards by u(z) = Σ ω_j (z − z_j)₊. What rises is G(0), what is pushed B(0), and λ = G(0)/|B(0)|.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
+from operator import itemgetter
+from typing import NamedTuple
+
+import numpy as np
+
+from rocking.structures.chain import Chain
+from rocking.structures.drawing import rectangle
+from rocking.structures.linkage import STILL, Hung, Linkage, Turning
+
+_JOINTS = 12
+"""Joints between two heights at which something changes; hinges move to where λ is least between them."""
+_SAME = 1e-9
+"""Share of the height below which a movement is none, and two heights are one."""
+
+
+@dataclass(frozen=True)
+class Opening:
+    """One mechanism of a held wall: where it opens, and to which side it falls.
+
+    foot: of the part that turns, m above the ground. hinge: where that part ends and another one turns back; None: one
+    body, which turns about its foot. hold: of the point that only moves up and down, m; None where a slab that stays
+    flat keeps the upper body from turning while it moves out. upright: what stands above the hold stays upright and
+    rises; otherwise it turns with the upper body. outwards: the side of the forcing and of the
+    fall. forwards: whether the lower part moves to that side; otherwise it kicks back, and the upper one falls.
+    """
+
+    foot: float
+    hinge: float | None = None
+    hold: float | None = None
+    upright: bool = False
+    outwards: bool = True
+    forwards: bool = True
+
+    @property
+    def kinks(self) -> tuple[tuple[float, float], ...]:
+        """The height of each joint that opens [m] and its ω, outwards positive, where the lower part turns by 1."""
+        turn = 1.0 if self.outwards == self.forwards else -1.0
+        if self.hinge is None:
+            return ((self.foot, turn),)
+        back = 0.0 if self.hold is None else (self.hinge - self.foot) / (self.hold - self.hinge)
+        bulge = ((self.foot, turn), (self.hinge, -turn * (1 + back)))
+        return (*bulge, (self.hold, turn * back)) if self.upright and self.hold else bulge
+
+    @property
+    def bodies(self) -> int:
+        """The number of bodies that move."""
+        return 1 if self.hinge is None else 2 + self.upright
+
+    def part_at(self, height: float) -> int:
+        """The body, from 0, to which what acts at `height` [m] belongs: at a joint the one below; or STILL."""
+        if height <= self.foot:
+            return STILL
+        tops = [top for top in (self.hinge, self.hold if self.upright else None) if top is not None]
+        return sum(height > top for top in tops)
+
+    @property
+    def lean_of_top(self) -> int:
+        """The side to which the uppermost body leans, outwards 1, inwards −1; 0 where it stays upright."""
+        return 0 if self.upright else int(np.sign(sum(turn for _, turn in self.kinks)))
+
+
+class Storey(NamedTuple):
+    """A rectangle of masonry from `low` to `high` and from `left` to `right`, m; its weight per height, N/m²."""
+
+    low: float
+    high: float
+    left: float
+    right: float
+    weight: float
+
+
+class Load(NamedTuple):
+    """A weight [N/m] that bears at x, z [m]; it rides sideways, or something else holds its mass.
+
+    slab: half the breadth on which it lies as a slab that stays flat, m; 0 on a bearing.
+    """
+
+    x: float
+    z: float
+    weight: float
+    rides: bool
+    slab: float = 0.0
+
+
+class Hold(NamedTuple):
+    """A height [m] that cannot move sideways: outwards up to a force [N/m], 0 for none; inwards or not."""
+
+    height: float
+    kind: str
+    outwards: float
+    inwards: bool
+
+    @property
+    def gives(self) -> bool:
+        """Whether it may move outwards after all, as a tie that stretches."""
+        return self.kind == "tie"
+
+    @property
+    def both_ways(self) -> bool:
+        """Whether it stops the wall to both sides."""
+        return self.outwards > 0 and self.inwards
+
+
+@dataclass(frozen=True, eq=False)
+class HeldWall:
+    """Masonry, what bears and pushes on it, and what holds it.
+
+    storeys: from the ground up. thrusts: height [m] and force outwards [N/m]. backed: cross walls stand behind it, so
+    that nothing moves inwards.
+    """
+
+    storeys: tuple[Storey, ...]
+    loads: tuple[Load, ...]
+    holds: tuple[Hold, ...]
+    thrusts: tuple[tuple[float, float], ...] = ()
+    backed: bool = False
+
+    @property
+    def height(self) -> float:
+        """Of all storeys, m."""
+        return self.storeys[-1].high
+
+    def faces(self, height: float) -> tuple[float, float]:
+        """The inner and the outer edge of the joint at `height` [m], where the thinner storey ends, m."""
+        meeting = [each for each in self.storeys if each.low <= height <= each.high]
+        return max(each.left for each in meeting), min(each.right for each in meeting)
+
+    @cached_property
+    def _joints(self) -> dict[float, tuple[float, float, float]]:
+        """M⁺, M⁻ and S of the joints that were asked for."""
+        return {}
+
+    def joint(self, height: float) -> tuple[float, float, float]:
+        """Return M⁺ and M⁻, the moments of all weights above about the outer and the inner edge, and S of the masses.
+
+        height: of the joint, m. Per metre of wall, N.
+        """
+        if height not in self._joints:
+            weight = moment = push = 0.0
+            for each in self.storeys:
+                foot = max(each.low, height)
+                if foot < each.high:
+                    own = each.weight * (each.high - foot)
+                    weight += own
+                    moment += own * (each.left + each.right) / 2
+                    push += own * ((foot + each.high) / 2 - height)
+            for load in self.loads:
+                if load.z > height:
+                    weight += load.weight
+                    moment += load.weight * load.x
+                    push += load.weight * (load.z - height) * load.rides
+            inner, outer = self.faces(height)
+            self._joints[height] = outer * weight - moment, moment - inner * weight, push
+        return self._joints[height]
+
+    def virtual_work(self, kinks: Sequence[tuple[float, float]]) -> tuple[float, float]:
+        """Return G(0) and B(0) of a row of kinks: heights [m] and ω; ties that move outwards at what they yield at."""
+        restoring = pushed = 0.0
+        for height, turn in kinks:
+            outer, inner, lever = self.joint(height)
+            restoring += turn * outer if turn > 0 else -turn * inner
+            pushed += turn * lever
+        lean = abs(sum(turn for _, turn in kinks))
+        restoring += lean * sum(load.weight * load.slab for load in self.loads)
+        for height, force in self.thrusts:
+            restoring -= force * _moved(kinks, height)
+        for hold in self.holds:
+            outwards = _moved(kinks, hold.height)
+            if hold.outwards and outwards > _SAME * self.height:
+                restoring += hold.outwards * outwards
+        return restoring, pushed
+
+    def multiplier(self, opening: Opening) -> float:
+        """λ of an opening by limit analysis; inf where a tie without a strength keeps it shut."""
+        restoring, pushed = self.virtual_work(opening.kinks)
+        return restoring / abs(pushed)
+
+    def admits(self, kinks: Sequence[tuple[float, float]]) -> bool:
+        """Whether what stands behind the wall lets it move so."""
+        least = -_SAME * self.height
+        floors = [hold.height for hold in self.holds if hold.inwards]
+        places = [self.height, *(height for height, _ in kinks)] if self.backed else []
+        if any(_moved(kinks, height) < least for height in (*floors, *places)):
+            return False
+        ends = [hold.height for hold in self.holds if hold.outwards and not hold.gives]
+        return not any(_moved(kinks, height) > -least for height in ends)
+
+    def openings(self, joints: Sequence[float]) -> Iterator[Opening]:
+        """Every mechanism of the family whose joints are among `joints` [m above the ground] that can form.
+
+        One body about its foot, or a bulge below a hold, and each of them the other way round: a vertex of the linear
+        programme of limit analysis has one kink more than it has holds that keep a point where it is.
+        """
+        stays: set[float | None] = {hold.height for hold in self.holds}
+        if self.backed:
+            stays.add(self.height)
+        if any(load.slab for load in self.loads):
+            stays.add(None)
+        for foot in joints:
+            spans: list[tuple[float | None, float | None]] = [(None, None)]
+            spans += [
+                (hold, hinge)
+                for hold in stays
+                for hinge in joints
+                if foot < hinge < (hold or self.height) * (1 - _SAME)
+            ]
+            for hold, hinge in spans:
+                stands_above = hold is not None and hold < self.height * (1 - _SAME)
+                for upright in (False, True) if stands_above else (False,):
+                    yield from self._ways(Opening(foot, hinge, hold, upright))
+
+    def _ways(self, opening: Opening) -> Iterator[Opening]:
+        """The opening with its lower part outwards and inwards, each to the side to which the ground pushes it."""
+        _, pushed = self.virtual_work(opening.kinks)
+        hold = next((each for each in self.holds if each.height == opening.hold), None)
+        for outwards in (True, False):
+            way = replace(opening, outwards=outwards, forwards=bool(pushed > 0))
+            # What pushes the other way holds a bulge only where a tie that yields pulls on it.
+            holds = hold is not None and (hold.outwards > 0 if outwards else hold.inwards)
+            is_held = opening.hinge is None or holds or self._yields(way.kinks)
+            if pushed and is_held and self.admits(way.kinks):
+                yield way
+
+    def _yields(self, kinks: Sequence[tuple[float, float]]) -> bool:
+        """Whether a tie is drawn out."""
+        return any(hold.outwards and _moved(kinks, hold.height) > _SAME * self.height for hold in self.holds)
+
+    def other_way(self, opening: Opening) -> Opening | None:
+        """Return what the wall does to the other side after an impact, or None where something stands there.
+
+        The same joints open where the hold stops the wall to both sides. Where it only pulls, all above the foot goes
+        the other way as one body, or as two where something else stops these higher up.
+        """
+        back = replace(opening, outwards=not opening.outwards)
+        whole = Opening(opening.foot, outwards=back.outwards)
+        stops = [hold.height for hold in self.holds if hold.both_ways]
+        higher = [
+            replace(back, hold=height, upright=False)
+            for height in stops
+            if opening.hold is not None and height > opening.hold and opening.forwards
+        ]
+        ways = [back, whole, *higher] if opening.hold in stops else [whole, *higher]
+        return next((each for each in ways if self.admits(each.kinks)), None)
+
+    def name(self, opening: Opening) -> str:
+        """Return what it does, in words."""
+        below = self._kind_at(opening.foot)
+        side = "" if opening.outwards else "inwards"
+        if opening.hinge is None:
+            highest = max((hold.height for hold in self.holds if hold.outwards), default=np.inf)
+            if opening.foot == 0:
+                return " ".join(filter(None, ("overturns", side, "about its foot")))
+            if opening.foot >= highest:
+                return " ".join(filter(None, (side, "above the tie")))
+            feet = {storey.low for storey in self.storeys}
+            place = "upper storey alone" if opening.foot in feet else "above a joint"
+            return " ".join(filter(None, (side, place)))
+        if opening.hold is None:
+            return " ".join(filter(None, ("sways", side, "under the slab")))
+        above = self._kind_at(opening.hold)
+        ends = f"two {below}s" if below == above else f"{below} and {above}"
+        moves = ("bulges" if opening.forwards else "kicks back", side, f"between {ends}")
+        words = " ".join(filter(None, moves))
+        if opening.upright or opening.hold >= self.height * (1 - _SAME):
+            return words
+        return words + (", the top turning back" if opening.forwards else ", the top falling")
+
+    def _kind_at(self, height: float) -> str:
+        """The kind of what is at a height [m]."""
+        if height == 0:
+            return "foot"
+        kinds = [hold.kind for hold in self.holds if hold.height == height]
+        return kinds[0] if kinds else "top" if height == self.height else "joint"
+
+    @cached_property
+    def _stops(self) -> tuple[float, ...]:
+        """The heights at which something changes: the ground, feet of storeys and holds, m."""
+        heights = {storey.low for storey in self.storeys} | {hold.height for hold in self.holds}
+        return tuple(sorted(heights - {self.height}))
+
+    def family(self, joints: Sequence[float] = ()) -> tuple[tuple[Opening, float], ...]:
+        """Return the opening of least λ by each name, with its λ, by their λ.
+
+        joints: at which alone it may open beside feet of storeys and holds, m above the ground; without them it may
+        open anywhere, and the hinge of each is where λ is least. What a tie without a strength keeps shut is left out,
+        and what has its foot at no foot of a storey and at no hold, unless nothing to that side is weaker.
+        """
+        stops = self._stops
+        heights = sorted({*stops, *joints})
+        if not len(joints):
+            heights = [
+                float(place)
+                for low, high in pairwise([*stops, self.height])
+                for place in np.linspace(low, high, _JOINTS + 1)[:-1]
+            ]
+        least: dict[tuple[str, bool], tuple[Opening, float]] = {}
+        for opening in self.openings(heights):
+            multiplier = self.multiplier(opening)
+            kind = self.name(opening), opening.outwards
+            if np.isfinite(multiplier) and (kind not in least or multiplier < least[kind][1] * (1 - _SAME)):
+                least[kind] = opening, multiplier
+        found = list(least.values())
+        if not len(joints):
+            found = [self._sharpened(*each, heights) for each in found]
+        weakest = {
+            outwards: min((each[1] for each in found if each[0].outwards == outwards), default=np.inf)
+            for outwards in (True, False)
+        }
+        listed = [each for each in found if each[0].foot in stops or each[1] <= weakest[each[0].outwards]]
+        return tuple(sorted(listed, key=lambda each: each[1]))
+
+    def _sharpened(
+        self, opening: Opening, multiplier: float, heights: Sequence[float]
+    ) -> tuple[Opening, float]:
+        """The opening with its hinge where λ is least between the joints on either side of it."""
+        from scipy.optimize import minimize_scalar  # slow to import, and needed here only
+
+        if opening.hinge is None or opening.hold is None:
+            return opening, multiplier
+        place = heights.index(opening.hinge)
+        low, high = heights[place - 1], (*heights, self.height)[place + 1]
+        if low <= opening.foot or high >= opening.hold:
+            return opening, multiplier
+
+        def moved(hinge: float) -> Opening:
+            return replace(opening, hinge=float(hinge))
+
+        sought = minimize_scalar(
+            lambda hinge: self.multiplier(moved(hinge)),
+            bounds=(low, high),
+            method="bounded",
+            options={"xatol": 1e-6 * (high - low)},
+        )
+        return min((opening, multiplier), (moved(sought.x), float(sought.fun)), key=itemgetter(1))
+
+    def pieces(self, opening: Opening) -> list[tuple[int, Storey]]:
+        """The masonry cut at the joints of `opening`, each piece with its body, or STILL."""
+        cuts = sorted({0.0, *(height for height, _ in opening.kinks)})
+        cut = []
+        for storey in self.storeys:
+            levels = [storey.low, *(each for each in cuts if storey.low < each < storey.high), storey.high]
+            for low, high in pairwise(levels):
+                cut.append((opening.part_at(high), storey._replace(low=low, high=high)))
+        return cut
+
+    def outlines(self, opening: Opening) -> list[tuple[int, np.ndarray]]:
+        """The outlines of the pieces for a drawing."""
+        return [
+            (part, rectangle(each.left, each.right, each.low, each.high))
+            for part, each in self.pieces(opening)
+        ]
+
+    def linkage(
+        self, opening: Opening, cut: Opening, hung: Sequence[Hung], *, guided: bool = False
+    ) -> Linkage:
+        """Return the bodies of `cut` as they move in `opening`, seen from the side to which that falls.
+
+        hung: what hangs on it, as seen from there. guided: loads with a mass move up and down only.
+        """
+        pieces = self.pieces(cut)
+        weights = np.zeros(cut.bodies)
+        centres = np.zeros(cut.bodies, dtype=complex)
+        inertias = np.zeros(cut.bodies)
+        for body in range(cut.bodies):
+            own = [each for part, each in pieces if part == body]
+            mass = np.array([each.weight * (each.high - each.low) for each in own])
+            at = np.array([complex((each.left + each.right) / 2, (each.low + each.high) / 2) for each in own])
+            turning = mass * [((e.high - e.low) ** 2 + (e.right - e.left) ** 2) / 12 for e in own]
+            weights[body] = mass.sum()
+            centres[body] = mass @ at / weights[body]
+            inertias[body] = turning.sum() + mass @ np.abs(at - centres[body]) ** 2
+        bodies = []
+        for body in range(cut.bodies):
+            top = max(each.high for part, each in pieces if part == body)
+            bodies.append(opening.part_at(top))
+        edges = [self._edge(height, turn) for height, turn in opening.kinks]
+        sign = 1.0 if opening.outwards else -1.0
+
+        def seen(point: complex) -> complex:
+            return complex(sign * point.real, point.imag)
+
+        centres = sign * centres.real + 1j * centres.imag
+        if opening.hinge is None:
+            return Turning(seen(edges[0]), weights, centres, inertias, hung)
+        held = None
+        if opening.hold is not None:
+            held = seen(edges[2] if opening.upright else self._face(opening.hold, opening.outwards))
+        return Chain(
+            (seen(edges[0]), seen(edges[1])),
+            held,
+            weights,
+            centres,
+            inertias,
+            hung,
+            bodies=bodies,
+            forwards=opening.forwards,
+            guided=guided,
+        )
+
+    def _edge(self, height: float, turn: float) -> complex:
+        """The edge about which the joint at `height` [m] opens: the outer one where what is above turns outwards."""
+        inner, outer = self.faces(height)
+        return complex(outer if turn > 0 else inner, height)
+
+    def _face(self, height: float, outwards: bool) -> complex:
+        """The point at which the wall is held at `height` [m] on its outer or its inner face."""
+        storey = next(each for each in self.storeys if each.low < height <= each.high)
+        return complex(storey.right if outwards else storey.left, height)
+
+
+def _moved(kinks: Sequence[tuple[float, float]], height: float) -> float:
+    """u: how far a point at `height` [m] moves outwards."""
+    return sum(turn * (height - joint) for joint, turn in kinks if height > joint)

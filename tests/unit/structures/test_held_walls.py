@@ -1,0 +1,368 @@
+"""Walls held at several heights: limit analysis without a mechanism, worked examples, positions and energy."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from courses import Courses
+from held import opened_lagrangian
+
+import rocking
+from rocking.errors import StructureError
+from rocking.quantities import GRAVITY
+from rocking.structures import Facade, LoadedWall
+from rocking.structures.chain import Chain
+from rocking.structures.held_wall import Opening
+from rocking.structures.linkage import Hung
+
+PER_STOREY = 5
+
+
+def joints_of(heights):
+    levels = np.concatenate([[0.0], np.cumsum(heights)])
+    return np.unique(
+        np.concatenate([np.linspace(low, high, PER_STOREY + 1) for low, high in pairwise(levels)])
+    )
+
+
+def drawn_facade(draw):
+    """A façade of one to three storeys with one to three holds of any kind; its courses; its joints."""
+    storeys = draw.integers(1, 4)
+    heights = tuple(float(each) for each in draw.uniform(2.4, 4.2, storeys).round(2))
+    thicknesses = tuple(float(each) for each in draw.uniform(0.25, 0.7, storeys).round(2))
+    loads = tuple(float(each) for each in draw.uniform(2e3, 25e3, storeys).round())
+    joints = joints_of(heights)
+    levels = np.concatenate([[0.0], np.cumsum(heights)])
+    behind = str(draw.choice(["nothing", "floors", "cross_walls"]))
+    number = int(draw.integers(1, 4))
+    at = draw.choice(joints[1:], number, replace=False) if draw.random() < 0.5 else draw.choice(levels[1:], 1)
+    ties = tuple(sorted(float(each) for each in at))
+    strength = None if draw.random() < 0.5 else float(draw.uniform(1e3, 4e4))
+    eccentricity = float(draw.uniform(-0.4, 0.4) * min(thicknesses))
+    facade = Facade(
+        heights,
+        thicknesses,
+        18e3,
+        floor_loads=loads,
+        eccentricity=eccentricity,
+        loads_held=bool(draw.random() < 0.5),
+        top_slab="flat" if draw.random() < 0.3 else "hinged",
+        thrust=float(draw.choice([0.0, 800.0])),
+        behind=behind,
+        restitution=0.6,
+        tie_heights=ties,
+        tie_stiffness=2e7,
+        tie_strength=strength,
+    )
+    courses = masonry(joints, levels, thicknesses, 18.0)
+    rides = not facade.loads_held
+    bearings = [
+        (-t / 2 - eccentricity, z, load / 1e3, rides)
+        for t, z, load in zip(thicknesses, levels[1:], loads, strict=True)
+    ]
+    if facade.top_slab == "flat":
+        bearings.pop()
+        courses.slab = loads[-1] / 1e3, rides
+    courses.loads = bearings
+    courses.ties = [(z, np.inf if strength is None else strength / 1e3) for z in ties]
+    courses.floors = {"nothing": [], "floors": list(levels[1:]), "cross_walls": list(joints[1:])}[behind]
+    courses.thrusts = [(levels[-1], facade.thrust / 1e3)]
+    return facade, courses, joints
+
+
+def drawn_wall(draw):
+    """A wall between supports with ties between."""
+    height = float(draw.uniform(3, 8))
+    thickness = float(draw.uniform(0.2, 0.5))
+    joints = np.linspace(0.0, height, 11)
+    load = float(draw.uniform(1e3, 4e4))
+    ties = tuple(sorted(float(z) for z in draw.choice(joints[2:-1], draw.integers(0, 3), replace=False)))
+    strength = float(draw.uniform(1e3, 2e4)) if ties and draw.random() < 0.6 else None
+    backed = bool(draw.random() < 0.5)
+    wall = LoadedWall.of_size(
+        height,
+        thickness,
+        19e3,
+        top_load=load,
+        eccentricity=float(draw.uniform(-0.3, 0.3) * thickness),
+        top_slab="flat" if draw.random() < 0.4 else "hinged",
+        one_sided=backed,
+        restitution=0.6,
+        tie_heights=ties,
+        tie_stiffness=2e7 if ties else 0.0,
+        tie_strength=strength,
+    )
+    courses = masonry(joints, (0.0, height), (thickness,), 19.0)
+    courses.left, courses.right = courses.left + thickness / 2, courses.right + thickness / 2
+    if wall.top_slab == "flat":
+        courses.slab = load / 1e3, 0.0
+        courses.stops = [height]
+    else:
+        courses.loads = [(-wall.eccentricity, height, load / 1e3, 0.0)]
+        courses.stops = [height]
+    courses.ties = [(z, np.inf if strength is None else strength / 1e3) for z in ties]
+    courses.floors = list(joints[1:]) if backed else []
+    return wall, courses, joints
+
+
+def masonry(joints, levels, thicknesses, unit_weight):
+    middles = (joints[1:] + joints[:-1]) / 2
+    of_course = np.array(thicknesses)[np.searchsorted(levels, middles) - 1]
+    return Courses(joints, -of_course, 0 * of_course, unit_weight * of_course * np.diff(joints))
+
+
+def test_least_multiplier_is_that_of_limit_analysis_over_courses():
+    """To 1e-7: the linear programme meets its constraints to that (primal feasibility of HiGHS)."""
+    draw = np.random.default_rng(52)
+    least_by_name = {}
+    compared = walls = 0
+    while walls < 90:
+        try:
+            wall, courses, joints = drawn_facade(draw) if draw.random() < 0.7 else drawn_wall(draw)
+        except rocking.RockingError:
+            continue  # its thrust pushes it over at rest
+        walls += 1
+        family = wall.held_wall.family(joints[:-1])
+        for direction in (1, -1):
+            own = [each for each in family if each[0].outwards == (direction > 0)]
+            expected = courses.multiplier(direction)
+            found = min((each[1] for each in own), default=np.inf)
+            assert found == pytest.approx(expected, rel=1e-7), (walls, direction)
+            if own:
+                name = wall.held_wall.name(min(own, key=lambda each: each[1])[0]).split(",")[0]
+                least_by_name[name] = least_by_name.get(name, 0) + 1
+                compared += 1
+    assert compared > 100
+    kinds = " ".join(least_by_name)
+    for kind in (
+        "overturns about its foot",
+        "above the tie",
+        "bulges between",
+        "bulges inwards",
+        "between two ties",
+    ):
+        assert kind in kinds, least_by_name
+
+
+TWO_STOREYS = Facade(
+    (3.5, 3.0),
+    (0.5, 0.4),
+    18e3,
+    floor_loads=(12e3, 8e3),
+    behind="cross_walls",
+    restitution=0.7,
+    tie_heights=(3.5,),
+    tie_stiffness=2e7,
+)
+ONE_STOREY = Facade(
+    (3.6,),
+    (0.35,),
+    18e3,
+    floor_loads=(10e3,),
+    eccentricity=0.05,
+    behind="cross_walls",
+    restitution=0.7,
+    tie_heights=(3.6,),
+    tie_stiffness=2e7,
+)
+
+
+def named(wall):
+    return {each.name: each for each in wall.mechanisms()}
+
+
+@pytest.mark.parametrize(
+    ("strength", "about_foot", "governs"),
+    [
+        (20e3, 0.337560, "above the tie"),
+        (2e3, 0.092543, "overturns about its foot"),
+        (None, None, "above the tie"),
+    ],
+)
+def test_tie_of_two_storeys_is_that_of_hand(strength, about_foot, governs):
+    """Section 12.7, example 1: Σ P δ_y = 16.795, Σ P δ_x = 257.125; above the tie 5.92/56.4."""
+    family = named(replace(TWO_STOREYS, tie_strength=strength))
+    assert family["above the tie"].uplift_multiplier == pytest.approx(5.92 / 56.4, rel=1e-9)
+    if strength:
+        by_hand = (16.795 + strength / 1e3 * 3.5) / 257.125
+        assert by_hand == pytest.approx(about_foot, abs=5e-7)
+        assert family["overturns about its foot"].uplift_multiplier == pytest.approx(by_hand, rel=1e-9)
+    else:
+        assert "overturns about its foot" not in family
+    assert next(iter(family)) == governs
+
+
+def test_bulge_of_one_storey_is_that_of_hand():
+    """Section 12.7, example 2: the hinge at 2.40 m 13.938/27.216, free at 2.705582 m .496042."""
+    wall = replace(ONE_STOREY, tie_strength=30e3)
+    at_hinge = wall.held_wall.multiplier(Opening(0.0, 2.4, 3.6))
+    assert at_hinge == pytest.approx(13.938 / 27.216, rel=1e-9)
+    bulge = named(wall)["bulges between foot and tie"]
+    assert bulge.uplift_multiplier == pytest.approx(0.496042, abs=5e-7)
+    assert bulge.position == pytest.approx(2.705582, abs=1e-5)
+    assert bulge.uplift_multiplier == pytest.approx(bulge.multiplier, rel=1e-12)
+    for strength, expected in ((6e3, 0.362113), (9.201252e3, 0.512125), (30e3, 1.486762)):
+        past = replace(wall, tie_strength=strength).held_wall.multiplier(Opening(0.0))
+        assert past == pytest.approx(expected, abs=5e-7)
+
+
+def test_hinge_of_a_uniform_wall_is_where_its_formula_says():
+    """h₁/H = 1 + n − √(n(1 + n)), λ = (2t/h₁)(1 + N H/(W h₂)) under a slab of N = n W that stays flat."""
+    height, thickness, weight = 3.6, 0.35, 18e3 * 0.35 * 3.6
+    for n in (0.1, 0.5, 2.0):
+        wall = LoadedWall.of_size(
+            height, thickness, 18e3, top_load=n * weight, top_slab="flat", restitution=0.5
+        )
+        lower = height * (1 + n - np.sqrt(n * (1 + n)))
+        least = 2 * thickness / lower * (1 + n * height / (height - lower))
+        bulge = named(wall)["bulges between foot and top"]
+        assert bulge.position == pytest.approx(lower, rel=1e-4)
+        assert bulge.uplift_multiplier == pytest.approx(least, rel=1e-8)
+
+
+THREE = Facade(
+    (3.4, 3.0, 2.6),
+    (0.5, 0.4, 0.3),
+    18e3,
+    floor_loads=(12e3, 9e3, 5e3),
+    eccentricity=0.04,
+    tie_heights=(2.0, 6.4),
+    tie_stiffness=3e5,
+)
+OPENINGS = {
+    "bulge past a tie, the top turning back": (THREE, Opening(0.0, 3.9, 6.4)),
+    "bulge past a tie, the top upright": (THREE, Opening(0.0, 3.9, 6.4, upright=True)),
+    "kick back": (THREE, Opening(4.0, 5.2, 6.4, forwards=False)),
+    "loads held": (replace(THREE, loads_held=True), Opening(0.5, 3.9, 6.4)),
+    "flat slab": (replace(THREE, top_slab="flat"), Opening(0.5, 3.9, 6.4)),
+    "flat slab on what stays upright": (
+        replace(THREE, top_slab="flat"),
+        Opening(0.5, 3.9, 6.4, upright=True),
+    ),
+}
+
+
+@pytest.mark.parametrize("case", OPENINGS)
+def test_acceleration_of_a_chain_is_that_of_positions_and_energy(case):
+    """I, J, G and B together, from φ'' at states in which each counts; derivatives of 30 digits."""
+    wall, opening = OPENINGS[case]
+    opened = wall.opened(opening)
+    side = opened.linkage.side(0.5)
+    lagrangian = opened_lagrangian(wall, opening)
+    for share, velocity, ground in ((0.05, 0.3, 1.7), (0.4, -0.8, -2.5), (0.9, 0.5, 0.6)):
+        phi = share * min(side.critical_rotation, 0.15)
+        expected = lagrangian.acceleration(phi, velocity, ground, GRAVITY)
+        pull = side.at("inertia_slope", phi) / 2 * velocity**2 + side.at("gravity", phi) * GRAVITY
+        found = -(pull + side.at("ground", phi) * ground) / side.at("inertia", phi)
+        assert found == pytest.approx(expected, rel=1e-8)
+
+
+@pytest.mark.parametrize("slab", ["hinged", "flat"])
+def test_chain_under_a_held_top_is_a_loaded_wall(slab):
+    """Two ways to the same wall, to rounding."""
+    draw = np.random.default_rng(3)
+    for _ in range(20):
+        lower, upper, t, load = draw.uniform([1.5, 1.5, 0.15, 0], [3, 3, 0.3, 1e4])
+        wall = LoadedWall(lower, upper, t, 19e3, top_load=load, top_slab=slab, crack="known")
+        chain = wall.opened(Opening(0.0, lower, wall.height)).mechanism()
+        expected = wall.mechanism()
+        at = np.linspace(0, 1, 7) * expected.critical_rotation
+        for name in ("inertia", "inertia_slope", "gravity", "gravity_slope", "ground"):
+            values, bare = getattr(chain.positive, name)(at), getattr(expected.positive, name)(at)
+            # of another unit: the load belongs to it
+            unit = bare[0] / values[0] if values[0] else 1 + load / (19e3 * wall.height * t)
+            np.testing.assert_allclose(unit * values, bare, rtol=0, atol=3e-13 * np.abs(bare).max())
+        for name in (
+            "uplift_multiplier",
+            "critical_rotation",
+            "frequency_parameter",
+            "restitution",
+            "end_rotation",
+        ):
+            assert getattr(chain.positive, name) == pytest.approx(getattr(expected.positive, name), rel=1e-11)
+
+
+def test_contacts_of_a_chain_are_those_of_a_loaded_wall():
+    wall = LoadedWall(1.9, 1.3, 0.3, 19e3, top_load=9e3, eccentricity=0.05, crack="known")
+    chain = wall.opened(Opening(0.0, 1.9, wall.height))
+    states = [0.01, 0.05, -0.03], [0.2, -0.3, 0.1], None, [1.0, -2.0, 0.5]
+    found, expected = chain.contact_forces(*states), wall.contact_forces(*states)
+    unit = 1 + 9e3 / (19e3 * 3.2 * 0.3)
+    np.testing.assert_allclose(unit * found.normal, expected.normal, rtol=1e-11)
+    np.testing.assert_allclose(unit * found.tangential, expected.tangential, rtol=1e-10)
+
+
+def test_restitution_between_equal_blocks_is_that_of_the_formula():
+    """(1 − 4.5 sin²α)/(1 + 3 sin²α), section 4."""
+    chain = Chain((0j, -0.2 + 1.6j), 3.2j, [1, 1], [-0.1 + 0.8j, -0.1 + 2.4j], [(1.6**2 + 0.2**2) / 12] * 2)
+    facade = Facade(
+        (3.2,), (0.2,), 18e3, behind="floors", restitution=0.5, tie_heights=(3.2,), tie_stiffness=1e7
+    )
+    opened = facade.opened(Opening(0.0, 1.6, 3.2)).mechanism()
+    s = np.sin(np.arctan2(0.2, 1.6)) ** 2
+    assert opened.restitution == pytest.approx((1 - 4.5 * s) / (1 + 3 * s), rel=1e-12)
+    assert opened.positive.at("inertia", 0.0) == pytest.approx(float(chain.inertia(0.0)), rel=1e-12)
+
+
+def test_floors_and_cross_walls_stop_the_wall_inwards():
+    free = replace(THREE, behind="nothing")
+    floors = replace(THREE, behind="floors", restitution=0.6)
+    walls = replace(THREE, behind="cross_walls", restitution=0.6)
+    assert [any(each.sign < 0 for each in wall.mechanisms()) for wall in (free, floors, walls)] == [
+        True,
+        True,
+        False,
+    ]
+    assert "overturns inwards about its foot" in named(free)
+    assert not any("overturns inwards" in name for name in named(floors))
+    assert walls.mechanism().one_sided and floors.mechanism().one_sided and not free.mechanism().one_sided
+    above = Facade((3.4, 3.0), (0.5, 0.4), 18e3, floor_loads=(9e3, 0.0), behind="floors", restitution=0.6)
+    assert not above.cracked_at(3.4).mechanism().one_sided
+    # there it hits no floor: η is that of its geometry
+    assert above.cracked_at(3.4).mechanism().restitution > 0.9
+    assert replace(THREE, one_sided=True, restitution=0.6).mechanisms()[0].uplift_multiplier == pytest.approx(
+        walls.mechanisms()[0].uplift_multiplier, rel=1e-15
+    )
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        (
+            {"behind": "cross_walls", "one_sided": False, "restitution": 0.6},
+            "one_sided is False, but behind is",
+        ),
+        ({"behind": "nothing", "one_sided": True, "restitution": 0.6}, "one_sided is True, but behind is"),
+        ({"behind": "floors", "one_sided": False, "restitution": 0.6}, "one_sided is False, but behind is"),
+        ({"behind": "floors"}, "restitution is None, but must be a number"),
+        ({"behind": "floor", "restitution": 0.6}, "behind is"),
+    ],
+)
+def test_what_stands_behind_is_said_once(values, words):
+    with pytest.raises(StructureError, match=words):
+        replace(THREE, **values)
+
+
+def test_remark_on_floors_behind_ends_where_it_is_said_what_stands_there():
+    assert THREE.caution
+    assert not replace(THREE, behind="nothing").caution
+
+
+def test_a_known_crack_is_the_only_mechanism():
+    known = replace(THREE, crack="known", crack_storey=2)
+    assert [each.structure for each in known.mechanisms()] == [known]
+    assert rocking.Block(2.0, 0.2).mechanisms()[0].uplift_multiplier == pytest.approx(np.tan(0.2))
+
+
+def test_chain_keeps_its_held_point_and_hung_points_on_their_bodies():
+    hung = [Hung("load", -0.15 + 3.0j, 1, mass=0.4)]
+    chain = Chain((0j, -0.3 + 1.7j), 3.0j, [1, 0.8, 0.5], [-0.15 + 0.85j, -0.15 + 2.3j, -0.15 + 3.5j], [0.3, 0.2, 0.1],
+                  hung, bodies=(0, 1, 2))  # fmt: skip
+    at = np.linspace(0, 0.2, 9)
+    held = chain.point(1, 3.0j, at)
+    np.testing.assert_allclose(held.moved.real, 0, atol=1e-15)
+    upright = chain.point(2, -0.15 + 4.0j, at)
+    np.testing.assert_allclose(upright.moved, 1j * held.moved.imag, atol=1e-15)
+    load = chain.point(1, hung[0].start, at)
+    np.testing.assert_allclose(chain.motion(at).centroids[-1] - hung[0].start, load.moved, atol=1e-15)
