@@ -60,16 +60,16 @@ def main(
     from docs.research import validation
     from docs.research.report import Target
     from docs.research.shake_table import Campaign
+    from rocking.assessment.listed import load_scenes
     from rocking.records import load_catalogue
-    from rocking.structures import load_structures
 
     if name == "validate":
         campaign = Campaign.open(Path(catalogues[0]), Path(mirror) if mirror else None)
         validation.validate(Target(folder, tell), campaign)
         return
     motions = [motions_of(load_catalogue(Path(each)), mirror, tell) for each in catalogues]
-    listed = load_structures(Path(structures))
-    on_the_ground = {name: each for name, each in listed.items() if each.standing is None}
+    listed = load_scenes(Path(structures))
+    on_the_ground = {name: each.structure for name, each in listed.items() if not each.place.supports}
     targets()[name](Target(folder, tell, motions, on_the_ground))
 
 

@@ -12,7 +12,15 @@ from typing import TYPE_CHECKING, Literal, Protocol, TypeVar
 
 import numpy as np
 
-from rocking.assessment.case import CaseResult, Failure, Motion, Prediction, RecordResult, StationResult
+from rocking.assessment.case import (
+    CaseResult,
+    Failure,
+    Motion,
+    Prediction,
+    RecordResult,
+    SceneResult,
+    StationResult,
+)
 from rocking.assessment.component import (
     Component,
     ComponentPulses,
@@ -27,6 +35,7 @@ from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
 from rocking.assessment.ground_motions import GroundMotions, processed
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.reserve_search import reserve
+from rocking.assessment.scene import Scene, on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.variations import candidates, processed_variants
 from rocking.assessment.verdict import BOTH_COMPONENTS, Method, Verdict, ratio_in_words
@@ -128,76 +137,78 @@ def _shared(clock: Clock, parts: int) -> dict[str, float]:
 def assess_record(
     record: str,
     horizontal: Sequence[Accelerogram],
-    structures: Mapping[str, Structure | Mechanism],
+    scenes: Mapping[str, Scene],
     extent: Extent | None = None,
     vertical: Accelerogram | None = None,
     store: Store | None = None,
     clock: Clock | None = None,
 ) -> RecordResult:
-    """Return what comes of every structure under a record; one that fails costs no other.
+    """Return what comes of every scene under a record; one that fails costs no other.
 
     horizontal: its components. An ensemble over the directions of a pair speaks for both components, which then get
-    none of their own. A structure on a support of its list meets the motion there. store: where results are sought
-    before they are computed, and kept. clock: has measured what came before.
+    none of their own. scenes: by name; a structure on a support meets the motion there, for each period of the support,
+    and for comparison that of the ground. store: where results are sought before they are computed, and kept. clock:
+    has measured what came before.
     """
     extent = extent or Extent()
     clock = clock or Clock()
-    supports = dict.fromkeys(_support(structure) for structure in structures.values())
     grounds = _components(horizontal, vertical, extent, store, clock)
-    stations: dict[str, StationResult] = {}
     failures: list[tuple[str, Failure]] = []
     floors: dict[Support, tuple[Component, ...]] = {}
+    stations: dict[tuple[str, Support | None], StationResult] = {}
+    supports = dict.fromkeys(support for scene in scenes.values() for support in scene.place.axis)
     for support in {None: None} | supports:
-        carried = {name: each for name, each in structures.items() if _support(each) == support}
+        carried = {name: each for name, each in scenes.items() if support in each.place.axis}
         components = grounds
         if support is not None:
             try:
                 components = floors[support] = _on_support(support, grounds, extent, store, clock)
             except RockingError as error:
-                stations |= _not_carried(carried, component_names(horizontal), str(error))
+                lost = _not_carried(carried, support, component_names(horizontal), str(error))
+                stations |= {(name, support): station for name, station in lost.items()}
                 continue
         found, failed = _assess_carried(carried, components, vertical, support, extent, store, clock)
-        stations |= found
+        stations |= {(name, support): station for name, station in found.items()}
         failures += failed
         if support is None:
-            found, failed = _with_reserves(found, grounds, vertical, extent, store, clock)
-            stations |= found
-            failures += failed
-    for name in _worst_periods(stations):
-        support = _support(stations[name].body)
-        components = grounds if support is None else floors[support]
-        found, failed = _with_reserves({name: stations[name]}, components, vertical, extent, store, clock)
-        stations |= found
-        failures += failed
+            for name, station in found.items():
+                stations[name, None], lost_reserve = _with_reserve(
+                    station, grounds, vertical, extent, store, clock
+                )
+                failures += lost_reserve
+    results = {}
+    for name, scene in scenes.items():
+        along_axis = [stations[name, each] for each in scene.place.axis if (name, each) in stations]
+        with_members = [station for station in along_axis if station.support and station.decisive]
+        if with_members:
+            # On a support the reserve is sought at the period that reports print, the worst one.
+            worst = max(with_members, key=lambda station: station.severity)
+            assert worst.support is not None
+            sought, lost_reserve = _with_reserve(worst, floors[worst.support], vertical, extent, store, clock)
+            along_axis[along_axis.index(worst)] = sought
+            failures += lost_reserve
+        if along_axis:
+            results[name] = SceneResult(scene, tuple(along_axis))
     return RecordResult(
         record=record,
         components=grounds,
-        stations={name: stations[name] for name in structures if name in stations},
+        scenes=results,
         failures=tuple(failures),
         durations=dict(clock.durations),
         floors=floors,
     )
 
 
-def _support(structure: Structure | Mechanism) -> Support | None:
-    """The support of a structure; None where it meets each motion as it is."""
-    standing = structure.standing if isinstance(structure, Structure) else None
-    return standing.support if standing else None
-
-
 def _not_carried(
-    structures: Mapping[str, Structure | Mechanism], components: Sequence[str], message: str
+    scenes: Mapping[str, Scene], support: Support, components: Sequence[str], message: str
 ) -> dict[str, StationResult]:
-    """The results of structures to whose support the record cannot be taken: why."""
+    """The results of scenes to whose support the record cannot be taken: why."""
     failure = Failure("responses", message)
-    return {
-        name: StationResult(
-            name,
-            structure,
-            {each: CaseResult(structure=name, component=each, failures=(failure,)) for each in components},
-        )
-        for name, structure in structures.items()
-    }
+    lost = {}
+    for name, scene in scenes.items():
+        cases = {each: CaseResult(structure=name, component=each, failures=(failure,)) for each in components}
+        lost[name] = StationResult(scene, cases, support=support)
+    return lost
 
 
 def _on_support(
@@ -218,7 +229,7 @@ def _on_support(
 
 
 def _assess_carried(
-    structures: Mapping[str, Structure | Mechanism],
+    scenes: Mapping[str, Scene],
     components: Sequence[Component],
     vertical: Accelerogram | None,
     support: Support | None,
@@ -226,10 +237,11 @@ def _assess_carried(
     store: Store | None,
     clock: Clock,
 ) -> tuple[dict[str, StationResult], list[tuple[str, Failure]]]:
-    """The results of the structures that one support, or the ground, carries, and the failures of no single one.
+    """The results of the scenes that one support, or the ground, carries, and the failures of no single one.
 
     components: as they arrive there. vertical: of the record.
     """
+    structures = {name: scene.structure for name, scene in scenes.items()}
     failures: list[tuple[str, Failure]] = []
     grounds = [(each.ground or each).accelerogram for each in components]
     pair = None
@@ -251,8 +263,8 @@ def _assess_carried(
             cases[structure][name] = replace(result, component=name)
     directions = {} if pair is None else _direction_cases(pair, structures, cases, extent, store, clock)
     stations = {
-        name: StationResult(name, structure, cases[name], directions.get(name))
-        for name, structure in structures.items()
+        name: StationResult(scene, cases[name], directions.get(name), support)
+        for name, scene in scenes.items()
         if cases[name]
     }
     return stations, failures
@@ -379,52 +391,32 @@ def _direction_cases(
     return results
 
 
-def _worst_periods(stations: Mapping[str, StationResult]) -> list[str]:
-    """The names of the structures on a support at the worst period with members, which reports print."""
-    worst: dict[tuple[str, str], StationResult] = {}
-    for station in stations.values():
-        standing = station.body.standing if isinstance(station.body, Structure) else None
-        if standing is None or standing.support is None or station.decisive is None:
-            continue
-        key = (standing.listed_structure, standing.place)
-        if key not in worst or station.severity > worst[key].severity:
-            worst[key] = station
-    return [station.structure for station in worst.values()]
-
-
-def _with_reserves(
-    stations: Mapping[str, StationResult],
+def _with_reserve(
+    station: StationResult,
     components: Sequence[Component],
     vertical: Accelerogram | None,
     extent: Extent,
     store: Store | None,
     clock: Clock,
-) -> tuple[dict[str, StationResult], list[tuple[str, Failure]]]:
-    """The stations with the reserve of the crack that governs the case that decides, and the failures.
+) -> tuple[StationResult, list[tuple[str, Failure]]]:
+    """The station with the reserve of the crack that governs the case that decides, and why there is none.
 
-    components: as they arrive where the structures stand. vertical: of the record. With fidelity: auto, which asks for
+    components: as they arrive where the structure stands. vertical: of the record. With fidelity: auto, which asks for
     the verdict alone, no reserve is sought, nor where nothing can overturn the structure.
     """
-    settings = extent.settings
-    found = dict(stations)
-    failures: list[tuple[str, Failure]] = []
-    if settings.fidelity == "auto" or not settings.ensemble.reserve:
-        return found, failures
+    case = station.decisive
+    if case is None or extent.settings.fidelity == "auto" or not extent.settings.ensemble.reserve:
+        return station, []
     grounds = [(each.ground or each).accelerogram for each in components]
     of_component = dict(zip(component_names(grounds), components, strict=True))
-    for name, station in stations.items():
-        case = station.decisive
-        if case is None:
-            continue
-        if case is station.directions:
-            motion = Motion(tuple(grounds), vertical, _support(station.body))
-        else:
-            motion = _motion_of(of_component[case.component])
-        try:
-            found[name] = station.with_reserve(_reserve(case, station.body, motion, extent, store, clock))
-        except RockingError as error:
-            failures.append((case.component, Failure("reserve", f"{name}: {error}")))
-    return found, failures
+    if case is station.directions:
+        motion = Motion(tuple(grounds), vertical, station.support)
+    else:
+        motion = _motion_of(of_component[case.component])
+    try:
+        return station.with_reserve(_reserve(case, station.body, motion, extent, store, clock)), []
+    except RockingError as error:
+        return station, [(case.component, Failure("reserve", f"{station.structure}: {error}"))]
 
 
 def _reserve(
@@ -749,15 +741,18 @@ def assess_directions(
 
 def with_histories(result: RecordResult, tolerance: float) -> RecordResult:
     """Return a record's result whose responses hold their histories, which results that were kept do not."""
-    stations = {}
-    for name, station in result.stations.items():
-        components = result.components_under(name)
-        cases = {
-            component: _with_history(case, station.body, components[component], tolerance)
-            for component, case in station.cases.items()
-        }
-        stations[name] = replace(station, cases=cases)
-    return replace(result, stations=stations)
+    scenes = {}
+    for name, scene in result.scenes.items():
+        stations = []
+        for station in scene.stations:
+            components = result.components_under(station)
+            cases = {
+                component: _with_history(case, station.body, components[component], tolerance)
+                for component, case in station.cases.items()
+            }
+            stations.append(replace(station, cases=cases))
+        scenes[name] = replace(scene, stations=tuple(stations))
+    return replace(result, scenes=scenes)
 
 
 def _with_history(
@@ -890,8 +885,9 @@ def assess(
     varied = replace(settings.ensemble, members=number or EnsembleSettings().members)
     fidelity: Literal["full", "contact"] = "contact" if settings.fidelity == "contact" else "full"
     settings = replace(settings, fidelity=fidelity, ensemble=varied)
-    result = assess_record("", records, {"structure": structure}, Extent(settings), vertical)
-    station = result.stations["structure"]
+    scenes = on_the_ground({"structure": structure})
+    result = assess_record("", records, scenes, Extent(settings), vertical)
+    (station,) = result.stations
     over_all = [*station.cases.values(), *([station.directions] if station.directions else [])]
     for case in over_all:
         if case.failure:
@@ -899,7 +895,7 @@ def assess(
     for _, failure in result.failures:
         if failure.stage == "directions":
             raise RecordError(failure.message)
-    return StructureAssessment(station.structure, structure, station.cases, station.directions)
+    return StructureAssessment(station.scene, station.cases, station.directions)
 
 
 def _checked_records(record: object) -> list[Accelerogram]:

@@ -5,7 +5,7 @@ terminal and `rocking.assess` ask it, or read the row that it was written into.
 """
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 
@@ -16,8 +16,9 @@ from rocking.assessment.deciding import decided_by
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer, Estimate
 from rocking.assessment.ground_motions import GroundMotions
-from rocking.assessment.over_periods import OverPeriods, over_periods
+from rocking.assessment.over_periods import periods_in_words
 from rocking.assessment.reserve import Reserve
+from rocking.assessment.scene import Scene
 from rocking.assessment.variations import Variation
 from rocking.assessment.verdict import BOTH_COMPONENTS, POLARITIES, Judgement, Method, Verdict
 from rocking.floors.support import Support
@@ -248,14 +249,29 @@ class StationResult(Judgement):
     crack that overturns leaves undecided what stands as given. Every count, share and quantile is that of the crack
     that governs.
 
-    structure: its name. body: the structure itself. cases: by component, those that failed too. directions: the case of
-    the pair; None of one component, or without ensembles.
+    cases: by component, those that failed too. directions: the case of the pair; None of one component, or without
+    ensembles. support: of those along the axis of its place; None on the ground.
     """
 
-    structure: str
-    body: Structure | Mechanism
+    scene: Scene
     cases: Mapping[str, CaseResult]
     directions: CaseResult | None = None
+    support: Support | None = None
+
+    @property
+    def structure(self) -> str:
+        """Name of the structure."""
+        return self.scene.name
+
+    @property
+    def body(self) -> Structure | Mechanism:
+        """The structure itself."""
+        return self.scene.structure
+
+    @property
+    def support_period_s(self) -> float | None:
+        """First period of the support, s; 0 on the ground below one, None where the place has no support."""
+        return self.scene.place.period_of(self.support)
 
     @cached_property
     def worst(self) -> CaseResult | None:
@@ -540,39 +556,76 @@ class StationResult(Judgement):
         return response.peak_side if response else None
 
 
+@dataclass(frozen=True, eq=False)
+class SceneResult:
+    """The results of one scene under one record, along the axis of its place: the ground, then by period.
+
+    The verdicts over the periods of a support stand side by side and are not mixed: a share of periods would be no
+    probability. Where one of them has to stand for all, it is the worst.
+    """
+
+    scene: Scene
+    stations: tuple[StationResult, ...]
+
+    @property
+    def periods(self) -> list[float]:
+        """Periods of the support, s; 0 is the ground."""
+        return [station.support_period_s or 0.0 for station in self.stations]
+
+    @property
+    def worst(self) -> StationResult:
+        """The result of the period that is worst; the first among equals."""
+        return max(self.stations, key=lambda station: station.severity)
+
+    @property
+    def sentence(self) -> str:
+        """The verdicts over the periods of a support: "parapet on roof stands on the ground, overturns …"."""
+        verdicts = dict(zip(self.periods, (station.verdict for station in self.stations), strict=True))
+        return f"{self.scene.name} on {self.scene.place.name} {periods_in_words(verdicts)}"
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class RecordResult:
     """The results of all structures under one record.
 
-    components: those that could be opened, as they acted. stations: by the name of the structure. failures: of what
+    components: those that could be opened, as they acted. scenes: by the name of the structure. failures: of what
     concerns no single structure, by component ("" for all). durations: CPU time of each stage, s. floors: the
     components as they arrive on each support that carries a structure.
     """
 
     record: str
     components: tuple[Component, ...] = ()
-    stations: Mapping[str, StationResult] = field(default_factory=dict)
+    scenes: Mapping[str, SceneResult] = field(default_factory=dict)
     failures: tuple[tuple[str, Failure], ...] = ()
     durations: Mapping[str, float] = field(default_factory=dict)
     floors: Mapping[Support, tuple[Component, ...]] = field(default_factory=dict)
 
-    def components_under(self, structure: str) -> dict[str, Component]:
-        """Return the components as the structure of this name meets them, by the names of the components."""
-        body = self.stations[structure].body
-        standing = body.standing if isinstance(body, Structure) else None
-        support = standing.support if standing else None
+    def components_under(self, station: StationResult) -> dict[str, Component]:
+        """Return the components as a structure meets them, by the names of the components."""
+        support = station.support
         components = self.components if support is None else self.floors.get(support, self.components)
         return dict(zip(self.names, components, strict=True))
 
     @cached_property
-    def swept(self) -> list[OverPeriods]:
-        """The verdicts of each structure on a support over the periods of that support."""
-        return swept_over(self.stations.values())
+    def stations(self) -> list[StationResult]:
+        """The results of all scenes, each along the axis of its place."""
+        return [station for scene in self.scenes.values() for station in scene.stations]
+
+    @property
+    def carried(self) -> list[SceneResult]:
+        """The results of the scenes on a support."""
+        return [each for each in self.scenes.values() if each.scene.place.supports]
 
     @cached_property
     def worst_first(self) -> list[StationResult]:
-        """The results of all structures, the worst first."""
-        return sorted(self.stations.values(), key=lambda station: station.severity, reverse=True)
+        """The results of all scenes, the worst first."""
+        return sorted(self.stations, key=lambda station: station.severity, reverse=True)
+
+    @property
+    def worst_periods(self) -> list[StationResult]:
+        """The result of each scene, of one on a support that of the worst period; the worst first."""
+        worst = (each.worst for each in self.scenes.values())
+        return sorted(worst, key=lambda station: station.severity, reverse=True)
 
     @property
     def names(self) -> list[str]:
@@ -585,20 +638,20 @@ class RecordResult:
         return [each.accelerogram for each in self.components]
 
     @property
-    def responses(self) -> dict[tuple[str, str], Response]:
-        """The integrations of the mechanisms under the record, by component and structure."""
+    def responses(self) -> dict[tuple[str, str, float | None], Response]:
+        """The integrations of the mechanisms under the record, by component, structure and period of its support."""
         return {
-            (component, case.structure): case.response
+            (component, station.structure, station.support_period_s): case.response
             for component in self.names
-            for case in self.cases(component)
+            for station, case in self.cases(component)
             if case.response is not None
         }
 
-    def cases(self, component: str) -> list[CaseResult]:
+    def cases(self, component: str) -> list[tuple[StationResult, CaseResult]]:
         """Return the cases of one component, or of `BOTH_COMPONENTS`, in the order of the structures."""
         if component == BOTH_COMPONENTS:
-            return [each.directions for each in self.stations.values() if each.directions is not None]
-        return [each.cases[component] for each in self.stations.values() if component in each.cases]
+            return [(each, each.directions) for each in self.stations if each.directions is not None]
+        return [(each, each.cases[component]) for each in self.stations if component in each.cases]
 
 
 def _without_history(response: Response) -> Response:
@@ -612,10 +665,3 @@ def _ensemble_severity(case: CaseResult) -> tuple[float, float]:
 
 def _or_least(value: float) -> float:
     return -1.0 if math.isnan(value) else value
-
-
-def swept_over(stations: Iterable[StationResult]) -> list[OverPeriods]:
-    """Return what becomes of each structure on a support over the periods of that support."""
-    return over_periods(
-        (station.body, station) for station in stations if isinstance(station.body, Structure)
-    )

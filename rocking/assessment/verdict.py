@@ -58,8 +58,16 @@ class Judgement(ABC):
     """A verdict with its counts, as a result decides it or as a row of verdicts holds it; and the words for both."""
 
     __slots__ = ()
-    structure: str
-    """Name of the structure."""
+
+    @property
+    @abstractmethod
+    def structure(self) -> str:
+        """Name of the structure."""
+
+    @property
+    @abstractmethod
+    def support_period_s(self) -> float | None:
+        """First period of the support, s; 0 on the ground below one, None where the structure has no support."""
 
     @property
     @abstractmethod

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from rocking.assessment.rows import Named, StructureNameRow
+from rocking.assessment.rows import Placed, PlacedRow
 from rocking.codes.dynamic_check import DynamicCheck, StructureCheck
 from rocking.codes.local_mechanism import LimitPoint, LocalMechanism
 from rocking.codes.static_check import Check
@@ -22,7 +22,7 @@ KINDS = {
 
 
 @dataclass(frozen=True)
-class MadeCheck(Named):
+class MadeCheck(Placed):
     """One check of one structure, with all that was found of it."""
 
     check: Check
@@ -56,7 +56,7 @@ of_check = Columns(MadeCheck)
 
 
 @row("code_checks")
-class CodeCheckRow(StructureNameRow[MadeCheck]):
+class CodeCheckRow(PlacedRow[MadeCheck]):
     """One row per structure and check of the Italian code at the design level; written by the target checks."""
 
     check: str = of_check("linear, nonlinear or dynamic", lambda of: KINDS[of.check.clause])
@@ -126,10 +126,12 @@ class CodeCheckRow(StructureNameRow[MadeCheck]):
     )
 
 
-def code_check_rows(structure: str, checked: StructureCheck) -> Iterator[CodeCheckRow]:
+def code_check_rows(
+    structure: str, checked: StructureCheck, support_period: float | None = None
+) -> Iterator[CodeCheckRow]:
     """Yield the row of each check of a structure."""
     for each in checked.checks:
-        yield CodeCheckRow.of(MadeCheck(structure, each, checked))
+        yield CodeCheckRow.of(MadeCheck(structure, each, checked, support_period=support_period))
 
 
 def _where_it_is(displacement: float) -> float:

@@ -132,14 +132,13 @@ class FloorMeasures:
     code_spectral_acceleration: float
 
 
-def floor_measures(
-    ground: Accelerogram, floor: Accelerogram, support: Support | None, period: float
-) -> FloorMeasures:
-    """Return what `support`, of this first `period` [s], makes of the ground; None: the ground itself."""
+def floor_measures(ground: Accelerogram, floor: Accelerogram, support: Support | None) -> FloorMeasures:
+    """Return what `support` makes of the ground; None: the ground itself."""
     peak = floor.peak_acceleration
     spectral_acceleration = math.nan
     by_code = math.nan
     if support is not None:
+        period = support.modes[0].period
         spectral_acceleration = spectrum_of(floor)(period, FLOOR_DAMPING)
         if has_code_spectrum(support):
             places = np.array([period])

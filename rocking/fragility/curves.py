@@ -24,6 +24,7 @@ from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import EnsembleSettings
 from rocking.drawn import Drawn
 from rocking.errors import ConfigurationError, StructureError
+from rocking.floors.support import Support
 from rocking.fragility.measures import IntensityMeasure
 from rocking.fragility.measures import intensity_measure as measure_named
 from rocking.motion.batch import integrate_batch
@@ -347,6 +348,7 @@ def fragility(
     over_cracks: bool = True,
     largest_factor: float = LARGEST_FACTOR,
     tolerance: float = 1e-6,
+    support: Support | None = None,
 ) -> Fragility:
     """Return the fragility of `structure` under `records`: of what governs, the worst of the cracks that may form,
     member by member; without over_cracks of the one that statics chooses. Its `analysis` holds the responses.
@@ -355,9 +357,9 @@ def fragility(
     levels: ascending, in the unit of the measure; by default 40 that lie where the probability of overturning moves.
     stations: what counts as one independent record, by default event and station. method: scaling takes every record to
     every level; cloud leaves it as recorded, and the levels are then those of the records. ensemble: ranges of the
-    uncertain inputs; each case then has MEMBERS members. The intensity is that of the ground, also of a structure that
-    stands on a support of its list and meets the motion there. largest_factor: on a record; one that would need more to
-    reach a level is left out of that level. What cannot be followed counts as overturning. Raises ConfigurationError
+    uncertain inputs; each case then has MEMBERS members. largest_factor: on a record; one that would need more to reach
+    a level is left out of that level. support: on which the structure stands and whose motion it meets; the intensity
+    stays that of the ground. What cannot be followed counts as overturning. Raises ConfigurationError
     for fewer than two stations, levels out of order or out of reach, or a measure that a record lacks, and
     StructureError for a structure that cannot overturn.
 
@@ -383,7 +385,7 @@ def fragility(
             f"the structure cannot overturn, and has no fragility: it {mechanism.never_lets_go}."
         )
     intensities = np.array([measure.of(record, mechanism) for record in records])
-    carried = _carried(records, structure)
+    carried = records if support is None else [support.motion(record) for record in records]
     follow = partial(_rotation_ratios, carried, ensemble, tolerance)
     if method == "cloud":
         order = np.argsort(intensities, kind="stable")
@@ -402,14 +404,6 @@ def fragility(
         worst = follow(other.mechanism, factors, worst)
     analysis = IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, names, worst)
     return analysis.fragility(threshold, governing=True)
-
-
-def _carried(records: Sequence[Accelerogram], structure: Rocking) -> Sequence[Accelerogram]:
-    """The motions where the structure stands: on a support of its list, or the records themselves."""
-    standing = structure.standing if isinstance(structure, Structure) else None
-    if standing is None or standing.support is None:
-        return records
-    return [standing.support.motion(record) for record in records]
 
 
 def _checked_stations(records: Sequence[Accelerogram], stations: Sequence[str] | None) -> tuple[str, ...]:

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.special import stdtrit
 
 from rocking.assessment.fidelity import peak_velocity
-from rocking.assessment.rows import Named, StructureNameRow
+from rocking.assessment.rows import Placed, PlacedRow
 from rocking.assessment.rows.meanings import RECORD
 from rocking.errors import ConfigurationError
 from rocking.fragility.curves import Explanation, Fragility, IncrementalDynamicAnalysis, explanation
@@ -155,7 +155,7 @@ def rate_interval(of_stations: np.ndarray) -> tuple[float, float]:
 
 
 @dataclass(frozen=True)
-class ScaledRecord(Named):
+class ScaledRecord(Placed):
     """One record scaled to one level. place, step: of record and level in the analysis."""
 
     record: str
@@ -185,7 +185,7 @@ of_scaled = Columns(ScaledRecord)
 
 
 @row("ida")
-class IdaRow(StructureNameRow[ScaledRecord]):
+class IdaRow(PlacedRow[ScaledRecord]):
     """One row per structure, record and level: incremental dynamic analysis."""
 
     record: str = of_scaled(RECORD, lambda of: of.record)
@@ -214,18 +214,21 @@ class IdaRow(StructureNameRow[ScaledRecord]):
 
 
 def ida_rows(
-    structure: str, records: Sequence[str], analysis: IncrementalDynamicAnalysis
+    structure: str,
+    records: Sequence[str],
+    analysis: IncrementalDynamicAnalysis,
+    support_period: float | None = None,
 ) -> Iterator[IdaRow]:
     """Yield a row for each record and level that it reaches within the largest factor."""
     for place, record in enumerate(records):
         for step, _ in enumerate(analysis.levels):
-            scaled = ScaledRecord(structure, record, analysis, place, step)
+            scaled = ScaledRecord(structure, record, analysis, place, step, support_period=support_period)
             if not np.isnan(scaled.rotation_ratios).all():
                 yield IdaRow.of(scaled)
 
 
 @dataclass(frozen=True)
-class DrawnCurve(Named):
+class DrawnCurve(Placed):
     """The curve of one structure. governing: whether it is that of the worst of the cracks that may form."""
 
     curve: Fragility
@@ -242,7 +245,7 @@ of_curve = Columns(DrawnCurve)
 
 
 @row()
-class CurveRow(StructureNameRow[D]):
+class CurveRow(PlacedRow[D]):
     """A row about the curve of a structure: for which crack, intensity measure and rotation it holds."""
 
     governing: bool = of_curve(
@@ -290,10 +293,13 @@ class FragilityRow(CurveRow[CurvePoint]):
     )
 
 
-def fragility_rows(structure: str, curve: Fragility, governing: bool) -> Iterator[FragilityRow]:
+def fragility_rows(
+    structure: str, curve: Fragility, governing: bool, support_period: float | None = None
+) -> Iterator[FragilityRow]:
     """Yield a row for each level. governing: whether it is the curve with the worst of the cracks that may form."""
     for place, _ in enumerate(curve.levels):
-        yield FragilityRow.of(CurvePoint(structure, curve, governing, place))
+        point = CurvePoint(structure, curve, governing, place, support_period=support_period)
+        yield FragilityRow.of(point)
 
 
 @dataclass(frozen=True)
@@ -380,7 +386,7 @@ class FragilitySummaryRow(CurveRow[SummarisedCurve]):
 
 
 @dataclass(frozen=True)
-class ExplainedOverturning(Named):
+class ExplainedOverturning(Placed):
     """One intensity measure, and one other figure of the record, that may explain which records overturn a structure.
 
     stations: of the records that have both.
@@ -396,7 +402,7 @@ of_explained = Columns(ExplainedOverturning)
 
 
 @row("intensity_measures")
-class IntensityMeasureRow(StructureNameRow[ExplainedOverturning]):
+class IntensityMeasureRow(PlacedRow[ExplainedOverturning]):
     """One row per structure, intensity measure and other figure of the record: what explains overturning."""
 
     intensity_measure: str = of_explained(_MEASURE, lambda of: of.measure.name)
@@ -430,6 +436,7 @@ def intensity_measure_rows(
     mechanism: Mechanism,
     records: Sequence[Accelerogram],
     analysis: IncrementalDynamicAnalysis,
+    support_period: float | None = None,
 ) -> Iterator[IntensityMeasureRow]:
     """Yield how well each measure explains which records overturn the structure at which level."""
     factors = np.log(analysis.levels) - np.log(analysis.intensities)[:, None]
@@ -444,9 +451,10 @@ def intensity_measure_rows(
                 continue
             levels = logs[both, None] + factors[both]
             explained = explanation(levels, falls[both], values[both], stations)
-            yield IntensityMeasureRow.of(
-                ExplainedOverturning(structure, measure, figure, stations, explained)
+            of_measure = ExplainedOverturning(
+                structure, measure, figure, stations, explained, support_period=support_period
             )
+            yield IntensityMeasureRow.of(of_measure)
 
 
 def _figures(records: Sequence[Accelerogram]) -> dict[str, np.ndarray]:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rocking.assessment.case import RecordResult, StationResult
+from rocking.assessment.over_periods import placed
 from rocking.assessment.rows import ComparisonRow, RecordRows
 from rocking.assessment.verdict import NEGLIGIBLE, Verdict
 from rocking.motion.response import Response
@@ -45,6 +46,7 @@ _BEYOND = 3.0
 def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[str, Structure]) -> Content:
     """Return what the page says of one record, and of each structure under the component that turns it farthest.
 
+    Of a structure on a support it is said of the period that is worst.
     The responses of the mechanism under the record hold their histories; a case without one is shown without its
     motion.
     """
@@ -53,9 +55,14 @@ def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[s
     failure = " ".join(["no result.", *(each.message for each in rows.failures)])
     nothing = {"verdict": Verdict.UNKNOWN, "cell": cell_text(None), "text": failure, "severity": [-9]}
     cases = {
-        name: _case(station, worst.get(name), structures[name].mechanism(), result.responses)
-        for name, station in result.stations.items()
-        if name in structures
+        station.structure: _case(
+            station,
+            worst.get((station.structure, station.support_period_s)),
+            structures[station.structure].mechanism(),
+            result.responses,
+        )
+        for station in result.worst_periods
+        if station.structure in structures
     }
     peaks = [(row.peak_acceleration_m_s2 / GRAVITY, row.peak_velocity_m_s) for row in rows.record]
     pga, pgv = np.max(peaks, axis=0) if peaks else (math.nan, math.nan)
@@ -105,7 +112,7 @@ def _case(
     station: StationResult,
     row: ComparisonRow | None,
     mechanism: Mechanism,
-    responses: Mapping[tuple[str, str], Response],
+    responses: Mapping[tuple[str, str, float | None], Response],
 ) -> Content:
     """Return what became of a structure, in words and numbers, and the history that moves its drawing."""
     predicted = row.predicted_rotation_ratio if row else math.nan
@@ -113,11 +120,13 @@ def _case(
     band = f" (5 to 95 % of the members: {band_text(station, ' to ')})" if station.members else ""
     crack = f" Crack that governs: {station.crack}." if station.crack else ""
     reserve = f" Reserve: {station.reserve_in_words}." if station.reserve else ""
+    place = placed("", station.support_period_s).removeprefix(", ")
+    place = f"At its worst, {place}: " if place else ""
     case: Content = {
         "verdict": str(station.verdict),
         "cell": cell_text(station),
         "fill": fill_of(station),
-        "text": f"{station.verdict}: {station.why}. Largest rotation over critical rotation: "
+        "text": f"{place}{station.verdict}: {station.why}. Largest rotation over critical rotation: "
         f"{ratio(station.rotation_ratio, 2)} as given{band}, {closed} by the closed form.{crack}{reserve}",
         "share": _number(station.overturning_share),
         "severity": [_number(min(each, 1e9)) for each in station.severity],

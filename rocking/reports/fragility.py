@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from rocking.assessment.over_periods import placed
 from rocking.fragility.measures import INTENSITY_MEASURES
 from rocking.fragility.rows import ROTATION_RATIOS, FragilityRow, FragilitySummaryRow, IdaRow
 from rocking.quantities import counted
@@ -35,16 +36,30 @@ _HALF = 0.5
 """Share of the members from which on a record overturns a structure."""
 _COLOURS = dict(zip(ROTATION_RATIOS, ("#56B4E9", "#0072B2", "#009E73"), strict=False))
 _WORST = "#D55E00"
-_READ = ("structure", "record", "station", "level", "overturning_share", "governing_overturning_share")
+_READ = (
+    "structure",
+    "support_period_s",
+    "record",
+    "station",
+    "level",
+    "overturning_share",
+    "governing_overturning_share",
+)
+
+
+def by_place(table: "DataFrame") -> "DataFrame":
+    """Return a table of fragility whose structures have the periods of their supports in their names."""
+    pairs = zip(table["structure"], table["support_period_s"], strict=True)
+    return table.assign(structure=[placed(name, period) for name, period in pairs])
 
 
 def write_fragility_report(folder: Path, pdf: Path, image: Path) -> None:
     """Set the tables of fragility in `folder` as the files `pdf` and `image` (SVG)."""
     curves, summary = (
-        frame(each, folder / each.table.file_name) for each in (FragilityRow, FragilitySummaryRow)
+        by_place(frame(each, folder / each.table.file_name)) for each in (FragilityRow, FragilitySummaryRow)
     )
     write_whole(image, svg(fragility_figure(curves)).encode())
-    ida = frame(IdaRow, folder / IdaRow.table.file_name, _READ)
+    ida = by_place(frame(IdaRow, folder / IdaRow.table.file_name, _READ))
     write_whole(pdf, compile_document("plain.typ", fragility_data(curves, summary, ida)))
 
 

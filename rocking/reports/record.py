@@ -10,9 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from rocking.assessment.case import RecordResult, StationResult, swept_over
+from rocking.assessment.case import RecordResult, StationResult
 from rocking.assessment.causes import Origin
 from rocking.assessment.deciding import CRACK, deciding
+from rocking.assessment.over_periods import placed
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
     ComparisonRow,
@@ -49,7 +50,6 @@ from rocking.reports.style import pictures
 from rocking.reports.supports import SupportPanel, floor_sentences, support_panels, supports_figure
 from rocking.reports.units import displaying
 from rocking.structures import Structure
-from rocking.structures.standing import Standing
 
 MOST_DRAWN = 10
 """Structures of page one and of the histories, the worst first; the tables hold all."""
@@ -98,7 +98,7 @@ class RecordReport:
             **printing.settings_texts(self.settings),
             "subtitle": _subtitle(self.tables.record),
             "key": [_key_numbers(row) for row in self.tables.record],
-            "headlines": headlines(self.stations),
+            "headlines": headlines(self.result),
             "advice": _advice(self),
             "sentences": _sentences(self),
             "notices": [notice.data for notice in _notices(self)],
@@ -129,9 +129,9 @@ class RecordReport:
 
     def called(self, name: str) -> str:
         """Return how a sentence calls a structure: one on a support without its period, as it names many."""
-        station = self.result.stations.get(name)
-        standing = standing_of(station) if station else None
-        return f"{standing.listed_structure} on {standing.place}" if standing else name
+        scene = self.result.scenes.get(name)
+        is_carried = scene is not None and scene.scene.place.supports
+        return f"{name} on {scene.scene.place.name}" if scene is not None and is_carried else name
 
     @cached_property
     def motions(self) -> list[Trace]:
@@ -149,8 +149,8 @@ class RecordReport:
         """The rotation of each structure that rocks and whose history was kept, the worst first."""
         cases = worst_cases(self.tables.comparison)
         histories = []
-        for station in one_period_each(self.stations):
-            case = cases.get(station.structure)
+        for station in self.result.worst_periods:
+            case = cases.get((station.structure, station.support_period_s))
             response = self.result.responses.get(case.case) if case else None
             if case and response and case.integrated_rotation_ratio > NEGLIGIBLE:
                 history = rotation_ratios(response, self.structures[station.structure].mechanism())
@@ -160,7 +160,7 @@ class RecordReport:
     @cached_property
     def support_panels(self) -> list[SupportPanel]:
         """The supports that carry a structure."""
-        return support_panels(self.result, self.result.swept)
+        return support_panels(self.result)
 
     @cached_property
     def scale_note(self) -> str:
@@ -185,12 +185,15 @@ def _unique(texts: Iterable[str]) -> str:
     return ", ".join(dict.fromkeys(filter(None, texts)))
 
 
-def worst_cases(rows: Iterable[ComparisonRow]) -> dict[str, ComparisonRow]:
-    """Return by structure the row of the component that turns it farthest, the first of several that overturn it."""
+def worst_cases(rows: Iterable[ComparisonRow]) -> dict[tuple[str, float | None], ComparisonRow]:
+    """Return the row of the component that turns a structure farthest, the first of several that overturn it.
+
+    By name of the structure and period of its support.
+    """
     farthest = sorted(
         rows, key=lambda row: np.nan_to_num(row.integrated_rotation_ratio, nan=-1), reverse=True
     )
-    return {row.structure: row for row in reversed(farthest)}
+    return {(row.structure, row.support_period_s): row for row in reversed(farthest)}
 
 
 def failure_report(record: str, message: str) -> bytes:
@@ -210,14 +213,14 @@ def failure_report(record: str, message: str) -> bytes:
 # Sentences -----------------------------------------------------------------------------------------------
 
 
-def headlines(stations: Sequence[StationResult]) -> list[dict[str, str]]:
+def headlines(result: RecordResult) -> list[dict[str, str]]:
     """Return the first lines of a report: each verdict with the structures that it is of, the worst first.
 
     A structure on a support has a line of its own, which says what becomes of it over the periods of the support.
     """
     groups: dict[str, list[str]] = {}
-    for station in stations:
-        if standing_of(station) is not None:
+    for station in result.worst_first:
+        if station.scene.place.supports:
             continue
         remark = station.count if station.verdict is Verdict.OVERTURNS else ""
         if station.verdict in (Verdict.UNDECIDED, Verdict.UNKNOWN, Verdict.CANNOT_OVERTURN):
@@ -228,27 +231,12 @@ def headlines(stations: Sequence[StationResult]) -> list[dict[str, str]]:
         room = sum(end <= MOST_LETTERS for end in accumulate(map(len, names)))
         listed = printing.listed(names, max(1, min(MOST_NAMED, room)))
         lines.append({"verdict": printing.sentence(verdict), "names": listed})
-    swept = sorted(swept_over(stations), key=lambda each: each.severity, reverse=True)
-    lines += [{"verdict": "On a support", "names": each.sentence} for each in swept[:MOST_NAMED]]
-    if len(swept) > MOST_NAMED:
-        more = f"{counted(len(swept) - MOST_NAMED, 'more structure')}, in supports.csv"
+    carried = sorted(result.carried, key=lambda scene: scene.worst.severity, reverse=True)
+    lines += [{"verdict": "On a support", "names": scene.sentence} for scene in carried[:MOST_NAMED]]
+    if len(carried) > MOST_NAMED:
+        more = f"{counted(len(carried) - MOST_NAMED, 'more structure')}, in supports.csv"
         lines.append({"verdict": "On a support", "names": more})
     return lines
-
-
-def standing_of(station: StationResult) -> Standing | None:
-    """Return on what a structure of the list stands that names a support; None of another."""
-    return station.body.standing if isinstance(station.body, Structure) else None
-
-
-def one_period_each(stations: Iterable[StationResult]) -> list[StationResult]:
-    """Return the stations, of each structure on a support the first one only: pictures would repeat themselves."""
-    chosen: dict[object, StationResult] = {}
-    for station in stations:
-        standing = standing_of(station)
-        key = (standing.listed_structure, standing.place) if standing else station.structure
-        chosen.setdefault(key, station)
-    return list(chosen.values())
 
 
 def _sentences(report: RecordReport) -> list[str]:
@@ -258,14 +246,15 @@ def _sentences(report: RecordReport) -> list[str]:
         ratios = [
             row.integrated_rotation_ratio
             for row in report.tables.variations
-            if row.processing and row.structure == station.structure
+            if row.processing
+            and (row.structure, row.support_period_s) == (station.structure, station.support_period_s)
         ]
         if any(map(math.isinf, ratios)) and any(map(math.isfinite, ratios)):
             depends.append(report.called(station.structure))
     depends = list(dict.fromkeys(depends))
     remark = f"Whether it overturns depends on the processing of the record: {printing.listed(depends)}."
-    carried = (standing_of(station) for station in report.stations)
-    heavy = dict.fromkeys(each.warning for each in carried if each and each.warning)
+    scenes = (each.scene for each in report.result.carried)
+    heavy = dict.fromkeys(filter(None, (scene.place.warning(scene.name) for scene in scenes)))
     notes = [*_cautions(report), *([remark] if depends else []), *heavy]
     return [*notes, *warnings_of(report.tables)]
 
@@ -425,7 +414,8 @@ def _doubts(rows: Sequence[ComparisonRow], several: bool) -> list[str]:
                 agreement(simpler, row.integrated_rotation_ratio) is Agreement.SAME
                 for simpler in (row.block_on_record_rotation_ratio, row.mechanism_on_pulse_rotation_ratio)
             )
-            name = row.structure + (f" ({words(row.component)})" if several else "")
+            name = placed(row.structure, row.support_period_s)
+            name += f" ({words(row.component)})" if several else ""
             reasons.setdefault(_BLAME[same], []).append(name)
     if not reasons:
         return ["The closed form says of no structure less than happens."] if compared else []
@@ -452,11 +442,11 @@ def _pictures(report: RecordReport) -> dict[str, object]:
     """Return the pictures of the worst cases, and the sentences that say where the others stand."""
     motions = report.motions
     labels = report.labels
-    drawable = [station for station in report.stations if station.structure in report.structures]
-    reserves = [each for each in one_period_each(drawable) if each.reserve is not None][:MOST_DRAWN]
-    crowded = len(headlines(report.stations)) > MOST_LINES or reserves
+    drawable = [each for each in report.result.worst_periods if each.structure in report.structures]
+    reserves = [each for each in drawable if each.reserve is not None][:MOST_DRAWN]
+    crowded = len(headlines(report.result)) > MOST_LINES or reserves
     most = FEWER_DRAWN if crowded else MOST_DRAWN
-    stations = one_period_each(drawable)[:most]
+    stations = drawable[:most]
     names = printing.listed([station.structure for station in stations])
     strip = (f"Drawings of the structures in their state: {names}.", report.structures, labels)
     histories = report.histories[:MOST_DRAWN]
@@ -485,10 +475,10 @@ def _pictures(report: RecordReport) -> dict[str, object]:
             labels,
         ),
         "reserve-note": _reserve_note(reserves),
-        "strip-note": remainder(len(report.stations) - len(stations), "structure", verdicts),
+        "strip-note": remainder(len(report.result.scenes) - len(stations), "structure", verdicts),
         "histories": pictures(figures.histories_figure, histories, rotations, labels, motions),
         "histories-note": remainder(
-            len(report.stations) - len(histories), "structure", f"{verdicts}, at rest or less demanding"
+            len(report.result.scenes) - len(histories), "structure", f"{verdicts}, at rest or less demanding"
         ),
         "supports": pictures(
             supports_figure,
@@ -520,10 +510,15 @@ def _tables(report: RecordReport) -> dict[str, object]:
     structures = list(structure_rows(report.structures))
     return {
         "facts": facts_table(record),
-        "verdicts": table_of(report.stations, number_of, *VERDICT_COLUMNS),
+        "verdicts": table_of(report.stations, number_of, *verdict_columns(bool(tables.supports))),
         "structures": table_of(structures, number_of, *STRUCTURE_COLUMNS),
         "pulses": table_of(ranked, *columns_of(PulseRow, PULSE_FIELDS)),
-        "methods": table_of(tables.comparison, number_of, *_method_columns(tables.comparison)),
+        "methods": table_of(
+            tables.comparison,
+            number_of,
+            *_period_column(bool(tables.supports)),
+            *_method_columns(tables.comparison),
+        ),
         "friction": plain(report.settings.get("friction_coefficient")),
         "vertical": _unique(row.vertical_component for row in record),
         "arch": any(each.hinges_migrate for each in report.structures.values()),
@@ -559,6 +554,17 @@ def facts_table(rows: Sequence[RecordRow]) -> dict[str, object]:
         )
     components = [(f"Component {words(row.component)}", "1", "l") for row in rows]
     return printing.table([("", "auto", "l"), *components], facts)
+
+
+def _period_column(has_supports: bool) -> list[Column]:
+    """The column of the period of the support, where a structure stands on one."""
+    return [("T_b [s]", "auto", "r", lambda row: number(row.support_period_s))] if has_supports else []
+
+
+def verdict_columns(has_supports: bool) -> list[Column]:
+    """Return the columns of the table of verdicts, with the period of the support where a structure stands on one."""
+    structure, *others = VERDICT_COLUMNS
+    return [structure, *_period_column(has_supports), *others]
 
 
 VERDICT_COLUMNS: list[Column] = [

@@ -15,6 +15,7 @@ from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator
 from matplotlib.transforms import Affine2D
 
 from rocking.assessment.case import StationResult
+from rocking.assessment.over_periods import placed
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import RATIO_COLUMNS, ComparisonRow
 from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Method, Verdict, rests
@@ -178,7 +179,7 @@ def strip_figure(
     """
     lines = [_lines(structures[station.structure], station, peak_acceleration) for station in stations]
     # On one line: the names stand in full above, and a second one would push the reserve off the first page.
-    names = [elided(labels[station.structure], 20) for station in stations]
+    names = [elided(placed(labels[station.structure], station.support_period_s), 20) for station in stations]
     rows = [range(first, min(first + _COLUMNS, len(stations))) for first in range(0, len(stations), _COLUMNS)]
     heights = [_DRAWN[1] + 19 + _LINE * max(len(lines[place]) for place in row) for row in rows]
     figure = new_figure(sum(heights), margins=(0, 0, 0, 0))
@@ -229,7 +230,7 @@ def reserve_figure(stations: Sequence[StationResult], labels: Mapping[str, str])
             panel.plot([reserve.median] * 2, [-place - 0.3, -place + 0.3], color="black", linewidth=1.2)
         if math.isnan(reserve.high):
             panel.plot(limit, -place, ">", color="0.25", markersize=3.5, clip_on=False)
-        label = elided(labels[station.structure], 27)
+        label = elided(placed(labels[station.structure], station.support_period_s), 27)
         panel.text(-0.01, -place, label, ha="right", va="center", transform=panel.get_yaxis_transform())
         panel.text(1.06 * limit, -place, _reserve_in_numbers(reserve), ha="left", va="center", fontsize=7)
     panel.set(xscale="log", xlim=(least, limit), ylim=(-len(reserves) + 0.4, 0.6), yticks=[])
@@ -344,7 +345,9 @@ def histories_figure(
     figure = new_figure(row * len(histories) + below * len(motions) + 9)
     panel = panel_at(figure, left, 1, width, row * len(histories))
     for place, history in enumerate(histories):
-        _draw_history(panel, history, -place, labels[history.station.structure], several=len(motions) > 1)
+        station = history.station
+        label = placed(labels[station.structure], station.support_period_s)
+        _draw_history(panel, history, -place, label, several=len(motions) > 1)
     span = moving_span((history.times, history.ratios) for history in histories)
     panel.set(xlim=span, ylim=(0.5 - len(histories), 0.5), xticks=[], yticks=[])
     panel.spines[["left", "bottom"]].set_visible(False)
@@ -409,7 +412,8 @@ def comparison_figure(cases: Sequence[ComparisonRow], labels: Mapping[str, str],
     names = []
     for place, case in enumerate(cases):
         component = f", {_component(case.component)}" if several else ""
-        names.append(elided(labels[case.structure], _BESIDE_CASES - len(component)) + component)
+        label = placed(labels[case.structure], case.support_period_s)
+        names.append(elided(label, _BESIDE_CASES - len(component)) + component)
         remark = case.prediction_in_words
         panel.text(1.02, place, remark, transform=panel.get_yaxis_transform(), va="center", fontsize=7)
     panel.set(xscale="log", xlim=(0.7 * _SMALLEST, 1.5 * _FALLEN), ylim=(len(cases) - 0.5, -0.5))

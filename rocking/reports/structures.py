@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from rocking.assessment.over_periods import placed
 from rocking.assessment.reserve import Reserve
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.dynamic_check import StructureCheck
@@ -16,6 +17,8 @@ from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
 from rocking.codes.rows import KINDS, disagreement
 from rocking.codes.selection import Selection
 from rocking.codes.static_check import Check
+from rocking.floors.place import GROUND, Place
+from rocking.floors.support import Support
 from rocking.quantities import counted, percent
 from rocking.remarks import Kind, Remark
 from rocking.reports import printing
@@ -41,6 +44,7 @@ _QUANTILE = 1.645
 class CheckedStructure:
     """The content of the page of one structure.
 
+    place, support: where it stands, and of what stands on a support one along its axis, None on the ground below it.
     checked: None where it could not be checked, and `refusal` then says why. overturning_share: mean over the stations
     of the study, of each the mean over its records, nan without any; records, stations: how many there are. reserves:
     under each record of the study under which one was sought; reserve_doubts: the kinds of doubt for which they may be
@@ -50,6 +54,8 @@ class CheckedStructure:
     name: str
     structure: Structure
     checked: StructureCheck | None
+    place: Place = GROUND
+    support: Support | None = None
     refusal: str = ""
     overturning_share: float = math.nan
     records: int = 0
@@ -134,22 +140,21 @@ def _motion_table(selection: Selection) -> dict[str, object]:
 
 
 def _page(each: CheckedStructure, spectrum: DesignSpectrum) -> dict[str, object]:
+    name = placed(each.name, each.place.period_of(each.support))
     head = {
-        "name": each.name,
+        "name": name,
         "description": f"{each.structure.description}.",
-        "comparison": _comparison(each.structure),
+        "comparison": _comparison(each),
     }
     if each.checked is None:
         return head | {"refusal": each.refusal, "figure": [], "sentences": [], "finding": "", "share": ""}
     checked = each.checked
-    alt = (
-        f"{each.name}: drawing with sizes and loads, mechanism, and capacity curve with limit displacements."
-    )
+    alt = f"{name}: drawing with sizes and loads, mechanism, and capacity curve with limit displacements."
     return head | {
         "refusal": "",
         "figure": [picture(_structure_figure(each.structure, checked), alt)],
         "checks": _check_table(checked),
-        "sentences": [*_support(each.structure), *_sentences(checked)],
+        "sentences": [*_support(each), *_sentences(checked)],
         "share": _share(each),
         "finding": disagreement(checked, each.overturning_share, each.stations),
     }
@@ -235,27 +240,25 @@ def _terms(checked: StructureCheck) -> list[str]:
     return terms
 
 
-def _support(structure: Structure) -> list[str]:
+def _support(page: CheckedStructure) -> list[str]:
     """The sentence on the support on which a structure stands, if it does."""
-    standing = structure.standing
-    if standing is None or standing.support is None:
+    if page.support is None:
         return []
     modes = " and ".join(
-        f"{number(mode.period)} s with Γψ = {number(mode.participation)}" for mode in standing.support.modes
+        f"{number(mode.period)} s with Γψ = {number(mode.participation)}" for mode in page.support.modes
     )
     return [
-        f"It stands on {standing.place}, a support of period {modes}: the demands are those there (C7.2.5 to C7.2.10), "
-        "and the dynamic check follows the motion there."
+        f"It stands on {page.place.name}, a support of period {modes}: the demands are those there (C7.2.5 to "
+        "C7.2.10), and the dynamic check follows the motion there."
     ]
 
 
-def _comparison(structure: Structure) -> str:
+def _comparison(page: CheckedStructure) -> str:
     """The warning above the page of a structure that stands on a support and is taken on the ground; "" elsewhere."""
-    standing = structure.standing
-    if standing is None or standing.support is not None:
+    if page.support is not None or not page.place.supports:
         return ""
     return (
-        f"For comparison only: {standing.listed_structure} stands on a support, and this page takes it on the ground; "
+        f"For comparison only: {page.name} stands on a support, and this page takes it on the ground; "
         "sign the pages of its support."
     )
 

@@ -2,7 +2,6 @@
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -18,6 +17,7 @@ from rocking.assessment.rows import (
     RecordRow,
     SupportRow,
     VerdictRow,
+    worst_period_each,
 )
 from rocking.assessment.verdict import (
     ORDER,
@@ -33,7 +33,7 @@ from rocking.quantities import GRAVITY, counted
 from rocking.reports import printing
 from rocking.reports.design_figure import design_summary_figure
 from rocking.reports.document import compile_document
-from rocking.reports.fragility import fragility_table
+from rocking.reports.fragility import by_place, fragility_table
 from rocking.reports.printing import (
     Column,
     Notice,
@@ -116,9 +116,9 @@ def _data(
     trade: Sequence[Mapping[str, str]],
     design: Design | None,
 ) -> dict[str, object]:
-    verdicts = sorted(rows_of(VerdictRow, tables["verdicts"]), key=lambda row: row.severity, reverse=True)
+    verdicts = rows_of(VerdictRow, tables["verdicts"])
     carried = supports_of(tables)
-    shown = one_period_each(verdicts, carried)
+    shown = worst_period_each(verdicts)
     comparison = tables["comparison"]
     failures = tables["failures"]
     records = tables["record"]
@@ -152,7 +152,7 @@ def _data(
         "agreement": table_of(rows_of(AgreementRow, tables["agreement"]), *AGREEMENT_COLUMNS),
         "unsafe": table_of(rows_of(ComparisonRow, unsafe.head(MOST_LISTED)), *UNSAFE_COLUMNS),
         "unsafe-note": remainder(len(unsafe) - MOST_LISTED, "case", "comparison.csv"),
-        "fragility": [fragility_table(summary, tables["ida"])] if summary is not None else [],
+        "fragility": [] if summary is None else [fragility_table(by_place(summary), by_place(tables["ida"]))],
         "failures": table_of(rows_of(FailureRow, failures.head(MOST_LISTED)), *FAILURE_COLUMNS),
         "failures-note": remainder(len(failures) - MOST_LISTED, "failure", "failures.csv"),
         "records": record_table(list(rows_of(RecordRow, records.head(MOST_RECORDS))), tables["pulses"]),
@@ -176,19 +176,6 @@ def supports_of(tables: Mapping[str, "DataFrame"]) -> list[SupportRow]:
     """Return the rows of the table of supports; none where it is not there."""
     table = tables.get("supports")
     return [] if table is None else list(rows_of(SupportRow, table))
-
-
-def one_period_each(verdicts: Sequence[VerdictRow], carried: Sequence[SupportRow]) -> list[VerdictRow]:
-    """Return the verdicts, of each record and structure on a support that of the worst period only, by its listed name.
-
-    verdicts: the worst first.
-    """
-    listed = {row.structure: f"{row.listed_structure} on {row.support}, worst" for row in carried}
-    shown: dict[tuple[str, str], VerdictRow] = {}
-    for row in verdicts:
-        name = listed.get(row.structure, row.structure)
-        shown.setdefault((row.record, name), replace(row, structure=name))
-    return list(shown.values())
 
 
 def _notices(records: "DataFrame", comparison: "DataFrame", failures: int) -> list[Notice]:

@@ -1,17 +1,16 @@
 """The structures on a support in a report: share against the period of the support, and the spectra of its motion."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rocking.assessment.case import RecordResult
+from rocking.assessment.case import RecordResult, SceneResult
 from rocking.assessment.component import Component
-from rocking.assessment.over_periods import OverPeriods
-from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import SupportRow
+from rocking.floors.place import Place
 from rocking.floors.spectrum import FLOOR_DAMPING, floor_spectrum, has_code_spectrum, spectrum_of
 from rocking.quantities import GRAVITY
 from rocking.records.measures import response_spectrum
@@ -39,35 +38,29 @@ _PERIODS = np.geomspace(0.05, 3.0, 60)
 class SupportPanel:
     """A support with the structures on it, and the component of the ground with the largest peak.
 
-    floors: that component on the support, by its first period, ascending. reserves: of each structure of a period, by
-    name; those that were not sought are left out.
+    floors: that component on the support, by its first period, ascending.
     """
 
-    structures: Sequence[OverPeriods]
+    structures: Sequence[SceneResult]
     ground: Component
     floors: Sequence[Component]
-    reserves: Mapping[str, Reserve]
 
 
-def support_panels(result: RecordResult, swept: Sequence[OverPeriods]) -> list[SupportPanel]:
+def support_panels(result: RecordResult) -> list[SupportPanel]:
     """Return a panel for each support of a record that carries something, in the order of the structures."""
-    by_place: dict[str, list[OverPeriods]] = {}
-    for each in swept:
-        by_place.setdefault(each.place, []).append(each)
+    by_place: dict[Place, list[SceneResult]] = {}
+    for each in result.carried:
+        by_place.setdefault(each.scene.place, []).append(each)
     if not result.components:
         return []
     worst = max(
         range(len(result.components)), key=lambda n: result.components[n].accelerogram.peak_acceleration
     )
     panels = []
-    for several in by_place.values():
-        supports = [each.support for each in several[0].standings if each.support in result.floors]
-        floors = [result.floors[support][worst] for support in supports if support is not None]
+    for place, several in by_place.items():
+        floors = [result.floors[support][worst] for support in place.supports if support in result.floors]
         if floors:
-            names = [standing.name for each in several for standing in each.standings]
-            found = {name: result.stations[name].reserve for name in names}
-            reserves = {name: each for name, each in found.items() if each is not None}
-            panels.append(SupportPanel(several, result.components[worst], floors, reserves))
+            panels.append(SupportPanel(several, result.components[worst], floors))
     return panels[:MOST_SUPPORTS]
 
 
@@ -81,27 +74,28 @@ def supports_figure(panels: Sequence[SupportPanel]) -> Figure:
         share = panel_at(figure, 14, top, 60, height - 18)
         spectra = panel_at(figure, 100, top, 42, height - 18)
         _draw_shares(share, panel.structures)
-        if panel.reserves:
-            _draw_reserves(share, panel)
+        if any(station.reserve for scene in panel.structures for station in scene.stations):
+            _draw_reserves(share, panel.structures)
         _draw_spectra(spectra, panel)
     return figure
 
 
-def _draw_shares(axes: Axes, structures: Sequence[OverPeriods]) -> None:
+def _draw_shares(axes: Axes, structures: Sequence[SceneResult]) -> None:
     """Draw share against period, one line for each structure; a marker has the colour of its verdict."""
     for line, each in zip(_LINES * len(structures), structures, strict=False):
-        shares = [judgement.overturning_share for judgement in each.judgements]
+        periods = each.periods
+        shares = [station.overturning_share for station in each.stations]
         axes.plot(
-            each.periods,
+            periods,
             shares,
             line,
             color="0.35",
             linewidth=0.9,
-            label=elided(each.structure, 24),
+            label=elided(each.scene.name, 24),
             zorder=1,
         )
-        for period, share, judgement in zip(each.periods, shares, each.judgements, strict=True):
-            colour = LOOKS[judgement.verdict][1]
+        for period, share, station in zip(periods, shares, each.stations, strict=True):
+            colour = LOOKS[station.verdict][1]
             axes.plot(
                 [period],
                 [share],
@@ -113,21 +107,24 @@ def _draw_shares(axes: Axes, structures: Sequence[OverPeriods]) -> None:
             )
     axes.set(ylim=(-0.05, 1.05), xlabel="period T_b of the support [s], 0: the ground")
     axes.set_ylabel("share that overturns [-]")
-    axes.set_title(elided(f"on {structures[0].place}", 40), loc="left")
+    axes.set_title(elided(f"on {structures[0].scene.place.name}", 40), loc="left")
     axes.legend(loc="best")
 
 
-def _draw_reserves(axes: Axes, panel: SupportPanel) -> None:
+def _draw_reserves(axes: Axes, structures: Sequence[SceneResult]) -> None:
     """Draw on a scale of its own the factor on the record at which half of the members overturn, where there is one.
 
     Single points, with nothing between them: it is sought on the ground and at the worst period.
     """
     beside = axes.twinx()
-    for each in panel.structures:
-        found = [panel.reserves.get(standing.name) for standing in each.standings]
-        factors = [reserve.median if reserve else np.nan for reserve in found]
-        beside.plot(each.periods, factors, linestyle="", marker="x", color=PREDICTED, markersize=3.5)
-    beside.set(ylim=(0, max(reserve.limit for reserve in panel.reserves.values())))
+    limits = []
+    for each in structures:
+        periods = each.periods
+        reserves = [station.reserve for station in each.stations]
+        factors = [reserve.median if reserve else np.nan for reserve in reserves]
+        limits += [reserve.limit for reserve in reserves if reserve]
+        beside.plot(periods, factors, linestyle="", marker="x", color=PREDICTED, markersize=3.5)
+    beside.set(ylim=(0, max(limits)))
     beside.set_ylabel("median reserve [×]", color=PREDICTED)
     beside.spines["right"].set_visible(True)
 
@@ -161,8 +158,8 @@ def shares_by_period_figure(rows: Sequence[SupportRow]) -> Figure:
     """Draw for each structure on a support the mean over the records of the share that overturns, by period."""
     shares: dict[tuple[str, str], dict[float, dict[str, float]]] = {}
     for row in rows:
-        periods = shares.setdefault((row.listed_structure, row.support), {})
-        periods.setdefault(row.support_period_s, {})[row.record] = row.overturning_share
+        periods = shares.setdefault((row.structure, row.support), {})
+        periods.setdefault(row.support_period_s or 0.0, {})[row.record] = row.overturning_share
     figure = new_figure(62.0, margins=(14, 52, 11, 3))
     axes = figure.subplots()
     for number, ((structure, support), periods) in enumerate(list(shares.items())[:_MOST_LINES]):
@@ -194,5 +191,5 @@ def floor_sentences(panels: Sequence[SupportPanel]) -> list[str]:
                 pulse = floor.analysis.evidence.pulse
                 text += f" and the dominant pulse has {quantity(abs(pulse.amplitude), 'm/s²')} and {pulse.period:.2g} s"
             parts.append(text)
-        sentences.append(f"On {panel.structures[0].place}, {'; '.join(parts)}.")
+        sentences.append(f"On {panel.structures[0].scene.place.name}, {'; '.join(parts)}.")
     return sentences

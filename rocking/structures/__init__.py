@@ -13,7 +13,6 @@ from rocking.structures.mechanism import Outcome as Outcome
 from rocking.structures.mechanism import Side as Side
 from rocking.structures.stack import Stack as Stack
 from rocking.structures.structure import Structure as Structure
-from rocking.structures.structure_list import load_structures as load_structures
 from rocking.structures.structure_list import structure_from_config as structure_from_config
 from rocking.structures.wall import LoadedWall as LoadedWall
 from rocking.structures.wall import Wall as Wall

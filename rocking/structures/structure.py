@@ -15,14 +15,12 @@ from rocking.errors import DoesNotStandError, StructureError, StructureWarning
 from rocking.quantities import within
 from rocking.structures.capacity import CapacityCurve as CapacityCurve
 from rocking.structures.capacity import StaticCapacity
-from rocking.structures.check_terms import CheckTerms
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.drawing import Dimension, Mark, Path, plane
 from rocking.structures.fields import Field, Form, Value, constructor
 from rocking.structures.linkage import STILL, Linkage, Motion, Restitution, momentum_balance
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.stack import Stack
-from rocking.structures.standing import Standing
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -54,10 +52,9 @@ class Structure(ABC):
     its class method, "" for the class itself. crack_name: what its candidates move ("hinge", "crack"); "" without.
     tapers: whether its courses grow smaller upwards, so that each rocks by itself and throws what stands on it
     (docs/pages/validation.md). hinges_migrate: whether its hinges would move in flight, while the
-    mechanism leaves them. usual_restitution: where none is given. standing: of a structure of a list that names a
-    support; None: it meets each motion as it is given. check_terms: what its list says for the checks of a code.
-    statics_chooses: whether codes check the mechanism of least λ alone, as between supports limit analysis finds it;
-    otherwise every crack that may open is a mechanism of its own.
+    mechanism leaves them. usual_restitution: where none is given. statics_chooses: whether codes check the
+    mechanism of least λ alone, as between supports limit analysis finds it; otherwise every crack that may open is a
+    mechanism of its own.
     """
 
     type_name: ClassVar[str] = ""
@@ -68,8 +65,6 @@ class Structure(ABC):
     usual_restitution: ClassVar[float | str] = "momentum"
     statics_chooses: ClassVar[bool] = False
     one_sided = False
-    standing: ClassVar[Standing | None] = None
-    check_terms: ClassVar[CheckTerms] = CheckTerms()
 
     restitution_range: Annotated[
         float | None,
@@ -120,8 +115,7 @@ class Structure(ABC):
     def __getstate__(self) -> dict[str, Any]:
         """The fields and what was typed: the rest is computed again after a copy or in another process."""
         state = {each.name: getattr(self, each.name) for each in fields(self)}
-        of_list = ("_typed", "standing", "check_terms")
-        return state | {name: self.__dict__[name] for name in of_list if name in self.__dict__}
+        return state | ({"_typed": self.__dict__["_typed"]} if "_typed" in self.__dict__ else {})
 
     @property
     def symmetric(self) -> bool:
@@ -385,23 +379,6 @@ class Structure(ABC):
     def typed(self, values: dict[str, object], texts: dict[str, str]) -> None:
         """Remember the `values` of a file by key, and their `texts` as they were typed; for the loader only."""
         object.__setattr__(self, "_typed", {key: (values[key], texts[key]) for key in values})
-
-    def checked_with(self, terms: CheckTerms) -> Self:
-        """Return this structure with these terms of a check; what it has computed is shared. For the loader only."""
-        same = object.__new__(type(self))
-        same.__dict__.update(self.__dict__, check_terms=terms)
-        return same
-
-    @property
-    def is_carried(self) -> bool:
-        """Whether it stands on a support of its list, not on the ground."""
-        return self.standing is not None and self.standing.support is not None
-
-    def standing_on(self, standing: Standing) -> Self:
-        """Return this structure where it stands; what it has computed is shared. For the loader only."""
-        there = object.__new__(type(self))
-        there.__dict__.update(self.__dict__, standing=standing)
-        return there
 
     @cached_property
     def _mechanism(self) -> Mechanism:

@@ -4,15 +4,17 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
+from rocking.assessment.over_periods import placed
 from rocking.assessment.rows import RecordRow, VerdictRow
+from rocking.assessment.scene import Scene
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.dynamic_check import StructureCheck, check
 from rocking.codes.rows import KINDS, CodeCheckRow, code_check_rows
 from rocking.codes.selection import Selection
 from rocking.errors import ConfigurationError, RockingError
+from rocking.floors.support import Support
 from rocking.records import load_catalogue
 from rocking.reports.structures import CheckedStructure, structures_report
-from rocking.structures import Structure
 from rocking.study.job import Study
 from rocking.study.selection import pool_of, select_for
 from rocking.study.settings import StudyDesign
@@ -35,13 +37,18 @@ def write_checks(study: Study, folder: Path, tell: Callable[[str], None] = lambd
     verdicts = read_table(VerdictRow, folder)
     station_of = {each.record: _station(each) for each in read_table(RecordRow, folder)}
     pages = []
-    for name, structure in study.structures.items():
-        own = [each for each in verdicts if each.structure == name]
-        page = _checked(name, structure, design, spectrum, selection, own, station_of)
-        pages.append(page)
-        tell(f"{name}: {page.refusal or _told(page.checked)}")
+    for name, scene in study.scenes.items():
+        for support in scene.place.axis:
+            period = scene.place.period_of(support)
+            own = [each for each in verdicts if (each.structure, each.support_period_s) == (name, period)]
+            page = _checked(scene, support, design, spectrum, selection, own, station_of)
+            pages.append(page)
+            tell(f"{placed(name, period)}: {page.refusal or _told(page.checked)}")
     rows: Iterable[CodeCheckRow] = (
-        row for page in pages if page.checked for row in code_check_rows(page.name, page.checked)
+        row
+        for page in pages
+        if page.checked
+        for row in code_check_rows(page.name, page.checked, page.place.period_of(page.support))
     )
     write_tables({CodeCheckRow: rows}, folder, "rocking-code-checks", "code_checks.json")
     report = structures_report(pages, spectrum, study.settings.mapping(), selection, notices)
@@ -49,30 +56,30 @@ def write_checks(study: Study, folder: Path, tell: Callable[[str], None] = lambd
 
 
 def _checked(
-    name: str,
-    structure: Structure,
+    scene: Scene,
+    support: Support | None,
     design: StudyDesign,
     spectrum: DesignSpectrum,
     selection: Selection | None,
     verdicts: Sequence[VerdictRow],
     station_of: Mapping[str, str],
 ) -> CheckedStructure:
-    """The checks of one structure beside its verdicts in the study; where it cannot be checked, why.
+    """The checks of one scene beside its verdicts in the study; where it cannot be checked, why.
 
-    station_of: the station of each record, by its identifier.
+    support: one along the axis of its place. station_of: the station of each record, by its identifier.
     """
     checked: StructureCheck | None = None
     refusal = ""
     try:
         checked = check(
-            structure,
+            scene.structure,
             spectrum,
             limit_state=design.limit_state,
             confidence_factor=design.confidence_factor,
             behaviour_factor=design.behaviour_factor,
-            support=structure.standing.support if structure.standing else None,
-            elastic_period=structure.check_terms.elastic_period,
-            support_loss=structure.check_terms.support_loss,
+            support=support,
+            elastic_period=scene.terms.elastic_period,
+            support_loss=scene.terms.support_loss,
             records=selection,
         )
     except RockingError as error:
@@ -80,9 +87,11 @@ def _checked(
     known = [each for each in verdicts if not math.isnan(each.overturning_share)]
     shares = shares_by_station(known, station_of)
     return CheckedStructure(
-        name=name,
-        structure=structure,
+        name=scene.name,
+        structure=scene.structure,
         checked=checked,
+        place=scene.place,
+        support=support,
         refusal=refusal,
         overturning_share=sum(shares) / len(shares) if shares else math.nan,
         records=len(known),

@@ -14,7 +14,9 @@ from typing import Any
 from rocking.assessment.assess import Clock, Extent, Store, assess_record, with_histories
 from rocking.assessment.case import Failure, RecordResult
 from rocking.assessment.compilation import compile_all
+from rocking.assessment.listed import load_scenes
 from rocking.assessment.rows import HistoryRow, RecordRows, history_rows, rows_of_record
+from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.store import RecordStore, computation_version
 from rocking.errors import ConfigurationError, RecordError, RockingError, about
@@ -23,7 +25,7 @@ from rocking.records import Accelerogram, CatalogueRecord, aligned, load_catalog
 from rocking.records.processing import process
 from rocking.records.scaling import ScalingTarget, scaled_to
 from rocking.records.station import station_of
-from rocking.structures import Structure, load_structures
+from rocking.structures import Structure
 from rocking.study.folder import locked
 from rocking.study.plan import JOBS, structures_sha256
 from rocking.study.results import SPECTRA, case_timings_of, cases_of, remove_copies, written_part
@@ -37,14 +39,19 @@ Opened = tuple[list[Accelerogram], Accelerogram | None]
 
 @dataclass(frozen=True)
 class Study:
-    """The assessment of every record of a study: structures by name, and settings.
+    """The assessment of every record of a study: scenes by name, and settings.
 
     settings_sha256: names the settings, the structure list and the package in every row.
     """
 
-    structures: Mapping[str, Structure]
+    scenes: Mapping[str, Scene]
     settings: Settings = field(default_factory=Settings)
     settings_sha256: str = ""
+
+    @property
+    def structures(self) -> dict[str, Structure]:
+        """The structures of the scenes, by name."""
+        return {name: scene.structure for name, scene in self.scenes.items()}
 
     @cached_property
     def assessment(self) -> AssessmentSettings:
@@ -107,17 +114,17 @@ def begin_job(config: Mapping[str, Any], params: Any) -> tuple[Study, list[Catal
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         signal.signal(signal.SIGTERM, signal.default_int_handler)
     settings = read_settings(config)
-    structures = load_structures(settings.structures)
+    scenes = load_scenes(settings.structures)
     rows = {row.id: row for row in load_catalogue(settings.catalogue)}
     records = [rows[name] for name in params.records if name in rows]
     for name, sha256, before in (
-        (settings.structures, structures_sha256(structures), params.structures_sha256),
+        (settings.structures, structures_sha256(scenes), params.structures_sha256),
         (settings.catalogue, sha256_of(*records), params.records_sha256),
     ):
         if sha256 != before:
             raise ConfigurationError(f"{name}: the file changed while the study ran; start the study again.")
     compile_all(partial(tell, "compile"))
-    return Study(structures, settings, params.settings_sha256), records
+    return Study(scenes, settings, params.settings_sha256), records
 
 
 def run_job(
@@ -161,7 +168,7 @@ def run_job(
                 histories = history_rows(record.id, result.responses)
                 write_rows(HistoryRow, histories, folder / HistoryRow.table.file_name)
             add(rows, content)
-            tell(f"{record.id}: {record_line(result.worst_first, rows.failures, result.swept)}")
+            tell(f"{record.id}: {record_line(result.scenes.values(), rows.failures)}")
         for path in files:
             if not os.path.isfile(path):
                 raise RecordError(f"{path}: the file went away while the study ran; bring it back.")
@@ -194,7 +201,7 @@ def assess_catalogued(
     return assess_record(
         record.id,
         horizontal,
-        study.structures,
+        study.scenes,
         study.extent,
         vertical,
         store=store,

@@ -8,6 +8,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, TypeVar
 
+from rocking.assessment.listed import load_scenes
+from rocking.assessment.scene import Scene
 from rocking.described import kind_in_words
 from rocking.errors import ConfigurationError, RockingError
 from rocking.hashes import sha256_of, sha256_of_bytes, sha256_of_sources
@@ -15,7 +17,6 @@ from rocking.records.catalogue import CatalogueRecord, load_catalogue, repeated
 from rocking.records.files import fill_hashes, local_files, with_hashes
 from rocking.records.folder import unlisted
 from rocking.records.read import LARGEST_FILE
-from rocking.structures import Structure, load_structures
 from rocking.study.folder import REMEMBERED, check_own, results_folder, stands_inside
 from rocking.study.hashes import ContentHashes
 from rocking.study.settings import Settings, named_files, read_settings
@@ -134,7 +135,7 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
 
     settings = attempt(read_settings, config) or named_files(config)
     catalogue = attempt(load_catalogue, settings.catalogue) or ()
-    structures = attempt(load_structures, settings.structures) or {}
+    scenes = attempt(load_scenes, settings.structures) or {}
     attempt(_check_results, settings)
     attempt(settings.design_spectrum.spectrum)
     if defects:
@@ -144,11 +145,11 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
         settings=settings,
         records=records,
         jobs=share_out(records, settings.records_per_job, settings.reports),
-        settings_sha256=settings_sha256(settings, structures),
-        structures_sha256=structures_sha256(structures),
+        settings_sha256=settings_sha256(settings, scenes),
+        structures_sha256=structures_sha256(scenes),
         package_sha256=package_sha256(reports=settings.reports),
         hashes=ContentHashes(_HASHES, LARGEST_FILE),
-        structure_hashes=structure_hashes(structures),
+        structure_hashes=structure_hashes(scenes),
     )
 
 
@@ -188,21 +189,21 @@ def _check_results(settings: Settings) -> None:
     check_own(results)
 
 
-def structure_hashes(structures: Mapping[str, Structure]) -> dict[str, str]:
+def structure_hashes(scenes: Mapping[str, Scene]) -> dict[str, str]:
     """Return one hash for what each structure says of itself and its support, by its name."""
-    return {name: sha256_of(each.as_config(), each.standing) for name, each in structures.items()}
+    return {name: sha256_of(each.structure.as_config(), each.place) for name, each in scenes.items()}
 
 
-def structures_sha256(structures: Mapping[str, Structure]) -> str:
+def structures_sha256(scenes: Mapping[str, Scene]) -> str:
     """Return one hash for what a structure list says, whatever its comments and its layout."""
     return sha256_of(
-        *((name, each.as_config(), each.standing, each.check_terms) for name, each in structures.items())
+        *((name, each.structure.as_config(), each.place, each.terms) for name, each in scenes.items())
     )
 
 
-def settings_sha256(settings: Settings, structures: Mapping[str, Structure]) -> str:
+def settings_sha256(settings: Settings, scenes: Mapping[str, Scene]) -> str:
     """Return the hash that every row names: of the settings that change a number, the structures and the package."""
-    return sha256_of(settings.numbers(), structures_sha256(structures), package_sha256(reports=False))
+    return sha256_of(settings.numbers(), structures_sha256(scenes), package_sha256(reports=False))
 
 
 _SPOKEN = {f"study/{name}.py" for name in ("cli", "run", "terminal", "workspace")}

@@ -46,7 +46,14 @@ if TYPE_CHECKING:
 
 WORKBOOK = "study.xlsx"
 """The tables of the summary in one file, but for the times, which differ from run to run."""
-_GOVERNING = ("structure", "record", "level", "overturning_share", "governing_overturning_share")
+_GOVERNING = (
+    "structure",
+    "support_period_s",
+    "record",
+    "level",
+    "overturning_share",
+    "governing_overturning_share",
+)
 _SHOWN = (
     "record",
     "pulses",
@@ -84,7 +91,7 @@ def summarise(study: Study, records: Iterable[CatalogueRecord], jobs: Sequence[s
         "versions": versions,
         "settings": study.settings.mapping(),
         "hashes": {"settings": params.settings_sha256, "package": params.package_sha256},
-        "structures": structure_hashes(study.structures),
+        "structures": structure_hashes(study.scenes),
         "records": hashes,
     }
     text = json.dumps(provenance, indent=1, sort_keys=True, default=str)
@@ -167,7 +174,7 @@ def write_fragility(
     settings = study.settings.fragility
     hazard = rows.read_hazard(Path(settings.hazard)) if settings.hazard else None
     measure = intensity_measure(settings.intensity_measure)
-    if all(cracks(each)[0].mechanism.never_lets_go for each in study.structures.values()):
+    if all(cracks(each.structure)[0].mechanism.never_lets_go for each in study.scenes.values()):
         raise ConfigurationError(
             "no structure of the list can overturn, so that none has a fragility; give ties a tie_strength at which "
             "they let go, or leave the fragility out."
@@ -175,37 +182,43 @@ def write_fragility(
     mechanism = next(iter(study.structures.values())).mechanism()
     names, accelerograms, reasons = _usable(records, study, measure, mechanism)
     tables: dict[type[Row], list[Row]] = {each: [] for each in rows.FRAGILITY_TABLES.values()}
-    for count, (name, structure) in enumerate(study.structures.items(), start=1):
+    for count, (name, scene) in enumerate(study.scenes.items(), start=1):
+        structure = scene.structure
+        mechanism = structure.mechanism()
         if never := cracks(structure)[0].mechanism.never_lets_go:
             reasons.append(f"{name}: it cannot overturn, and has no fragility: it {never}.")
             continue
-        analysis = fragility(
-            accelerograms,
-            structure,
-            intensity_measure=settings.intensity_measure,
-            largest_factor=settings.largest_factor,
-            ensemble=study.assessment.ensemble if settings.members else None,
-            tolerance=study.assessment.tolerance,
-        ).analysis
-        assert analysis is not None
-        tables[rows.IdaRow] += rows.ida_rows(name, names, analysis)
-        for threshold in rows.ROTATION_RATIOS:
-            for governing in (True, False) if analysis.governing_ratios is not None else (False,):
-                curve = analysis.fragility(threshold, governing=governing)
-                summarised = rows.SummarisedCurve(name, curve, governing, hazard)
-                tables[rows.FragilityRow] += rows.fragility_rows(name, curve, governing)
-                tables[rows.FragilitySummaryRow].append(rows.FragilitySummaryRow.of(summarised))
-        try:
-            mechanism = structure.mechanism()
-            of_measures = list(rows.intensity_measure_rows(name, mechanism, accelerograms, analysis))
-            tables[rows.IntensityMeasureRow] += of_measures
-        except Exception as error:  # the curves are finished, and no table beside them may take them along
-            log_error(error)
-            reasons.append(
-                f"{name}: {rows.IntensityMeasureRow.table.file_name} has no row of it, because of a fault of rocking "
-                f"({type(error).__name__}: {error}); the log holds its traceback; please report it."
-            )
-        tell(f"{count} of {len(study.structures)}: {name}")
+        for support in scene.place.axis:
+            period = scene.place.period_of(support)
+            analysis = fragility(
+                accelerograms,
+                structure,
+                intensity_measure=settings.intensity_measure,
+                largest_factor=settings.largest_factor,
+                ensemble=study.assessment.ensemble if settings.members else None,
+                tolerance=study.assessment.tolerance,
+                support=support,
+            ).analysis
+            assert analysis is not None
+            tables[rows.IdaRow] += rows.ida_rows(name, names, analysis, period)
+            for threshold in rows.ROTATION_RATIOS:
+                for governing in (True, False) if analysis.governing_ratios is not None else (False,):
+                    curve = analysis.fragility(threshold, governing=governing)
+                    summarised = rows.SummarisedCurve(name, curve, governing, hazard, support_period=period)
+                    tables[rows.FragilityRow] += rows.fragility_rows(name, curve, governing, period)
+                    tables[rows.FragilitySummaryRow].append(rows.FragilitySummaryRow.of(summarised))
+            try:
+                of_measures = rows.intensity_measure_rows(name, mechanism, accelerograms, analysis, period)
+                tables[rows.IntensityMeasureRow] += list(of_measures)
+            except (
+                Exception
+            ) as error:  # the curves are finished, and no table beside them may take them along
+                log_error(error)
+                reasons.append(
+                    f"{name}: {rows.IntensityMeasureRow.table.file_name} has no row of it, because of a fault of "
+                    f"rocking ({type(error).__name__}: {error}); the log holds its traceback; please report it."
+                )
+        tell(f"{count} of {len(study.scenes)}: {name}")
     write_tables(tables, folder, "rocking-fragility")
     return reasons
 

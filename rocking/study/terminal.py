@@ -14,9 +14,9 @@ from threading import Thread
 from types import TracebackType
 from typing import BinaryIO, TextIO
 
-from rocking.assessment.over_periods import OverPeriods
-from rocking.assessment.rows import FailureRow, VerdictRow
-from rocking.assessment.verdict import ORDER, Judgement, Verdict, rocks, worst_first
+from rocking.assessment.case import SceneResult
+from rocking.assessment.rows import FailureRow, VerdictRow, worst_period_each
+from rocking.assessment.verdict import ORDER, Verdict, rocks, worst_first
 from rocking.errors import RecordError, RockingError
 from rocking.quantities import counted, escaped
 from rocking.study.folder import new_log
@@ -35,21 +35,17 @@ _LONGEST = 1000
 """Characters of a line: what the system writes to a pipe at once, by whatever process, is at least 4096 bytes."""
 
 
-def record_line(
-    judgements: Iterable[Judgement], failures: Iterable[FailureRow], swept: Iterable[OverPeriods] = ()
-) -> str:
+def record_line(scenes: Iterable[SceneResult], failures: Iterable[FailureRow]) -> str:
     """Say in one line what came of a record: "overturns: pier; undecided: wall (12 of 64); stands: arch 0.31".
 
     The numbers are members of the ensemble that overturn, or the largest rotation over the critical one of the worst
-    component. What could not be assessed comes first. swept: of the judgements, those on structures on supports, which
-    stand at the end in a sentence each.
+    component. What could not be assessed comes first. Structures on supports stand at the end in a sentence each.
     """
-    swept = list(swept)
-    in_sentences = {judgement.structure for each in swept for judgement in each.judgements}
     reasons = ((f"{each.structure}: " if each.structure else "") + each.message for each in failures)
     parts: dict[str, list[str]] = {"failed": [" ".join(reasons)], **{word: [] for word in ORDER}}
-    alone = (each for each in judgements if each.structure not in in_sentences)
-    for each in sorted(alone, key=lambda each: each.severity, reverse=True):
+    scenes = sorted(scenes, key=lambda scene: scene.worst.severity, reverse=True)
+    on_the_ground = [scene.worst for scene in scenes if not scene.scene.place.supports]
+    for each in on_the_ground:
         number = f" {each.rotation_ratio:.2g}" if rocks(each.rotation_ratio) else ""
         if each.verdict is Verdict.UNDECIDED:
             number = f" ({each.counts or each.crack})"
@@ -59,7 +55,7 @@ def record_line(
     if len(undecided := parts[Verdict.UNDECIDED]) > _FEW:
         parts[Verdict.UNDECIDED] = [str(len(undecided)), f"in {VerdictRow.table.file_name}"]
     lines = [f"{word}: {text}" for word, names in parts.items() if (text := ", ".join(names))]
-    return "; ".join([*lines, *(each.sentence for each in swept)])
+    return "; ".join([*lines, *(scene.sentence for scene in scenes if scene.scene.place.supports)])
 
 
 def closing_lines(verdicts: Sequence[VerdictRow], failures: Iterable[FailureRow]) -> Iterator[str]:
@@ -67,8 +63,7 @@ def closing_lines(verdicts: Sequence[VerdictRow], failures: Iterable[FailureRow]
 
     Below it stand the records that failed.
     """
-    worst = sorted(verdicts, key=lambda each: each.severity, reverse=True)
-    doubtful = [each for each in worst if not each.verdict.stays_up]
+    doubtful = [each for each in worst_period_each(verdicts) if not each.verdict.stays_up]
     of_all = Counter(each.structure for each in doubtful)
     counts = Counter((each.structure, each.verdict) for each in doubtful)
     ordered = sorted(of_all, key=lambda name: (-counts[name, Verdict.OVERTURNS], -of_all[name]))

@@ -7,6 +7,8 @@ from itertools import chain
 from pathlib import Path
 
 from rocking.assessment.case import StationResult
+from rocking.assessment.listed import load_scenes
+from rocking.assessment.over_periods import placed
 from rocking.assessment.rows import CapacityRow, StructureRow, capacity_rows, structure_rows
 from rocking.errors import ConfigurationError, RecordError
 from rocking.quantities import counted
@@ -15,7 +17,6 @@ from rocking.records.catalogue import COLUMNS, CatalogueRecord, catalogue_text, 
 from rocking.records.folder import catalogue_of_folder
 from rocking.records.listing import listing_text
 from rocking.records.read import read
-from rocking.structures import Structure, load_structures
 from rocking.study.job import Study, assess_catalogued, rows_of, write_report
 from rocking.study.plan import settings_sha256, workflow_folder
 from rocking.study.settings import Settings, commented_yaml
@@ -101,37 +102,31 @@ def assess_file(
 ) -> list[str]:
     """Assess the structure `name` (None: all) of a list under one record and return lines of text.
 
-    A structure on a support is called by its name in the list, for all periods, or by that with one period.
     output: a folder for report.pdf and the tables, laid out like the results of a study. Raises RecordError or
     ConfigurationError before anything is written.
     """
-    all_structures = load_structures(structures)
-    in_list = {each: _listed_name(each, structure) for each, structure in all_structures.items()}
-    if name not in (None, *all_structures, *in_list.values()):
-        names = ", ".join(dict.fromkeys(in_list.values()))
+    all_scenes = load_scenes(structures)
+    if name not in (None, *all_scenes):
+        names = ", ".join(all_scenes)
         raise ConfigurationError(f"structure is {name!r}, but must be one of those in {structures}: {names}.")
-    chosen = {each: all_structures[each] for each, listed in in_list.items() if name in (None, each, listed)}
-    study = Study(chosen, Settings(), settings_sha256(Settings(), all_structures))
+    chosen = {each: scene for each, scene in all_scenes.items() if name in (None, each)}
+    study = Study(chosen, Settings(), settings_sha256(Settings(), all_scenes))
     result = assess_catalogued(record, study, study.open(record, channels))
     rows = rows_of(result, record, study)
     if output is not None:
         write_report(result, rows, study, output / record.id)
         tables: dict[type[Row], Iterable[Row]] = {
-            StructureRow: structure_rows(chosen),
-            CapacityRow: capacity_rows(chosen),
+            StructureRow: structure_rows(study.structures),
+            CapacityRow: capacity_rows(study.structures),
         }
         write_tables(tables, output / "summary")
     lines = [line for station in result.worst_first for line in _told(station, record.scale_factor)]
     return lines + [f"not assessed: {each.structure or each.stage}: {each.message}" for each in rows.failures]
 
 
-def _listed_name(name: str, structure: Structure) -> str:
-    return structure.standing.listed_structure if structure.standing else name
-
-
 def _told(station: StationResult, scale_factor: float) -> Iterator[str]:
     """Yield the verdict on a structure with its count and reason, then what each component does by itself."""
-    yield f"{station.structure}: {station.verdict}; {station.why}"
+    yield f"{placed(station.structure, station.support_period_s)}: {station.verdict}; {station.why}"
     for component, case in station.cases.items():
         if case.answer is None:
             continue

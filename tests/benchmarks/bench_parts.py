@@ -36,12 +36,12 @@ from rocking import (
 )
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.listed import load_scenes
 from rocking.codes.static_check import kinematic_check
 from rocking.pulses import extract_pulses
 from rocking.records import read
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.sine_pulse import predict_maxima, pulse_spectrum
-from rocking.structures import load_structures
 from rocking.structures.mechanism import Mechanism
 
 RATIOS = np.linspace(0.2, 12, 200)
@@ -125,11 +125,11 @@ def beside_scipy() -> None:
 
 def ensembles() -> None:
     """The ensemble of each shipped structure over one integration of it under the same record."""
-    listed = load_structures(STRUCTURES)
-    for name, structure in listed.items():
-        if structure.is_carried:
+    listed = load_scenes(STRUCTURES)
+    for name, scene in listed.items():
+        if scene.place.supports:
             continue
-        mechanism = structure.mechanism()
+        mechanism = scene.structure.mechanism()
         motion = shaking(20, 2.5 * g * mechanism.uplift_multiplier, step=0.01)
         motions = GroundMotions.of(motion)
         whole, one = least_cpu(

@@ -13,12 +13,13 @@ import yaml
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
+from rocking.assessment.listed import load_scenes, scenes_schema
 from rocking.errors import StructureError
 from rocking.motion import integrate
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.structures.contacts import UnknownContacts
-from rocking.structures.structure_list import TYPES, load_structures, structure_from_config, structures_schema
+from rocking.structures.structure_list import TYPES, structure_from_config
 
 UNCHECKED = [HealthCheck.too_slow, HealthCheck.filter_too_much]
 FEW = settings(
@@ -197,13 +198,13 @@ def test_a_structure_comes_back_from_its_description_a_file_and_another_process(
     mapping = structure.as_config()
     assert all(len(form.keys) == len(form.fields) for form in structure.forms())  # no key twice
     entry = {"name": "one", **mapping}
-    jsonschema.validate([entry], structures_schema())
+    jsonschema.validate([entry], scenes_schema())
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "structures.yaml"
         path.write_text(yaml.safe_dump([entry], allow_unicode=True), encoding="utf-8")
-        (listed,) = load_structures(path).values()
+        (scene,) = load_scenes(path).values()
     mechanism = structure.mechanism()
-    for again in (structure_from_config(mapping), listed, pickle.loads(pickle.dumps(structure))):
+    for again in (structure_from_config(mapping), scene.structure, pickle.loads(pickle.dumps(structure))):
         assert again == structure and again.description == structure.description
         assert again.mechanism().uplift_multiplier == mechanism.uplift_multiplier
     assert pickle.loads(pickle.dumps(mechanism)).uplift_multiplier == mechanism.uplift_multiplier

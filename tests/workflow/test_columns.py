@@ -4,9 +4,12 @@ import csv
 from dataclasses import replace
 from pathlib import Path
 
+from rocking.assessment.listed import load_scenes
+from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import EnsembleSettings
+from rocking.floors.place import Place
+from rocking.floors.support import Mode, Support
 from rocking.records.catalogue import CatalogueRecord
-from rocking.structures import load_structures
 from rocking.study.job import Study, run_job
 from rocking.study.settings import Settings, StudyFragility
 from rocking.study.summary import write_fragility, write_summary
@@ -42,15 +45,17 @@ def test_every_column_is_filled_somewhere(tmp_path: Path) -> None:
     ]
     fragility = StudyFragility(members=False, hazard=str(tmp_path / "hazard.txt"))
     settings = Settings(reports=False, histories=True, vertical=True, fragility=fragility)
-    study = Study(load_structures(tmp_path / "structures.yaml"), settings, "made")
+    study = Study(load_scenes(tmp_path / "structures.yaml"), settings, "made")
     part = tmp_path / "summary" / "jobs" / "00000_of_00001"
     run_job(records, study, part, tmp_path)
     write_summary([part], [record.id for record in records], study.structures, tmp_path / "summary")
     alone = replace(settings, fidelity="auto", histories=False, ensemble=EnsembleSettings(members=0))
     contact = replace(settings, fidelity="contact", histories=False)
-    spire = {"spire": study.structures["spire"]}
+    spire = {"spire": study.scenes["spire"]}
     run_job([pulse], Study(spire, contact), tmp_path / "contact", tmp_path)
-    failing = {"facade": study.structures["facade"], "impossible": Impossible()}
+    failing = on_the_ground({"facade": study.structures["facade"], "impossible": Impossible()})
+    too_stiff = Place("rack", (Support((Mode(1e-3, 0.05, 1.0),)),))
+    failing["instrument"] = replace(failing["facade"], name="instrument", place=too_stiff)
     run_job(
         [records[1], replace(pulse, scale_factor=6.0)], Study(failing, alone), tmp_path / "auto", tmp_path
     )

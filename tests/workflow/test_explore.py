@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from scipy.signal import detrend
 
+from rocking.assessment.listed import load_scenes
 from rocking.assessment.rows import VerdictRow
 from rocking.motion.integration import integrate
 from rocking.pulses import extract_pulses
@@ -18,7 +19,6 @@ from rocking.records.catalogue import load_catalogue
 from rocking.records.processing import displacement
 from rocking.reports.explore import BINS, drawings, explore_page, extremes
 from rocking.sine_pulse import predict_maximum
-from rocking.structures import load_structures
 from rocking.study.job import Study, run_job
 from rocking.study.results import page_contents
 from rocking.study.settings import read_settings
@@ -55,7 +55,7 @@ def _explored(folder: Path, structures: str) -> tuple[Path, Study, list]:
     results = folder / "results"
     paths = {"catalogue": str(folder / "records" / "catalogue.csv"), "results": str(results)}
     choices = {"ensemble": {"members": 16}, "candidates": 0, "processing_variants": False}
-    study = Study(load_structures(folder / "structures.yaml"), read_settings(choices | paths))
+    study = Study(load_scenes(folder / "structures.yaml"), read_settings(choices | paths))
     records = load_catalogue(paths["catalogue"])
     run_job(records, study, results / "part", results)
     (results / "summary").mkdir(parents=True, exist_ok=True)

@@ -7,8 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rocking import Accelerogram, Pulse, extract_pulses, integrate, predict_maximum, read
+from rocking.assessment.listed import load_scenes
 from rocking.reports.style import new_figure, styled
-from rocking.structures import Structure, load_structures
+from rocking.structures import Structure
 
 ROOT = Path(__file__).parents[2]
 SHOWN = ("arch 10 m", "spire", "storey wall")
@@ -55,6 +56,8 @@ def _draw_response(panel: Axes, name: str, structure: Structure, record: Acceler
 
 if __name__ == "__main__":
     record = read(ROOT / "records" / "20161113_110259_WTMC_20.V2A")[0]
-    listed = load_structures(ROOT / "workflow" / "structures.yaml")
-    drawn = example_figure(record, extract_pulses(record).dominant, {name: listed[name] for name in SHOWN})
+    listed = load_scenes(ROOT / "workflow" / "structures.yaml")
+    drawn = example_figure(
+        record, extract_pulses(record).dominant, {name: listed[name].structure for name in SHOWN}
+    )
     drawn.savefig(Path(__file__).with_suffix(".png"), dpi=150, metadata={"Software": None})

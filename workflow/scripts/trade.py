@@ -32,9 +32,8 @@ if __name__ == "__main__":
     output, tell = snakemake.output, line_writer(Path(snakemake.log[0]))
     study, records = begin_job(snakemake.config, snakemake.params)
     folder = Path(output.pdf).parent
-    # The methods are compared on records: of what stands on a support, the structure on the ground.
-    on_the_ground = {name: each for name, each in study.structures.items() if not each.is_carried}
-    rows = trade(components(study, records, tell), on_the_ground, settings=study.settings, tell=tell)
+    # The methods are compared on records: what stands on a support is taken on the ground.
+    rows = trade(components(study, records, tell), study.structures, settings=study.settings, tell=tell)
     write_tables({TradeRow: rows}, folder, "rocking-trade", "trade.json")
     write_trade_report(folder, Path(output.pdf), Path(output.svg))
     made = [Path(file) for file in output if file != output.seal]

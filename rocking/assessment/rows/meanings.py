@@ -3,6 +3,9 @@
 RECORD = "Identifier of the record in the catalogue"
 COMPONENT = "Component of the ground motion, as the file names it"
 STRUCTURE = "Name of the structure in the structure list"
+SUPPORT_PERIOD = (
+    "First period of the support below the structure; 0: its ground, to compare with; empty: it has none"
+)
 SCALE_FACTOR = "Factor of the catalogue on the accelerations of the file"
 RECORD_SHA256 = "SHA-256 of the file the record was read from"
 VERDICT = "stands, overturns, undecided, unknown (a component failed), or cannot overturn"

@@ -1,8 +1,8 @@
 """The rows of the tables of one record: each column says on its own line what it means and what it reads."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
@@ -16,6 +16,7 @@ from rocking.assessment.rows.meanings import (
     RECORD_SHA256,
     SCALE_FACTOR,
     STRUCTURE,
+    SUPPORT_PERIOD,
     VERDICT,
 )
 from rocking.assessment.verdict import (
@@ -31,15 +32,14 @@ from rocking.assessment.verdict import (
     within_factor_two,
 )
 from rocking.floors.spectrum import FloorMeasures, floor_measures
-from rocking.floors.support import Mode
+from rocking.floors.support import Mode, Support
 from rocking.pulses import Pulse, PulseEvidence, VelocityPulse
 from rocking.pulses.analysis import PulseAnalysis, worth
 from rocking.records import Accelerogram, RotD
 from rocking.records.measures import RecordMeasures, record_measures
 from rocking.remarks import Kind
 from rocking.sine_pulse import Regime
-from rocking.structures import EquivalentBlock, Outcome, Structure
-from rocking.structures.standing import Standing
+from rocking.structures import EquivalentBlock, Outcome
 from rocking.tables import Columns, Row, RowOf, row, write_tables, written_together
 
 if TYPE_CHECKING:  # else who reads a table would load numba
@@ -83,9 +83,13 @@ class Identified:
 
 @dataclass(frozen=True)
 class OfStructure(Identified):
-    """Anything about one structure under one component of one record."""
+    """Anything about one structure under one component of one record.
+
+    support_period: of the support on which it stands, s; 0 on the ground below one, None where it has none.
+    """
 
     structure: str
+    support_period: float | None = field(default=None, kw_only=True)
 
 
 I = TypeVar("I", bound=Identified)
@@ -114,11 +118,12 @@ class CaseRow(ComponentRow[C]):
     """A row about one structure under one component of one record."""
 
     structure: str = of_structure(STRUCTURE, lambda each: each.structure)
+    support_period_s: float | None = of_structure(SUPPORT_PERIOD, lambda each: each.support_period)
 
     @property
-    def case(self) -> tuple[str, str]:
-        """Component and structure."""
-        return self.component, self.structure
+    def case(self) -> tuple[str, str, float | None]:
+        """Component, structure and period of its support."""
+        return self.component, self.structure, self.support_period_s
 
 
 # What was read --------------------------------------------------------------------------------------------
@@ -748,24 +753,36 @@ class VerdictRow(CaseRow[JudgedStation], Judgement):
         return Reserve(self.reserve_low, self.reserve_median, self.reserve_high, self.reserve_limit)
 
 
+def worst_period_each(verdicts: Iterable[VerdictRow]) -> list[VerdictRow]:
+    """Return the verdicts, of each record and structure on a support that of the worst period only; the worst first."""
+    shown: dict[tuple[str, str], VerdictRow] = {}
+    for each in sorted(verdicts, key=lambda each: each.severity, reverse=True):
+        shown.setdefault((each.record, each.structure), each)
+    return list(shown.values())
+
+
 @dataclass(frozen=True)
 class CarriedStructure(OfStructure):
     """One structure on a support of the list, under one component: where it stands and the motion there."""
 
     station: "StationResult"
-    standing: Standing
     floor: "Component"
+
+    @property
+    def support(self) -> Support | None:
+        """The support; None on the ground below it."""
+        return self.station.support
 
     @property
     def mode(self) -> Mode | None:
         """The first mode of the support; None on the ground."""
-        return self.standing.support.modes[0] if self.standing.support else None
+        return self.support.modes[0] if self.support else None
 
     @cached_property
     def measures(self) -> FloorMeasures:
         """The motion on the support beside that of the ground."""
         ground = (self.floor.ground or self.floor).accelerogram
-        return floor_measures(ground, self.floor.accelerogram, self.standing.support, self.standing.period)
+        return floor_measures(ground, self.floor.accelerogram, self.support)
 
     @property
     def pulse(self) -> Pulse | None:
@@ -780,13 +797,7 @@ of_support = Columns(CarriedStructure)
 class SupportRow(CaseRow[CarriedStructure]):
     """One row per component and structure on a support: the motion there, and the verdict over all components."""
 
-    listed_structure: str = of_support(
-        "Name of the structure in the list, without its period", lambda of: of.standing.listed_structure
-    )
-    support: str = of_support("Name of the support in the list", lambda of: of.standing.place)
-    support_period_s: float = of_support(
-        "First period T_b of the support; 0 on the ground", lambda of: of.standing.period
-    )
+    support: str = of_support("Name of the support in the list", lambda of: of.station.scene.place.name)
     support_damping_ratio: float = of_support(
         "Damping ratio of the first mode of the support",
         lambda of: of.mode.damping_ratio if of.mode else math.nan,
@@ -797,7 +808,7 @@ class SupportRow(CaseRow[CarriedStructure]):
     )
     support_modes: int = of_support(
         "Number of modes of the support; 0 on the ground",
-        lambda of: len(of.standing.support.modes) if of.standing.support else 0,
+        lambda of: len(of.support.modes) if of.support else 0,
     )
     floor_peak_acceleration_m_s2: float = of_support(
         "Largest magnitude of the acceleration on the support", lambda of: of.measures.peak_acceleration
@@ -829,14 +840,13 @@ def structures_carried(
     result: "RecordResult", identities: Mapping[str, Identity]
 ) -> Iterator[CarriedStructure]:
     """Yield every structure on a support under each component. identities: of the components, by name."""
-    for structure, station in result.stations.items():
-        standing = station.body.standing if isinstance(station.body, Structure) else None
-        if standing is None:
-            continue
-        if standing.support is not None and standing.support not in result.floors:
+    for station in (station for scene in result.carried for station in scene.stations):
+        if station.support is not None and station.support not in result.floors:
             continue  # the record could not be taken there, as the table of failures says
-        for component, floor in result.components_under(structure).items():
-            yield CarriedStructure(identities[component], structure, station, standing, floor)
+        name = station.structure
+        period = station.support_period_s
+        for component, floor in result.components_under(station).items():
+            yield CarriedStructure(identities[component], name, station, floor, support_period=period)
 
 
 @dataclass(frozen=True)
@@ -882,6 +892,7 @@ class OfCase:
     record: str
     component: str
     structure: str
+    support_period: float | None = field(default=None, kw_only=True)
 
 
 P = TypeVar("P", bound=OfCase)
@@ -895,6 +906,7 @@ class AnyCaseRow(RowOf[P]):
     record: str = of_any_case(RECORD, lambda of: of.record)
     component: str = of_any_case(COMPONENT, lambda of: of.component)
     structure: str = of_any_case(STRUCTURE, lambda of: of.structure)
+    support_period_s: float | None = of_any_case(SUPPORT_PERIOD, lambda of: of.support_period)
 
 
 @dataclass(frozen=True)
@@ -922,9 +934,11 @@ class HistoryRow(AnyCaseRow[HistoryStep]):
     )
 
 
-def history_rows(record: str, responses: Mapping[tuple[str, str], "Response"]) -> Iterator[HistoryRow]:
-    """Yield the history of each response by component and structure; of one without a history there are no rows."""
-    for (component, structure), response in responses.items():
+def history_rows(
+    record: str, responses: Mapping[tuple[str, str, float | None], "Response"]
+) -> Iterator[HistoryRow]:
+    """Yield the history of each of `RecordResult.responses`; of one without a history there are no rows."""
+    for (component, structure, period), response in responses.items():
         if response.times is None or response.rotation is None or response.angular_velocity is None:
             continue
         steps = zip(
@@ -934,7 +948,7 @@ def history_rows(record: str, responses: Mapping[tuple[str, str], "Response"]) -
             strict=True,
         )
         for step in steps:
-            yield HistoryRow.of(HistoryStep(record, component, structure, *step))
+            yield HistoryRow.of(HistoryStep(record, component, structure, *step, support_period=period))
 
 
 @dataclass(frozen=True)
@@ -1037,18 +1051,30 @@ def rows_of_record(
     if identities:
         by_component[BOTH_COMPONENTS] = replace(identities[0], component=BOTH_COMPONENTS)
     for component, identity in by_component.items():
-        for case in result.cases(component):
-            name = case.structure
+        for station, case in result.cases(component):
+            name = station.structure
+            period = station.support_period_s
             if case.answer is not None:
-                comparison.append(ComparisonRow.of(ComparedCase(identity, name, case, friction_coefficient)))
+                compared = ComparedCase(identity, name, case, friction_coefficient, support_period=period)
+                comparison.append(ComparisonRow.of(compared))
             if case.ensembles is not None:
-                ensemble.append(EnsembleRow.of(CaseEnsembles(identity, name, case.ensembles)))
-            variations += [VariationRow.of(VariedCase(identity, name, each)) for each in case.variations]
-            failures += [FailedCase(record, identity.component, name, each) for each in case.failures]
+                of_cracks = CaseEnsembles(identity, name, case.ensembles, support_period=period)
+                ensemble.append(EnsembleRow.of(of_cracks))
+            varied = [VariedCase(identity, name, each, support_period=period) for each in case.variations]
+            variations += [VariationRow.of(each) for each in varied]
+            failures += [
+                FailedCase(record, identity.component, name, each, support_period=period)
+                for each in case.failures
+            ]
     verdicts = []
-    for name, station in result.stations.items():
+    for station in result.stations:
         identity = by_component[station.worst.component] if station.worst else identities[0]
-        judged = JudgedStation(replace(identity, component=station.component), name, station)
+        judged = JudgedStation(
+            replace(identity, component=station.component),
+            station.structure,
+            station,
+            support_period=station.support_period_s,
+        )
         verdicts.append(VerdictRow.of(judged))
     components = list(zip(identities, result.components, strict=True))
     return RecordRows(

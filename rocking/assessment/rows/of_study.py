@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
 from itertools import product
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 
 from rocking.assessment.rows import of_record as rows
-from rocking.assessment.rows.meanings import COMPONENT, RECORD_SHA256, SCALE_FACTOR, STRUCTURE
+from rocking.assessment.rows.meanings import COMPONENT, RECORD_SHA256, SCALE_FACTOR, STRUCTURE, SUPPORT_PERIOD
 from rocking.assessment.verdict import Agreement, agreement, ratio, rests
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism, Side, Structure
@@ -45,6 +45,27 @@ class StructureNameRow(RowOf[N]):
     """A row about one structure of the list."""
 
     structure: str = of_named(STRUCTURE, lambda named: named.structure)
+
+
+@dataclass(frozen=True)
+class Placed(Named):
+    """Anything about one structure where it stands.
+
+    support_period: of the support, s; 0 on the ground below one, None where it has none.
+    """
+
+    support_period: float | None = field(default=None, kw_only=True)
+
+
+L = TypeVar("L", bound=Placed)
+of_placed = Columns(Placed)
+
+
+@row()
+class PlacedRow(StructureNameRow[L]):
+    """A row about one structure of the list where it stands."""
+
+    support_period_s: float | None = of_placed(SUPPORT_PERIOD, lambda placed: placed.support_period)
 
 
 @dataclass(frozen=True)
@@ -191,6 +212,7 @@ def capacity_rows(structures: Mapping[str, Structure]) -> Iterator[CapacityRow]:
 AGREEMENT_COLUMNS = (
     "record",
     "structure",
+    "support_period_s",
     "predicted_rotation_ratio",
     "integrated_rotation_ratio",
     "prediction_over_integration",
@@ -204,6 +226,7 @@ class CountedCases:
     """The cases of one structure ("": of all) that have both ratios, from the comparison table as a data frame."""
 
     structure: str
+    support_period: float | None
     cases: "DataFrame"
 
     @property
@@ -232,6 +255,7 @@ class AgreementRow(RowOf[CountedCases]):
     structure: str = of_cases(
         "Name of the structure in the structure list; empty for all together", lambda of: of.structure
     )
+    support_period_s: float | None = of_cases(SUPPORT_PERIOD, lambda of: of.support_period)
     records: int = of_cases("Number of records", lambda of: int(of.cases["record"].nunique()))
     cases: int = of_cases("Number of cases with a prediction and an integration", lambda of: len(of.cases))
     both_rock: int = of_cases("Number of cases in which both rock", lambda of: int(of.ratios.count()))
@@ -264,8 +288,11 @@ def agreement_rows(comparison: "DataFrame") -> Iterator[AgreementRow]:
     """Yield the counts of all and of each structure, from the comparison table as a data frame."""
     ratios = comparison[["predicted_rotation_ratio", "integrated_rotation_ratio"]]
     compared = comparison[ratios.notna().all(axis="columns")]
-    for structure, cases in [("", compared), *compared.groupby("structure", sort=False)]:
-        yield AgreementRow.of(CountedCases(str(structure), cases))
+    yield AgreementRow.of(CountedCases("", None, compared))
+    by_scene = compared.groupby(["structure", "support_period_s"], sort=False, observed=True, dropna=False)
+    for (structure, period), cases in by_scene:
+        of_support = None if math.isnan(period) else float(period)
+        yield AgreementRow.of(CountedCases(str(structure), of_support, cases))
 
 
 @dataclass(frozen=True)

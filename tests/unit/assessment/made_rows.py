@@ -15,6 +15,7 @@ from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer
 from rocking.assessment.rows import ComparisonRow, FailedCase, FailureRow, Identity, JudgedStation, VerdictRow
+from rocking.assessment.scene import Scene
 from rocking.assessment.settings import EnsembleSettings
 from rocking.assessment.verdict import BOTH_COMPONENTS, Method
 from rocking.errors import StructureError
@@ -82,7 +83,7 @@ def station(*cases: CaseResult, falls_in_directions: int | None = None) -> Stati
             ensembles=of_one_crack(members(falls_in_directions)),
         )
     by_component = {each.component: each for each in cases}
-    return StationResult(cases[0].structure, Block(2.0, 0.2), by_component, directions)
+    return StationResult(Scene(cases[0].structure, Block(2.0, 0.2)), by_component, directions)
 
 
 def verdicts(stations: Sequence[StationResult], record: str = "a") -> list[VerdictRow]:

@@ -23,6 +23,7 @@ from rocking.assessment.rows import (
     capacity_rows,
     pulses_found,
 )
+from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings, PredictingPulse
 from rocking.assessment.verdict import NEGLIGIBLE, Method, agreement, ratio, rests, rocks, within_factor_two
 from rocking.motion import integrate
@@ -99,14 +100,16 @@ def test_a_fragile_case_is_repeated_and_its_row_and_its_history_say_at_which_tol
     record = noise(11, 60, 0.05, g * block.mechanism().uplift_multiplier * 1.87260126893, 6)
     assert integrate(block, record).outcome is Outcome.OVERTURNS
     settings = AssessmentSettings(ensemble=EnsembleSettings(members=0))
-    result = assess_record("made", [record], {"block": block}, Extent(settings))
-    (kept,) = result.stations["block"].cases.values()
+    result = assess_record("made", [record], on_the_ground({"block": block}), Extent(settings))
+    (kept,) = result.stations[0].cases.values()
     row = compared(kept)
     assert (row.fragile, row.tolerance) == (True, 1e-9)
     assert row.integrated_rotation_ratio == pytest.approx(1.11640268442, rel=1e-8)
 
-    without = replace(result, stations={"block": replace(result.stations["block"], cases={"": kept.kept})})
-    (again,) = with_histories(without, settings.tolerance).stations["block"].cases.values()
+    scene = result.scenes["block"]
+    station = replace(scene.stations[0], cases={"": kept.kept})
+    without = replace(result, scenes={"block": replace(scene, stations=(station,))})
+    (again,) = with_histories(without, settings.tolerance).stations[0].cases.values()
     assert again.response.times is not None
     assert (again.response.rotation_ratio, again.response.fragile) == (row.integrated_rotation_ratio, True)
     calm = compared(assessed(RECORD, settings))
@@ -134,7 +137,7 @@ def test_a_record_without_a_pulse_is_integrated_all_the_same():
 
 def test_what_is_timed_adds_up_to_no_more_than_was_spent(case):
     started = process_time()
-    result = assess_record("made", [RECORD], {"block": BLOCK, "stout": Block(2.0, 0.3)})
+    result = assess_record("made", [RECORD], on_the_ground({"block": BLOCK, "stout": Block(2.0, 0.3)}))
     spent = process_time() - started
     durations = dict(result.durations)
     stages = [durations.pop(name) for name in ("pulses", "responses", "variations", "reserve")]

@@ -1,27 +1,12 @@
 """What is said of a structure over the periods of its support: intervals of one verdict, in their order."""
 
-from types import SimpleNamespace
-
 import pytest
 
-from rocking.assessment.over_periods import over_periods
+from rocking.assessment.over_periods import periods_in_words, placed
 from rocking.assessment.verdict import Verdict
-from rocking.structures import Block
-from rocking.structures.standing import support_from_config
 
 S, O, U, X = Verdict.STANDS, Verdict.OVERTURNS, Verdict.UNDECIDED, Verdict.UNKNOWN
-BODY = Block(semi_diagonal=1.0, slenderness=0.2)
-
-
-def swept(*verdicts):
-    roof = {"name": "roof", "period_s": [0.1, 0.8], "participation": 1.3}
-    standings = support_from_config(roof).standings("parapet")
-    chosen = [standings[0], *standings[2::2]]  # the ground, 0.13, 0.219, 0.367, 0.618 s
-    pairs = [
-        (BODY.standing_on(each), SimpleNamespace(structure=each.name, verdict=verdict))
-        for each, verdict in zip(chosen, verdicts, strict=False)
-    ]
-    return over_periods(reversed(pairs))
+PERIODS = (0.0, 0.13, 0.218, 0.367, 0.617)
 
 
 @pytest.mark.parametrize(
@@ -39,10 +24,11 @@ def swept(*verdicts):
     ],
 )  # fmt: skip
 def test_intervals(verdicts, sentence):
-    (only,) = swept(*verdicts)
-    assert only.sentence == f"parapet on roof {sentence}"
-    assert only.periods == sorted(only.periods)
+    pairs = list(zip(PERIODS, verdicts, strict=False))
+    assert periods_in_words(dict(reversed(pairs))) == sentence
 
 
-def test_structures_without_a_support_are_none_of_it():
-    assert over_periods([(BODY, SimpleNamespace(structure="pier", verdict=O))]) == []
+def test_a_structure_is_called_with_the_period_where_it_has_one():
+    assert placed("pier", None) == placed("pier", float("nan")) == "pier"
+    assert placed("parapet", 0.0) == "parapet, on the ground"
+    assert placed("parapet", 0.25) == "parapet, T_b 0.25 s"

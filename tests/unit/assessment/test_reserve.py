@@ -13,12 +13,13 @@ from rocking.assessment.causes import CAUSES, lattice
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.reserve_search import reserve
+from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.store import RecordStore
 from rocking.errors import ConfigurationError
+from rocking.floors.place import place_from_config
 from rocking.records import Accelerogram
 from rocking.structures import Block
-from rocking.structures.standing import support_from_config
 
 STEP = 0.01
 TIMES = np.arange(0, 20, STEP)
@@ -160,21 +161,23 @@ def test_on_a_support_it_is_sought_on_the_ground_and_at_the_worst_period_alone(t
     body = Block(0.6, 0.25)
     extent = Extent(AssessmentSettings(ensemble=EnsembleSettings(members=16, reserve=30.0)))
 
-    def assessed(period: float | list[float], store: RecordStore | None = None) -> dict[str, StationResult]:
-        roof = support_from_config({"name": "roof", "period_s": period, "participation": 1.3})
-        bodies = {each.name: body.standing_on(each) for each in roof.standings("parapet")}
-        return dict(assess_record("made", [record], bodies, extent, store=store).stations)
+    def assessed(
+        period: float | list[float], store: RecordStore | None = None
+    ) -> dict[float | None, StationResult]:
+        roof = place_from_config({"name": "roof", "period_s": period, "participation": 1.3})
+        scenes = {"parapet": Scene("parapet", body, roof)}
+        result = assess_record("made", [record], scenes, extent, store=store)
+        return {each.support_period_s: each for each in result.stations}
 
     store = RecordStore(tmp_path / "cases")
     stations = assessed([0.15, 0.6], store)
     store.save()
-    worst = max((each for name, each in stations.items() if "T_b" in name), key=lambda each: each.severity)
-    sought = {name: each.reserve for name, each in stations.items() if each.reserve is not None}
-    assert set(sought) == {"parapet, on the ground", worst.structure}
-    assert worst.body.standing is not None
-    alone = assessed(worst.body.standing.period)
-    assert {name: each.reserve for name, each in alone.items()} == sought
+    worst = max((period for period in stations if period), key=lambda period: stations[period].severity)
+    sought = {period: each.reserve for period, each in stations.items() if each.reserve is not None}
+    assert set(sought) == {0.0, worst}
+    alone = assessed(worst)
+    assert {period: each.reserve for period, each in alone.items()} == sought
 
     monkeypatch.setattr("rocking.assessment.assess.reserve", None)
     again = assessed([0.15, 0.6], RecordStore(tmp_path / "cases"))
-    assert {name: each.reserve for name, each in again.items() if each.reserve is not None} == sought
+    assert {period: each.reserve for period, each in again.items() if each.reserve is not None} == sought

@@ -13,6 +13,7 @@ from rocking.assessment import assess, store
 from rocking.assessment.assess import Extent, assess_record, with_histories
 from rocking.assessment.case import RecordResult
 from rocking.assessment.rows import TimingRow, rows_of_record
+from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.store import RecordStore
 from rocking.pulses import Pulse
@@ -40,7 +41,7 @@ EXTENT = Extent(
 
 def computed(path: Path, records=PAIR, structures=STRUCTURES, extent=EXTENT, tell=print) -> RecordResult:
     kept = RecordStore(path, tell, path.with_name("timings.json"))
-    result = assess_record("made", records, structures, extent, store=kept)
+    result = assess_record("made", records, on_the_ground(structures), extent, store=kept)
     kept.save()
     return result
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assess import Extent, assess_record
-from rocking.assessment.case import StationResult
+from rocking.assessment.case import SceneResult, StationResult
 from rocking.assessment.rows import (
     AgreementRow,
     ComparisonRow,
@@ -24,6 +24,7 @@ from rocking.assessment.rows import (
     rows_of_record,
     structure_rows,
 )
+from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.verdict import Verdict
 from rocking.pulses import Pulse
@@ -82,19 +83,20 @@ def shaken(component: str = "EW", scale_factor: float = 1.0, **identity) -> Acce
 def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[str, object]) -> RecordReport:
     """Compute every table of `record`, each component for itself, and return its report."""
     extent = Extent(ASSESSMENT, crack_heights=7, processing_variants=True, motion_measures=True)
-    result = assess_record(record, accelerograms, structures, extent)
+    result = assess_record(record, accelerograms, on_the_ground(structures), extent)
     rows = rows_of_record(result, "cd" * 32, "CC0-1.0")
     return RecordReport(result, rows, structures, SETTINGS)
 
 
 def of_structures(report: RecordReport, kinds: dict[str, str], record: str = "one") -> RecordReport:
     """The report with other structures: by name the one of the report whose results it has."""
-    stations = {}
+    scenes = {}
     for name, kind in kinds.items():
-        source = report.result.stations[kind]
+        (source,) = report.result.scenes[kind].stations
         cases = {component: replace(each, structure=name) for component, each in source.cases.items()}
-        stations[name] = replace(source, structure=name, cases=cases)
-    result = replace(report.result, record=record, stations=stations)
+        scene = replace(source.scene, name=name)
+        scenes[name] = SceneResult(scene, (replace(source, scene=scene, cases=cases),))
+    result = replace(report.result, record=record, scenes=scenes)
     rows = rows_of_record(result, "cd" * 32, "CC0-1.0")
     return RecordReport(
         result, rows, {name: report.structures[kind] for name, kind in kinds.items()}, SETTINGS

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from rocking.assessment.rows import structure_rows
+from rocking.assessment.scene import Scene
 from rocking.assessment.verdict import Agreement, Verdict
 from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Kind, Remark
@@ -184,20 +185,22 @@ def test_a_reserve_that_may_be_too_high_is_told_as_such(example):
     """Of a structure whose contacts open the mechanism knows too little; of the others nothing is said."""
     name = next(each.structure for each in example.stations if each.reserve is not None)
     assert example.data()["reserve-note"] == ""
-    station = example.result.stations[name]
+    scene = example.result.scenes[name]
+    station = scene.worst
     cases = {each: replace(case, doubt=Remark(Kind.CONTACTS_OPEN)) for each, case in station.cases.items()}
-    stations = example.result.stations | {name: replace(station, cases=cases)}
-    doubtful = replace(example, result=replace(example.result, stations=stations))
+    in_doubt = replace(scene, stations=(replace(station, cases=cases),))
+    result = replace(example.result, scenes={**example.result.scenes, name: in_doubt})
+    doubtful = replace(example, result=result)
     assert f"may be too high for {name}" in doubtful.data()["reserve-note"]
 
 
 def test_the_reserve_of_a_spire_is_always_told_as_the_mechanisms(example):
     """Its courses may be thrown at every factor, also where it falls as a mechanism and its verdict needs no doubt."""
     name = next(each.structure for each in example.stations if each.reserve is not None)
-    station = example.result.stations[name]
+    station = example.result.scenes[name].worst
     assert station.reserve_in_words == str(station.reserve)
     spire = Spire(width=3.0, height=15.0, wall_thickness=0.25, crack_height=5.0)
-    words = replace(station, body=spire).reserve_in_words
+    words = replace(station, scene=Scene(name, spire)).reserve_in_words
     assert words.startswith(str(station.reserve))
     assert words.endswith("too high where courses above a rocking body may be thrown")
 

@@ -234,6 +234,7 @@ FRAGILITY = {
         [
             {
                 "structure": "pier",
+                "support_period_s": math.nan,
                 "record": record,
                 "level": level,
                 "overturning_share": share,

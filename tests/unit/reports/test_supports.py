@@ -10,13 +10,14 @@ import pytest
 from rocking.assessment.assess import Extent, assess_record
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import rows_of_record
+from rocking.assessment.scene import Scene, on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
+from rocking.floors.place import place_from_config
 from rocking.records import Accelerogram
 from rocking.reports.record import RecordReport
 from rocking.reports.style import PREDICTED
 from rocking.reports.supports import shares_by_period_figure, support_panels, supports_figure
 from rocking.structures import Block
-from rocking.structures.standing import support_from_config
 
 STEP = 0.01
 
@@ -29,12 +30,11 @@ def report():
     record = Accelerogram(0.6 * waves * np.sin(np.pi * times / 4) ** 2, STEP, component="HNE")
     roof = {"name": "roof", "period_s": [0.15, 0.6], "participation": 1.3}
     body = Block(semi_diagonal=0.5, slenderness=0.25)
-    structures = {
-        each.name: body.standing_on(each) for each in support_from_config(roof).standings("parapet")
-    }
-    structures["pier"] = Block(semi_diagonal=4.0, slenderness=0.25)
+    pier = Block(semi_diagonal=4.0, slenderness=0.25)
+    scenes = {"parapet": Scene("parapet", body, place_from_config(roof)), **on_the_ground({"pier": pier})}
+    structures = {"parapet": body, "pier": pier}
     extent = Extent(AssessmentSettings(fidelity="full", ensemble=EnsembleSettings(members=16)))
-    result = assess_record("made", [record], structures, extent)
+    result = assess_record("made", [record], scenes, extent)
     settings = {"tolerance": 1e-6, "acceleration_scale": "linearised", "friction_coefficient": 0.6}
     return RecordReport(result, rows_of_record(result), structures, settings)
 
@@ -43,21 +43,21 @@ def test_the_first_lines_say_it_once_for_all_periods(report):
     lines = report.data()["headlines"]
     on_supports = [line["names"] for line in lines if line["verdict"] == "On a support"]
     (sentence,) = on_supports
-    assert sentence == report.result.swept[0].sentence
+    assert sentence == report.result.scenes["parapet"].sentence
     assert sentence.startswith("parapet on roof ")
     assert all("parapet" not in line["names"] for line in lines if line["verdict"] != "On a support")
 
 
 def test_the_reserve_stands_on_a_scale_of_its_own_for_each_period(report):
     """A factor that is not reached leaves a gap."""
-    (panel,) = support_panels(report.result, report.result.swept)
+    (panel,) = support_panels(report.result)
     (structure,) = panel.structures
-    names = [standing.name for standing in structure.standings]
-    factors = [math.nan, *np.linspace(0.4, 2.0, len(names) - 1)]
-    reserves = {
-        name: Reserve(0.3, factor, math.nan, 3.0) for name, factor in zip(names, factors, strict=True)
-    }
-    figure = supports_figure([replace(panel, reserves=reserves)])
+    factors = [math.nan, *np.linspace(0.4, 2.0, len(structure.stations) - 1)]
+    stations = [
+        each.with_reserve(Reserve(0.3, factor, math.nan, 3.0))
+        for each, factor in zip(structure.stations, factors, strict=True)
+    ]
+    figure = supports_figure([replace(panel, structures=[replace(structure, stations=tuple(stations))])])
     (line,) = [line for axes in figure.axes for line in axes.get_lines() if line.get_marker() == "x"]
     assert list(line.get_xdata()) == list(structure.periods)
     np.testing.assert_array_equal(line.get_ydata(), factors)
@@ -66,7 +66,7 @@ def test_the_reserve_stands_on_a_scale_of_its_own_for_each_period(report):
 
 
 def test_the_figure_draws_the_cells_of_the_table(report):
-    panels = support_panels(report.result, report.result.swept)
+    panels = support_panels(report.result)
     figure = supports_figure(panels)
     shares, spectra, *_ = figure.axes
     (line,) = [each for each in shares.get_lines() if len(each.get_xdata()) > 1]
@@ -104,11 +104,10 @@ def test_a_support_without_damping_has_no_spectrum_of_the_code():
     record = Accelerogram(np.sin(np.arange(300) / 5.0), STEP, component="HNE")
     body = Block(semi_diagonal=0.5, slenderness=0.25)
     roof = {"name": "roof", "period_s": 0.3, "participation": 1.3, "damping_ratio": 0}
-    structures = {
-        each.name: body.standing_on(each) for each in support_from_config(roof).standings("parapet")
-    }
+    structures = {"parapet": body}
+    scenes = {"parapet": Scene("parapet", body, place_from_config(roof))}
     few = AssessmentSettings(ensemble=EnsembleSettings(members=16, reserve=0.0))
-    result = assess_record("made", [record], structures, Extent(few))
+    result = assess_record("made", [record], scenes, Extent(few))
     rows = rows_of_record(result)
     assert np.isnan(rows.supports[-1].code_spectral_acceleration_m_s2)
     assert rows.supports[-1].floor_spectral_acceleration_m_s2 > 0

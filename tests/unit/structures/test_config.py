@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 import yaml
 
+from rocking.assessment.listed import load_scenes, scenes_schema, scenes_schema_file
 from rocking.errors import ConfigurationError, StructureError, StructureWarning
-from rocking.structures import Arch, Block, Facade, Frame, Spire, Wall, load_structures, structure_from_config
-from rocking.structures.standing import PERIODS
-from rocking.structures.structure_list import structures_schema, structures_schema_file
+from rocking.floors.place import PERIODS
+from rocking.structures import Arch, Block, Facade, Frame, Spire, Wall, structure_from_config
 
 WORKFLOW = Path(__file__).parents[3] / "workflow"
 SCHEMA = yaml.safe_load((WORKFLOW / "schemas" / "structures.schema.yaml").read_text(encoding="utf-8"))
@@ -33,17 +33,18 @@ def test_degrees_and_kilonewtons_stay_at_the_door():
 
 def test_the_schema_of_the_workflow_is_the_fields_own():
     written = (WORKFLOW / "schemas" / "structures.schema.yaml").read_text(encoding="utf-8")
-    assert written == structures_schema_file(), "run `make schema`"
-    assert structures_schema() == SCHEMA
+    assert written == scenes_schema_file(), "run `make schema`"
+    assert scenes_schema() == SCHEMA
 
 
 def test_shipped_structures_stand_and_pass_the_schema():
     path = WORKFLOW / "structures.yaml"
     jsonschema.validate(yaml.safe_load(path.read_text(encoding="utf-8")), SCHEMA)
-    structures = load_structures(path)
-    on_the_ground = [each for each in structures.values() if each.standing is None]
-    assert len(on_the_ground) == 10
-    assert len(structures) == 10 + (1 + PERIODS) + (1 + 1)
+    scenes = load_scenes(path)
+    carried = [len(each.place.supports) for each in scenes.values() if each.place.supports]
+    assert len(scenes) == 10 + 2
+    assert sorted(carried) == [1, PERIODS]
+    structures = {name: scene.structure for name, scene in scenes.items()}
     assert {type(structure) for structure in structures.values()} == {Arch, Block, Frame, Spire, Wall}
     assert all(structure.mechanism().uplift_multiplier > 0 for structure in structures.values())
     assert structures["arch 10 m"] == Arch(10, 1.5, np.radians(157.5), restitution=0.9)
@@ -76,7 +77,7 @@ def load(tmp_path):
     def loaded(text):
         path = tmp_path / "structures.yaml"
         path.write_text(text, encoding="utf-8")
-        return load_structures(path)
+        return {name: scene.structure for name, scene in load_scenes(path).items()}
 
     return loaded
 
@@ -159,7 +160,7 @@ def test_a_file_in_other_letters_says_how_to_save_it(tmp_path):
     for content in ("- {name: südwand, type: wall}".encode("latin-1"), "- {name: wall}".encode("utf-16")):
         path.write_bytes(content)
         with pytest.raises(ConfigurationError, match="its letters are not those of UTF-8; save it as UTF-8"):
-            load_structures(path)
+            load_scenes(path)
 
 
 def test_no_storey_is_lower_than_other_sizes_may_be(load):

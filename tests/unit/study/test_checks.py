@@ -2,7 +2,6 @@
 
 import csv
 import math
-import pickle
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -10,15 +9,16 @@ import numpy as np
 import pytest
 
 from rocking import Block, DesignSpectrum, Facade, check
+from rocking.assessment.listed import load_scenes
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import RecordRow, VerdictRow
+from rocking.assessment.scene import on_the_ground
 from rocking.codes.dynamic_check import DynamicCheck
 from rocking.codes.rows import CodeCheckRow, disagreement
 from rocking.errors import ConfigurationError
 from rocking.motion.response import ModelCheck
 from rocking.remarks import Kind
 from rocking.reports.structures import share_interval, structures_data
-from rocking.structures import load_structures
 from rocking.study.checks import shares_by_station, write_checks
 from rocking.study.job import Study
 from rocking.study.plan import structures_sha256
@@ -58,7 +58,7 @@ def test_a_structure_list_says_what_vibrates_freely_and_what_falls(study):
         "- {name: plain, type: block, breadth_m: 0.45, height_m: 3.0}\n"
         "- {name: free, type: block, breadth_m: 0.45, height_m: 3.0, elastic_period_s: 0.12, support_loss_m: 0.05}\n"
     )
-    structures = load_structures(listed)
+    structures = load_scenes(listed)
     changed = read_settings(settings | {"design_spectrum": DESIGN})
     write_checks(Study(structures, changed), folder)
     spectrum = changed.design_spectrum.spectrum()
@@ -68,20 +68,21 @@ def test_a_structure_list_says_what_vibrates_freely_and_what_falls(study):
         for each, kind in ((by_hand.linear, "linear"), (by_hand.nonlinear, "nonlinear")):
             assert rows[name, kind].level_capacity_m_s2 == pytest.approx(each.capacity, rel=1e-12)
     assert rows["free", "nonlinear"].level_capacity_m_s2 < rows["plain", "nonlinear"].level_capacity_m_s2
-    assert structures["free"].as_config() == structures["plain"].as_config()
+    assert structures["free"].structure == structures["plain"].structure
     assert structures_sha256({"a": structures["free"]}) != structures_sha256({"a": structures["plain"]})
-    assert pickle.loads(pickle.dumps(structures["free"])).check_terms == structures["free"].check_terms
     for wrong in ("elastic_period_s: 0", "support_loss_m: -1", "elastic_period_s: soon"):
         listed.write_text(f"- {{name: free, type: block, breadth_m: 0.45, height_m: 3.0, {wrong}}}\n")
         with pytest.raises(ConfigurationError, match=rf"\(free\): {wrong.split(':')[0]} is "):
-            load_structures(listed)
+            load_scenes(listed)
 
 
 def test_every_structure_has_its_checks_and_its_page(study):
     settings, folder = study
     told = []
     write_checks(
-        Study(STRUCTURES, read_settings(settings | {"design_spectrum": DESIGN})), folder, told.append
+        Study(on_the_ground(STRUCTURES), read_settings(settings | {"design_spectrum": DESIGN})),
+        folder,
+        told.append,
     )
     rows = read_table(CodeCheckRow, folder)
     assert [(each.structure, each.check) for each in rows] == [
@@ -99,7 +100,11 @@ def test_every_structure_has_its_checks_and_its_page(study):
 def test_without_sets_the_formulas_stand_and_the_page_says_so(study):
     settings, folder = study
     write_checks(
-        Study(STRUCTURES, read_settings(settings | {"design_spectrum": DESIGN | {"stations": 40}})), folder
+        Study(
+            on_the_ground(STRUCTURES),
+            read_settings(settings | {"design_spectrum": DESIGN | {"stations": 40}}),
+        ),
+        folder,
     )
     assert {each.check for each in read_table(CodeCheckRow, folder)} == {"linear", "nonlinear"}
 
@@ -107,7 +112,7 @@ def test_without_sets_the_formulas_stand_and_the_page_says_so(study):
 def test_checks_without_a_design_level_are_refused(study):
     settings, folder = study
     with pytest.raises(ConfigurationError, match="checks need a design level"):
-        write_checks(Study(STRUCTURES, read_settings(settings)), folder)
+        write_checks(Study(on_the_ground(STRUCTURES), read_settings(settings)), folder)
 
 
 def test_a_structure_that_cannot_be_checked_costs_no_other(study):
@@ -118,7 +123,9 @@ def test_a_structure_that_cannot_be_checked_costs_no_other(study):
     structures = {"slender": Block.of_size(0.4, 6.0), "stout": Block.of_size(0.4, 0.5)}
     told = []
     write_checks(
-        Study(structures, read_settings(settings | {"design_spectrum": design})), folder, told.append
+        Study(on_the_ground(structures), read_settings(settings | {"design_spectrum": design})),
+        folder,
+        told.append,
     )
     assert "the spectrum ends at 1 s" in told[0]
     assert {each.structure for each in read_table(CodeCheckRow, folder)} == {"stout"}
@@ -272,7 +279,9 @@ def test_the_page_to_sign_carries_the_caveat_of_page_one(study, monkeypatch):
     write_tables(rows, folder)
     pages = []
     monkeypatch.setattr("rocking.study.checks.structures_report", lambda made, *_: pages.extend(made) or b"")
-    write_checks(Study(STRUCTURES, read_settings(settings | {"design_spectrum": DESIGN})), folder)
+    write_checks(
+        Study(on_the_ground(STRUCTURES), read_settings(settings | {"design_spectrum": DESIGN})), folder
+    )
     data = structures_data(pages, DesignSpectrum.ntc(1.0, 2.5, 0.3), Settings().mapping())
     signed = {page.name: text["share"] for page, text in zip(pages, data["pages"], strict=True)}
     caveat = station.reserve_in_words.partition("; ")[2]
@@ -316,10 +325,13 @@ def test_a_page_says_on_what_its_structure_stands_and_what_is_not_checked(tmp_pa
     pages = [
         CheckedStructure(
             name=name,
-            structure=each,
-            checked=check(each, spectrum, support=each.standing.support if each.standing else None),
+            structure=each.structure,
+            checked=check(each.structure, spectrum, support=support),
+            place=each.place,
+            support=support,
         )
-        for name, each in load_structures(listed).items()
+        for name, each in load_scenes(listed).items()
+        for support in each.place.axis
     ]
     data = structures_data(pages, spectrum, Settings().mapping())
     page = {each["name"]: each for each in data["pages"]}
@@ -373,6 +385,8 @@ def test_each_page_tells_the_share_of_its_own_structure(study, monkeypatch):
         return b"%PDF"
 
     monkeypatch.setattr("rocking.study.checks.structures_report", report)
-    write_checks(Study(STRUCTURES, read_settings(settings | {"design_spectrum": DESIGN})), folder)
+    write_checks(
+        Study(on_the_ground(STRUCTURES), read_settings(settings | {"design_spectrum": DESIGN})), folder
+    )
     assert {name: page.overturning_share for name, page in pages.items()} == shares
     assert all(page.records == page.stations == 3 for page in pages.values())

@@ -10,7 +10,10 @@ import numpy as np
 import pytest
 from scipy.signal import lsim
 
+from rocking.assessment.scene import Scene, on_the_ground
 from rocking.errors import ConfigurationError
+from rocking.floors.place import Place
+from rocking.floors.support import Mode, Support
 from rocking.fragility.measures import INTENSITY_MEASURES
 from rocking.fragility.rows import FRAGILITY_TABLES, FragilitySummaryRow, IdaRow
 from rocking.motion import integrate
@@ -20,7 +23,6 @@ from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.reports.fragility import write_fragility_report
 from rocking.structures import Block, Spire
-from rocking.structures.standing import support_from_config
 from rocking.study.job import Study
 from rocking.study.settings import Settings, StudyFragility
 from rocking.study.summary import write_fragility
@@ -33,7 +35,7 @@ STRUCTURES = {"slender": Block.of_size(0.5, 3.0), "stout": Block.of_size(1.0, 3.
 
 def _study(**fragility: object) -> Study:
     settings = StudyFragility(**({"members": False} | fragility))
-    return Study(STRUCTURES, Settings(fragility=settings), "made")
+    return Study(on_the_ground(STRUCTURES), Settings(fragility=settings), "made")
 
 
 def _records(folder: Path, count: int) -> list[CatalogueRecord]:
@@ -48,13 +50,13 @@ def _records(folder: Path, count: int) -> list[CatalogueRecord]:
 
 def test_what_cannot_overturn_is_left_out_and_said(tmp_path):
     records = _records(tmp_path, 2)
-    both = replace(_study(), structures={"held": HELD, "slender": STRUCTURES["slender"]})
+    both = replace(_study(), scenes=on_the_ground({"held": HELD, "slender": STRUCTURES["slender"]}))
     (unused,) = write_fragility(records, both, tmp_path / "out")
     assert unused.startswith("held: it cannot overturn, and has no fragility: it lifts at 0.263 g")
     rows = read_rows(FragilitySummaryRow, tmp_path / "out" / FragilitySummaryRow.table.file_name)
     assert {row.structure for row in rows} == {"slender"}
     with pytest.raises(ConfigurationError, match="no structure of the list can overturn"):
-        write_fragility(records, replace(both, structures={"held": HELD}), tmp_path / "none")
+        write_fragility(records, replace(both, scenes=on_the_ground({"held": HELD})), tmp_path / "none")
     assert not (tmp_path / "none").exists()
 
 
@@ -66,7 +68,7 @@ def test_a_table_beside_the_curves_fails_alone(tmp_path, monkeypatch):
 
     monkeypatch.setattr(import_module("rocking.fragility.rows"), "explanation", singular)
     tell = line_writer(tmp_path / "fragility.log")
-    study = replace(_study(), structures={"slender": STRUCTURES["slender"]})
+    study = replace(_study(), scenes=on_the_ground({"slender": STRUCTURES["slender"]}))
     (reason,) = write_fragility(_records(tmp_path, 2), study, tmp_path / "out", tell)
     assert reason.startswith("slender: intensity_measures.csv has no row of it")
     assert "LinAlgError: Singular matrix\n" in (tmp_path / "fragility.log").read_text()
@@ -179,28 +181,26 @@ def test_the_rate_of_each_period_of_a_support_is_the_one_by_hand(tmp_path):
     hazard = tmp_path / "hazard.csv"
     points = [f"{level},{scale * level**-slope}" for level in (lowest, highest)]
     hazard.write_text("\n".join(["intensity,annual_rate", *points]))
-    carried = {}
-    for period in PERIODS:
-        facts = {"period_s": period, "damping_ratio": DAMPING, "participation": PARTICIPATION}
-        support = support_from_config({"name": f"roof {period}", **facts})
-        carried |= {each.name: BODY.standing_on(each) for each in support.standings("parapet")}
-    assert [each.standing.period for each in carried.values()] == [0.0, *PERIODS]
-    study = replace(_study(hazard=str(hazard), intensity_measure="pga"), structures=carried)
+    supports = tuple(Support((Mode(period, DAMPING, PARTICIPATION),)) for period in PERIODS)
+    carried = {"parapet": Scene("parapet", BODY, Place("roof", supports))}
+    study = replace(_study(hazard=str(hazard), intensity_measure="pga"), scenes=carried)
     records = _records(tmp_path, 3)
     assert write_fragility(records, study, tmp_path / "out") == []
 
     outcomes = list(read_rows(IdaRow, tmp_path / "out" / "ida.csv"))
     summaries = read_rows(FragilitySummaryRow, tmp_path / "out" / "fragility_summary.csv")
-    told = {row.structure: row.annual_rate for row in summaries if math.isinf(row.threshold)}
+    told = {row.support_period_s: row.annual_rate for row in summaries if math.isinf(row.threshold)}
     by_hand = {}
     widths: list[float] = []
-    for name, structure in carried.items():
+    for period in (0.0, *PERIODS):
         rates = []
         for record in records:
             (ground,), _ = study.open(record)
-            floor = _floor(ground, structure.standing.period)
+            floor = _floor(ground, period)
             own = [
-                row for row in outcomes if row.structure == name and row.station == f"made; {record.station}"
+                row
+                for row in outcomes
+                if row.support_period_s == period and row.station == f"made; {record.station}"
             ]
             factors = [row.level * GRAVITY / ground.peak_acceleration for row in own]
             falls = [math.isinf(integrate(BODY, floor.scaled(each)).rotation_ratio) for each in factors]
@@ -208,7 +208,7 @@ def test_the_rate_of_each_period_of_a_support_is_the_one_by_hand(tmp_path):
             curve = [(row.level, row.overturning_share) for row in own]
             widths += [math.log(after.level / before.level) for before, after in pairwise(own)]
             rates.append(_by_hand(curve, scale, slope))
-        by_hand[name] = sum(rates) / len(rates)
+        by_hand[period] = sum(rates) / len(rates)
     # Of 400 equal steps in ln x, each counts the curve at its middle: a kink within one, where the curve begins or ends
     # to rise by 1 over the width of two levels, is missed by at most step² / (8 width) of what ν changes by.
     step = math.log(highest / lowest) / 400

@@ -22,6 +22,7 @@ from rocking.assessment.rows import (
     TradeMethod,
     TradeRow,
 )
+from rocking.assessment.scene import on_the_ground
 from rocking.motion import integrate
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
@@ -40,7 +41,7 @@ CONTENT = at2_text(SyntheticRecord("made", 1, 4.0, 0.6, 1.0, 1.0, 6.0, 0.01)).en
 
 def _study(**structures: object) -> Study:
     settings = Settings(candidates=0, processing_variants=False, reports=False)
-    return Study(structures or {"block": Block.of_size(0.5, 3.0)}, settings, "made")
+    return Study(on_the_ground(structures or {"block": Block.of_size(0.5, 3.0)}), settings, "made")
 
 
 def _record(folder: Path, identifier: str = "made", content: bytes = CONTENT) -> CatalogueRecord:

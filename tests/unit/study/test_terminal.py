@@ -6,9 +6,15 @@ from pathlib import Path
 
 import pytest
 
+from rocking.assessment.case import SceneResult, StationResult
 from rocking.study import terminal
 from rocking.study.terminal import Progress, closing_lines, line_writer, paths_to_read, record_line
 from tests.unit.assessment.made_rows import broken, case, failure, station, verdicts
+
+
+def alone(*stations: StationResult) -> list[SceneResult]:
+    """Results of scenes on the ground."""
+    return [SceneResult(each.scene, (each,)) for each in stations]
 
 
 def test_the_worst_component_counts() -> None:
@@ -17,8 +23,8 @@ def test_the_worst_component_counts() -> None:
         station(case("EW", 0.25, "wall"), case("NS", 0.0005, "wall")),
         station(case("EW", 0.0, "arch")),
     ]
-    assert record_line(stations, []) == "overturns: pier; stands: wall 0.25, arch"
-    divided = record_line([station(case("", 0.25, "nave, bay 7")), station(case("", 0.2, "wall"))], [])
+    assert record_line(alone(*stations), []) == "overturns: pier; stands: wall 0.25, arch"
+    divided = record_line(alone(station(case("", 0.25, "nave, bay 7")), station(case("", 0.2, "wall"))), [])
     assert divided == 'stands: "nave, bay 7" 0.25, wall 0.2'
 
 
@@ -28,16 +34,16 @@ def test_undecided_is_ordered_by_share_and_counted_where_there_is_much_of_it() -
         station(case("EW", 0.25, "wall", falls=60)),
         station(case("EW", 0.25, "arch", falls=0)),
     ]
-    line = record_line(stations, [])
+    line = record_line(alone(*stations), [])
     assert line == "undecided: wall (60 of 64), pier (5 of 64); stands: arch 0.25"
     many = [station(case("EW", 0.25, f"pier {number}", falls=5)) for number in range(7)]
-    line = record_line(stations + many, [])
+    line = record_line(alone(*stations, *many), [])
     assert line == "undecided: 9, in verdicts.csv; stands: arch 0.25"
 
 
 def test_a_failure_stands_first_without_repeating_the_record() -> None:
     failures = [failure("", "wall", "it cannot stand."), failure("", "", "it cannot be read.")]
-    line = record_line([station(case("", 0.5))], failures)
+    line = record_line(alone(station(case("", 0.5))), failures)
     assert line == "failed: wall: it cannot stand. it cannot be read.; stands: pier 0.5"
 
 

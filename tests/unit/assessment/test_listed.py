@@ -1,15 +1,14 @@
 """Supports of a structure list: what they may be, what carries nothing, and what stands on them."""
 
-import copy
 import pickle
 import warnings
 from itertools import pairwise
 
 import pytest
 
+from rocking.assessment.listed import load_scenes
 from rocking.errors import ConfigurationError, StructureWarning
-from rocking.structures import load_structures
-from rocking.structures.standing import PERIODS, support_from_config
+from rocking.floors.place import GROUND, PERIODS, place_from_config
 
 BLOCK = "type: block, breadth_m: 0.4, height_m: 1.6"
 
@@ -17,11 +16,11 @@ BLOCK = "type: block, breadth_m: 0.4, height_m: 1.6"
 def listed(tmp_path, *lines):
     path = tmp_path / "structures.yaml"
     path.write_text("\n".join(f"- {{{line}}}" for line in lines) + "\n", encoding="utf-8")
-    return load_structures(path)
+    return load_scenes(path)
 
 
-def test_a_range_of_periods_is_one_structure_for_each(tmp_path):
-    structures = listed(
+def test_a_range_of_periods_is_an_axis_of_one_scene(tmp_path):
+    scenes = listed(
         tmp_path,
         f"name: parapet, {BLOCK}, stands_on: roof",
         f"name: pier, {BLOCK}",
@@ -29,46 +28,45 @@ def test_a_range_of_periods_is_one_structure_for_each(tmp_path):
         f"name: statue, {BLOCK}, stands_on: roof",
         "name: roof, type: support, period_s: [0.15, 0.6], damping_ratio: 0.1, participation: 1.3",
     )
-    assert len(structures) == 2 * (PERIODS + 1) + 2
-    parapets = [
-        each.standing
-        for each in structures.values()
-        if each.standing and each.standing.listed_structure == "parapet"
-    ]
-    periods = [each.period for each in parapets]
+    assert list(scenes) == ["parapet", "pier", "wall", "statue"]
+    roof = scenes["parapet"].place
+    assert roof is scenes["statue"].place
+    ground, *supports = roof.axis
+    assert ground is None and len(supports) == PERIODS
+    periods = [roof.period_of(each) for each in roof.axis]
     assert periods[0] == 0
     assert (periods[1], periods[-1]) == pytest.approx((0.15, 0.6))
     assert [b / a for a, b in pairwise(periods[1:])] == pytest.approx([4 ** (1 / 8)] * 8)
-    assert all(each.support.modes[0].participation == 1.3 for each in parapets[1:])
-    assert list(structures)[:2] == ["parapet, on the ground", "parapet, T_b 0.15 s"]
-    assert structures["pier"].standing is structures["wall"].standing is None
+    assert all(each.modes[0].participation == 1.3 for each in supports)
+    for name in ("pier", "wall"):
+        assert scenes[name].place is GROUND
+        assert scenes[name].place.axis == (None,) and scenes[name].place.period_of(None) is None
 
 
-def test_it_stands_there_after_a_copy_too(tmp_path):
-    *_, parapet = listed(
+def test_a_scene_is_the_same_after_it_went_to_another_process(tmp_path):
+    (parapet,) = listed(
         tmp_path,
-        f"name: parapet, {BLOCK}, stands_on: roof",
+        f"name: parapet, {BLOCK}, stands_on: roof, elastic_period_s: 0.1",
         "name: roof, type: support, period_s: 0.3, participation: 1.3",
     ).values()
-    for again in (copy.copy(parapet), pickle.loads(pickle.dumps(parapet))):
-        assert again == parapet
-        assert again.standing == parapet.standing
+    assert pickle.loads(pickle.dumps(parapet)) == parapet
+    assert parapet.terms.elastic_period == 0.1
 
 
 def test_the_codes_participation_and_damping():
     floor = {"name": "floor", "period_s": 0.3, "storeys": 3, "height_m": 6.0, "building_height_m": 9.0}
-    (mode,) = support_from_config(floor).supports[0].modes
+    (mode,) = place_from_config(floor).supports[0].modes
     # Γ = 3n/(2n + 1) = 9/7, ψ = 2/3
     assert mode.participation == pytest.approx(9 / 7 * 2 / 3)
     assert mode.damping_ratio == 0.05
-    yielding = support_from_config(floor | {"yielding_masonry": True}).supports
+    yielding = place_from_config(floor | {"yielding_masonry": True}).supports
     assert [yielding[0].modes[0].period, yielding[-1].modes[0].period] == pytest.approx([0.45, 0.6])
     assert {each.modes[0].damping_ratio for each in yielding} == {0.10}
 
 
 def test_several_modes_move_together():
     modes = [{"period_s": [0.5, 2.0], "participation": 1.5}, {"period_s": 0.2, "participation": -0.5}]
-    tower = support_from_config({"name": "tower", "modes": modes}).supports
+    tower = place_from_config({"name": "tower", "modes": modes}).supports
     assert len(tower) == PERIODS
     assert tower[4].modes[0].period == pytest.approx(1.0)
     assert {each.modes[1].period for each in tower} == {0.2}
@@ -104,7 +102,7 @@ STOREYS = {"name": "roof", "period_s": 0.3, "storeys": 3, "height_m": 6.0, "buil
 )
 def test_supports_that_cannot_be(entry, sentence):
     with pytest.raises(ConfigurationError) as raised:
-        support_from_config(entry)
+        place_from_config(entry)
     assert str(raised.value).startswith(sentence)
     assert str(raised.value).endswith((".", "?"))
 

@@ -1,7 +1,7 @@
-"""Standing: on what a structure of a list stands, and the supports that the list names.
+"""Place: where a structure stands, the ground or a support with its periods, and how a list describes a support.
 
-The period of a support is ignorance, not chance: a range of periods makes the structure several, one for each period,
-and none of them is mixed with another.
+The period of a support is ignorance, not chance: a range of periods is an axis of every result, and none of its values
+is mixed with another.
 """
 
 import math
@@ -18,8 +18,6 @@ from rocking.quantities import finite
 
 TYPE_NAME = "support"
 """The `type` of an entry of a structure list that is a support."""
-GROUND = "ground"
-"""The support of a structure unless the list says otherwise."""
 PERIODS = 9
 """Periods into which a range is divided, at equal steps of the logarithm."""
 ELASTIC_DAMPING = 0.05
@@ -40,60 +38,46 @@ _KEYS = {"name", "type", "modes", "yielding_masonry", "mass_ratio", *_MODE_KEYS,
 
 
 @dataclass(frozen=True)
-class Standing:
-    """On what one structure stands, for one period of its support.
+class Place:
+    """The ground, or a support of a structure list.
 
-    listed_structure: its name in the list, which those of the other periods share. place: name of the support, or
-    GROUND. support: None on the ground. mass_ratio: of the structure to the support, None where it is not given.
+    supports: the support, once for each period that it may have, ascending; none on the ground. mass_ratio: of a
+    structure to the support; None where it is not given.
     """
 
-    listed_structure: str
-    place: str = GROUND
-    support: Support | None = None
+    name: str
+    supports: tuple[Support, ...] = ()
     mass_ratio: float | None = None
 
     @property
-    def period(self) -> float:
-        """First period of the support, s; 0 on the ground."""
-        return self.support.modes[0].period if self.support else 0.0
+    def axis(self) -> tuple[Support | None, ...]:
+        """The supports along which a structure is followed; None, the ground, comes first as what to compare with."""
+        return (None, *self.supports)
 
-    @property
-    def name(self) -> str:
-        """The name of the structure with this period in tables and reports."""
-        return f"{self.listed_structure}, {self.words}"
+    def period_of(self, support: Support | None) -> float | None:
+        """Return the place on the axis of a result: the first period, s; 0 of the ground below a support.
 
-    @property
-    def words(self) -> str:
-        """ "on the ground", "T_b 0.25 s"."""
-        return f"T_b {self.period:.3g} s" if self.support else "on the ground"
+        None where the place is the ground itself, which has no such axis.
+        """
+        if not self.supports:
+            return None
+        return support.modes[0].period if support else 0.0
 
-    @property
-    def warning(self) -> str:
-        """That the structure is too heavy for its support to be followed alone; "" where it is not."""
-        if self.support is None or self.mass_ratio is None or self.mass_ratio <= HEAVY:
+    def warning(self, structure: str) -> str:
+        """Return that a structure is too heavy for the support to be followed alone; "" where it is not."""
+        if self.mass_ratio is None or self.mass_ratio <= HEAVY:
             return ""
         return (
-            f"{self.listed_structure} has {self.mass_ratio:.2g} of the mass of {self.place}: beyond {HEAVY:g} what "
-            "it gives back changes rotations by more than a per cent, at 0.1 by 11 % in the median, and is left "
-            "out here."
+            f"{structure} has {self.mass_ratio:.2g} of the mass of {self.name}: beyond {HEAVY:g} what it gives back "
+            "changes rotations by more than a per cent, at 0.1 by 11 % in the median, and is left out here."
         )
 
 
-@dataclass(frozen=True)
-class NamedSupport:
-    """A support of a structure list: its name, what it may be, one for each period, and the mass ratio, if given."""
-
-    name: str
-    supports: tuple[Support, ...]
-    mass_ratio: float | None = None
-
-    def standings(self, structure: str) -> tuple[Standing, ...]:
-        """Return the ways in which a structure may stand on it: on the ground first, then by period."""
-        above = (Standing(structure, self.name, each, self.mass_ratio) for each in self.supports)
-        return (Standing(structure, self.name), *above)
+GROUND = Place("ground")
+"""The place of a structure unless the list says otherwise."""
 
 
-def support_from_config(mapping: Mapping[str, Any]) -> NamedSupport:
+def place_from_config(mapping: Mapping[str, Any]) -> Place:
     """Return the support that an entry of a structure list describes. Raises ConfigurationError for what it cannot be.
 
     It has one mode, by period_s, damping_ratio and participation (Γψ where the structure stands), or several in
@@ -102,7 +86,7 @@ def support_from_config(mapping: Mapping[str, Any]) -> NamedSupport:
     elastic building, and 1.5 to 2 times as long when it yields.
 
     >>> roof = {"name": "roof", "period_s": 0.3, "storeys": 3, "height_m": 9.0, "building_height_m": 9.0}
-    >>> round(support_from_config(roof).supports[0].modes[0].participation, 3)
+    >>> round(place_from_config(roof).supports[0].modes[0].participation, 3)
     1.286
     """
     _check_keys(mapping)
@@ -130,7 +114,7 @@ def support_from_config(mapping: Mapping[str, Any]) -> NamedSupport:
         )
     except RecordError as error:
         raise ConfigurationError(str(error)) from None
-    return NamedSupport(str(mapping["name"]), supports, _mass_ratio(mapping))
+    return Place(str(mapping["name"]), supports, _mass_ratio(mapping))
 
 
 def _check_keys(mapping: Mapping[str, Any]) -> None:
@@ -221,7 +205,7 @@ def _period_range(mode: Mapping[str, Any], yields: bool) -> tuple[float, float]:
     return (YIELDING_STRETCH[0] * low, YIELDING_STRETCH[1] * high) if yields else (low, high)
 
 
-def support_schema(name: Mapping[str, object]) -> dict[str, object]:
+def place_schema(name: Mapping[str, object]) -> dict[str, object]:
     """Return the JSON schema of an entry. name: that of its name."""
     of_mode = _mode_schema()
     several_modes = {

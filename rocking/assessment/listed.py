@@ -1,0 +1,166 @@
+"""The list of structures in a file: a YAML list of structures and of supports, read into scenes.
+
+The list is read safely, all defects stand in one message, and each size is remembered as it was typed.
+"""
+
+import json
+import warnings
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from rocking.assessment.check_terms import KEYS as CHECK_KEYS
+from rocking.assessment.check_terms import check_terms, check_terms_schema
+from rocking.assessment.scene import Scene
+from rocking.described import kind_in_words
+from rocking.errors import ConfigurationError, StructureError, StructureWarning
+from rocking.floors.place import GROUND, TYPE_NAME, Place, place_from_config, place_schema
+from rocking.quantities import shown
+from rocking.structures.structure_list import LONGEST_KEY, NAME, definitions, nearest, structure_from_config
+from rocking.tables.yaml_file import read_yaml
+
+_LONGEST_NAME = 200
+"""Characters of the name of a structure: what a table and a page still show."""
+_HEAD = "# Written from rocking/structures by `make schema`; edit the structure's own file instead.\n"
+_STANDS_ON = {
+    "type": "string",
+    "minLength": 1,
+    "description": "Name of the support of this list that carries the structure; left out: the ground",
+}
+
+
+def scenes_schema() -> dict[str, object]:
+    """Return the JSON schema (draft 7) of a list; a definition for each form of each type, and one of a support."""
+    of_entries = definitions({**check_terms_schema(), "stands_on": _STANDS_ON})
+    of_entries[TYPE_NAME] = place_schema(NAME)
+    return {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "Structures to assess",
+        "type": "array",
+        "minItems": 1,
+        "items": {"oneOf": [{"$ref": f"#/definitions/{name}"} for name in of_entries]},
+        "definitions": of_entries,
+    }
+
+
+def scenes_schema_file() -> str:
+    """Return the schema as the YAML file of the workflow."""
+    plain = json.loads(json.dumps(scenes_schema()))  # no part twice, which YAML would write as an anchor
+    result: str = _HEAD + yaml.safe_dump(plain, sort_keys=False, allow_unicode=True, width=110)
+    return result
+
+
+def load_scenes(path: str | Path) -> dict[str, Scene]:
+    """Return the scenes that a YAML file lists, by name, in its order.
+
+    The file is a list of mappings, each with a `name` of its own; those of type support carry others, which name them
+    by `stands_on`. Raises ConfigurationError with every defect at once, one a line; warns with a StructureWarning of a
+    size beyond its plausible range.
+    """
+    entries, texts_of = _entries(Path(path))
+    defects: list[str] = []
+    places: dict[str, Place | None] = {}
+    scenes: dict[str, Scene] = {}
+    names: list[object] = []
+    numbered = list(enumerate(zip(entries, texts_of, strict=True), start=1))
+    for number, (entry, texts) in sorted(numbered, key=lambda each: not _is_support(each[1][0])):
+        name = entry.get("name") if isinstance(entry, Mapping) else None
+        where = f"{path}: structure {number}" + (f" ({_repeated(name)})" if name else "")
+        if not isinstance(name, str) or not name.strip():
+            hint = "give it" if name is None else "write it in quotation marks"
+            defects.append(f"{where}: name is {shown(name)}, but must be a text of its own; {hint}.")
+        elif len(name) > _LONGEST_NAME:
+            defects.append(
+                f"{where}: name has {len(name)} characters, but may have {_LONGEST_NAME}; shorten it."
+            )
+        elif name in names:
+            defects.append(f"{where}: the name is already taken by another structure; give each its own.")
+        names.append(name)
+        try:
+            if _is_support(entry):
+                places[str(name)] = None  # known, though it has a defect of its own
+                places[str(name)] = place_from_config(entry)
+            else:
+                scenes[str(name)] = _scene(str(name), entry, texts, places, where)
+        except (ConfigurationError, StructureError) as error:
+            defects.append(f"{where}: {error}")
+    carrying = {str(entry.get("stands_on")) for entry in entries if isinstance(entry, Mapping)}
+    for idle in places.keys() - carrying:
+        defects.append(
+            f"{path}: support {_repeated(idle)} carries nothing; name it by stands_on, or remove it."
+        )
+    if not scenes and not defects:
+        defects.append(f"{path}: the file lists supports only; add a structure.")
+    if defects:
+        raise ConfigurationError("\n".join(defects))
+    return scenes
+
+
+def _repeated(name: object) -> str:
+    """The name of an entry as a sentence repeats it: without quotes, and of a long one only the begin."""
+    is_short = isinstance(name, str) and len(name) <= LONGEST_KEY
+    return str(name) if is_short else shown(name)
+
+
+def _entries(path: Path) -> tuple[list[Any], list[Mapping[str, str]]]:
+    """The entries of a structure list, and the text of each of their values as it was typed."""
+    entries, node = read_yaml(path, ConfigurationError, "structure list")
+    if entries == []:
+        raise ConfigurationError(f"{path}: the list is empty, but must hold one structure at least.")
+    if not isinstance(entries, list):
+        raise ConfigurationError(
+            f"{path}: the file holds {kind_in_words(entries)}, but must hold a list of structures, each "
+            "behind a dash, as in - {name: pier, type: block, breadth_m: 2, height_m: 9}."
+        )
+    return entries, [_texts(each) for each in node.value]
+
+
+def _is_support(entry: object) -> bool:
+    return isinstance(entry, Mapping) and entry.get("type") == TYPE_NAME
+
+
+def _scene(
+    name: str,
+    entry: Any,
+    texts: Mapping[str, str],
+    places: Mapping[str, Place | None],
+    where: str,
+) -> Scene:
+    """The scene of an entry, which is no support. places: by name; None for one that has a defect of its own.
+
+    Warns of each size beyond its plausible range, and of a structure that is heavy for its support.
+    """
+    of_scene = {}
+    if isinstance(entry, Mapping):
+        of_scene = {key: entry[key] for key in ("stands_on", *CHECK_KEYS) if entry.get(key) is not None}
+        entry = {key: value for key, value in entry.items() if key not in of_scene}
+        texts = {key: text for key, text in texts.items() if key not in of_scene}
+    terms = check_terms(of_scene)
+    structure = structure_from_config(entry, texts)
+
+    known = {**places, GROUND.name: GROUND}
+    stands_on = of_scene.get("stands_on", GROUND.name)
+    if not isinstance(stands_on, str) or stands_on not in known:
+        listed = ", ".join([GROUND.name, *map(_repeated, places)])
+        raise ConfigurationError(
+            f"stands_on is {shown(stands_on)}, but no support of the list has this name{nearest(stands_on, places)}; "
+            f"use one of {listed}, or add the support."
+        )
+    place = known[stands_on] or GROUND
+
+    for remark in (*structure.remarks, place.warning(name)):
+        if remark:
+            warnings.warn(f"{where}: {remark}", StructureWarning, stacklevel=3)
+    return Scene(name, structure, place, terms)
+
+
+def _texts(node: yaml.Node) -> dict[str, str]:
+    """The scalars and the lists of scalars of a mapping, as they were typed."""
+    texts = {}
+    for key, value in node.value if isinstance(node, yaml.MappingNode) else ():
+        each = value.value if isinstance(value, yaml.SequenceNode) else [value]
+        if isinstance(value, yaml.ScalarNode | yaml.SequenceNode):
+            texts[key.value] = ", ".join(one.value for one in each if isinstance(one, yaml.ScalarNode))
+    return texts
