@@ -61,7 +61,6 @@ check: $(TOOLS)
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy rocking docs/research
 	$(BIN)/snakefmt --check Snakefile workflow
-	$(BIN)/python -m pytest -q -n 0 -k column tests/unit/assessment/test_rows.py
 
 # What the package's own fields say, written where the workflow reads it; a test compares.
 schema: setup
