@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import MISSING, dataclass, replace
 from enum import Enum, StrEnum
 from typing import Any, ClassVar, Generic, Self, TypeVar, dataclass_transform, get_args
@@ -108,16 +108,20 @@ def column(
 
 
 @dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(column,))
-def row(name: str = "", description: str = "") -> Callable[[type[R]], type[R]]:
+def row(name: str = "", description: str = "", first: Sequence[str] = ()) -> Callable[[type[R]], type[R]]:
     """Make the decorated class a row of the table `name`; without a name, the common part of several rows.
 
-    description: of the table, by default the first line of the docstring of the class.
+    description: of the table, by default the first line of the docstring of the class. first: the columns that lead,
+    whichever class they come from; the others follow in the order of their declaration.
     """
 
     def made(cls: type[R]) -> type[R]:
         row_class: Any = dataclass(frozen=True, slots=True, kw_only=True)(cls)
         columns = []
-        for each in sorted(described_values(row_class).values(), key=lambda each: each.more["last"]):
+        values = dict(described_values(row_class))
+        leading = [values.pop(each) for each in first]
+        following = sorted(values.values(), key=lambda each: each.more["last"])
+        for each in (*leading, *following):
             ends = (unit for end, unit in _UNITS.items() if each.name.endswith(f"_{end}"))
             columns.append(replace(each, unit=each.unit or next(ends, "")))
         summary = description or (cls.__doc__ or "").partition("\n")[0].rstrip(".")

@@ -21,32 +21,28 @@ from rocking.assessment.rows.meanings import (
 )
 from rocking.assessment.verdict import (
     BOTH_COMPONENTS,
-    POLARITIES,
     Agreement,
     Judgement,
     Method,
     Verdict,
     agreement,
-    ratio,
     ratio_in_words,
     within_factor_two,
 )
 from rocking.floors.spectrum import FloorMeasures, floor_measures
-from rocking.floors.support import Mode, Support
+from rocking.floors.support import Support
 from rocking.pulses import Pulse, PulseEvidence, VelocityPulse
 from rocking.pulses.analysis import PulseAnalysis, worth
 from rocking.records import Accelerogram, RotD
 from rocking.records.measures import RecordMeasures, record_measures
 from rocking.remarks import Kind
 from rocking.sine_pulse import Regime
-from rocking.structures import EquivalentBlock, Outcome
+from rocking.structures import EquivalentBlock
 from rocking.tables import Columns, Row, RowOf, row, write_tables, written_together
 
 if TYPE_CHECKING:  # else who reads a table would load numba
     from rocking.assessment.case import CaseResult, Failure, Prediction, RecordResult, StationResult
     from rocking.assessment.component import Component
-    from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
-    from rocking.assessment.ensemble import Ensemble
     from rocking.assessment.fidelity import Answer, Estimate
     from rocking.assessment.variations import Variation
     from rocking.motion.response import ModelCheck, Response
@@ -83,13 +79,9 @@ class Identified:
 
 @dataclass(frozen=True)
 class OfStructure(Identified):
-    """Anything about one structure under one component of one record.
+    """Anything about one structure under one component of one record. station: its result over all components."""
 
-    support_period: of the support on which it stands, s; 0 on the ground below one, None where it has none.
-    """
-
-    structure: str
-    support_period: float | None = field(default=None, kw_only=True)
+    station: "StationResult"
 
 
 I = TypeVar("I", bound=Identified)
@@ -117,8 +109,8 @@ class ComponentRow(RowOf[I]):
 class CaseRow(ComponentRow[C]):
     """A row about one structure under one component of one record."""
 
-    structure: str = of_structure(STRUCTURE, lambda each: each.structure)
-    support_period_s: float | None = of_structure(SUPPORT_PERIOD, lambda each: each.support_period)
+    structure: str = of_structure(STRUCTURE, lambda each: each.station.structure)
+    support_period_s: float | None = of_structure(SUPPORT_PERIOD, lambda each: each.station.support_period_s)
 
     @property
     def case(self) -> tuple[str, str, float | None]:
@@ -438,7 +430,19 @@ class ComparedCase(OfStructure):
 of_case = Columns(ComparedCase)
 
 
-@row("comparison")
+_FIRST = (
+    "record",
+    "structure",
+    "predicted_rotation_ratio",
+    "block_on_record_rotation_ratio",
+    "integrated_rotation_ratio",
+    "overturning_share",
+    "verdict",
+)
+"""Who is asked, the closed form, the block and the integration, and what comes of it over all components."""
+
+
+@row("comparison", first=_FIRST)
 class ComparisonRow(CaseRow[ComparedCase]):
     """One row per structure: the closed form under the dominant pulse beside the integration of the whole record.
 
@@ -452,9 +456,8 @@ class ComparisonRow(CaseRow[ComparedCase]):
     integrated_rotation_ratio: float = of_case(
         "Rotation ratio of the mechanism under the record", lambda of: of.case.integrated_rotation_ratio
     )
-    prediction_over_integration: float = of_case(
-        "Predicted over integrated rotation ratio, where both rock", lambda of: ratio(*of.both)
-    )
+    overturning_share: float = of_case(OVERTURNING_SHARE, lambda of: of.station.overturning_share)
+    verdict: Verdict = of_case(VERDICT, lambda of: of.station.verdict)
     prediction_in_words: str = of_case(
         "Prediction beside integration, in words", lambda of: ratio_in_words(*of.both)
     )
@@ -555,9 +558,6 @@ class ComparisonRow(CaseRow[ComparedCase]):
     answer_method: Method = of_case(
         "Method that settled the verdict; see the setting fidelity", lambda of: of.answer.method
     )
-    answer_outcome: Outcome = of_case(
-        "Outcome of that method: no uplift, rocks or overturns", lambda of: of.answer.outcome
-    )
     answer_reason: str = of_case(
         "Reason why that method sufficed, with fidelity: auto", lambda of: of.answer.reason
     )
@@ -587,90 +587,8 @@ RATIO_COLUMNS = {
 
 
 @dataclass(frozen=True)
-class CaseEnsembles(OfStructure):
-    """The ensembles of the cracks of one case."""
-
-    ensembles: "CrackEnsembles"
-
-    @property
-    def crack(self) -> "FollowedCrack":
-        """The crack that governs."""
-        return self.ensembles.governing
-
-    @property
-    def beside(self) -> "FollowedCrack | None":
-        """The crack that is told beside it."""
-        return self.ensembles.beside
-
-    @property
-    def ensemble(self) -> "Ensemble":
-        """The ensemble of the crack that governs."""
-        return self.crack.ensemble
-
-
-_MEMBERS = "Number of members; 0 without an ensemble"
-_OVERTURNING_MEMBERS = "Number of members that overturn"
-_CRACK = "Crack that governs, to which the numbers belong; empty where only one may form"
-_STATICS = "Crack of statics where another governs; beside a crack that is given, the worst other"
-_STATICS_OVERTURNING_MEMBERS = "Members that overturn with that crack"
-_STATICS_MEMBERS = "Number of members with that crack"
-_LOW = "5 % quantile of largest rotation over critical rotation"
-_MEDIAN = "Median of largest rotation over critical rotation"
-_HIGH = "95 % quantile of the same ratio; INF if it overturns"
-
-of_ensembles = Columns(CaseEnsembles)
-
-
-@row("ensemble")
-class EnsembleRow(CaseRow[CaseEnsembles]):
-    """One row per structure: its ensemble over the uncertain inputs; component 'both' for all directions."""
-
-    verdict: Verdict = of_ensembles(VERDICT, lambda of: of.ensembles.verdict)
-    overturning_members: int = of_ensembles(_OVERTURNING_MEMBERS, lambda of: of.ensemble.overturning_members)
-    members: int = of_ensembles(_MEMBERS, lambda of: of.ensemble.members)
-    overturning_share: float = of_ensembles(OVERTURNING_SHARE, lambda of: of.ensemble.overturning_share)
-    crack: str = of_ensembles(_CRACK, lambda of: of.crack.description)
-    statics_crack: str = of_ensembles(_STATICS, lambda of: of.beside.description if of.beside else "")
-    statics_overturning_members: int | None = of_ensembles(
-        _STATICS_OVERTURNING_MEMBERS,
-        lambda of: of.beside.ensemble.overturning_members if of.beside else None,
-    )
-    statics_members: int | None = of_ensembles(
-        _STATICS_MEMBERS, lambda of: of.beside.ensemble.members if of.beside else None
-    )
-    rotation_ratio_low: float = of_ensembles(_LOW, lambda of: of.ensemble.rotation_ratio_low)
-    rotation_ratio_median: float = of_ensembles(_MEDIAN, lambda of: of.ensemble.rotation_ratio_median)
-    rotation_ratio_high: float = of_ensembles(_HIGH, lambda of: of.ensemble.rotation_ratio_high)
-    failed_members: int = of_ensembles(
-        "Number of members whose integration failed", lambda of: of.ensemble.failed_members
-    )
-    risk: float = of_ensembles(
-        "Largest probability of an opposite outcome in a verdict", lambda of: of.ensemble.settings.risk
-    )
-    amplitude_range: float = of_ensembles(
-        "Range of the amplitude: plus or minus this share", lambda of: of.ensemble.settings.amplitude_range
-    )
-    restitution_range: float = of_ensembles(
-        "Range of the restitution: plus or minus this number",
-        lambda of: of.ensemble.settings.restitution_range,
-    )
-    worst_direction: str = of_ensembles(
-        "Direction of the largest mean rotation; empty with one", lambda of: of.ensemble.worst("direction")
-    )
-    worst_polarity: str = of_ensembles(
-        "Sign of the largest mean rotation: as recorded, reversed",
-        lambda of: POLARITIES.get(of.ensemble.worst("polarity"), ""),
-    )
-    worst_processing: str = of_ensembles(
-        "Processing of the largest mean rotation; empty with one", lambda of: of.ensemble.worst("processing")
-    )
-
-
-@dataclass(frozen=True)
 class JudgedStation(OfStructure):
     """The result of one structure. identity: of the component that rotates most, but for the name of the component."""
-
-    station: "StationResult"
 
     @property
     def reserve(self) -> Reserve | None:
@@ -689,18 +607,38 @@ class VerdictRow(CaseRow[JudgedStation], Judgement):
     """
 
     verdict: Verdict = of_station(VERDICT, lambda of: of.station.verdict)
-    overturning_members: int = of_station(_OVERTURNING_MEMBERS, lambda of: of.station.overturning_members)
-    members: int = of_station(_MEMBERS, lambda of: of.station.members)
-    overturning_share: float = of_station(OVERTURNING_SHARE, lambda of: of.station.overturning_share)
-    crack: str = of_station(_CRACK, lambda of: of.station.crack)
-    statics_crack: str = of_station(_STATICS, lambda of: of.station.statics_crack)
-    statics_overturning_members: int | None = of_station(
-        _STATICS_OVERTURNING_MEMBERS, lambda of: of.station.statics_overturning_members
+    overturning_members: int = of_station(
+        "Number of members that overturn", lambda of: of.station.overturning_members
     )
-    statics_members: int | None = of_station(_STATICS_MEMBERS, lambda of: of.station.statics_members)
-    rotation_ratio_low: float = of_station(_LOW, lambda of: of.station.rotation_ratio_low)
-    rotation_ratio_median: float = of_station(_MEDIAN, lambda of: of.station.rotation_ratio_median)
-    rotation_ratio_high: float = of_station(_HIGH, lambda of: of.station.rotation_ratio_high)
+    members: int = of_station("Number of members; 0 without an ensemble", lambda of: of.station.members)
+    failed_members: int = of_station(
+        "Number of members whose integration failed",
+        lambda of: of.station.ensemble.failed_members if of.station.ensemble else 0,
+    )
+    overturning_share: float = of_station(OVERTURNING_SHARE, lambda of: of.station.overturning_share)
+    crack: str = of_station(
+        "Crack that governs, to which the numbers belong; empty where only one may form",
+        lambda of: of.station.crack,
+    )
+    statics_crack: str = of_station(
+        "Crack of statics where another governs; beside a crack that is given, the worst other",
+        lambda of: of.station.statics_crack,
+    )
+    statics_overturning_members: int | None = of_station(
+        "Members that overturn with that crack", lambda of: of.station.statics_overturning_members
+    )
+    statics_members: int | None = of_station(
+        "Number of members with that crack", lambda of: of.station.statics_members
+    )
+    rotation_ratio_low: float = of_station(
+        "5 % quantile of largest rotation over critical rotation", lambda of: of.station.rotation_ratio_low
+    )
+    rotation_ratio_median: float = of_station(
+        "Median of largest rotation over critical rotation", lambda of: of.station.rotation_ratio_median
+    )
+    rotation_ratio_high: float = of_station(
+        "95 % quantile of the same ratio; INF if it overturns", lambda of: of.station.rotation_ratio_high
+    )
     rotation_ratio: float = of_station(
         "Largest rotation over critical rotation as recorded; INF if it overturns",
         lambda of: of.station.rotation_ratio,
@@ -765,7 +703,6 @@ def worst_period_each(verdicts: Iterable[VerdictRow]) -> list[VerdictRow]:
 class CarriedStructure(OfStructure):
     """One structure on a support of the list, under one component: where it stands and the motion there."""
 
-    station: "StationResult"
     floor: "Component"
 
     @property
@@ -773,21 +710,11 @@ class CarriedStructure(OfStructure):
         """The support; None on the ground below it."""
         return self.station.support
 
-    @property
-    def mode(self) -> Mode | None:
-        """The first mode of the support; None on the ground."""
-        return self.support.modes[0] if self.support else None
-
     @cached_property
     def measures(self) -> FloorMeasures:
         """The motion on the support beside that of the ground."""
         ground = (self.floor.ground or self.floor).accelerogram
         return floor_measures(ground, self.floor.accelerogram, self.support)
-
-    @property
-    def pulse(self) -> Pulse | None:
-        """The dominant sine of the motion there."""
-        return self.floor.analysis.dominant if self.floor.analysis else None
 
 
 of_support = Columns(CarriedStructure)
@@ -798,18 +725,6 @@ class SupportRow(CaseRow[CarriedStructure]):
     """One row per component and structure on a support: the motion there, and the verdict over all components."""
 
     support: str = of_support("Name of the support in the list", lambda of: of.station.scene.place.name)
-    support_damping_ratio: float = of_support(
-        "Damping ratio of the first mode of the support",
-        lambda of: of.mode.damping_ratio if of.mode else math.nan,
-    )
-    support_participation: float = of_support(
-        "Participation Γψ of the first mode where the structure stands",
-        lambda of: of.mode.participation if of.mode else math.nan,
-    )
-    support_modes: int = of_support(
-        "Number of modes of the support; 0 on the ground",
-        lambda of: len(of.support.modes) if of.support else 0,
-    )
     floor_peak_acceleration_m_s2: float = of_support(
         "Largest magnitude of the acceleration on the support", lambda of: of.measures.peak_acceleration
     )
@@ -824,14 +739,6 @@ class SupportRow(CaseRow[CarriedStructure]):
         lambda of: of.measures.code_spectral_acceleration,
         equation="C7.2.5",
     )
-    floor_pulse_amplitude_m_s2: float = of_support(
-        "Signed amplitude of the dominant sine on the support",
-        lambda of: of.pulse.amplitude if of.pulse else math.nan,
-    )
-    floor_pulse_period_s: float = of_support(
-        "Period of the dominant sine on the support",
-        lambda of: of.pulse.period if of.pulse else math.nan,
-    )
     verdict: Verdict = of_support(VERDICT, lambda of: of.station.verdict)
     overturning_share: float = of_support(OVERTURNING_SHARE, lambda of: of.station.overturning_share)
 
@@ -843,10 +750,8 @@ def structures_carried(
     for station in (station for scene in result.carried for station in scene.stations):
         if station.support is not None and station.support not in result.floors:
             continue  # the record could not be taken there, as the table of failures says
-        name = station.structure
-        period = station.support_period_s
         for component, floor in result.components_under(station).items():
-            yield CarriedStructure(identities[component], name, station, floor, support_period=period)
+            yield CarriedStructure(identities[component], station, floor)
 
 
 @dataclass(frozen=True)
@@ -1001,7 +906,6 @@ class RecordRows:
     record: Sequence[RecordRow] = ()
     pulses: Sequence[PulseRow] = ()
     comparison: Sequence[ComparisonRow] = ()
-    ensemble: Sequence[EnsembleRow] = ()
     variations: Sequence[VariationRow] = ()
     failures: Sequence[FailureRow] = ()
     timings: Sequence[TimingRow] = ()
@@ -1015,7 +919,6 @@ class RecordRows:
             RecordRow: self.record,
             PulseRow: self.pulses,
             ComparisonRow: self.comparison,
-            EnsembleRow: self.ensemble,
             VariationRow: self.variations,
             SupportRow: self.supports,
             FailureRow: self.failures,
@@ -1045,43 +948,36 @@ def rows_of_record(
     identities = [Identity.of(record, each, settings_sha256) for each in result.accelerograms]
     by_component = dict(zip(result.names, identities, strict=True))
     comparison: list[ComparisonRow] = []
-    ensemble: list[EnsembleRow] = []
     variations: list[VariationRow] = []
     failures = [FailedCase(record, component, "", failure) for component, failure in result.failures]
     if identities:
         by_component[BOTH_COMPONENTS] = replace(identities[0], component=BOTH_COMPONENTS)
     for component, identity in by_component.items():
         for station, case in result.cases(component):
-            name = station.structure
-            period = station.support_period_s
             if case.answer is not None:
-                compared = ComparedCase(identity, name, case, friction_coefficient, support_period=period)
+                compared = ComparedCase(identity, station, case, friction_coefficient)
                 comparison.append(ComparisonRow.of(compared))
-            if case.ensembles is not None:
-                of_cracks = CaseEnsembles(identity, name, case.ensembles, support_period=period)
-                ensemble.append(EnsembleRow.of(of_cracks))
-            varied = [VariedCase(identity, name, each, support_period=period) for each in case.variations]
-            variations += [VariationRow.of(each) for each in varied]
+            variations += [VariationRow.of(VariedCase(identity, station, each)) for each in case.variations]
             failures += [
-                FailedCase(record, identity.component, name, each, support_period=period)
+                FailedCase(
+                    record,
+                    identity.component,
+                    station.structure,
+                    each,
+                    support_period=station.support_period_s,
+                )
                 for each in case.failures
             ]
     verdicts = []
     for station in result.stations:
         identity = by_component[station.worst.component] if station.worst else identities[0]
-        judged = JudgedStation(
-            replace(identity, component=station.component),
-            station.structure,
-            station,
-            support_period=station.support_period_s,
-        )
+        judged = JudgedStation(replace(identity, component=station.component), station)
         verdicts.append(VerdictRow.of(judged))
     components = list(zip(identities, result.components, strict=True))
     return RecordRows(
         record=[RecordRow.of(ReadComponent(*each, licence)) for each in components],
         pulses=[PulseRow.of(found) for each in components for found in pulses_found(*each)],
         comparison=comparison,
-        ensemble=ensemble,
         variations=variations,
         failures=[FailureRow.of(each) for each in failures],
         timings=[TimingRow.of(TimedStage(record, *each)) for each in result.durations.items()],

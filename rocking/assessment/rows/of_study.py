@@ -138,14 +138,6 @@ class StructureRow(StructureNameRow[ListedStructure]):
         lambda of: of.of_block("uplift", lambda block: block.acceleration_scale),
         equation="Eq. 13",
     )
-    linearised_over_true_uplift: float = of_listed(
-        "Uplift acceleration over the true one",
-        lambda of: (
-            of.of_block("linearised", lambda block: block.uplift_multiplier)
-            / of.mechanism.positive.uplift_multiplier
-        ),
-        equation="Eq. 12",
-    )
     restitution: float = of_listed(_ETA, lambda of: of.mechanism.positive.restitution, equation="Eq. 2")
     restoring_defect: float = of_listed(
         "Largest error of the block's restoring force, relative",
@@ -215,7 +207,6 @@ AGREEMENT_COLUMNS = (
     "support_period_s",
     "predicted_rotation_ratio",
     "integrated_rotation_ratio",
-    "prediction_over_integration",
     "within_factor_two",
 )
 """The columns of the comparison table that are counted."""
@@ -241,8 +232,9 @@ class CountedCases:
 
     @property
     def ratios(self) -> "Series":
-        """Predicted over integrated rotation of each; nan where one of them does not rock."""
-        return self.cases["prediction_over_integration"]
+        """Predicted over integrated rotation of those that rock in both."""
+        ratios = self.cases["predicted_rotation_ratio"] / self.cases["integrated_rotation_ratio"]
+        return ratios[self.cases["within_factor_two"].notna()]
 
 
 of_cases = Columns(CountedCases)
@@ -348,7 +340,6 @@ SUMMARY_TABLES: tuple[type[Row], ...] = (
     rows.RecordRow,
     rows.PulseRow,
     rows.ComparisonRow,
-    rows.EnsembleRow,
     rows.VerdictRow,
     rows.SupportRow,
     AgreementRow,

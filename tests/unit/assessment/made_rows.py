@@ -55,7 +55,7 @@ def case(component: str, ratio: float, structure: str = "pier", side: int = 0, f
 
 def compared(component: str, ratio: float, structure: str = "pier", **more: Any) -> ComparisonRow:
     """A row of the comparison by the rotation ratio of the integration."""
-    own = {"integrated_rotation_ratio": ratio, "answer_outcome": Outcome.at(ratio), "record": "a"}
+    own = {"integrated_rotation_ratio": ratio, "record": "a"}
     return filled(ComparisonRow, component=component, structure=structure, **own | more)
 
 
@@ -89,8 +89,7 @@ def station(*cases: CaseResult, falls_in_directions: int | None = None) -> Stati
 def verdicts(stations: Sequence[StationResult], record: str = "a") -> list[VerdictRow]:
     """Their rows."""
     return [
-        VerdictRow.of(JudgedStation(Identity(record, each.component, 1.0, "", ""), each.structure, each))
-        for each in stations
+        VerdictRow.of(JudgedStation(Identity(record, each.component, 1.0, "", ""), each)) for each in stations
     ]
 
 

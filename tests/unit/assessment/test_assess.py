@@ -10,7 +10,7 @@ from motion_cases import noise
 from scipy.constants import g
 
 from rocking.assessment.assess import Extent, assess_case, assess_record, predict, with_histories
-from rocking.assessment.case import CaseResult
+from rocking.assessment.case import CaseResult, StationResult
 from rocking.assessment.component import Component, HorizontalMotion, component_of, horizontal_motions
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
@@ -23,7 +23,7 @@ from rocking.assessment.rows import (
     capacity_rows,
     pulses_found,
 )
-from rocking.assessment.scene import on_the_ground
+from rocking.assessment.scene import Scene, on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings, PredictingPulse
 from rocking.assessment.verdict import NEGLIGIBLE, Method, agreement, ratio, rests, rocks, within_factor_two
 from rocking.motion import integrate
@@ -47,7 +47,8 @@ def assessed(record: Accelerogram, settings: AssessmentSettings = SETTINGS, vert
 
 
 def compared(case: CaseResult) -> ComparisonRow:
-    return ComparisonRow.of(ComparedCase(IDENTITY, case.structure, case, friction_coefficient=0.6))
+    station = StationResult(Scene("block", BLOCK), {case.component: case})
+    return ComparisonRow.of(ComparedCase(IDENTITY, station, case, friction_coefficient=0.6))
 
 
 @pytest.fixture(scope="module")

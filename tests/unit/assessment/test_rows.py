@@ -21,7 +21,7 @@ def test_the_counts_and_quantiles_of_rows_are_those_of_the_members():
     assert 0 < falls < ratios.size / 2
 
     tables = rows.rows_of_record(result)
-    for row in (*tables.ensemble, *tables.verdicts):
+    for row in tables.verdicts:
         assert (row.overturning_members, row.members) == (falls, ratios.size)
         assert row.overturning_share == falls / ratios.size
         ordered = np.sort(ratios)

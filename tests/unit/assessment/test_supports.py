@@ -41,7 +41,7 @@ def test_the_floors_motion_as_a_record_gives_the_same_rows():
     (support,) = carried["parapet"].place.supports
     there = assess_record("r", [record], carried, FULL)
     given = assess_record("r", [support.motion(record)], on_the_ground({"parapet": BODY}), FULL)
-    for table in ("comparison", "ensemble", "verdicts"):
+    for table in ("comparison", "verdicts"):
         ours, theirs = (getattr(rows_of_record(each), table)[-1] for each in (there, given))
         for name in ours.values() if isinstance(ours, dict) else type(ours).__dataclass_fields__:
             first, second = getattr(ours, name), getattr(theirs, name)

@@ -23,7 +23,6 @@ from rocking.assessment.verdict import (
     Agreement,
     Method,
     agreement,
-    ratio,
     ratio_in_words,
     within_factor_two,
 )
@@ -39,7 +38,6 @@ from rocking.reports.design_figure import (
 from rocking.reports.fragility import fragility_data, fragility_figure
 from rocking.reports.style import svg
 from rocking.reports.summary import prediction_scatter, summary_data, summary_report
-from rocking.structures import Outcome
 from rocking.tables import frame
 from tests.unit.assessment.made_rows import case as run
 from tests.unit.assessment.made_rows import filled, station, verdicts
@@ -57,8 +55,6 @@ def case(structure: str, predicted: float, integrated: float, record: str = "one
         predicted_rotation_ratio=predicted,
         integrated_rotation_ratio=integrated,
         answer_method=Method.MECHANISM_ON_RECORD,
-        answer_outcome=Outcome.at(integrated),
-        prediction_over_integration=ratio(predicted, integrated),
         prediction_in_words=ratio_in_words(predicted, integrated),
         within_factor_two=within_factor_two(predicted, integrated),
         agreement=agreement(predicted, integrated),
