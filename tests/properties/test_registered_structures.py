@@ -23,7 +23,7 @@ from rocking.structures.structure_list import TYPES, structure_from_config
 
 UNCHECKED = [HealthCheck.too_slow, HealthCheck.filter_too_much]
 FEW = settings(
-    max_examples=settings.default.max_examples // 4,
+    max_examples=settings.default.max_examples // 6,
     deadline=None,
     derandomize=True,
     suppress_health_check=UNCHECKED,

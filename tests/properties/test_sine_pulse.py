@@ -57,7 +57,9 @@ def test_only_the_two_ratios_and_restitution_matter(
 
 
 @given(AMPLITUDES, FREQUENCIES, RESTITUTIONS)
-@settings(suppress_health_check=[HealthCheck.filter_too_much])
+@settings(
+    suppress_health_check=[HealthCheck.filter_too_much], max_examples=settings.default.max_examples // 2
+)
 def test_equation_15_holds_exactly_in_its_regime(a: float, omega: float, eta: float) -> None:
     """To 1e-12 where it is well conditioned: d(1 − √(1 − y))/dy grows as 1/√(1 − y) towards overturning."""
     block = replace(BLOCK, restitution=eta)

@@ -408,13 +408,14 @@ def worsened(facts, chance):
     return replace(facts, **ways[int(chance() * len(ways))])
 
 
-def test_a_further_doubt_failure_or_fall_never_makes_a_word_safer():
+@pytest.mark.parametrize("draws", [8_000, pytest.param(50_000, marks=pytest.mark.slow)])
+def test_a_further_doubt_failure_or_fall_never_makes_a_word_safer(draws):
     chance = numbers(8)
     changed = 0
-    for _ in range(50_000):
+    for _ in range(draws):
         facts = drawn(chance)
         worse = worsened(facts, chance)
         before, after = (SAFEST_FIRST.index(decide(each).word) for each in (facts, worse))
         assert after >= before, (facts, worse)
         changed += after > before
-    assert changed > 1_000
+    assert changed > draws / 50

@@ -114,6 +114,7 @@ def figures():
     return paper_figures(read(SHIPPED)[0], "The record of the paper is missing. ")
 
 
+@pytest.mark.slow
 def test_every_figure_is_a_table_of_its_curves(figures):
     assert [figure.name for figure in figures][:2] == ["figure_3", "figure_4"]
     for figure in figures:
@@ -154,6 +155,7 @@ def test_the_page_holds_the_numbers_of_figure_8(real_records):
     assert said == computed
 
 
+@pytest.mark.slow
 def test_no_legend_hides_a_line(figures):
     """Asked of the picture: no vertex of a line, nor a hundredth of the way between two, lies below a legend."""
     for figure in figures:

@@ -10,7 +10,7 @@ from rocking.structures import Block
 BLOCK = Block.of_size(breadth=0.5, height=3.0, restitution=0.96)
 RECORD = noise(3, 6000, 0.01, 2.6)
 """A minute, in which the block meets hundreds of impacts and overturns in about two of three neighbours."""
-COUNT = 500
+COUNT = 250
 
 
 def share(tolerance: float) -> float:
@@ -22,10 +22,10 @@ def share(tolerance: float) -> float:
 def test_any_tolerance_gives_the_same_share_of_overturnings() -> None:
     """So no tolerance settles the verdict, but a looser one does not shift it either.
 
-    Binomial: four standard errors of the difference of two shares near 0.65 among 500 are 0.12.
+    Binomial: four standard errors of the difference of two shares near 0.65 among 250 are 0.17.
     """
     shares = [share(tolerance) for tolerance in (1e-12, 1e-9, 1e-6)]
-    assert np.ptp(shares) <= 0.12
+    assert np.ptp(shares) <= 0.17
     assert 0.4 <= np.mean(shares) <= 0.9
 
 

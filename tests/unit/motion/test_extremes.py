@@ -14,9 +14,8 @@ from rocking.structures import Arch, Block, EquivalentBlock, Outcome, Wall
 SHAPE = np.convolve(np.random.default_rng(0).normal(size=400), np.hanning(15), "same")
 SHAPE = SHAPE / np.abs(SHAPE).max()
 
-BOTH = pytest.mark.parametrize(
-    "structure", [Block(1.0, 0.2).mechanism(), EquivalentBlock(2.7, 0.2, 1.0, 0.9)], ids=["block", "linear"]
-)
+BLOCK, LINEAR = Block(1.0, 0.2).mechanism(), EquivalentBlock(2.7, 0.2, 1.0, 0.9)
+BOTH = pytest.mark.parametrize("structure", [BLOCK, LINEAR], ids=["block", "linear"])
 
 
 def shaken(structure, strength, tolerance=1e-8):
@@ -87,7 +86,10 @@ def test_zeno_chain_of_a_hundred_thousand_impacts_ends_in_rest(structure):
     assert response.outcome is Outcome.ROCKS
 
 
-@BOTH
+# Of the block, tests/unit/motion/test_members.py has one member that does so.
+@pytest.mark.parametrize(
+    "structure", [pytest.param(BLOCK, marks=pytest.mark.slow), LINEAR], ids=["block", "linear"]
+)
 def test_rattling_without_loss_is_cut_short_with_a_reason(structure):
     """η = 1 from 1e-6 rad: flights of 2 ms for a day would be 4e7 impacts; it stops and says so."""
     lossless = with_restitution(structure, 1.0, 1.0)

@@ -54,11 +54,12 @@ def sampled(omega: float, a: float, phase: float, velocity: float) -> tuple[floa
     return brentq(x, times[first - 1], times[first], xtol=1e-15, rtol=1e-14), values[:first].max()
 
 
+@pytest.mark.parametrize("flights", [500, pytest.param(1500, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("follow", ["land", "hop"])
-def test_no_contact_and_no_peak_is_missed(follow: str) -> None:
+def test_no_contact_and_no_peak_is_missed(follow: str, flights: int) -> None:
     """`hop` may decline a flight, `land` takes all. A sampled maximum is at most the peak, and close to it."""
     followed = 0
-    for omega, a, phase, velocity in DIPS + random_flights(1500):
+    for omega, a, phase, velocity in DIPS + random_flights(flights):
         contact, highest = sampled(omega, a, phase, velocity)
         if math.isnan(highest):
             continue
@@ -78,4 +79,4 @@ def test_no_contact_and_no_peak_is_missed(follow: str) -> None:
             # 1e-15 of x, times what a grazing contact makes of it
             graze = 1e-13 * max(1.0, abs(a)) / abs(speed)
             assert time == pytest.approx(contact, rel=1e-10, abs=graze), where
-    assert followed > (1300 if follow == "land" else 50)
+    assert followed > flights * (0.86 if follow == "land" else 0.03)

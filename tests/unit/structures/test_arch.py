@@ -15,7 +15,14 @@ SMOOTH = itertools.product((0.108, 0.12, 0.15, 0.2, 0.28, 0.31, 0.35), (120, 135
 BLOCKS = itertools.product([0.15], [120, 157.5], [5, 7, 12, 31, 40])
 
 
-@pytest.mark.parametrize("thickness, embrace, voussoirs", [*SMOOTH, *BLOCKS, (0.2, 180, 7), (0.1, 100, None)])
+CASES = [(0.2, 180, 7), (0.1, 100, None), *SMOOTH, *BLOCKS]
+OFTEN = CASES[:2] + CASES[2::3]
+
+
+@pytest.mark.parametrize(
+    "thickness, embrace, voussoirs",
+    [pytest.param(*case, marks=() if case in OFTEN else pytest.mark.slow) for case in CASES],
+)
 def test_static_and_kinematic_multipliers_agree(thickness, embrace, voussoirs):
     ring = Ring(thickness, np.radians(embrace), voussoirs)
     static, kinematic = static_onset(ring), kinematic_onset(ring)
@@ -67,6 +74,7 @@ def test_momentum_balance_against_a_sum_over_many_small_masses():
     assert balance == pytest.approx(expected, rel=1e-3)  # midpoint rule, hinges inside cells
 
 
+@pytest.mark.slow
 def test_bounds_of_thickness_are_sharp():
     embrace = np.radians(120)
     least, most = (limiting_thickness(Ring(1.0, embrace), failure) for failure in (TooThin, NoMechanism))

@@ -44,7 +44,7 @@ def test_acceleration_is_that_of_positions_and_energy(case, sign):
     mechanism = structure.mechanism()
     oracle = lagrangian(structure, sign)
     side = mechanism.sides[0 if sign > 0 else -1]
-    for share, velocity, ground in ((0.05, 0.3, 1.7), (0.4, -0.8, -2.5), (0.9, 0.5, 0.6)):
+    for share, velocity, ground in ((0.05, 0.3, 1.7), (0.7, -0.8, -2.5)):
         rotation = share * min(side.critical_rotation, 0.4)
         # the façade's own coordinates keep x; the wall's oracle is mirrored with the side
         push = ground if lagrangian is facade_lagrangian else sign * ground
