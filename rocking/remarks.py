@@ -22,14 +22,19 @@ class Kind(StrEnum):
     sentence: str
     value_names: tuple[str, ...]
     """The values that the sentence names, in order of the alphabet."""
+    names_subject: bool
+    """Whether it also names what the remark is about."""
 
-    def __new__(cls, code: str, sentence: str) -> "Kind":
-        """Make a kind of its code, with the sentence beside it."""
+    def __new__(cls, code: str, sentence: str = "") -> "Kind":
+        """Make a kind of its code, with the sentence beside it. Raises ValueError for one without a sentence."""
+        if not sentence:
+            raise ValueError(f"remark {code} has no sentence.")
         kind = str.__new__(cls, code)
         kind._value_ = code
         kind.sentence = sentence
         named = {name for _, name, _, _ in Formatter().parse(sentence) if name}
         kind.value_names = tuple(sorted(named - {"about"}))
+        kind.names_subject = "about" in named
         return kind
 
     # fmt: off
@@ -241,6 +246,25 @@ class Kind(StrEnum):
         "The channel code {about} is that of a {sensor}, which measures velocity and clips in strong motion; an "
         "accelerometer has N in second place."
     )
+
+    # The files of a folder, each beside the others.
+    COUNTS_WITHOUT_UNIT = auto(), (
+        "Its samples are counts of the recorder where no unit is filled in: put the StationXML of the station beside "
+        "it, or name it in the column inventory."
+    )
+    VERTICAL_IN_NAME = auto(), "The file's name says {word}, but {about} is taken as horizontal."
+    CONTENT_REPEATED = auto(), "Its content is that of {original}: as two records it would count twice."
+    NOT_SQUARE = auto(), "Components {first} and {second} are {angle_deg:g}° apart, not at right angles."
+    COMPONENT_TWICE = auto(), "component {about} comes {times} times"
+    STEPS_UNLIKE = auto(), "their time steps are {least_s:g} and {most_s:g} s"
+    BEGINNINGS_UNKNOWN = auto(), "they hold {least} and {most} samples and do not all say when they begin"
+    COMPONENT_NOT_NAMED = auto(), "{about} does not name its component"
+    TOO_MANY_COMPONENTS = auto(), "it has {horizontal} horizontal and {vertical} vertical components"
+    POINT_THE_SAME_WAY = auto(), "components {first} and {second} point the same way"
+    NOT_SQUARE_BY_NAME = auto(), (
+        "components {first} and {second}, as the files' names end, are not at right angles"
+    )
+    DECLARED_BY_SOME = auto(), "not all of them declare unit and time step"
     # fmt: on
 
 
@@ -282,5 +306,6 @@ class Remark:
         return dict(self.values)[name]
 
     def __str__(self) -> str:
-        """The remark in words."""
-        return self.kind.sentence.format(about=self.about, **dict(self.values))
+        """The remark in words; what it is about stands before a sentence that does not name it."""
+        words = self.kind.sentence.format(about=self.about, **dict(self.values))
+        return f"{self.about}: {words}" if self.about and not self.kind.names_subject else words

@@ -21,8 +21,9 @@ from rocking.records.grouping import named_channel, rsn_of, stations, without_di
 from rocking.records.instrument import without_ending
 from rocking.records.joining import SQUARE, angle_between, direction_doubt, names_no_direction
 from rocking.records.listing import CELLS, ListedChannel, ListedFile, doubts_of, listed_file
-from rocking.records.read import ONLY_BY_NAME, bare_text, bytes_of, printable, recognise, unpack
+from rocking.records.read import bare_text, bytes_of, printable, recognise, unpack
 from rocking.records.readings import Readings
+from rocking.remarks import Kind, Remark
 from rocking.tables import read_start
 
 Row = dict[str, str]
@@ -158,8 +159,7 @@ def _mark_repeats(listed: Iterable[ListedFile]) -> None:
             original = originals.setdefault(file.sha256, file.file)
             file.is_repeat = original != file.file
             if file.is_repeat:
-                sentence = f"Its content is that of {original}: as two records it would count twice."
-                file.doubts += (sentence,)
+                file.doubts += (Remark.of(Kind.CONTENT_REPEATED, original=original),)
 
 
 def _rows_to_join(listed: Sequence[ListedFile]) -> Iterator[str]:
@@ -207,8 +207,8 @@ def _new_rows(listed: Sequence[ListedFile], ids: set[str]) -> list[Row]:
 
 def _why_no_row(file: ListedFile) -> str:
     """Return why a file without a horizontal component gets no row."""
-    by_name = [doubt for doubt in file.doubts if doubt.startswith(ONLY_BY_NAME)]
-    return " ".join(filter(None, (_ONLY_VERTICAL, file.separation, *by_name)))
+    by_name = [str(doubt) for doubt in file.doubts if doubt.kind is Kind.VERTICAL_BY_NAME]
+    return " ".join(filter(None, (_ONLY_VERTICAL, file.separated, *by_name)))
 
 
 def _channels(group: Sequence[ListedFile]) -> list[ListedChannel]:
@@ -252,19 +252,19 @@ def _row(group: Sequence[ListedFile], level: Sequence[ListedChannel], ids: set[s
         "station": first.station.lstrip(_FORMULA + " "),
         "sha256": ";".join(file.sha256 for file in group),
         **group[0].declarations,
-        "note": plain(" ".join([*head, *_remarks(group, level), group[0].separation])),
+        "note": plain(" ".join([*head, *map(str, _remarks(group, level)), group[0].separated])),
     }
 
 
-def _remarks(group: Sequence[ListedFile], level: Sequence[ListedChannel]) -> Iterator[str]:
+def _remarks(group: Sequence[ListedFile], level: Sequence[ListedChannel]) -> Iterator[Remark]:
     """Yield what is doubtful of the files of a row and of the directions of its components."""
     yield from dict.fromkeys(doubt for file in group for doubt in doubts_of(file))
     angle = angle_between(*level) if len(level) == 2 else None
     if angle is not None and abs(angle - 90) > SQUARE:
-        names = f"{level[0].component} and {level[1].component}"
-        yield f"Components {names} are {min(angle, 180 - angle):g}° apart, not at right angles."
+        first, second = (each.component for each in level)
+        yield Remark.of(Kind.NOT_SQUARE, first=first, second=second, angle_deg=min(angle, 180 - angle))
     if doubt := direction_doubt(level):
-        yield str(doubt)
+        yield doubt
 
 
 _LONGEST_ID = 70

@@ -12,6 +12,7 @@ from rocking.records.dates import day_of
 from rocking.records.instrument import directed, direction_in_name, without_ending
 from rocking.records.joining import SQUARE, angle_between, names_no_direction, why_apart
 from rocking.records.listing import ListedChannel, ListedFile
+from rocking.remarks import Kind, Remark
 
 _RSN = re.compile(r"(RSN\d+)_")
 """Number of a record in the databases of PEER, with which the names of its files begin."""
@@ -39,8 +40,7 @@ def stations(files: Sequence[ListedFile]) -> list[list[ListedFile]]:
                 file.direction = _direction(file)
         for file in group:
             if file.file not in taken:
-                why = _why_apart(group)
-                file.separation = f"Not joined with the other files of its station: {why}." if why else ""
+                file.separation = _why_apart(group)
                 found.append([file])
     places = {file.file: place for place, file in enumerate(files)}
     return sorted(found, key=lambda group: places[group[0].file])
@@ -150,34 +150,34 @@ def _is_square(pair: Iterable[ListedFile]) -> bool:
     return angle is not None and abs(angle - 90) <= SQUARE
 
 
-def _why_apart(group: Sequence[ListedFile]) -> str:
-    """Return why the files of one station cannot share a row, or ""."""
+def _why_apart(group: Sequence[ListedFile]) -> Remark | None:
+    """Return why the files of one station cannot share a row; None where they can."""
     if len(group) == 1:
-        return ""
+        return None
     channels = [named_channel(file) for file in group]
     by_name = [file for file in group if names_no_direction(file.channels[0].component)]
     unnamed = [file for file in by_name if not _direction(file)]
     if unnamed or len(by_name) not in (0, len(group)):
-        return f"{(unnamed or by_name)[0].file} does not name its component"
+        return Remark(Kind.COMPONENT_NOT_NAMED, (unnamed or by_name)[0].file)
     if why := why_apart(channels, [channel.samples for channel in channels]):
         return why
     level = [channel for channel in channels if not channel.vertical]
     if len(level) > 2 or len(channels) - len(level) > 1:
-        return f"it has {len(level)} horizontal and {len(channels) - len(level)} vertical components"
+        return Remark.of(Kind.TOO_MANY_COMPONENTS, horizontal=len(level), vertical=len(channels) - len(level))
     if any(each.declarations != group[0].declarations for each in group):
-        return "not all of them declare unit and time step"
+        return Remark(Kind.DECLARED_BY_SOME)
     return _why_no_pair(group, level)
 
 
-def _why_no_pair(group: Sequence[ListedFile], level: Sequence[ListedChannel]) -> str:
-    """Return why two horizontal components are no pair, or ""."""
+def _why_no_pair(group: Sequence[ListedFile], level: Sequence[ListedChannel]) -> Remark | None:
+    """Return why two horizontal components are no pair; None where they are, or are not two."""
     if len(level) != 2:
-        return ""
-    names = f"components {level[0].component} and {level[1].component}"
+        return None
+    first, second = (each.component for each in level)
     angle = angle_between(*level)
     if angle is not None and min(angle, 180 - angle) < SQUARE:
-        return f"{names} point the same way"
+        return Remark.of(Kind.POINT_THE_SAME_WAY, first=first, second=second)
     by_name = any(_direction(file) for file in group)
     if by_name and (angle is None or abs(angle - 90) > SQUARE):
-        return f"{names}, as the files' names end, are not at right angles"
-    return ""
+        return Remark.of(Kind.NOT_SQUARE_BY_NAME, first=first, second=second)
+    return None

@@ -42,20 +42,20 @@ class Component(Protocol):
     def borehole(self) -> bool: ...
 
 
-def why_apart(channels: Sequence[Component], samples: Collection[int]) -> str:
-    """Return why channels of several files, of so many samples, cannot be one station's, or ""."""
+def why_apart(channels: Sequence[Component], samples: Collection[int]) -> Remark | None:
+    """Return why channels of several files, of so many samples, cannot be one station's; None where they can."""
     names = Counter(channel.component for channel in channels if not channel.borehole)
     if twice := next((name for name, n in names.items() if n > 1), ""):
-        return f"component {twice} comes {names[twice]} times"
+        return Remark.of(Kind.COMPONENT_TWICE, twice, times=names[twice])
     steps = [channel.time_step for channel in channels]
     if max(steps) / min(steps) - 1 > SAME_STEP:
-        return f"their time steps are {min(steps):g} and {max(steps):g} s"
+        return Remark.of(Kind.STEPS_UNLIKE, least_s=min(steps), most_s=max(steps))
     have_starts = [bool(channel.start_time) for channel in channels]
     tail = max(samples) - min(samples)
     allowed = 0 if any(have_starts) else LONGEST_TAIL * max(samples)
     if tail > allowed and not all(have_starts):
-        return f"they hold {min(samples)} and {max(samples)} samples and do not all say when they begin"
-    return ""
+        return Remark.of(Kind.BEGINNINGS_UNKNOWN, least=min(samples), most=max(samples))
+    return None
 
 
 def joined(channels: Sequence[Accelerogram]) -> list[Accelerogram]:

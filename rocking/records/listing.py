@@ -4,7 +4,7 @@ import re
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,22 +13,29 @@ from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue import stays_inside
 from rocking.records.formats import Options
+from rocking.records.plausibility import OF_COUNTS
 from rocking.records.processing import process, velocity
-from rocking.records.read import ONLY_BY_NAME, printable, read_raw
+from rocking.records.read import printable, read_raw
+from rocking.remarks import Kind, Remark
 
 CELLS = {"unit": "unit", "time_step": "time_step_s"}
 """The column of a catalogue that declares what a file leaves out."""
 _STAND_INS: dict[str, Any] = {"unit": "nm/s2", "time_step": 0.01}
 """With which a file that declares none is looked at; in so small a unit no counts are beyond what ground does."""
-_OF_COUNTS = (
-    "Its samples are counts of the recorder where no unit is filled in: put the StationXML of the station beside it, "
-    "or name it in the column inventory."
-)
 _BAD_NAME = "its name holds a character that a catalogue does not allow, or a blank at its end; rename it."
 _LEADS_OUT = "it is a link that leads out of the folder; copy the file instead."
-_OF_UNIT = re.compile(r"m/s| g[ ,]")
-"""In a sentence that says nothing where the unit is a stand-in."""
-_SIDEWAYS = "The file's name says {}, but {} is taken as horizontal."
+_OF_UNIT = (
+    Kind.PEAK_IMPOSSIBLE,
+    Kind.PEAK_RARE,
+    Kind.PEAK_TINY,
+    Kind.PEAK_TINY_BY_UNIT,
+    Kind.SAMPLE_ALONE,
+    Kind.PEAK_UNLIKE_HEADER,
+    Kind.MEAN_SQUARE_UNLIKE_HEADER,
+)
+"""What says nothing where the unit is a stand-in."""
+_OF_DIRECTION = (Kind.DIRECTION_UNKNOWN, Kind.VERTICAL_BY_NAME, Kind.VERTICAL_IN_NAME)
+"""What is no longer in doubt where a row says the direction."""
 _UPWARDS = re.compile(r"(?:^|[-_. ])(UP|UD|DN|DWN|DOWN|VER|VERT|VERTICAL)(?=[-_. ]|$)", re.I)
 
 
@@ -66,13 +73,13 @@ class ListedChannel:
 class Reading:
     """The findings of reading one file, whatever else lies in its folder.
 
-    doubts: what is plausibly wrong, one sentence each. refusal: why it cannot be read, or "". missing: what it does not
-    declare, of the keys of CELLS.
+    doubts: what is plausibly wrong, about the components where not all are concerned. refusal: why it cannot be read,
+    or "". missing: what it does not declare, of the keys of CELLS.
     """
 
     sha256: str
     channels: tuple[ListedChannel, ...] = ()
-    doubts: tuple[str, ...] = ()
+    doubts: tuple[Remark, ...] = ()
     refusal: str = ""
     missing: tuple[str, ...] = ()
 
@@ -81,35 +88,32 @@ class Reading:
 class ListedFile:
     """One file of a folder as it was read, and the id of the catalogue row it stands in, "" if it cannot be used.
 
-    doubts: what is plausibly wrong, one sentence each. refusal: why it gets no row; separation: why it does not share
-    the row of other files of its station, or "". blanks: the cells that its row leaves blank and that must be filled;
-    declarations: those that hold what its header does not say. direction: of its component, where only the file's name
-    or its row says it. companions: number of other files in its row. is_repeat: whether it has the content of an
-    earlier file.
+    doubts: what is plausibly wrong. refusal: why it gets no row, or "". separation: why it does not share the row of
+    other files of its station; None where it does, or there are none. blanks: the cells that its row leaves blank and
+    that must be filled; declarations: those that hold what its header does not say. direction: of its component, where
+    only the file's name or its row says it. companions: number of other files in its row. is_repeat: whether it has the
+    content of an earlier file.
     """
 
     file: str
     sha256: str = ""
     channels: tuple[ListedChannel, ...] = ()
     refusal: str = ""
-    doubts: tuple[str, ...] = ()
+    doubts: tuple[Remark, ...] = ()
     declarations: dict[str, str] = field(default_factory=dict)
     blanks: tuple[str, ...] = ()
     direction: str = ""
-    separation: str = ""
+    separation: Remark | None = None
     record: str = ""
     companions: int = 0
     is_repeat: bool = False
 
     @property
-    def status(self) -> str:
-        """The state of the file, in one line."""
-        if self.refusal:
-            return f"not read: {self.refusal}"
-        parts = [f"to fill: {', '.join(self.blanks)}"] if self.blanks else list(self.doubts)
-        if self.companions:
-            parts.append(f"Joined with {self.companions} more as {self.record}.")
-        return " ".join(filter(None, [*parts, self.separation])) or "read"
+    def separated(self) -> str:
+        """Why it does not share the row of other files, in words; "" where it does, or there are none."""
+        return (
+            f"Not joined with the other files of its station: {self.separation}." if self.separation else ""
+        )
 
 
 def read_for_listing(raw: bytes, sha256: str, path: Path, declared: Mapping[str, Any]) -> Reading:
@@ -126,23 +130,27 @@ def read_for_listing(raw: bytes, sha256: str, path: Path, declared: Mapping[str,
             break
         except UndeclaredError as error:
             if error.field in missing:
-                return Reading(sha256, refusal=printable(str(error)))
+                return Reading(sha256, refusal=printable(error.beside(printable(path.name))))
             missing = (*missing, error.field)
             asked = asked or error
         except RecordError as error:
             # A unit that stood in for one that nobody declared is no reason to refuse: what is missing is.
             stood_in = asked is not None and not all(declared[name] for name in missing)
-            return Reading(sha256, refusal=printable(str(asked if stood_in else error)))
+            told = asked if asked is not None and stood_in else error
+            return Reading(sha256, refusal=printable(told.beside(printable(path.name))))
     is_known = all(declared[name] for name in missing)
     is_unit_known = "unit" not in missing or bool(declared["unit"])
-    doubts: dict[str, list[str]] = {}
+    doubts: dict[Remark, list[str]] = {}
     for channel in channels:
-        for sentence in map(str, channel.warnings):
-            if is_unit_known or not _OF_UNIT.search(sentence):
-                doubts.setdefault(sentence, []).append(channel.component)
-    remarks = [s if len(of) == len(channels) else f"{', '.join(of)}: {s}" for s, of in doubts.items()]
-    if not is_unit_known and "StationXML" in str(asked):
-        remarks.append(_OF_COUNTS)
+        for remark in channel.warnings:
+            if is_unit_known or remark.kind not in _OF_UNIT:
+                doubts.setdefault(remark, []).append(channel.component)
+    remarks = [
+        remark if len(of) == len(channels) or remark.about else replace(remark, about=", ".join(of))
+        for remark, of in doubts.items()
+    ]
+    if not is_unit_known and channels[0].source.format in OF_COUNTS:
+        remarks.append(Remark(Kind.COUNTS_WITHOUT_UNIT))
     listed = tuple(_without_samples(channel, is_known) for channel in channels)
     return Reading(sha256, listed, tuple(remarks), missing=missing)
 
@@ -180,7 +188,7 @@ def listed_file(reading: Reading, path: Path, folder: Path, declared: Mapping[st
     file = printable(path.relative_to(folder).as_posix())
     upwards = _UPWARDS.search(path.stem)
     sideways = [
-        _SIDEWAYS.format(upwards[1], channel.component)
+        Remark.of(Kind.VERTICAL_IN_NAME, channel.component, word=upwards[1])
         for channel in reading.channels
         if upwards and not channel.vertical
     ]
@@ -205,12 +213,9 @@ def _why_not_listed(path: Path, folder: Path) -> str:
     return ""
 
 
-def doubts_of(file: ListedFile) -> Iterator[str]:
-    """Yield the doubts about a file that hold whatever its row calls it."""
-    for sentence in file.doubts:
-        is_of_name = "is taken as horizontal" in sentence or sentence.startswith(ONLY_BY_NAME)
-        if not (file.direction and is_of_name):
-            yield sentence
+def doubts_of(file: ListedFile) -> list[Remark]:
+    """Return the doubts about a file that hold whatever its row calls it."""
+    return [each for each in file.doubts if not (file.direction and each.kind in _OF_DIRECTION)]
 
 
 _HEAD = ("file", "component", "format", "step s", "samples", "PGA g", "PGV m/s")
@@ -271,11 +276,7 @@ def _sentences(listed: Sequence[ListedFile]) -> Iterator[str]:
         ],
         "Joined:": [(record, ", ".join(files)) for record, files in joined.items()],
         "To know:": [(file.file, text) for file in read if (text := _doubts(file))],
-        "Not read:": [
-            (file.file, file.refusal.removeprefix(f"{Path(file.file).name}: "))
-            for file in listed
-            if file.refusal
-        ],
+        "Not read:": [(file.file, file.refusal) for file in listed if file.refusal],
     }
     for heading, lines in sections.items():
         if lines:
@@ -283,4 +284,4 @@ def _sentences(listed: Sequence[ListedFile]) -> Iterator[str]:
 
 
 def _doubts(file: ListedFile) -> str:
-    return " ".join(filter(None, (*doubts_of(file), file.separation)))
+    return " ".join(filter(None, (*map(str, doubts_of(file)), file.separated)))

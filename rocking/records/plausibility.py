@@ -112,7 +112,7 @@ def pass_limits(record: Accelerogram, form: str = "") -> tuple[Remark, ...]:
         f"peak acceleration is {peak:.6g} g read as {record.source.unit or 'm/s2'}, above the 5 g that no ground has "
         "reached"
     )
-    if form in _OF_COUNTS:
+    if form in OF_COUNTS:
         raise RecordError(
             f"{beyond}: the samples may be counts of the recorder; give the StationXML of the instrument (inventory=) "
             f"and no unit{f'; divided {fits} they would be plausible as acceleration' if fits else ''}."
@@ -125,7 +125,7 @@ def pass_limits(record: Accelerogram, form: str = "") -> tuple[Remark, ...]:
     )
 
 
-_OF_COUNTS = ("SAC", "miniSEED", "obspy")
+OF_COUNTS = ("SAC", "miniSEED", "obspy")
 """Kinds of file whose samples are mostly counts."""
 
 

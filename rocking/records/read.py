@@ -288,10 +288,6 @@ def _named_by_file(records: list[Accelerogram], name: str) -> list[Accelerogram]
     return [replace(record, vertical=True).warned(Remark.of(Kind.VERTICAL_BY_NAME, word=word))]
 
 
-ONLY_BY_NAME = Kind.VERTICAL_BY_NAME.sentence.partition(" (")[0]
-"""The beginning of a sentence, by which a listing, which keeps sentences, knows the remark again."""
-
-
 def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
     """Return the channels of a file, each with a component of its own and what is doubtful of it as warnings.
 

@@ -12,6 +12,7 @@ from rocking.errors import RecordError, RockingError
 from rocking.hashes import sha256_of_bytes, sha256_of_sources
 from rocking.records.listing import CELLS, ListedChannel, Reading, read_for_listing
 from rocking.records.read import bytes_of, printable
+from rocking.remarks import Kind, Remark
 from rocking.tables import read_whole, write_whole
 
 STORE = ".rocking_readings.json"
@@ -44,7 +45,7 @@ class Readings:
         try:
             raw = bytes_of(path)
         except RecordError as error:
-            return Reading("", refusal=printable(str(error)))
+            return Reading("", refusal=printable(error.beside(printable(path.name))))
         sha256 = sha256_of_bytes(raw)
         unit = declared["unit"]
         time_step = declared["time_step"]
@@ -109,15 +110,18 @@ def _reading(values: dict[str, Any]) -> Reading:
     """Return a reading from its JSON. Raises TypeError where a value is not of its type."""
     sha256 = values["sha256"]
     refusal = values["refusal"]
-    doubts = tuple(values["doubts"])
+    doubts = tuple(_remark(each) for each in values["doubts"])
     missing = tuple(values["missing"])
-    if (
-        not all(isinstance(text, str) for text in (sha256, refusal, *doubts))
-        or not set(missing) <= CELLS.keys()
-    ):
+    if not all(isinstance(text, str) for text in (sha256, refusal)) or not set(missing) <= CELLS.keys():
         raise TypeError("a text is none, or no cell of a catalogue")
     channels = tuple(_channel(channel) for channel in values["channels"])
     return Reading(sha256, channels, doubts, refusal, missing)
+
+
+def _remark(values: dict[str, Any]) -> Remark:
+    """Return a remark from its JSON. Raises ValueError where it is none of the catalogue."""
+    named = tuple((name, value) for name, value in values["values"])
+    return Remark(Kind(values["kind"]), str(values["about"]), named)
 
 
 _TYPES = {name: get_args(hint) or (hint,) for name, hint in get_type_hints(ListedChannel).items()}

@@ -47,13 +47,19 @@ def test_every_remark_that_the_package_makes_has_the_values_of_its_sentence():
     wrong = []
     for path in PACKAGE.rglob("*.py"):
         for call in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if not (isinstance(call, ast.Call) and ast.unparse(call.func) == "Remark.of" and call.args):
+            makes = ("Remark", "Remark.of")
+            if not (isinstance(call, ast.Call) and ast.unparse(call.func) in makes and call.args):
                 continue
             named = ast.unparse(call.args[0]).removeprefix("Kind.")
-            given = sorted(each.arg or "" for each in call.keywords)
+            given = sorted(each.arg or "" for each in call.keywords if each.arg != "about")
             if named in Kind.__members__ and "" not in given and given != list(Kind[named].value_names):
                 wrong.append(f"{path.name}:{call.lineno}: {named} with {given}")
     assert not wrong
+
+
+def test_what_a_remark_is_about_stands_before_a_sentence_that_does_not_name_it():
+    assert str(Remark(Kind.CONTACTS_OPEN, "pier")) == "pier: contacts open"
+    assert str(Remark(Kind.VERTICAL_AS_HORIZONTAL, "UD")).startswith("Component UD is vertical")
 
 
 @pytest.mark.parametrize(("remark", "words"), [

@@ -315,11 +315,13 @@ def test_every_file_is_listed_with_what_it_is(folder: Path) -> None:
     assert listed["bare.txt"].record == "bare" and listed["bare.txt"].blanks == ("unit", "time_step_s")
     notes = {row["id"]: row["note"] for row in list_folder(folder)[1]}
     assert notes["bare"] == "columns of numbers. Fill in unit and time_step_s."
-    assert "HHN" in listed["loud.csv"].status and "above 3 g" in listed["loud.csv"].status
-    assert not listed["table.csv"].doubts
-    assert listed["mixed.csv"].status.startswith("EW: The peak acceleration is 4 g, above 3 g")
-    assert "Only the name of the file says that the motion is vertical (UP)" in listed["quake-UP.csv"].status
-    assert listed["tale.txt"].status.startswith("not read: tale.txt: no reader recognises")
+    kinds = {name: [each.kind for each in file.doubts] for name, file in listed.items()}
+    assert {Kind.CHANNEL_OF_VELOCITY, Kind.PEAK_RARE} <= set(kinds["loud.csv"])
+    assert not kinds["table.csv"]
+    (rare,) = (each for each in listed["mixed.csv"].doubts if each.kind is Kind.PEAK_RARE)
+    assert rare.about == "EW" and rare["peak_g"] == pytest.approx(4.0)
+    assert Remark.of(Kind.VERTICAL_BY_NAME, word="UP") in listed["quake-UP.csv"].doubts
+    assert listed["tale.txt"].refusal.startswith("no reader recognises")
 
 
 def test_the_table_of_a_folder_never_wraps_and_refusals_stand_below_it(folder: Path) -> None:
@@ -341,7 +343,7 @@ def test_a_file_under_two_names_is_told_where_it_comes_again(folder: Path) -> No
     named(folder, "again.csv")
     listed, rows = list_folder(folder)
     assert [file.file for file in listed if file.doubts] == ["table.csv"]
-    assert "Its content is that of again.csv" in listed[1].status
+    assert listed[1].doubts == (Remark.of(Kind.CONTENT_REPEATED, original="again.csv"),)
     assert ["again.csv" in row["note"] for row in rows] == [False, True]
 
 

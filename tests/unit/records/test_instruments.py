@@ -105,7 +105,7 @@ def test_a_folder_of_counts_hears_that_its_stationxml_is_missing(miniseed: Path)
     files = list_folder(miniseed.parent)[0]
     assert len(files) == 2  # miniSEED and SAC
     for file in files:
-        assert any("put the StationXML of the station beside it" in sentence for sentence in file.doubts)
+        assert Remark(Kind.COUNTS_WITHOUT_UNIT) in file.doubts
     (miniseed.parent / "station.xml").write_text(XML.format(units="M/S**2"))
     assert [file.doubts for file in list_folder(miniseed.parent)[0]][:2] == [(), ()]
 

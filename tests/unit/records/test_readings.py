@@ -1,5 +1,6 @@
 """The catalogue of a folder, made again: what was read is kept by content, renamed files are known, cells are typed."""
 
+import hashlib
 import json
 import os
 from collections.abc import Callable
@@ -10,7 +11,9 @@ import pytest
 
 from rocking.records import listing, load_catalogue
 from rocking.records.catalogue import catalogue_text, read_rows
+from rocking.records.folder import catalogue_of_folder
 from rocking.records.readings import STORE
+from rocking.remarks import Kind
 from rocking.study.workspace import write_catalogue
 
 ROWS = "".join(f"{i / 100},{i % 5},{i % 7}\n" for i in range(400))
@@ -54,6 +57,17 @@ def test_a_file_is_read_once_for_its_content(folder: Path, reads: list[str]) -> 
     assert reads == ["r1.csv"]
 
 
+def test_what_is_doubtful_of_a_file_is_kept_with_its_values(folder: Path, reads: list[str]) -> None:
+    (folder / "loud.csv").write_text(
+        "time,NS (g),EW (g)\n" + "".join(f"{i / 100},{4 * (i % 2)},{i % 3}\n" for i in range(99))
+    )
+    first, second = (catalogue_of_folder(folder, keeps_readings=True).files for _ in range(2))
+    assert len(reads) == 4
+    assert [file.doubts for file in second] == [file.doubts for file in first]
+    (rare,) = (each for file in second for each in file.doubts if each.kind is Kind.PEAK_RARE)
+    assert rare.about == "NS" and rare["peak_g"] == pytest.approx(4.0)
+
+
 def _cut(text: str) -> str:
     return text[:-30]
 
@@ -70,8 +84,18 @@ def _of_other_types(text: str) -> str:
     """The checksum is right, but a number is a text."""
     store = json.loads(text)
     store["readings"] = store["readings"].replace('"samples": 400', '"samples": "400"')
-    import hashlib
+    return _sealed(store)
 
+
+def _of_unknown_remarks(text: str) -> str:
+    """The checksum is right, but the catalogue of remarks holds no such kind."""
+    store = json.loads(text)
+    strange = '"doubts": [{"about": "", "kind": "strange", "values": []}]'
+    store["readings"] = store["readings"].replace('"doubts": []', strange)
+    return _sealed(store)
+
+
+def _sealed(store: dict[str, Any]) -> str:
     return json.dumps(store | {"sha256": hashlib.sha256(store["readings"].encode()).hexdigest()})
 
 
@@ -83,7 +107,10 @@ def _pickle(_: str) -> str:
     return "cos\nsystem\n(S'true'\ntR."
 
 
-@pytest.mark.parametrize("damage", [_cut, _of_another_version, _edited, _of_other_types, _foreign, _pickle])
+@pytest.mark.parametrize(
+    "damage",
+    [_cut, _of_another_version, _edited, _of_other_types, _of_unknown_remarks, _foreign, _pickle],
+)
 def test_a_store_that_is_not_ours_is_ignored_with_a_line(
     folder: Path, reads: list[str], damage: Callable[[str], str]
 ) -> None:

@@ -11,7 +11,7 @@ from rocking.errors import RecordError
 from rocking.records import Accelerogram, CatalogueRecord, aligned, open_station
 from rocking.records.folder import catalogue_of_folder, list_folder, unlisted
 from rocking.records.listing import doubts_of
-from rocking.remarks import Kind
+from rocking.remarks import Kind, Remark
 
 VALUES = np.sin(np.arange(300) * 0.3)
 
@@ -91,7 +91,7 @@ def test_a_direction_that_the_row_says_is_in_doubt_no_more(tmp_path):
     assert row["component"] == "000;090"
     again = catalogue_of_folder(tmp_path, standing=[row])
     for listing in (first, again):
-        assert [list(doubts_of(file)) for file in listing.files] == [[], []]
+        assert [doubts_of(file) for file in listing.files] == [[], []]
     opened = open_station(_record(tmp_path, row["file"], component=row["component"]))
     assert [channel.azimuth for channel in opened.horizontal] == [0.0, 90.0]
     assert [channel.warnings for channel in opened.horizontal] == [(), ()]
@@ -104,10 +104,11 @@ def test_a_folder_joins_the_files_of_a_station_and_says_why_not(station):
     (station / "event.asc").write_text(text.replace("EVENT_NAME: E", "EVENT_NAME: F"))
     listed, rows = list_folder(station)
     assert [row["file"] for row in rows] == ["e.asc;n.asc;z.asc", "event.asc", "later.asc", "other.asc"]
-    assert "Joined with 2 more" in listed[0].status
+    assert listed[0].companions == 2
     _written(station, "again.asc", "HNN", -VALUES, "10.00")
     files = {file.file: file for file in list_folder(station)[0]}
-    assert "component HNN comes 2 times" in files["e.asc"].status and not files["e.asc"].companions
+    assert files["e.asc"].separation == Remark.of(Kind.COMPONENT_TWICE, "HNN", times=2)
+    assert not files["e.asc"].companions
 
 
 def test_records_beside_the_catalogue_that_it_does_not_name_are_told(station):
