@@ -90,8 +90,10 @@ def _of_other_types(text: str) -> str:
 def _of_unknown_remarks(text: str) -> str:
     """The checksum is right, but the catalogue of remarks holds no such kind."""
     store = json.loads(text)
-    strange = '"doubts": [{"about": "", "kind": "strange", "values": []}]'
-    store["readings"] = store["readings"].replace('"doubts": []', strange)
+    readings = json.loads(store["readings"])
+    for reading in readings.values():
+        reading["doubts"] = [{"kind": "strange", "about": "", "values": []}]
+    store["readings"] = json.dumps(readings)
     return _sealed(store)
 
 
