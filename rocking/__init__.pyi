@@ -3,13 +3,13 @@ from .assessment.assess import assess as assess
 from .assessment.reserve import Reserve as Reserve
 from .assessment.trade import trade as trade
 from .assessment.verdict import Verdict as Verdict
+from .codes.check import Check as Check
+from .codes.check import DynamicCheck as DynamicCheck
+from .codes.check import StructureCheck as StructureCheck
 from .codes.design_spectrum import DesignSpectrum as DesignSpectrum
-from .codes.dynamic_check import DynamicCheck as DynamicCheck
-from .codes.dynamic_check import StructureCheck as StructureCheck
 from .codes.dynamic_check import check as check
 from .codes.selection import Selection as Selection
 from .codes.selection import select as select
-from .codes.static_check import Check as Check
 from .contacts.dynamics import StackResponse as StackResponse
 from .contacts.dynamics import follow_stack as follow_stack
 from .errors import CatalogueError as CatalogueError

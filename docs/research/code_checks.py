@@ -21,7 +21,7 @@ from rocking import (
     response_spectrum,
     select,
 )
-from rocking.codes.dynamic_check import LEAST_SHARE
+from rocking.codes.check import LEAST_SHARE, CodeTerms
 from rocking.codes.selection import SETS, Selection
 from rocking.codes.static_check import kinematic_check
 from rocking.errors import ConfigurationError, RockingError
@@ -92,7 +92,7 @@ def code_check(target: Target) -> None:
         target.tell(f"{component.identifier}: {int(falls[-1].sum())} of {len(bodies)} overturn")
     fallen = np.array(falls)  # (records, walls)
     checks = {
-        factor: [kinematic_check(each, SPECTRUM, confidence_factor=factor) for each in bodies]
+        factor: [kinematic_check(each, SPECTRUM, CodeTerms(confidence_factor=factor)) for each in bodies]
         for factor in CONFIDENCE
     }
     ratios_of = {

@@ -8,21 +8,24 @@ nearly all sets that were drawn say so.
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 
+from rocking.codes.check import (
+    BEHAVIOUR_FACTOR,
+    CONFIDENCE_FACTOR,
+    LEAST_SHARE,
+    RISK,
+    CodeTerms,
+    DynamicCheck,
+    StructureCheck,
+)
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.local_mechanism import LIMIT_STATES, LimitState, LocalMechanism
 from rocking.codes.selection import SETS, Selection
-from rocking.codes.static_check import (
-    BEHAVIOUR_FACTOR,
-    CONFIDENCE_FACTOR,
-    Check,
-    CodeCheck,
-    kinematic_check,
-)
+from rocking.codes.static_check import kinematic_check
 from rocking.errors import ConfigurationError
 from rocking.floors.support import Support
 from rocking.quantities import counted, kind_of
@@ -30,99 +33,8 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.structures import Mechanism, Side, Structure
 from rocking.structures.mechanism import SideTie
 
-LEAST_SHARE = 0.95
-"""Share of SETS sets or more that must meet the check for it to be called met."""
-
-CONFIRMED = (
-    "Of 96 checks of cantilevers that real records of 25 stations called met, those of 25 other stations confirmed 72; "
-    "in the other 24 one station let the cantilever fall."
-)
-"""The finding of the target code_sets of docs/research on what a check that is met is worth."""
-
-_RISK = 0.05
-"""Risk of the bound on the share of stations that nobody saw and that let a structure fall."""
-
 BOOTSTRAPS = 50
 INTERVAL = 0.05, 0.95
-
-
-@dataclass(frozen=True, kw_only=True)
-class DynamicCheck(Check):
-    """The dynamic check under the chosen set, and what the other sets say.
-
-    capacity, demand: d of the limit state and the mean of the largest displacements, m; inf where one overturns.
-    exceeding: motions of the chosen set under which d_0 is exceeded. motions: how many it has. stations: of the pool
-    from which sets are drawn. sets: how many were drawn; share: of them that meet the check, with its 90 % interval for
-    sets of other stations, (2,).
-
-    >>> (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
-    >>> spectrum = rocking.DesignSpectrum.ntc(ag=0.5, f0=2.5, tc_star=0.4)
-    >>> records = rocking.select({"one": [record]}, spectrum, 1, below=0.9, above=9.0)
-    >>> rocking.check(rocking.Block.of_size(breadth=2.0, height=2.0), spectrum, records=records).dynamic.exceeding
-    0
-    """
-
-    exceeding: int
-    motions: int
-    stations: int
-    sets: int
-    share: float
-    interval: tuple[float, float]
-
-    @property
-    def met_by_the_set(self) -> bool:
-        """Whether the chosen set meets it, whatever others say."""
-        return not self.exceeding and self.demand <= self.capacity
-
-    @property
-    def sets_agree(self) -> bool:
-        """Whether nearly all sets that were drawn meet it, however few they are."""
-        return self.share >= LEAST_SHARE
-
-    @property
-    def outcome(self) -> str:
-        """Its verdict in words: met, not met, or by the chosen set only, for which it is not called met."""
-        if self.met_by_the_set and not self.passed:
-            return "not called met"
-        return super().outcome
-
-    @property
-    def sentence(self) -> str:
-        """The share of the sets that meet it, with its interval and the cases that are undecided."""
-        low, high = self.interval
-        return (
-            f"of {self.sets} sets drawn {100 * self.share:.0f} % meet it ({100 * low:.0f} to {100 * high:.0f} % "
-            "for sets of other stations)"
-        )
-
-    @property
-    def caution(self) -> str:
-        """The sentence that belongs beside a check that is met: how far the stations of the pool speak for others."""
-        if not self.passed:
-            return ""
-        unseen = 1 - _RISK ** (1 / self.stations)
-        return (
-            f"That the check is met is no proof for other stations than the {self.stations} of the pool: even if none "
-            f"of these lets it fall, up to {100 * unseen:.0f} % of all stations may, and of sets of other stations as "
-            f"few as {100 * self.interval[0]:.0f} % may meet the check. {CONFIRMED}"
-        )
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class StructureCheck(CodeCheck):
-    """The three checks of one structure. dynamic: None without records, and for SLD.
-
-    >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
-    >>> len(rocking.check(rocking.Block.of_size(breadth=0.6, height=2.0), spectrum).checks)
-    2
-    """
-
-    dynamic: DynamicCheck | None = field(default=None)
-
-    @property
-    def checks(self) -> tuple[Check, ...]:
-        """Those that the limit state has."""
-        return (*super().checks, *((self.dynamic,) if self.dynamic else ()))
 
 
 # Whole on purpose: half of it are the arguments of a public name and what it hands on.
@@ -153,16 +65,13 @@ def check(
     >>> checks.linear.passed, checks.nonlinear.passed
     (True, True)
     """
-    for name, value, allowed, words in (
+    for name, value, kind, words in (
         ("spectrum", spectrum, DesignSpectrum, "a DesignSpectrum, as rocking.DesignSpectrum.ntc gives it"),
-        ("support", support, Support | None, "a Support or None"),
         ("records", records, Selection | None, "sets of records, as rocking.select gives them, or None"),
     ):
-        if not isinstance(value, allowed):
+        if not isinstance(value, kind):
             raise ConfigurationError(f"{name} is {kind_of(value)}, but must be {words}.")
-    by_formula = kinematic_check(
-        structure,
-        spectrum,
+    terms = CodeTerms(
         limit_state=limit_state,
         confidence_factor=confidence_factor,
         support=support,
@@ -170,22 +79,13 @@ def check(
         elastic_period=elastic_period,
         support_loss=support_loss,
     )
-    dynamic = None
-    if records is not None and by_formula.nonlinear is not None:
-        dynamic = _dynamic_check(by_formula, records, support)
-    return StructureCheck(
-        limit_state=by_formula.limit_state,
-        linear=by_formula.linear,
-        nonlinear=by_formula.nonlinear,
-        damage_level=by_formula.damage_level,
-        mechanisms=by_formula.mechanisms,
-        governing=by_formula.governing,
-        remark=by_formula.remark,
-        dynamic=dynamic,
-    )
+    checked = kinematic_check(structure, spectrum, terms)
+    if records is None or checked.nonlinear is None:
+        return checked
+    return replace(checked, dynamic=_dynamic_check(checked, records, support))
 
 
-def _dynamic_check(by_formula: CodeCheck, records: Selection, support: Support | None) -> DynamicCheck:
+def _dynamic_check(by_formula: StructureCheck, records: Selection, support: Support | None) -> DynamicCheck:
     state = LIMIT_STATES[by_formula.limit_state]
     together = [_Body.of(sides, state) for sides in _sides_together(by_formula.mechanisms)]
     bodies = [each for each in together if any(map(math.isfinite, each.limits))]
@@ -264,7 +164,7 @@ def _interval(use: np.ndarray, falls: np.ndarray, records: Selection, share: flo
     low, high = share + math.sqrt(2) * (np.quantile(shares, INTERVAL) - share)
     if not falls.any():
         stations = len(set(records.stations))
-        low = min(low, share * _RISK ** (records.chosen.size / stations))
+        low = min(low, share * RISK ** (records.chosen.size / stations))
     return float(np.clip(low, 0, share)), float(np.clip(high, share, 1))
 
 

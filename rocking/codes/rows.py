@@ -5,9 +5,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from rocking.assessment.rows import Placed, PlacedRow
-from rocking.codes.dynamic_check import DynamicCheck, StructureCheck
+from rocking.codes.check import Check, DynamicCheck, StructureCheck
 from rocking.codes.local_mechanism import LimitPoint, LocalMechanism
-from rocking.codes.static_check import Check
 from rocking.quantities import counted
 from rocking.tables import Columns, row
 

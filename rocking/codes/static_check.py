@@ -7,79 +7,21 @@ that push without resting on the chain are not implemented, nor are other codes.
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 
+from rocking.codes.check import Check, CodeTerms, StructureCheck
 from rocking.codes.crossings import Crossings
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.floor_demand import FloorDemand
-from rocking.codes.local_mechanism import LIMIT_STATES, LimitPoint, LimitState, LocalMechanism
+from rocking.codes.local_mechanism import LIMIT_STATES, LimitState, LocalMechanism
 from rocking.errors import ConfigurationError, StructureError
-from rocking.floors.support import Support
-from rocking.quantities import GRAVITY, finite, kind_of, positive
+from rocking.quantities import GRAVITY, kind_of, positive
 from rocking.structures import Structure
-
-CONFIDENCE_FACTOR = 1.35
-"""The factor of the level of knowledge LC1, which C8.7.1.2.1 asks for unless crushing enters α; here it does not."""
-
-BEHAVIOUR_FACTOR = 2.0
-"""q of the linear check where no better one is known (C8.7.1.2.1.7)."""
-
-_LARGE_RATIO = 100.0
-"""A ratio beyond which a reader learns nothing from its digits."""
 
 _SAME = 1e-9
 """Relative difference below which two levels are one but for rounding: the mechanism that is named first decides."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Check:
-    """One check of one limit state, with the mechanism that decides it.
-
-    capacity, demand: a_g on rock [m/s²] at which the limit state is reached and that of the spectrum, or displacements
-    [m], as `unit` says. mechanism: what opens, and to which side it falls. refusal: why it is not called met, where
-    that is not in the numbers.
-
-    >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
-    >>> rocking.check(rocking.Block.of_size(breadth=0.6, height=2.0), spectrum).linear.clause
-    'C8.7.1.2.1.7'
-    """
-
-    clause: str
-    limit_state: str
-    capacity: float
-    demand: float
-    mechanism: str
-    unit: str = "m/s²"
-    refusal: str = ""
-
-    @property
-    def ratio(self) -> float:
-        """Capacity over demand; 1 or more where it is met."""
-        return self.capacity / self.demand if self.demand else math.inf
-
-    @property
-    def passed(self) -> bool:
-        """Whether the check is met."""
-        return not self.refusal and self.capacity >= self.demand
-
-    @property
-    def ratio_in_words(self) -> str:
-        """The ratio to three digits; that of a structure that hardly moves says no more than that it is large."""
-        return f"{self.ratio:#.3g}" if self.ratio <= _LARGE_RATIO else f"> {_LARGE_RATIO:g}"
-
-    @property
-    def outcome(self) -> str:
-        """Its verdict in a word or two: met, or not met."""
-        return "met" if self.passed else "not met"
-
-    def __str__(self) -> str:
-        return (
-            f"{self.clause}, {self.limit_state}: capacity {self.capacity:.4g} {self.unit}, demand "
-            f"{self.demand:.4g} {self.unit}, ratio {self.ratio:.3g}, {self.refusal or self.outcome} "
-            f"({self.mechanism})"
-        )
 
 
 def elastic_period(
@@ -112,66 +54,26 @@ def elastic_period(
     return factor * slenderness * length * math.sqrt(unit_weight / (elastic_modulus * GRAVITY))
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class CodeCheck:
-    """The kinematic checks of one structure at one limit state.
-
-    linear: None for SLC, of which the code has none. nonlinear: None for SLD, and where nothing can overturn, which
-    `remark` then says. mechanisms: all that were checked. damage_level: the least a_g [m/s²] at which a mechanism
-    starts, that of SLD.
-    """
-
-    limit_state: str
-    linear: Check | None
-    nonlinear: Check | None
-    damage_level: float
-    mechanisms: tuple[LocalMechanism, ...] = field(repr=False)
-    governing: LocalMechanism = field(repr=False)
-    remark: str = ""
-
-    @property
-    def checks(self) -> tuple[Check, ...]:
-        """Those that the limit state has."""
-        return tuple(each for each in (self.linear, self.nonlinear) if each)
-
-    @property
-    def limit(self) -> LimitPoint | None:
-        """The place of the limit state on the curve of the mechanism that governs; None for SLD."""
-        state = LIMIT_STATES.get(self.limit_state)
-        return self.governing.limit(state) if state else None
-
-
 def kinematic_check(
-    structure: Structure,
-    spectrum: DesignSpectrum,
-    *,
-    limit_state: str = "SLV",
-    confidence_factor: float = CONFIDENCE_FACTOR,
-    support: Support | None = None,
-    behaviour_factor: float = BEHAVIOUR_FACTOR,
-    elastic_period: float = 0.0,
-    support_loss: float = math.inf,
-) -> CodeCheck:
+    structure: Structure, spectrum: DesignSpectrum, terms: CodeTerms | None = None
+) -> StructureCheck:
     """Return the linear and the nonlinear check of `structure`; see `check`."""
-    _check_limit_state(limit_state)
-    behaviour = _at_least_one("behaviour_factor", behaviour_factor)
-    mechanisms = _local_mechanisms(structure, confidence_factor, elastic_period, support_loss)
-    floor = FloorDemand(spectrum, support)
+    terms = terms or CodeTerms()
+    mechanisms = _local_mechanisms(structure, terms)
+    floor = FloorDemand(spectrum, terms.support)
     starts = _starts(mechanisms, floor)
     first = _lowest(starts.capacities)  # all feel the same motion as they start
-    made = CodeCheck(
-        limit_state=limit_state,
-        linear=None,
-        nonlinear=None,
+    made = StructureCheck(
+        limit_state=terms.limit_state,
         damage_level=float(starts.levels(np.array([first]))[0]),
         mechanisms=mechanisms,
         governing=mechanisms[first],
     )
-    if limit_state == "SLD":
+    if terms.limit_state == "SLD":
         return replace(made, linear=_onset_check(made, spectrum))
-    if limit_state == "SLV":
-        made = replace(made, linear=_linear_check(made, spectrum, behaviour))
-    collapses = _collapses(mechanisms, floor, LIMIT_STATES[limit_state])
+    if terms.limit_state == "SLV":
+        made = replace(made, linear=_linear_check(made, spectrum, terms.behaviour_factor))
+    collapses = _collapses(mechanisms, floor, LIMIT_STATES[terms.limit_state])
     weakest, level = _weakest(starts, collapses)
     if math.isinf(level):
         return replace(made, remark=_not_made(mechanisms[first]))
@@ -179,23 +81,23 @@ def kinematic_check(
     return replace(made, nonlinear=_nonlinear_check(made, spectrum, level))
 
 
-def _onset_check(made: CodeCheck, spectrum: DesignSpectrum) -> Check:
+def _onset_check(made: StructureCheck, spectrum: DesignSpectrum) -> Check:
     """The check of SLD."""
     clause = "C8.7.1.9" if made.governing.elastic_period else "C8.7.1.8"
     return _level_check(made, spectrum, clause, made.damage_level)
 
 
-def _linear_check(made: CodeCheck, spectrum: DesignSpectrum, behaviour: float) -> Check:
+def _linear_check(made: StructureCheck, spectrum: DesignSpectrum, behaviour: float) -> Check:
     """The linear check of SLV, of the mechanism that starts first: a_g,SLV = q a_g,SLD."""
     return _level_check(made, spectrum, "C8.7.1.2.1.7", behaviour * made.damage_level)
 
 
-def _nonlinear_check(made: CodeCheck, spectrum: DesignSpectrum, level: float) -> Check:
+def _nonlinear_check(made: StructureCheck, spectrum: DesignSpectrum, level: float) -> Check:
     """The nonlinear check, of the mechanism that governs."""
     return _level_check(made, spectrum, "C8.7.1.2.1.8", level)
 
 
-def _level_check(made: CodeCheck, spectrum: DesignSpectrum, clause: str, capacity: float) -> Check:
+def _level_check(made: StructureCheck, spectrum: DesignSpectrum, clause: str, capacity: float) -> Check:
     """The check that holds the a_g `capacity` [m/s²] against that of the spectrum."""
     return Check(
         clause=clause,
@@ -214,39 +116,17 @@ def _not_made(mechanism: LocalMechanism) -> str:
     )
 
 
-def _check_limit_state(name: str) -> None:
-    """Refuse another limit state than those of the code."""
-    if name not in ("SLD", *LIMIT_STATES):
-        raise ConfigurationError(
-            f"limit_state is {name!r}, but must be one of SLD, {', '.join(LIMIT_STATES)}."
-        )
-
-
-def _at_least_one(name: str, value: float) -> float:
-    number = finite(ConfigurationError, name, value)
-    if number < 1:
-        raise ConfigurationError(f"{name} is {value!r}, but must be 1 or more.")
-    return number
-
-
-def _local_mechanisms(
-    structure: Structure, confidence_factor: float, elastic_period: float, support_loss: float
-) -> tuple[LocalMechanism, ...]:
+def _local_mechanisms(structure: Structure, terms: CodeTerms) -> tuple[LocalMechanism, ...]:
     """The mechanisms of the structure that may open, with the values of the check in them."""
-    confidence = _at_least_one("confidence_factor", confidence_factor)
-    if finite(ConfigurationError, "elastic_period", elastic_period, "s") < 0:
-        raise ConfigurationError(f"elastic_period is {elastic_period!r} s, but must be 0 or more.")
-    if support_loss != math.inf:
-        support_loss = positive(ConfigurationError, "support_loss", support_loss, "m")
     return tuple(
         LocalMechanism(
             description=words,
             body=body,
             sign=sign,
             static=body.static_capacity(sign),
-            confidence_factor=confidence,
-            elastic_period=elastic_period,
-            support_loss=support_loss,
+            confidence_factor=float(terms.confidence_factor),
+            elastic_period=terms.elastic_period,
+            support_loss=terms.support_loss,
             one_sided=structure.one_sided,
         )
         for words, sign, body in _opening(structure)

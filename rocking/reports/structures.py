@@ -11,12 +11,11 @@ from matplotlib.figure import Figure
 
 from rocking.assessment.over_periods import placed
 from rocking.assessment.reserve import Reserve
+from rocking.codes.check import Check, StructureCheck
 from rocking.codes.design_spectrum import DesignSpectrum
-from rocking.codes.dynamic_check import StructureCheck
 from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
 from rocking.codes.rows import KINDS, disagreement
 from rocking.codes.selection import Selection
-from rocking.codes.static_check import Check
 from rocking.floors.place import GROUND, Place
 from rocking.floors.support import Support
 from rocking.quantities import counted, percent

@@ -7,8 +7,9 @@ from pathlib import Path
 from rocking.assessment.over_periods import placed
 from rocking.assessment.rows import RecordRow, VerdictRow
 from rocking.assessment.scene import Scene
+from rocking.codes.check import StructureCheck
 from rocking.codes.design_spectrum import DesignSpectrum
-from rocking.codes.dynamic_check import StructureCheck, check
+from rocking.codes.dynamic_check import check
 from rocking.codes.rows import KINDS, CodeCheckRow, code_check_rows
 from rocking.codes.selection import Selection
 from rocking.errors import ConfigurationError, RockingError

@@ -5,6 +5,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from rocking import Block, DesignSpectrum, Facade, LoadedWall, Mode, Spire, Support, Wall
+from rocking.codes.check import CodeTerms
 from rocking.codes.static_check import kinematic_check
 
 G = 9.80665
@@ -60,9 +61,9 @@ def test_no_check_of_collapse_is_reached_before_damage(
 ):
     """a_g,SLV ≥ a_g,SLD: the linear one is q times it, and the nonlinear one is never below it."""
     shared = {"support": support, "elastic_period": period, "confidence_factor": confidence}
-    damage = kinematic_check(structure, spectrum, limit_state="SLD", **shared)
-    safety = kinematic_check(structure, spectrum, behaviour_factor=behaviour, **shared)
-    collapse = kinematic_check(structure, spectrum, limit_state="SLC", **shared)
+    damage = kinematic_check(structure, spectrum, CodeTerms(limit_state="SLD", **shared))
+    safety = kinematic_check(structure, spectrum, CodeTerms(behaviour_factor=behaviour, **shared))
+    collapse = kinematic_check(structure, spectrum, CodeTerms(limit_state="SLC", **shared))
     level = damage.linear.capacity
     assert safety.linear.capacity == pytest.approx(behaviour * level, rel=ROUNDING)
     assert safety.linear.capacity >= level * (1 - ROUNDING)
@@ -73,8 +74,8 @@ def test_no_check_of_collapse_is_reached_before_damage(
 @UNCHECKED
 @given(STRUCTURES, SPECTRA, st.floats(1.01, 1.5))
 def test_more_confidence_never_makes_a_capacity_smaller(structure, spectrum, factor):
-    cautious = kinematic_check(structure, spectrum, confidence_factor=factor)
-    sure = kinematic_check(structure, spectrum, confidence_factor=1.0)
+    cautious = kinematic_check(structure, spectrum, CodeTerms(confidence_factor=factor))
+    sure = kinematic_check(structure, spectrum, CodeTerms(confidence_factor=1.0))
     assert sure.linear.capacity >= cautious.linear.capacity
     assert sure.nonlinear.capacity >= cautious.nonlinear.capacity * (1 - ROUNDING)
 

@@ -69,11 +69,12 @@ def test_a_block_under_the_set_as_its_integrations_say(records):
 
 def test_the_confidence_factor_weakens_what_restores(records):
     """The mechanism of a block with FC is the block whose gravity is g/FC: λ and p² fall by FC, φ_cr stays."""
+    from rocking.codes.check import CodeTerms
     from rocking.codes.dynamic_check import with_confidence
     from rocking.codes.static_check import kinematic_check
 
     block = Block.of_size(0.45, 3.0)
-    weak = with_confidence(kinematic_check(block, SPECTRUM, confidence_factor=1.35).mechanisms)
+    weak = with_confidence(kinematic_check(block, SPECTRUM, CodeTerms(confidence_factor=1.35)).mechanisms)
     assert isinstance(weak, Mechanism)
     own = block.mechanism()
     assert weak.uplift_multiplier == pytest.approx(own.uplift_multiplier / 1.35, rel=1e-12)
@@ -85,6 +86,7 @@ def test_the_confidence_factor_weakens_what_restores(records):
 @pytest.mark.parametrize("elongation", [0.0, 0.05, 9.0], ids=["brittle", "breaks late", "yields without end"])
 def test_the_confidence_factor_divides_weight_and_ties_alike(elongation):
     """I φ'' = −(G g + T)/F − B ü_g − J φ'² is the motion of the structure itself, √F times as slow, under F ü_g."""
+    from rocking.codes.check import CodeTerms
     from rocking.codes.dynamic_check import with_confidence
     from rocking.codes.static_check import kinematic_check
 
@@ -93,7 +95,9 @@ def test_the_confidence_factor_divides_weight_and_ties_alike(elongation):
         tie_strength=6e3, tie_plastic_elongation=elongation, restitution=0.6, one_sided=True,
     )  # fmt: skip
     factor, step = 1.35, 0.01
-    weak = with_confidence(kinematic_check(facade, SPECTRUM, confidence_factor=factor).mechanisms[:1])
+    weak = with_confidence(
+        kinematic_check(facade, SPECTRUM, CodeTerms(confidence_factor=factor)).mechanisms[:1]
+    )
     ground = -2.6 * np.sin(np.arange(130) * step * 5.0)
     slow = integrate(weak, Accelerogram(ground, step), 1e-11)
     own = integrate(facade.mechanism(), Accelerogram(factor * ground, step / factor**0.5), 1e-11)

@@ -14,6 +14,7 @@ from scipy.optimize import brentq
 
 import rocking
 from rocking import Arch, Block, DesignSpectrum, Facade, LoadedWall, Mode, Spire, Support
+from rocking.codes.check import CodeTerms
 from rocking.codes.static_check import elastic_period, kinematic_check
 from rocking.errors import ConfigurationError, RecordError, StructureError
 
@@ -83,7 +84,9 @@ def test_a_parapet_by_hand():
     assert check.nonlinear.capacity == pytest.approx(by_hand.nonlinear(slenderness), rel=BY_HAND)
     assert check.linear.demand == LEVEL
     assert check.linear.ratio == pytest.approx(by_hand.linear() / LEVEL, rel=BY_HAND)
-    collapse = kinematic_check(Block.of_size(0.3, 1.6), SPECTRUM, limit_state="SLC", confidence_factor=1.0)
+    collapse = kinematic_check(
+        Block.of_size(0.3, 1.6), SPECTRUM, CodeTerms(limit_state="SLC", confidence_factor=1.0)
+    )
     expected = by_hand.nonlinear(slenderness, 0.6, 1.56, 0.10, 1.0)
     assert collapse.nonlinear.capacity == pytest.approx(expected, rel=BY_HAND)
     assert collapse.linear is None
@@ -95,7 +98,7 @@ def test_a_parapet_that_is_free_to_vibrate_by_hand():
     for modulus in (1e9, 1e7):
         period = 6.2 * (1.6 / 0.3) * 1.6 * math.sqrt(18e3 / (modulus * G))
         assert elastic_period(1.6, 0.3, 18e3, modulus) == pytest.approx(period, rel=BY_HAND)
-        check = kinematic_check(Block.of_size(0.3, 1.6), SPECTRUM, elastic_period=period)
+        check = kinematic_check(Block.of_size(0.3, 1.6), SPECTRUM, CodeTerms(elastic_period=period))
         onset = by_hand.alpha(0.0) * G / 1.35
         amplified = (
             F0 * (min(1.0, period / (TC / 3)) + max(0.0, 1 - period / (TC / 3)) / F0) * min(1, TC / period)
@@ -340,7 +343,7 @@ def test_at_a_height_by_hand():
     """One mode of .4 s and 5 %, γψ = 1.2 · .8, and T_SLV above 1.1 T_1; ξ_k is a ratio in p and in per cent in a_Z."""
     slenderness, by_hand = parapet(2.4, 0.3)
     support = Support((Mode(period=0.4, damping_ratio=0.05, participation=-0.96),))
-    check = kinematic_check(Block.of_size(0.3, 2.4), SPECTRUM, support=support)
+    check = kinematic_check(Block.of_size(0.3, 2.4), SPECTRUM, CodeTerms(support=support))
     per_level = F0 * (0.35 / 0.4) * 0.96 * math.sqrt(1 + 0.0004 * 25)
     onset = by_hand.alpha(0.0) * G / 1.35
     assert check.damage_level == pytest.approx(onset / per_level, rel=BY_HAND)
@@ -362,8 +365,8 @@ def test_at_a_height_by_hand():
 
 
 def test_a_support_that_is_lost_early_limits_the_displacement():
-    whole = kinematic_check(Block.of_size(0.5, 3.0), SPECTRUM, limit_state="SLC")
-    early = kinematic_check(Block.of_size(0.5, 3.0), SPECTRUM, limit_state="SLC", support_loss=0.1)
+    whole = kinematic_check(Block.of_size(0.5, 3.0), SPECTRUM, CodeTerms(limit_state="SLC"))
+    early = kinematic_check(Block.of_size(0.5, 3.0), SPECTRUM, CodeTerms(limit_state="SLC", support_loss=0.1))
     assert early.limit.reason == "what it carries falls"
     assert early.limit.displacement == pytest.approx(0.05, rel=BY_HAND)  # d* is half of the top's
     assert early.nonlinear.capacity < whole.nonlinear.capacity
@@ -384,13 +387,13 @@ def test_every_crack_that_may_open_is_checked():
 def test_what_cannot_be_checked_is_refused_in_a_sentence():
     block = Block.of_size(0.3, 1.6)
     with pytest.raises(ConfigurationError, match=r"confidence_factor is 0.9, but must be 1 or more"):
-        kinematic_check(block, SPECTRUM, confidence_factor=0.9)
+        kinematic_check(block, SPECTRUM, CodeTerms(confidence_factor=0.9))
     with pytest.raises(ConfigurationError, match="limit_state is 'SLX', but must be one of SLD, SLV, SLC"):
-        kinematic_check(block, SPECTRUM, limit_state="SLX")
+        kinematic_check(block, SPECTRUM, CodeTerms(limit_state="SLX"))
     with pytest.raises(StructureError, match="a Mechanism, which has no capacity curve"):
         kinematic_check(block.mechanism(), SPECTRUM)
     with pytest.raises(RecordError, match="damping_ratio of the support is 0"):
-        kinematic_check(block, SPECTRUM, support=Support((Mode(0.3, 0.0, 1.0),)))
+        kinematic_check(block, SPECTRUM, CodeTerms(support=Support((Mode(0.3, 0.0, 1.0),))))
     with pytest.raises(ConfigurationError, match=r"spectrum is a float, but must be a DesignSpectrum, as"):
         rocking.check(block, 2.0)
     with pytest.raises(ConfigurationError, match=r"records is a dict, but must be sets of records, as"):

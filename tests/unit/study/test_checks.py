@@ -13,7 +13,7 @@ from rocking.assessment.listed import load_scenes
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import RecordRow, VerdictRow
 from rocking.assessment.scene import on_the_ground
-from rocking.codes.dynamic_check import DynamicCheck
+from rocking.codes.check import DynamicCheck
 from rocking.codes.rows import CodeCheckRow, disagreement
 from rocking.errors import ConfigurationError
 from rocking.motion.response import ModelCheck
