@@ -181,6 +181,28 @@ class Kind(StrEnum):
         "it is stated for; the stages were used: ask the network which one holds."
     )
 
+    # The dominant pulse of a record.
+    PULSE_UNSTABLE = auto(), "The choice is unstable: another pulse often wins when the record is turned."
+    PULSE_AT_AN_END = auto(), "The pulse touches an end of the record, so part of it may be missing."
+    PULSE_FILTERED = auto(), "The pulse is long enough that the record's high-pass filter has reduced it."
+    PULSE_SYMMETRIC = auto(), "Two pulses of opposite sign, half a cycle apart, stand for the motion equally well."
+    PULSE_AT_BAND_LIMIT = auto(), (
+        "The period lies at a limit of the band that was searched, so the true pulse may lie outside it."
+    )
+    PULSE_RECORD_SHORT = auto(), "The record is shorter than the longest period sought, so that period was left out."
+    PULSE_SAMPLING_COARSE = auto(), (
+        "The sampling is too coarse for the upper frequency; shorter periods were left out."
+    )
+    PULSE_BESIDE_GAP = auto(), (
+        "The record holds a run of identical samples longer than a second, which may be a gap that was filled."
+    )
+
+    # An integration.
+    WEIGHTLESS = auto(), (
+        "the vertical motion takes away more than gravity for an instant, so that bodies would fly; the model keeps "
+        "them on the ground."
+    )
+
     # What was read of a file, and what was not.
     FIRST_IS_COUNT = auto(), "The first of the numbers is the number of samples, and no sample."
     FIRST_ARE_COUNT_AND_STEP = auto(), (

@@ -9,7 +9,6 @@ from rocking.errors import PulseError, RecordError
 from rocking.floors.support import Support
 from rocking.pulses import (
     PULSE_METHODS,
-    Flag,
     PulseAnalysis,
     PulseEvidence,
     VelocityPulse,
@@ -18,6 +17,7 @@ from rocking.pulses import (
 )
 from rocking.records import Accelerogram, RotD, rotd
 from rocking.records.rotation import azimuth_of_axis
+from rocking.remarks import Remark
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ class ComponentPulses:
     motion: HorizontalMotion
     ranked: tuple[PulseEvidence, ...]
     sequence: tuple[PulseEvidence, ...]
-    flags: tuple[Flag, ...]
+    flags: tuple[Remark, ...]
     band: tuple[float, float]
     candidates: tuple[PulseEvidence, ...]
     failure: str

@@ -15,6 +15,7 @@ from rocking.motion.response import Response
 from rocking.motion.table import SideTable, Table, linear_table, table_of
 from rocking.quantities import GRAVITY, finite, kind_of, within
 from rocking.records.accelerogram import Accelerogram
+from rocking.remarks import Kind, Remark
 from rocking.structures import Outcome
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
 
@@ -36,10 +37,6 @@ TOLERANCES = (1e-13, 0.1)
 STEP_SHARE = 0.03
 """Share of the tolerance that one step may spend: each flight amplifies the errors of those before it."""
 OUTCOMES = {0: Outcome.NO_UPLIFT, runs.ROCKS: Outcome.ROCKS, runs.OVERTURNS: Outcome.OVERTURNS}
-WEIGHTLESS = (
-    "the vertical motion takes away more than gravity for an instant, so that bodies would fly; the model keeps them "
-    "on the ground."
-)
 _TIGHT = 1e-12
 _NUDGE = 1e-5
 STRICT = 1e-9
@@ -281,7 +278,7 @@ def _response(
         peak_side=(1, -1)[largest] if rocks else int(row[runs.SIDE]),
         steps=int(row[runs.STEPS]),
         tolerance=0.0 if isinstance(sides[0], EquivalentBlock) else tolerance,
-        warning=WEIGHTLESS if forcing.weightless else "",
+        warning=Remark(Kind.WEIGHTLESS) if forcing.weightless else None,
         **states,
     )
 

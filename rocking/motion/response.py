@@ -10,6 +10,7 @@ from rocking.drawn import Drawn
 from rocking.errors import MotionError
 from rocking.quantities import counted, four_digits
 from rocking.records import Accelerogram
+from rocking.remarks import Remark
 from rocking.structures import Outcome, Structure
 from rocking.structures.contacts import UnknownContacts
 from rocking.structures.structure import largest_so_far
@@ -33,7 +34,7 @@ class Response(Drawn):
     fragile: whether ± `fragility_change` of the ground motion flips the verdict, or the run is not reproducible: one
     of two others, at a tolerance of 1e-9 and with the motion scaled by 1 ± 1e-9, differs by more than 1e-5. The run
     is then repeated at 1e-9, and its number is one of many. None if not asked for.
-    warning: one sentence where the vertical motion takes away all of gravity, else "".
+    warning: where the vertical motion takes away all of gravity, else None.
     steps: integration steps taken. tolerance: the one asked for, or 1e-9 where a fragile run was repeated; a fragile
     response of many impacts may miss it. 0.0: exact.
     With history: times (k,) s, rotation (k,) rad signed, angular_velocity (k,) rad/s signed, and `plot`, which draws
@@ -55,7 +56,7 @@ class Response(Drawn):
     steps: int = 0
     tolerance: float = 0.0
     reason: str = ""
-    warning: str = ""
+    warning: Remark | None = None
     times: np.ndarray | None = None
     rotation: np.ndarray | None = None
     angular_velocity: np.ndarray | None = None

@@ -1,6 +1,5 @@
 """The dominant sine pulse of a record, its rivals, and the evidence to trust or refuse it."""
 
-from rocking.pulses.analysis import Flag as Flag
 from rocking.pulses.analysis import PulseAnalysis as PulseAnalysis
 from rocking.pulses.analysis import PulseEvidence as PulseEvidence
 from rocking.pulses.analysis import PulseSettings as PulseSettings

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from enum import StrEnum
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +12,7 @@ from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse
 from rocking.quantities import counted
 from rocking.records.accelerogram import Accelerogram
+from rocking.remarks import Remark
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -50,24 +50,6 @@ class PulseSettings:
             )
 
 
-class Flag(StrEnum):
-    """A reason to doubt a dominant pulse."""
-
-    UNSTABLE = "unstable"
-    EDGE = "edge"
-    FILTERED = "filtered"
-    SYMMETRIC = "symmetric"
-    BAND_LIMIT = "band_limit"
-    SHORT_RECORD = "short_record"
-    COARSE_SAMPLING = "coarse_sampling"
-    GAP = "gap"
-
-    @property
-    def sentence(self) -> str:
-        """One sentence for the reader."""
-        return _SENTENCES[self]
-
-
 WORTH = ((0.1, 0.56), (0.2, 0.64), (0.3, 0.72), (0.5, 0.77), (1.0, 0.85))
 """The worth of a pulse as a prediction: up to each explained energy, the share of cases in which the closed form under
 the pulse ends as the integration under the record does. Measured on 167 stations that took no part in anything here."""
@@ -76,18 +58,6 @@ the pulse ends as the integration under the record does. Measured on 167 station
 def worth(explained_energy: float) -> float:
     """Return the share of cases with as much explained energy in which closed form and integration end alike."""
     return next(share for most, share in WORTH if explained_energy <= most or most == 1.0)
-
-
-_SENTENCES = {
-    Flag.UNSTABLE: "The choice is unstable: another pulse often wins when the record is turned.",
-    Flag.EDGE: "The pulse touches an end of the record, so part of it may be missing.",
-    Flag.FILTERED: "The pulse is long enough that the record's high-pass filter has reduced it.",
-    Flag.SYMMETRIC: "Two pulses of opposite sign, half a cycle apart, stand for the motion equally well.",
-    Flag.BAND_LIMIT: "The period lies at a limit of the band that was searched, so the true pulse may lie outside it.",
-    Flag.SHORT_RECORD: "The record is shorter than the longest period sought, so that period was left out.",
-    Flag.COARSE_SAMPLING: "The sampling is too coarse for the upper frequency; shorter periods were left out.",
-    Flag.GAP: "The record holds a run of identical samples longer than a second, which may be a gap that was filled.",
-}
 
 
 @dataclass(frozen=True)
@@ -132,7 +102,7 @@ class PulseAnalysis(Drawn):
     ranked: tuple[PulseEvidence, ...]
     sequence: tuple[PulseEvidence, ...]
     residual: np.ndarray
-    flags: tuple[Flag, ...]
+    flags: tuple[Remark, ...]
     band: tuple[float, float]
 
     def __post_init__(self) -> None:
@@ -141,7 +111,7 @@ class PulseAnalysis(Drawn):
 
     def __repr__(self) -> str:
         share = f"explains {100 * self.explained_energy:.0f} % of the energy"
-        flags = [f"flags: {', '.join(self.flags)}"] if self.flags else []
+        flags = [f"flags: {', '.join(each.kind for each in self.flags)}"] if self.flags else []
         rivals = counted(len(self.alternatives), "alternative")
         return f"PulseAnalysis({', '.join([f'dominant {self.dominant!r}', share, rivals, *flags])})"
 

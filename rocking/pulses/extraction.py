@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rocking.errors import PulseError
-from rocking.pulses.analysis import Flag, PulseAnalysis, PulseEvidence, PulseSettings
+from rocking.pulses.analysis import PulseAnalysis, PulseEvidence, PulseSettings
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
+from rocking.remarks import Kind, Remark
 
 NOTHING_LEFT = 1e-20
 """Share of the record's energy below which what the pursuit leaves, or what a cycle gains, is rounding."""
@@ -296,7 +297,7 @@ def _raised(
     search: PulseSearch,
     ranked: tuple[PulseEvidence, ...],
     sequence: tuple[PulseEvidence, ...],
-) -> tuple[Flag, ...]:
+) -> tuple[Remark, ...]:
     """The flags of the dominant pulse."""
     pulse = ranked[0].pulse
     second = ranked[1] if len(ranked) > 1 else None
@@ -316,16 +317,16 @@ def _raised(
     loud = np.abs(samples[[0, -1]]) > EDGE_ACCELERATION * abs(pulse.amplitude)
     changes = np.flatnonzero(np.diff(samples))  # a run of identical samples at an end is padding, no gap
     raised = {
-        Flag.UNSTABLE: equal or more_cycles,
-        Flag.EDGE: np.any(rooms < np.where(loud, 1.0, EDGE_DISTANCE)),
-        Flag.FILTERED: high_pass is not None and pulse.period > FILTERED_CYCLES / high_pass,
-        Flag.SYMMETRIC: equal and second is not None and _twin(pulse, second.pulse),
-        Flag.BAND_LIMIT: not low * (1 + 1e-9) < frequency < high * (1 - 1e-9),
-        Flag.GAP: (np.diff(changes).max(initial=1) - 1) * step > GAP_DURATION,
-        Flag.SHORT_RECORD: low > search.settings.lowest_frequency,
-        Flag.COARSE_SAMPLING: high < search.settings.highest_frequency,
+        Kind.PULSE_UNSTABLE: equal or more_cycles,
+        Kind.PULSE_AT_AN_END: np.any(rooms < np.where(loud, 1.0, EDGE_DISTANCE)),
+        Kind.PULSE_FILTERED: high_pass is not None and pulse.period > FILTERED_CYCLES / high_pass,
+        Kind.PULSE_SYMMETRIC: equal and second is not None and _twin(pulse, second.pulse),
+        Kind.PULSE_AT_BAND_LIMIT: not low * (1 + 1e-9) < frequency < high * (1 - 1e-9),
+        Kind.PULSE_BESIDE_GAP: (np.diff(changes).max(initial=1) - 1) * step > GAP_DURATION,
+        Kind.PULSE_RECORD_SHORT: low > search.settings.lowest_frequency,
+        Kind.PULSE_SAMPLING_COARSE: high < search.settings.highest_frequency,
     }
-    return tuple(flag for flag, holds in raised.items() if holds)
+    return tuple(Remark(kind) for kind, holds in raised.items() if holds)
 
 
 def oscillates(pulse: Pulse, strong_rivals: list[Pulse]) -> bool:

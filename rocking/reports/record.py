@@ -26,9 +26,9 @@ from rocking.assessment.rows import (
 )
 from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Verdict, agreement
 from rocking.codes.settings import DesignSettings
-from rocking.pulses import Flag
 from rocking.quantities import GRAVITY, counted, percent
 from rocking.records.dates import day_of
+from rocking.remarks import Remark
 from rocking.reports import printing
 from rocking.reports import record_figures as figures
 from rocking.reports.design_figure import design_figure
@@ -386,8 +386,7 @@ def _pulse_sentence(tables: RecordRows, motion: Trace) -> str:
     component = motion.accelerogram.component
     ranked = (row for row in tables.pulses if row.component == component and row.ranked)
     row = min(ranked, key=lambda row: row.rank)
-    sentences = {flag.value: flag.sentence for flag in Flag}
-    doubts = [sentences.get(flag, printing.sentence(f"{flag}.")) for flag in row.flags]
+    doubts = [str(Remark(kind)) for kind in row.flags]
     if any(each.pulse_periods_unlike for each in tables.record if each.component == component):
         doubts.append(
             "Its period differs by more than a factor of two from that of the velocity pulse: they are two features."

@@ -360,8 +360,9 @@ class PulseRow(ComponentRow[FoundPulse]):
     effective_length_m: float = of_pulse(
         "Length scale: amplitude times period squared", lambda found: found.evidence.effective_length
     )
-    flags: tuple[str, ...] = of_pulse(
-        "Reasons to doubt the pulse", lambda found: found.analysis.flags if found.is_dominant else ()
+    flags: tuple[Kind, ...] = of_pulse(
+        "Kinds of reason to doubt the pulse",
+        lambda found: tuple(each.kind for each in found.analysis.flags) if found.is_dominant else (),
     )
 
     @property
@@ -553,7 +554,7 @@ class ComparisonRow(CaseRow[ComparedCase]):
     )
     warning: str = of_case(
         "Warning about what the model leaves out; or empty",
-        lambda of: of.response.warning if of.response else "",
+        lambda of: str(of.response.warning) if of.response and of.response.warning else "",
     )
     answer_method: Method = of_case(
         "Method that settled the verdict; see the setting fidelity", lambda of: of.answer.method

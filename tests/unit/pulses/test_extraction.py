@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from rocking.errors import PulseError
-from rocking.pulses import Flag, Pulse, PulseSettings, extract_pulses
+from rocking.pulses import Pulse, PulseSettings, extract_pulses
 from rocking.records.accelerogram import Accelerogram, Source
+from rocking.remarks import Kind, Remark
 
 STEP = 0.01
 TIMES = np.arange(2000) * STEP
@@ -83,7 +84,7 @@ def test_a_record_that_does_not_move_is_refused():
 def test_a_record_shorter_than_the_longest_period_says_so():
     pulse = Pulse(1.0, 2 * np.pi / 0.8, 0.9)
     found = extract_pulses(Accelerogram(pulse.acceleration(TIMES[:300]), STEP))
-    assert Flag.SHORT_RECORD in found.flags
+    assert Remark(Kind.PULSE_RECORD_SHORT) in found.flags
     assert found.band[0] == pytest.approx(1 / 2.99)
     assert found.dominant.period == pytest.approx(0.8, rel=1e-6)
 
@@ -91,7 +92,7 @@ def test_a_record_shorter_than_the_longest_period_says_so():
 def test_a_record_too_coarse_for_the_upper_frequency_says_so():
     times = np.arange(400) * 0.1
     found = extract_pulses(Accelerogram(Pulse(1.0, 2 * np.pi / 2.5, 9.03).acceleration(times), 0.1))
-    assert Flag.COARSE_SAMPLING in found.flags
+    assert Remark(Kind.PULSE_SAMPLING_COARSE) in found.flags
     assert found.band[1] == pytest.approx(1.25)  # eight samples in a cycle
     assert found.dominant.period == pytest.approx(2.5, rel=1e-6)
 
