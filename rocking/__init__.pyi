@@ -1,8 +1,9 @@
 from .assessment.assess import StructureAssessment as StructureAssessment
 from .assessment.assess import assess as assess
+from .assessment.decide import Decision as Decision
+from .assessment.decide import Verdict as Verdict
 from .assessment.reserve import Reserve as Reserve
 from .assessment.trade import trade as trade
-from .assessment.verdict import Verdict as Verdict
 from .codes.check import Check as Check
 from .codes.check import DynamicCheck as DynamicCheck
 from .codes.check import StructureCheck as StructureCheck

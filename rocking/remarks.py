@@ -49,16 +49,16 @@ class Kind(StrEnum):
     HELD_BEYOND = auto(), "a held wall turns so far that its mechanism may say too little"
 
     # What would tell more of a decision.
-    TIE_STRENGTH = auto(), "the strength of the ties"
-    FRICTION = auto(), "the friction of the joint"
-    INPUT = auto(), "a record or settings that can be followed"
-    ENSEMBLE = auto(), "an ensemble of members"
-    TOLERANCE = auto(), "a restitution below 1, or another tolerance"
-    CRACK = auto(), "where it cracks"
-    RESTITUTION = auto(), "the restitution"
-    PROCESSING = auto(), "a processed record of the network"
-    CONTACT_DYNAMICS = auto(), "contact dynamics"
-    COMPONENT = auto(), "the component that gave no result"
+    TIE_STRENGTH = auto(), "give the strength at which its ties let go"
+    FRICTION = auto(), "measure the friction of its joints, and give it (friction_coefficient)"
+    INPUT = auto(), "give a record and settings under which it can be followed"
+    ENSEMBLE = auto(), "follow an ensemble of members (ensemble: members)"
+    TOLERANCE = auto(), "give a restitution below 1, or another tolerance"
+    CRACK = auto(), "find out where it cracks, and give it (crack: known)"
+    RESTITUTION = auto(), "measure the restitution, or take it from tests of such masonry"
+    PROCESSING = auto(), "take a processed record of the network instead of the raw one"
+    CONTACT_DYNAMICS = auto(), "follow it by contact dynamics (fidelity: contact)"
+    COMPONENT = auto(), "find the component that gave no result"
 
     # The samples of a record.
     STEP_UNUSUAL = auto(), (

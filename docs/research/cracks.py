@@ -1,7 +1,7 @@
 """Which crack governs: stacks of separate courses by contact dynamics beside one mechanism per joint, real records.
 
 The rule on trial has no number to tune: a member stands where it stands cracked at any of its joints, and overturns
-where it does cracked at the joint of least λ, the choice of statics; between them it is undecided.
+where it does cracked at the joint of least λ, the choice of statics; between them lie the words of shares.
 """
 
 import json
@@ -23,11 +23,13 @@ from docs.research.report import Tables, Target
 from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting_factor, one_of_each
 from rocking import Accelerogram, LoadedWall, Mechanism, RigidBody, Verdict
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
+from rocking.assessment.decide import Facts, decide
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.contacts.dynamics import follow_stack
 from rocking.errors import StructureWarning
 from rocking.quantities import GRAVITY
+from rocking.remarks import Kind, Remark
 from rocking.structures.stack import Course, Stack
 from rocking.tables import column, read_rows, row, write_rows
 
@@ -218,7 +220,7 @@ def crack_row(component: SiteRecord, place: int, checked: bool) -> CrackRow:
     beside = round(MARGIN / motion.time_step)
     span = slice(max(strong[0] - beside, 0), strong[-1] + beside + 1)
     motion = replace(motion, acceleration=motion.acceleration[span])
-    verdict, shares = ruled(mechanisms, static, motion, member.tapers)
+    facts, shares = ruled(mechanisms, static, motion, member.tapers)
     turns = stack(member, motion)
     return CrackRow(
         courses=member.courses,
@@ -232,26 +234,26 @@ def crack_row(component: SiteRecord, place: int, checked: bool) -> CrackRow:
         static_joint=static,
         static_share=shares[static],
         largest_share=max(shares.values()),
-        verdict=verdict,
+        verdict=decide(facts).word,
     )
 
 
 def ruled(
     mechanisms: Mapping[int, Mechanism], static: int, motion: Accelerogram, tapers: bool = False
-) -> tuple[Verdict, Mapping[int, float]]:
-    """Return what the rule says, and the share of the ensemble that overturns at each joint.
+) -> tuple[Facts, Mapping[int, float]]:
+    """Return what the decision is told, and the share of the ensemble that overturns at each joint.
 
-    tapers: whether a member that lifts at all stays undecided where every joint stands.
+    tapers: whether the courses of a member that lifts at all may be thrown.
     """
     motions = GroundMotions.of(motion)
     of_each = {joint: ensemble(mechanism, motions) for joint, mechanism in mechanisms.items()}
     statics_first = sorted(of_each, key=lambda joint: joint != static)
     followed = (FollowedCrack(f"joint {joint}", joint, of_each[joint]) for joint in statics_first)
-    verdict = CrackEnsembles(tuple(followed)).verdict
+    facts = CrackEnsembles(tuple(followed)).facts
     lifts = any(np.any(each.rotation_ratios > 0) for each in of_each.values())
-    if verdict is Verdict.STANDS and tapers and lifts:
-        verdict = Verdict.UNDECIDED
-    return verdict, {joint: each.overturning_share for joint, each in of_each.items()}
+    if tapers and lifts:
+        facts = replace(facts, doubts=(Remark(Kind.COURSES_THROWN),))
+    return facts, {joint: each.overturning_share for joint, each in of_each.items()}
 
 
 def stack(member: Member, motion: Accelerogram, step: float = STEP) -> np.ndarray:
@@ -292,7 +294,7 @@ def crack_scores(rows: Sequence[CrackRow]) -> Iterator[scores.Score]:
         measures = {
             'falls among "stands"': own.falls.where(own.verdict == Verdict.STANDS),
             'survivals among "overturns"': (~own.falls).where(own.verdict == Verdict.OVERTURNS),
-            "undecided": own.verdict == Verdict.UNDECIDED,
+            "open": ~own.verdict.map(lambda word: word.is_sure),
             "falls at the joint of least λ": (own.opened == own.static_joint).where(own.falls),
             "falls or stands as in LMGC90": as_lmgc90,
         }

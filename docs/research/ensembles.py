@@ -19,10 +19,11 @@ from docs.research import scores, sites
 from docs.research.report import Tables, Target
 from rocking.assessment.causes import CAUSES, lattice
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack, cracks, ensemble_over_cracks
+from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.ensemble import drawn, ensemble
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.assessment.verdict import NEGLIGIBLE, Verdict
+from rocking.assessment.verdict import NEGLIGIBLE
 from rocking.records import Accelerogram
 from rocking.records.rotation import rotate
 from rocking.structures import Structure
@@ -134,7 +135,7 @@ def _trial(
     shares = {size: drawn(mechanism, motions, lattice(size), settings).overturning_share for size in ALLOWED}
     return EnsembleTrial(
         **about,
-        verdict=whole.verdict,
+        verdict=whole.facts().step(settings.risk),
         members=whole.members,
         scale_factor=factor,
         share=whole.overturning_share,
@@ -152,7 +153,7 @@ def ensemble_scores(trials: Sequence[EnsembleTrial]) -> Iterator[scores.Score]:
     for half, own in pd.DataFrame(trials).groupby("half"):
         truth = own.share_drawn
         is_open = truth.between(*OPEN, inclusive="neither")
-        decided = own.verdict != Verdict.UNDECIDED
+        decided = own.verdict.map(lambda word: word.is_sure)
         opposite = truth.where(own.verdict == Verdict.STANDS, 1 - truth).where(decided)
         measures: dict[str, scores.Measured] = {}
         for size, allowed in ALLOWED.items():
@@ -200,8 +201,9 @@ def screening_trials(
             )
         )
         fresh = np.nan
-        if in_full.verdict is Verdict.STANDS:
-            severities = [each.severity for each in in_full.followed]
+        exhaustive = decide(in_full.facts).word
+        if exhaustive is Verdict.STANDS:
+            severities = [each.facts.severity(EnsembleSettings().risk) for each in in_full.followed]
             worst = sorted(range(len(forms)), key=severities.__getitem__)[-WORST:]
             points = draw.random((CRACK_DRAWS, len(CAUSES)))
             again = [drawn(forms[k].mechanism, motions, points, EnsembleSettings()) for k in worst]
@@ -211,8 +213,8 @@ def screening_trials(
             site=component.site,
             structure=structure_name,
             scale_factor=factor,
-            verdict=in_study.verdict,
-            exhaustive=in_full.verdict,
+            verdict=decide(in_study.facts).word,
+            exhaustive=exhaustive,
             share=in_study.governing.ensemble.overturning_share,
             largest_share=in_full.worst.ensemble.overturning_share,
             fresh_share=fresh,

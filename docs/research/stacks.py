@@ -24,13 +24,13 @@ from docs.research.report import Target
 from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting_factor
 from rocking import Accelerogram, Facade, LoadedWall, Mechanism, Spire, Verdict, assess
 from rocking.assessment.contacts import ContactShare, contact_share
+from rocking.assessment.decide import Facts, decide
 from rocking.assessment.fidelity import peak_velocity
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.contacts.dynamics import follow_stack
 from rocking.errors import StructureWarning
 from rocking.quantities import GRAVITY
-from rocking.remarks import Kind, Remark
 from rocking.structures import Structure
 from rocking.structures.stack import Stack
 from rocking.structures.structure import Crackable
@@ -64,24 +64,28 @@ SETTINGS = AssessmentSettings(fidelity="contact")
 class Judged:
     """What the package says of a member under a motion.
 
-    mechanism: its verdict by mechanisms alone, whatever its contacts do. doubt: why that is not enough. contact: what
-    contact dynamics says; None where it was not asked.
+    facts: what the decision is told. contact: what contact dynamics says; None where it was not asked.
     """
 
-    mechanism: Verdict
-    doubt: Remark | None
-    contact: ContactShare | None
+    facts: Facts
+    contact: ContactShare | None = None
+
+    @property
+    def mechanism(self) -> Verdict:
+        """The verdict by mechanisms alone, whatever its contacts do."""
+        return decide(replace(self.facts, doubts=())).word
 
     @property
     def without(self) -> Verdict:
         """The verdict without contact dynamics."""
-        stands = self.mechanism is Verdict.STANDS and self.doubt is not None
-        return Verdict.UNDECIDED if stands else self.mechanism
+        return decide(self.facts).word
 
     @property
     def verdict(self) -> Verdict:
-        """The verdict with contact dynamics of what is undecided without."""
-        return self.contact.verdict if self.contact is not None else self.without
+        """The verdict with contact dynamics, which is asked where there is a doubt."""
+        if self.contact is None or not self.contact.runs:
+            return self.without
+        return decide(replace(self.facts, stacks=(self.contact.falls, self.contact.runs))).word
 
 
 class Case(ABC):
@@ -119,7 +123,7 @@ class Shipped(Case):
     def judged(self, motion: Accelerogram) -> Judged:
         station = assess(motion, self.structure, settings=SETTINGS)
         (case,) = station.cases.values()
-        return Judged(case.verdict, case.doubt, case.contact)
+        return Judged(replace(case.facts(self.structure), stacks=None), case.contact)
 
     def stack(self, courses: int | None = None) -> Stack:
         if isinstance(self.structure, Crackable) and self.structure.crack == "known":
@@ -172,11 +176,9 @@ class Made(Case):
         return self.mechanisms[self.static].uplift_multiplier
 
     def judged(self, motion: Accelerogram) -> Judged:
-        alone, _ = ruled(self.mechanisms, self.static, motion)
-        with_rule, _ = ruled(self.mechanisms, self.static, motion, self.tapers)
-        doubt = Remark(Kind.COURSES_THROWN) if with_rule is not alone else None
-        judged = Judged(alone, doubt, None)
-        if judged.without is not Verdict.UNDECIDED:
+        facts, _ = ruled(self.mechanisms, self.static, motion, self.tapers)
+        judged = Judged(facts)
+        if judged.without is not Verdict.CANNOT_BE_TOLD:
             return judged
         share = contact_share(self, GroundMotions.of(motion), SETTINGS)
         return replace(judged, contact=share)
@@ -274,7 +276,7 @@ class StackRow(Trial):
     mechanism: Verdict = column("Verdict by mechanisms alone")
     doubt: str = column("Why that is not enough; empty where it is")
     without: Verdict = column("Verdict without contact dynamics")
-    verdict: Verdict = column("Verdict with contact dynamics of what is undecided without")
+    verdict: Verdict = column("Verdict with contact dynamics, where there is a doubt")
     stack_falls: int | None = column("Stacks that fall in contact dynamics; empty: not asked")
     stack_runs: int | None = column("Stacks that contact dynamics followed")
     falls: bool = column("Whether the true stack falls")
@@ -336,7 +338,7 @@ def stack_row(component: SiteRecord, kind: str, place: int) -> StackRow:
         courses=courses,
         velocity_ratio_s=peak_velocity(motion) / motion.peak_acceleration,
         mechanism=judged.mechanism,
-        doubt=str(judged.doubt or ""),
+        doubt="; ".join(map(str, judged.facts.doubts)),
         without=judged.without,
         verdict=judged.verdict,
         stack_falls=contact.falls if contact else None,
@@ -359,10 +361,13 @@ def strong_part(motion: Accelerogram, multiplier: float) -> Accelerogram:
 
 
 def stack_scores(rows: Sequence[StackRow]) -> Iterator[scores.Score]:
-    """Yield errors and undecided cases by kind of member and of all, with intervals by site."""
+    """Yield errors and open cases by kind of member and of all, with intervals by site."""
     every = pd.DataFrame(rows)
     for kind, own in [("all", every), *every.groupby("structure", sort=False)]:
-        settled = (own.without == Verdict.UNDECIDED) & (own.verdict != Verdict.UNDECIDED)
+        open_without, open_with = (
+            ~own[name].map(lambda word: word.is_sure) for name in ("without", "verdict")
+        )
+        settled = open_without & ~open_with
         right = (own.verdict == Verdict.OVERTURNS) == own.falls
         lifts = own.turn_rad > LIFTED
         stands, overturns = own.verdict == Verdict.STANDS, own.verdict == Verdict.OVERTURNS
@@ -381,9 +386,9 @@ def stack_scores(rows: Sequence[StackRow]) -> Iterator[scores.Score]:
             ('falls among "stands" with it that open most between two feet', stands & between, own.falls),
             ('survivals among "overturns" with it that open so', overturns & between, ~own.falls),
             ('survivals among "overturns" with it', overturns, ~own.falls),
-            ("undecided without contact dynamics", own.falls.notna(), own.without == Verdict.UNDECIDED),
-            ("undecided with it", own.falls.notna(), own.verdict == Verdict.UNDECIDED),
-            ("undecided that contact dynamics settles", own.without == Verdict.UNDECIDED, settled),
+            ("open without contact dynamics", own.falls.notna(), open_without),
+            ("open with it", own.falls.notna(), open_with),
+            ("open that contact dynamics settles", open_without, settled),
             ("right among those that it settles", settled, right),
         ):
             if part.any():

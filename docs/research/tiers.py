@@ -206,7 +206,9 @@ def answer_scores(trials: pd.DataFrame) -> Iterator[scores.Score]:
         "members against the verdict of the block": against.where(by_block),
         "wrong verdicts among those settled": wrong.where(settled),
         "opposite verdict of the ensemble among those settled": (trials.verdict == opposite).where(settled),
-        "undecided in the ensemble among those settled": (trials.verdict == Verdict.UNDECIDED).where(settled),
+        "open in the ensemble among those settled": (~trials.verdict.map(lambda word: word.is_sure)).where(
+            settled
+        ),
         "verdicts of the ensemble that its early end changes": trials.quick_verdict != trials.verdict,
         "CPU saved of the mechanism for all": scores.share_of(
             trials.mechanism_s - trials.alone_s, trials.mechanism_s

@@ -30,7 +30,8 @@ from rocking.assessment.component import (
     horizontal_motions,
 )
 from rocking.assessment.contacts import contact_share, doubt
-from rocking.assessment.cracks import cracks, ensemble_over_cracks
+from rocking.assessment.cracks import cracks, ensemble_over_cracks, slides_first
+from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
 from rocking.assessment.ground_motions import GroundMotions, processed
 from rocking.assessment.reserve import Reserve
@@ -38,7 +39,7 @@ from rocking.assessment.reserve_search import reserve
 from rocking.assessment.scene import Scene, on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.variations import candidates, processed_variants
-from rocking.assessment.verdict import BOTH_COMPONENTS, Method, Verdict, ratio_in_words
+from rocking.assessment.verdict import BOTH_COMPONENTS, Method, ratio_in_words
 from rocking.drawn import Drawn, in_a_notebook
 from rocking.errors import ConfigurationError, RecordError, RockingError
 from rocking.floors.support import Support
@@ -558,15 +559,19 @@ def with_contacts(
     settings: AssessmentSettings,
     bounces: bool | None,
 ) -> CaseResult:
-    """Return the case with what its contacts say: a doubt where it stands, and contact dynamics where that is asked.
+    """Return the case with what its joints say: whether they slide, a doubt, and contact dynamics where that is asked.
 
-    bounces: whether a contact opens in a run as recorded; None where that is not known.
+    A doubt is asked for every word below "probably overturns", and contact dynamics where there is a doubt. bounces:
+    whether a contact opens in a run as recorded; None where that is not known.
     """
-    if case.verdict is Verdict.STANDS:
+    given = isinstance(structure, Structure) and structure.crack_is_given
+    counting = cracks(structure)[:1] if given else cracks(structure)
+    if all(slides_first(each, motions, settings) for each in counting):
+        return replace(case, slides_at=counting[0].slides_at(settings.friction_coefficient))
+    if decide(case.facts(structure)).word.badness < Verdict.PROBABLY_OVERTURNS.badness:
         reason = doubt(structure, motions, case.largest_rotation_ratio, settings, bounces)
         case = replace(case, doubt=reason)
-    undecided = case.doubt is not None or case.verdict is Verdict.UNDECIDED
-    if settings.fidelity == "contact" and undecided and isinstance(structure, Structure):
+    if settings.fidelity == "contact" and case.doubt is not None and isinstance(structure, Structure):
         return replace(case, contact=contact_share(structure, motions, settings))
     return case
 

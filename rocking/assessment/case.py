@@ -1,7 +1,7 @@
 """Case: one motion, one structure, one result; and what became of a structure over all components of a record.
 
-`StationResult` is the only place where a verdict on a structure is decided. Tables, reports, the page to explore, the
-terminal and `rocking.assess` ask it, or read the row that it was written into.
+What becomes of a structure is decided by `decide` from the facts that are gathered here. Tables, reports, the page to
+explore, the terminal and `rocking.assess` ask for that decision, or read the row that it was written into.
 """
 
 import math
@@ -12,7 +12,8 @@ from functools import cached_property
 from rocking.assessment.component import Component, component_names
 from rocking.assessment.contacts import ContactShare
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack, cracks
-from rocking.assessment.deciding import decided_by
+from rocking.assessment.decide import Decision, Facts, Verdict, decide
+from rocking.assessment.deciding import decided_by, would_tell
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer, Estimate
 from rocking.assessment.ground_motions import GroundMotions
@@ -20,7 +21,7 @@ from rocking.assessment.over_periods import periods_in_words
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.scene import Scene
 from rocking.assessment.variations import Variation
-from rocking.assessment.verdict import BOTH_COMPONENTS, POLARITIES, Judgement, Method, Verdict
+from rocking.assessment.verdict import BOTH_COMPONENTS, POLARITIES, Method
 from rocking.floors.support import Support
 from rocking.hashes import sha256_of
 from rocking.motion.response import UNKNOWN, ModelCheck, Response
@@ -141,9 +142,10 @@ class CaseResult:
     that settles the case; None of a pair, and where the case failed. ensembles: of the cracks that were followed; None
     where none ran. reserve: of the crack that governs; None where it was not sought; a store keeps it apart, as it is
     sought for what is printed alone. overturning_estimate: from the
-    peak velocity, where no ensemble ran; None of a structure unlike those behind the estimate. variations: other
-    cracks, then other processings. durations: CPU time of each stage, and of each method within responses, s.
-    fingerprint: of motion, structure, settings and version of the computation.
+    peak velocity, where no ensemble ran; None of a structure unlike those behind the estimate. slides_at: acceleration
+    [g] at which its joints slide before they lift, where the motion reaches it; else nan. variations: other cracks,
+    then other processings. durations: CPU time of each stage, and of each method within responses, s. fingerprint: of
+    motion, structure, settings and version of the computation.
     """
 
     structure: str
@@ -155,6 +157,7 @@ class CaseResult:
     ensembles: CrackEnsembles | None = None
     reserve: Reserve | None = None
     overturning_estimate: Estimate | None = None
+    slides_at: float = math.nan
     doubt: Remark | None = None
     contact: ContactShare | None = None
     variations: tuple[Variation, ...] = ()
@@ -205,14 +208,40 @@ class CaseResult:
             return 0.0
         return self.response.rotation_ratio if self.response else math.inf
 
-    @property
-    def verdict(self) -> Verdict:
-        """The verdict of its mechanisms, whatever its contacts do."""
+    def facts(self, body: Structure | Mechanism, failures: tuple[str, ...] = ()) -> Facts:
+        """Return what the decision asks of this case.
+
+        body: the structure. failures: why other components are missing.
+        """
+        several = cracks(body)
+        given = isinstance(body, Structure) and body.crack_is_given
+        held = [each.mechanism.never_lets_go for each in (several[:1] if given else several)]
+        settled = None
+        rests = self.answer is not None and self.answer.outcome is Outcome.NO_UPLIFT
         if self.ensembles is not None:
-            return self.ensembles.verdict
-        if self.answer is None:
-            return Verdict.UNKNOWN
-        return Verdict.OVERTURNS if self.overturns else Verdict.STANDS
+            followed = self.ensembles.followed[:1] if given else self.ensembles.followed
+            rests = all(bool((each.ensemble.rotation_ratios == 0).all()) for each in followed)
+        elif self.answer is not None and self.answer.response is None:
+            settled = Verdict.OVERTURNS if self.overturns else Verdict.STANDS
+        runs = [self.integrated_rotation_ratio]
+        if not given:
+            runs += [each.integrated_rotation_ratio for each in self.variations if each.crack]
+        typed = several[0].mechanism.restitution_range is not None
+        stacks = (self.contact.falls, self.contact.runs) if self.contact and self.contact.runs else None
+        own = self.ensembles.facts if self.ensembles else Facts(given=given)
+        return replace(
+            own,
+            # A component that is missing may lift.
+            rests=rests and not failures,
+            run_ratio=max((each for each in runs if not math.isnan(each)), default=math.nan),
+            settled=settled,
+            never_lets_go=held[0] if all(held) else "",
+            slides_at=self.slides_at,
+            doubts=(self.doubt,) if self.doubt else (),
+            stacks=stacks,
+            remarks=would_tell(self.ensembles, typed) if self.ensembles else (),
+            failures=failures,
+        )
 
     @property
     def overturns(self) -> bool:
@@ -240,14 +269,12 @@ class Governing:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class StationResult(Judgement):
+class StationResult:
     """The result of one structure under one record, all components and directions considered.
 
-    The ensemble over all directions decides, or where there is none that of the component that overturns, then rotates,
-    most; without any ensemble the single run of the worst component. A component that gave no result makes the verdict
-    unknown, unless another component overturns or an ensemble over all directions decides. Without an ensemble, another
-    crack that overturns leaves undecided what stands as given. Every count, share and quantile is that of the crack
-    that governs.
+    The case over all directions decides, where it has an ensemble. Otherwise each component is decided, with those that
+    gave no result told as missing, and the worst one counts. Every count, share and quantile is that of the crack that
+    governs.
 
     cases: by component, those that failed too. directions: the case of the pair; None of one component, or without
     ensembles. support: of those along the axis of its place; None on the ground.
@@ -280,12 +307,39 @@ class StationResult(Judgement):
         return max(answered, key=lambda case: case.severity, default=None)
 
     @cached_property
+    def _decided(self) -> tuple[CaseResult | None, Decision]:
+        """The case that decides, None where no component gave a result; and the decision."""
+        if self.directions is not None and self.directions.ensembles is not None:
+            return self.directions, self.decision_of(self.directions)
+        answered = [each for each in self.cases.values() if each.answer is not None]
+        if not answered:
+            first = [each.failure.message for each in self.cases.values() if each.failure][:1]
+            return None, decide(Facts(failures=tuple(first)))
+        decided = [(each, self.decision_of(each)) for each in answered]
+        return max(decided, key=lambda pair: (pair[1].severity, *_rotation_severity(pair[0])))
+
+    def decision_of(self, case: CaseResult) -> Decision:
+        """Return the decision on one of its cases; what other components lack counts unless all directions are one."""
+        if case is self.directions:
+            return decide(case.facts(self.body))
+        both = [*self.cases.values(), *([self.directions] if self.directions else [])]
+        failures = tuple(
+            f"the component {each.component or 'not named'} gave no result: {each.failure.message}"
+            for each in both
+            if each.failure
+        )
+        return decide(case.facts(self.body, failures))
+
+    @property
+    def decision(self) -> Decision:
+        """What becomes of it."""
+        return self._decided[1]
+
+    @property
     def decisive(self) -> CaseResult | None:
         """The case whose ensemble decides; None without an ensemble."""
-        if self.directions is not None and self.directions.ensemble is not None:
-            return self.directions
-        with_ensemble = [each for each in self.cases.values() if each.ensemble is not None]
-        return max(with_ensemble, key=_ensemble_severity, default=None)
+        case = self._decided[0]
+        return case if case is not None and case.ensembles is not None else None
 
     @property
     def ensemble(self) -> Ensemble | None:
@@ -350,11 +404,6 @@ class StationResult(Judgement):
         return deciding.component
 
     @cached_property
-    def _failed(self) -> list[CaseResult]:
-        both = [*self.cases.values(), *([self.directions] if self.directions else [])]
-        return [each for each in both if each.failure]
-
-    @cached_property
     def _fallen_crack(self) -> str:
         """A crack that overturns in a single run, where no ensemble tells more; "" where none does."""
         if self.ensemble is not None:
@@ -365,74 +414,12 @@ class StationResult(Judgement):
         )
         return next(fallen, "")
 
-    @cached_property
-    def _decision(self) -> tuple[Verdict, str]:
-        """The verdict with its reason."""
-        if self.worst is None:
-            first = self._failed[0].failure if self._failed else None
-            return Verdict.UNKNOWN, first.message if first else "no component gave a result"
-        decided, why = self._with_contacts(*self._of_members_or_run())
-        over_all = self.decisive is not None and self.decisive is self.directions
-        if self._failed and decided is not Verdict.OVERTURNS and not over_all:
-            missing = ", ".join(each.component or "not named" for each in self._failed)
-            return Verdict.UNKNOWN, f"the component {missing} gave no result"
-        if decided is Verdict.STANDS and self.never_lets_go:
-            return Verdict.CANNOT_OVERTURN, self.never_lets_go
-        return decided, why
-
-    @cached_property
-    def never_lets_go(self) -> str:
-        """Why no motion can overturn it, whatever opens, in words; "" where one can."""
-        reasons = [each.mechanism.never_lets_go for each in cracks(self.body)]
-        return reasons[0] if all(reasons) else ""
-
-    def _of_members_or_run(self) -> tuple[Verdict, str]:
-        assert self.worst is not None
-        assert self.worst.answer is not None
-        if self.ensembles is not None:
-            words = [self.ensembles.why, *([self.decided_by] if self.decided_by else [])]
-            return self.ensembles.verdict, "; ".join(words)
-        why = self.worst.answer.reason or "one run as recorded, without an ensemble"
-        if self.worst.overturns:
-            return Verdict.OVERTURNS, why
-        if self._fallen_crack:
-            crack = self._fallen_crack
-            return Verdict.UNDECIDED, f"one run as recorded stands, and with the {crack} it overturns"
-        return Verdict.STANDS, why
-
     @property
     def decided_by(self) -> str:
-        """The input that decides an undecided case, in words with its share; "" of another."""
-        if self.ensembles is None or self.ensembles.verdict is not Verdict.UNDECIDED:
+        """The input that decides whether it overturns, in words with its share; "" where the members agree."""
+        if self.ensembles is None or self.decision.word.is_sure:
             return ""
         return decided_by(self.ensembles)
-
-    def _with_contacts(self, decided: Verdict, why: str) -> tuple[Verdict, str]:
-        """The verdict and its reason where contacts open, courses are thrown or contact dynamics was asked."""
-        over_all = self.decisive is not None and self.decisive is self.directions
-        concerned = [self.directions] if over_all and self.directions else list(self.cases.values())
-        doubts = [each.doubt for each in concerned if each.doubt is not None]
-        if decided is Verdict.STANDS and doubts:
-            decided = Verdict.UNDECIDED
-            why = str(doubts[0])
-        if decided is not Verdict.UNDECIDED:
-            return decided, why
-        asked = [each for each in concerned if each.doubt or each.verdict is Verdict.UNDECIDED]
-        shares = [each.contact for each in asked if each.contact is not None]
-        if not shares:
-            return decided, why
-        words = f"{why}; {self.stacks.words}" if self.stacks else why
-        if any(share.verdict is Verdict.OVERTURNS for share in shares):
-            return Verdict.OVERTURNS, words
-        if len(shares) == len(asked) and all(share.verdict is Verdict.STANDS for share in shares):
-            return Verdict.STANDS, words
-        return Verdict.UNDECIDED, words
-
-    @property
-    def is_in_doubt(self) -> bool:
-        """Whether the mechanism stands, but contacts open or courses may be thrown, of which it knows nothing."""
-        both = [*self.cases.values(), *([self.directions] if self.directions else [])]
-        return any(each.doubt is not None for each in both)
 
     @property
     def stacks(self) -> ContactShare | None:
@@ -458,12 +445,17 @@ class StationResult(Judgement):
     @property
     def verdict(self) -> Verdict:
         """The verdict on the structure."""
-        return self._decision[0]
+        return self.decision.word
 
     @property
     def why(self) -> str:
         """The reason for the verdict."""
-        return self._decision[1]
+        return self.decision.why
+
+    @property
+    def severity(self) -> tuple[float, ...]:
+        """Key by which the worst of several comes last: verdict, then share of members, then rotation."""
+        return *self.decision.severity, _or_least(self.rotation_ratio)
 
     @property
     def members(self) -> int:
@@ -477,12 +469,8 @@ class StationResult(Judgement):
 
     @property
     def overturning_share(self) -> float:
-        """Share of the members that overturn; of a single run 0 or 1, nan where nothing is known."""
-        if self.ensemble is not None:
-            return self.ensemble.overturning_share
-        if self.worst is None or self.verdict is Verdict.UNKNOWN:
-            return math.nan
-        return float(self.verdict is Verdict.OVERTURNS or bool(self._fallen_crack))
+        """Share of the members that overturn; of a single run 0 or 1, nan where none can be told."""
+        return self.decision.share
 
     @property
     def crack(self) -> str:
@@ -580,7 +568,7 @@ class SceneResult:
     @property
     def sentence(self) -> str:
         """The verdicts over the periods of a support: "parapet on roof stands on the ground, overturns …"."""
-        verdicts = dict(zip(self.periods, (station.verdict for station in self.stations), strict=True))
+        verdicts = dict(zip(self.periods, (station.decision.word for station in self.stations), strict=True))
         return f"{self.scene.name} on {self.scene.place.name} {periods_in_words(verdicts)}"
 
 
@@ -658,9 +646,9 @@ def _without_history(response: Response) -> Response:
     return replace(response, times=None, rotation=None, angular_velocity=None)
 
 
-def _ensemble_severity(case: CaseResult) -> tuple[float, float]:
-    assert case.ensemble is not None
-    return _or_least(case.ensemble.overturning_share), _or_least(case.ensemble.rotation_ratio_high)
+def _rotation_severity(case: CaseResult) -> tuple[float, bool, float]:
+    """Key by which the worst of several cases with one decision comes last."""
+    return (_or_least(case.ensemble.rotation_ratio_high) if case.ensemble else -1.0, *case.severity)
 
 
 def _or_least(value: float) -> float:

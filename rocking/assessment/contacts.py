@@ -2,7 +2,7 @@
 
 A mechanism keeps its contacts closed and lets all of them land at once. Where a contact would have to pull, bodies
 bounce; and courses that stand on a rocking body are thrown by its impacts, which no multiple of the ground's motion
-bounds (theory: section 11). "Stands" is then not said. Falls are, because what falls as a mechanism falls.
+bounds (theory: section 11). "Stands" is then not said.
 """
 
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ import numpy as np
 
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.verdict import NEGLIGIBLE, Verdict
+from rocking.assessment.verdict import NEGLIGIBLE
 from rocking.contacts.dynamics import STEP, follow_stack
 from rocking.errors import RockingError
 from rocking.motion.integration import integrate, strict
@@ -57,7 +57,7 @@ def doubt(
     settings: AssessmentSettings | None = None,
     bounces: bool | None = None,
 ) -> Remark | None:
-    """Return why a structure that stands as a mechanism may not stand; None where nothing speaks against it.
+    """Return why a structure may be worse off than as a mechanism; None where nothing speaks for it.
 
     rotation_ratio: the largest of its runs. bounces: whether a contact opens in the run as recorded, where that is
     known. Of the members those are asked that land fastest: with the crack that statics chooses, in every direction and
@@ -121,15 +121,6 @@ class ContactShare:
     falls: int = 0
     runs: int = 0
     reason: str = ""
-
-    @property
-    def verdict(self) -> Verdict:
-        """The verdict of them all; undecided where they disagree, and unknown where none was followed."""
-        if not self.runs:
-            return Verdict.UNKNOWN
-        if self.falls == 0:
-            return Verdict.STANDS
-        return Verdict.OVERTURNS if self.falls == self.runs else Verdict.UNDECIDED
 
     @property
     def words(self) -> str:

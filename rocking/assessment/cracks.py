@@ -2,16 +2,19 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
 
-from rocking.assessment.ensemble import Ensemble, design, drawn, ensemble
+from rocking.assessment.decide import CrackFacts, Facts, Verdict
+from rocking.assessment.ensemble import Ensemble, design, drawn, ensemble, grown
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.verdict import Verdict
+from rocking.motion.forcing import forcing_of
+from rocking.quantities import GRAVITY
 from rocking.structures import Mechanism, Structure
+from rocking.structures.contacts import UnknownContacts
 from rocking.structures.structure import CRACKS
 
 IN_DOUBT = 0.3
@@ -23,48 +26,61 @@ class Crack:
     """A mechanism that may form.
 
     description: what opens, in words; "" of a structure with one mechanism. position: its height [m]; nan without one.
+    friction: the largest friction coefficient that a joint needs as it lifts; 0 of a mechanism without joints.
     """
 
     description: str
     position: float
     mechanism: Mechanism
+    friction: float = 0.0
+
+    def slides_at(self, friction_coefficient: float) -> float:
+        """Return the acceleration [g] at which a joint slides before this lifts; nan where none does.
+
+        Until it lifts the forces of its joints are taken to grow with the acceleration.
+        """
+        if not self.friction > friction_coefficient:
+            return math.nan
+        return self.mechanism.uplift_multiplier * friction_coefficient / self.friction
 
 
 @dataclass(frozen=True, eq=False)
 class FollowedCrack:
-    """The ensemble of one crack; description and position [m] as those of `Crack`."""
+    """The ensemble of one crack; description and position [m] as those of `Crack`.
+
+    slides: whether it slides before it lifts, under a motion that reaches so far.
+    """
 
     description: str
     position: float
     ensemble: Ensemble
+    slides: bool = False
 
-    @property
-    def severity(self) -> tuple[float, float]:
-        """Key by which the worst of several comes last: the share that overturns, then the rotation."""
-        values = (self.ensemble.overturning_share, self.ensemble.rotation_ratio_high)
-        share, rotation = (-1.0 if math.isnan(value) else value for value in values)
-        return share, rotation
-
-    @property
-    def count(self) -> str:
-        """Members that overturn, of how many: "12 of 64"."""
-        return f"{self.ensemble.overturning_members} of {self.ensemble.members}"
+    @cached_property
+    def facts(self) -> CrackFacts:
+        """What the decision asks of it."""
+        return self.ensemble.facts(self.description, self.slides)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CrackEnsembles:
     """The ensemble of every crack that was followed, the one that is given or that statics chooses first.
 
-    The crack that governs gives every number of the case. It is the worst: of the largest share of members that
-    overturn, then of the largest rotation. Statics decides only where no other crack contradicts it. A crack that is
-    `given` by whoever described the structure is meant: it governs, and what else may form is told beside it.
+    The crack that governs gives every number of the case: the worst of those that count (`decide.Facts`). A crack that
+    is `given` by whoever described the structure is meant: it governs, and what else may form is told beside it.
     """
 
     followed: tuple[FollowedCrack, ...]
     given: bool = False
 
     def __repr__(self) -> str:
-        return f"<CrackEnsembles: {self.verdict}, {len(self.followed)} followed, {self.governing.ensemble!r}>"
+        return f"<CrackEnsembles: {len(self.followed)} followed, {self.governing.ensemble!r}>"
+
+    @cached_property
+    def facts(self) -> Facts:
+        """What the decision asks of the cracks alone."""
+        risk = self.statics.ensemble.settings.risk
+        return Facts(cracks=tuple(each.facts for each in self.followed), given=self.given, risk=risk)
 
     @property
     def statics(self) -> FollowedCrack:
@@ -73,48 +89,23 @@ class CrackEnsembles:
 
     @cached_property
     def governing(self) -> FollowedCrack:
-        """The crack that is given, else the worst; that of statics among equals."""
-        return self.followed[0] if self.given else self.worst
+        """The crack that is given, else the worst that counts; that of statics among equals."""
+        return (
+            self.followed[self.facts.cracks.index(self.facts.governing)]
+            if self.facts.governing
+            else self.statics
+        )
 
     @cached_property
     def worst(self) -> FollowedCrack:
         """The worst crack of all that were followed; the first among equals."""
-        return max(self.followed, key=lambda each: each.severity)
+        return max(self.followed, key=lambda each: each.facts.severity(self.facts.risk))
 
     @property
     def beside(self) -> FollowedCrack | None:
         """The crack told beside the one that governs: that of statics, or the worst beside a given one; or None."""
         other = self.worst if self.given else self.statics
         return None if other is self.governing else other
-
-    @property
-    def verdict(self) -> Verdict:
-        """That of the crack given or of statics, but undecided where statics stands and another crack does not."""
-        of_statics = self.statics.ensemble.verdict
-        if of_statics is not Verdict.STANDS or self.given:
-            return of_statics
-        others_stand = all(each.ensemble.verdict is Verdict.STANDS for each in self.followed)
-        return Verdict.STANDS if others_stand else Verdict.UNDECIDED
-
-    @property
-    def disagree(self) -> bool:
-        """Whether statics stands and the crack that governs does not."""
-        governing = self.governing.ensemble.verdict
-        return self.statics.ensemble.verdict is Verdict.STANDS and governing is not Verdict.STANDS
-
-    @property
-    def why(self) -> str:
-        """The reason for the verdict: how many members overturn, and with which crack."""
-        governing = self.governing
-        crack = f" with the {governing.description}" if governing.description else ""
-        words = f"{governing.count} members overturn{crack}"
-        if self.given and self.beside is not None:
-            return (
-                f"{words} as given; should the {self.beside.description} form instead, {self.beside.count} do"
-            )
-        if governing is not self.statics:
-            words += f", {self.statics.count} with the {self.statics.description} of statics"
-        return f"the cracks disagree: {words}" if self.disagree else words
 
 
 @lru_cache(maxsize=256)
@@ -123,9 +114,26 @@ def cracks(structure: Structure | Mechanism) -> tuple[Crack, ...]:
     if isinstance(structure, Mechanism):
         return (Crack("", math.nan, structure),)
     return tuple(
-        Crack(each.description, each.position, each.structure.mechanism())
+        Crack(each.description, each.position, each.structure.mechanism(), _friction(each.structure))
         for each in structure.candidates(CRACKS)
     )
+
+
+def _friction(structure: Structure) -> float:
+    """The largest friction that a joint needs as it lifts, to the side to which it does so first.
+
+    λ, the mean over all joints on the ground, where the mechanism alone does not tell the forces of each.
+    """
+    sides = structure.mechanism().sides
+    side = min(sides, key=lambda each: each.uplift_multiplier)
+    sign = 1.0 if side is sides[0] else -1.0
+    ground = np.array([-sign * side.uplift_multiplier * GRAVITY])
+    least = np.array([1e-12 * side.end_rotation])
+    try:
+        contacts = structure.contact_forces(sign * least, np.zeros(1), None, ground, np.zeros(1), least)
+    except UnknownContacts:
+        return side.uplift_multiplier
+    return float(np.nanmax(contacts.required_friction))
 
 
 def ensemble_over_cracks(
@@ -139,26 +147,56 @@ def ensemble_over_cracks(
     """Return the ensembles of the cracks that may govern.
 
     Where the crack that statics chooses overturns, it says all. Otherwise every crack that `screened` leaves in doubt
-    is followed in full. exhaustive: every crack is followed, whatever the screen says; docs/pages/validation.md counts
-    what it misses. verdict_only: as `ensemble` takes it. Raises MotionError as `integrate` does.
+    is followed in full, and the one that then governs with as many members as its word needs. A crack that slides
+    before it lifts is left out where another one is left, unless it is given. exhaustive: every crack is followed,
+    whatever the screen says; docs/pages/validation.md counts what it misses. verdict_only: as `ensemble` takes it.
+    Raises MotionError as `integrate` does.
     """
-    first, *others = cracks(structure)
     given = isinstance(structure, Structure) and structure.crack_is_given
+    several = cracks(structure)
+    sliding = [each for each in several if slides_first(each, motions, settings)]
+    first, *others = several if given else [each for each in several if each not in sliding] or several
     of_statics = ensemble(
         first.mechanism, motions, settings.ensemble, tolerance=settings.tolerance, verdict_only=verdict_only
     )
-    statics = FollowedCrack(first.description if others else "", first.position, of_statics)
-    if not others or isinstance(structure, Mechanism) or of_statics.verdict is Verdict.OVERTURNS:
+    name = first.description if len(several) > 1 else ""
+    statics = FollowedCrack(name, first.position, of_statics, first in sliding)
+    overturns = statics.facts.step(settings.ensemble.risk) is Verdict.OVERTURNS
+    if not others or isinstance(structure, Mechanism) or overturns:
         return CrackEnsembles((statics,), given)
     doubtful = (
         others
         if exhaustive
         else screened(others, of_statics, motions, settings, first.mechanism.uplift_multiplier)
     )
-    in_full = [
-        FollowedCrack(each.description, each.position, _alone(each, motions, settings)) for each in doubtful
-    ]
-    return CrackEnsembles((statics, *in_full), given)
+    mechanisms = {
+        FollowedCrack(
+            each.description, each.position, _alone(each, motions, settings), each in sliding
+        ): each.mechanism
+        for each in doubtful
+    }
+    ensembles = CrackEnsembles((statics, *mechanisms), given)
+    while (governing := ensembles.governing) in mechanisms:
+        # Another crack may govern once this one has its members; each grows once.
+        more = grown(
+            governing.ensemble,
+            mechanisms.pop(governing),
+            motions,
+            settings.ensemble,
+            tolerance=settings.tolerance,
+        )
+        grew = replace(governing, ensemble=more)
+        ensembles = replace(
+            ensembles, followed=tuple(grew if each is governing else each for each in ensembles.followed)
+        )
+    return ensembles
+
+
+def slides_first(crack: Crack, motions: GroundMotions, settings: AssessmentSettings) -> bool:
+    """Whether a crack slides before it lifts, under motions that reach so far."""
+    slides_at = crack.slides_at(settings.friction_coefficient)
+    each = (forcing_of(motion, motions.vertical) for motion in motions.horizontal.values())
+    return not math.isnan(slides_at) and any(forcing.excitation > slides_at for forcing in each)
 
 
 def screened(

@@ -6,9 +6,10 @@ more.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Protocol
 
 from rocking.quantities import percent
 from rocking.remarks import Kind, Remark
@@ -48,6 +49,16 @@ class Verdict(StrEnum):
     def stays_up(self) -> bool:
         """Whether the structure stays up, because this motion does not overturn it or because none can."""
         return self in (Verdict.STANDS, Verdict.CANNOT_OVERTURN)
+
+    @property
+    def is_sure(self) -> bool:
+        """Whether nothing more needs to be asked: it stays up, or it overturns."""
+        return self.stays_up or self is Verdict.OVERTURNS
+
+    @property
+    def predicate(self) -> str:
+        """It as what a sentence says of a structure."""
+        return "is uncertain" if self is Verdict.UNCERTAIN else str(self)
 
     @property
     def badness(self) -> int:
@@ -171,6 +182,11 @@ class CrackFacts:
             self.falls + self.failed, self.members, self.farthest if not self.failed else math.inf, risk
         )
 
+    def is_near_an_edge(self, risk: float) -> bool:
+        """Whether more members may change the word of these."""
+        farthest = self.farthest if not self.failed else math.inf
+        return near_an_edge(self.falls + self.failed, self.members, farthest, risk)
+
     def step_of_followed(self, risk: float) -> Verdict:
         """Return the word of those that were followed alone.
 
@@ -284,6 +300,43 @@ class Decision:
         """Key by which the worst of several comes last: the word, then the share."""
         share = self.interval[0] if math.isnan(self.share) else self.share
         return self.word.badness, -1.0 if math.isnan(share) else share
+
+
+class Decided(Protocol):
+    """A structure with its decision: a result, or the row that it was written into."""
+
+    @property
+    def structure(self) -> str:
+        """Name of the structure."""
+
+    @property
+    def decision(self) -> Decision:
+        """What becomes of it."""
+
+    @property
+    def severity(self) -> tuple[float, ...]:
+        """Key by which the worst of several comes last."""
+
+    @property
+    def rotation_ratio(self) -> float:
+        """Largest rotation over critical rotation as recorded."""
+
+    @property
+    def rotation_ratio_low(self) -> float:
+        """5 % quantile of the rotation ratio of the members."""
+
+    @property
+    def rotation_ratio_high(self) -> float:
+        """95 % quantile of the rotation ratio of the members."""
+
+
+def worst_first(decisions: Iterable[tuple[str, Decision]]) -> list[str]:
+    """Return the names, of records or structures, by the shares that overturn at least, summed over all of a name."""
+    shares: dict[str, float] = {}
+    for name, decision in decisions:
+        known = max(decision.severity[1], 0.0)
+        shares[name] = shares.get(name, 0.0) + known
+    return sorted(shares, key=shares.__getitem__, reverse=True)
 
 
 # Whole on purpose: the rows of the table, one after another.

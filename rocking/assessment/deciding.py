@@ -1,4 +1,4 @@
-"""The causes that decide an undecided case: the share of the variance of overturning that each cause explains.
+"""The causes that decide where members disagree: the share of the variance of overturning that each one explains.
 
 Overturning is 1 or 0 of each member. What explains a share of its variance decides so much of the outcome: who knew it
 would know by so much more whether the structure falls. A share is that of an analysis of variance with one factor, less
@@ -13,6 +13,7 @@ import numpy as np
 
 from rocking.assessment.causes import CAUSES, Origin
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
+from rocking.remarks import Kind, Remark
 
 BINS = 4
 """Parts into which the range of a cause with all values in between is cut: 16 of 64 members each."""
@@ -74,6 +75,25 @@ def decided_by(ensembles: CrackEnsembles) -> str:
     if first.share >= DECIDES:
         return f"decided by {first.words}"
     return f"nothing decides by itself, most {first.words}"
+
+
+_TELLS = 0.2
+"""Share of the variance of overturning from which on knowing one input better is worth a measurement."""
+_KINDS = {"restitution": Kind.RESTITUTION, "processing": Kind.PROCESSING, CRACK: Kind.CRACK}
+
+
+def would_tell(ensembles: CrackEnsembles, restitution_is_typed: bool = False) -> tuple[Remark, ...]:
+    """Return what would tell most of a case: the first of what is not known, if it explains _TELLS at least.
+
+    restitution_is_typed: whether whoever described the structure gave its range, and so knows it no better.
+    """
+    worth = (
+        Remark(_KINDS[each.name])
+        for each in deciding(ensembles)
+        if each.origin is Origin.IGNORANCE and each.share >= _TELLS and each.name in _KINDS
+        if not (restitution_is_typed and each.name == "restitution")
+    )
+    return tuple(worth)[:1]
 
 
 def explained(falls: np.ndarray, groups: np.ndarray) -> float:

@@ -8,9 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from rocking.assessment.causes import CAUSES, Situation, draw, lattice
+from rocking.assessment.decide import FAR, UNANIMOUS, CrackFacts
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import EnsembleSettings
-from rocking.assessment.verdict import NEGLIGIBLE, Verdict, verdict
+from rocking.assessment.verdict import NEGLIGIBLE
 from rocking.errors import MotionError
 from rocking.motion.forcing import forcing_of
 from rocking.motion.integration import TOLERANCES, Rocking, reduce
@@ -20,15 +21,8 @@ from rocking.structures.mechanism import EquivalentBlock, Mechanism
 
 FIRST = 16
 """Members with which an ensemble begins."""
-MOST_NEAR_A_LIMIT = 256
-"""Members that an ensemble grows to where its verdict is not clear."""
-UNANIMOUS = 64
-"""Members of which none overturns, or none stands, that settle a verdict."""
-FAR = 0.3
-"""Rotation ratio that fewer members must all stay below to settle that the structure stands. The target `calibrate`
-measures how many verdicts this changes, on sites that took no part in any fit."""
-LATTICE_ERROR = 4.0
-"""Members times the error of a probability that all but few cases stay below; `calibrate_ensemble` counts them."""
+MOST_NEAR_AN_EDGE = 256
+"""Members that an ensemble grows to where fewer leave its word open."""
 LEAST_LOSS = 1e-3
 """Share of the velocity that a member loses at an impact at least, unless the structure states less: without a loss it
 would rock through millions of impacts below any rotation that matters, until the integration fails."""
@@ -50,7 +44,7 @@ class Ensemble:
 
     def __repr__(self) -> str:
         return (
-            f"<Ensemble: {self.verdict}, overturns in {self.overturning_members} of {self.members}, largest rotation "
+            f"<Ensemble: overturns in {self.overturning_members} of {self.members}, largest rotation "
             f"{self.rotation_ratio_low:.3g} to {self.rotation_ratio_high:.3g} of the critical one>"
         )
 
@@ -76,10 +70,8 @@ class Ensemble:
 
     @property
     def overturning_share(self) -> float:
-        """Share of members that overturn; nan without members."""
-        if not self.members:
-            return float("nan")
-        return self.overturning_members / self.members
+        """Share of the members that overturn, those that failed counted as falling; nan without members."""
+        return self.facts().share
 
     @property
     def rotation_ratio_low(self) -> float:
@@ -104,34 +96,26 @@ class Ensemble:
         place = np.clip(share * self.members - 0.5, 0, self.members - 1)
         return float(np.interp(place, places, np.sort(self._followed)))
 
-    @property
-    def verdict(self) -> Verdict:
-        """The verdict on this mechanism."""
-        return verdict(self.overturning_share, self.probability_error, self.settings.risk)
-
-    @property
-    def probability_error(self) -> float:
-        """The most by which the share of members that overturn differs from that of very many members.
-
-        It falls with the number of members itself, as they stand on a lattice, not with its root. It counts as none
-        where UNANIMOUS members or more agree, or where fewer all stay FAR from overturning.
-        """
-        many_agree = self.members >= UNANIMOUS and self.overturning_members in (0, self.members)
-        if many_agree or self.far:
-            return 0.0
-        return LATTICE_ERROR / max(self.members, 1)
+    def facts(self, name: str = "", slides: bool = False) -> CrackFacts:
+        """Return what the decision asks of these members. name: of their crack; slides: whether that slides first."""
+        return CrackFacts(
+            name=name,
+            falls=self.overturning_members,
+            followed=self.members,
+            failed=self.failed_members,
+            farthest=float(self._followed.max()) if self.members else np.nan,
+            slides=slides,
+        )
 
     @property
     def far(self) -> bool:
         """Whether all members stay far from overturning."""
-        return bool(self.members and self._followed.max() <= FAR)
+        return bool(self.members and not self.failed_members and self._followed.max() <= FAR)
 
     @property
-    def near_a_limit(self) -> bool:
-        """Whether it is undecided, and more members may decide it."""
-        opposite = min(self.overturning_share, 1 - self.overturning_share)
-        may_be_settled = opposite - self.probability_error <= self.settings.risk
-        return self.verdict is Verdict.UNDECIDED and may_be_settled
+    def is_near_an_edge(self) -> bool:
+        """Whether more members may change its word."""
+        return self.facts().is_near_an_edge(self.settings.risk)
 
     def followed_by(self, more: "Ensemble") -> "Ensemble":
         """Return the ensemble of these members and of `more`, of the same causes."""
@@ -156,8 +140,8 @@ class Ensemble:
 
 
 def design(settings: EnsembleSettings) -> np.ndarray:
-    """Return the points of the members in the order in which they are followed, MOST_NEAR_A_LIMIT at least."""
-    return lattice(max(settings.size, MOST_NEAR_A_LIMIT))
+    """Return the points of the members in the order in which they are followed, MOST_NEAR_AN_EDGE at least."""
+    return lattice(max(settings.size, MOST_NEAR_AN_EDGE))
 
 
 def ensemble(
@@ -172,9 +156,8 @@ def ensemble(
     """Follow `structure` through the members of its ensemble, the same ones at every call.
 
     It ends after FIRST members where they all rest. Unless `grows` is False, it grows from the number in the settings
-    to UNANIMOUS members where that may settle an undecided verdict, and then to MOST_NEAR_A_LIMIT. verdict_only: it
-    also ends after FIRST members where they all stay far from overturning, which settles the verdict but says less of
-    the quantiles. Raises MotionError as `integrate` does.
+    as `grown` says. verdict_only: it also ends after FIRST members where they all stay far from overturning, which
+    settles the verdict but says less of the quantiles. Raises MotionError as `integrate` does.
     """
     settings = settings or EnsembleSettings()
     points = design(settings)
@@ -188,12 +171,27 @@ def ensemble(
     followed = max(settings.size, FIRST)
     if followed > FIRST:
         members = members.followed_by(follow(points[FIRST:followed]))
-    if not grows:
-        return members
-    for size in (UNANIMOUS, MOST_NEAR_A_LIMIT):
-        if followed < size and members.near_a_limit:
-            members = members.followed_by(follow(points[followed:size]))
-            followed = size
+    return grown(members, structure, motions, settings, tolerance=tolerance) if grows else members
+
+
+def grown(
+    members: Ensemble,
+    structure: Rocking,
+    motions: GroundMotions,
+    settings: EnsembleSettings,
+    *,
+    tolerance: float = 1e-6,
+) -> Ensemble:
+    """Return the ensemble with UNANIMOUS members, and then MOST_NEAR_AN_EDGE, where fewer leave its word open.
+
+    structure, motions, settings, tolerance: those of the `members` so far.
+    """
+    points = design(settings)
+    for size in (UNANIMOUS, MOST_NEAR_AN_EDGE):
+        followed = members.rotation_ratios.size
+        if followed < size and members.is_near_an_edge:
+            more = drawn(structure, motions, points[followed:size], settings, tolerance=tolerance)
+            members = members.followed_by(more)
     return members
 
 

@@ -7,21 +7,13 @@ import math
 from collections.abc import Mapping, Sequence
 from itertools import groupby
 
-from rocking.assessment.verdict import Verdict
-
-_DOES = {
-    Verdict.STANDS: "stands",
-    Verdict.OVERTURNS: "overturns",
-    Verdict.UNDECIDED: "is undecided",
-    Verdict.UNKNOWN: "is unknown",
-    Verdict.CANNOT_OVERTURN: "cannot overturn",
-}
+from rocking.assessment.decide import Verdict
 
 
 def periods_in_words(verdicts: Mapping[float, Verdict]) -> str:
     """Return the verdicts by the period [s] of a support, 0 of the ground, in intervals: one need not change once only.
 
-    "stands on a building of T_b ≤ 0.25 s, is undecided at T_b 0.3 s, overturns from 0.36 s on (tried to 0.6 s)".
+    "stands on a building of T_b ≤ 0.25 s, is uncertain at T_b 0.3 s, overturns from 0.36 s on (tried to 0.6 s)".
     """
     groups = [
         (verdict, [period for period, _ in many])
@@ -29,7 +21,7 @@ def periods_in_words(verdicts: Mapping[float, Verdict]) -> str:
     ]
     last = len(groups) - 1
     return ", ".join(
-        f"{_DOES[verdict]} {_interval(periods, place == last)}"
+        f"{verdict.predicate} {_interval(periods, place == last)}"
         for place, (verdict, periods) in enumerate(groups)
     )
 

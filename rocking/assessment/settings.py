@@ -74,7 +74,7 @@ class AssessmentSettings:
     """The settings of every method. Raises ConfigurationError when a value is outside what is allowed.
 
     fidelity: auto stops at the first method that settles whether a structure overturns to fidelity_risk. contact
-    follows as stacks of rigid courses what is undecided, has contacts that open, or tapers in courses.
+    follows as stacks of rigid courses what has contacts that open, or tapers in courses.
     """
 
     acceleration_scale: Scale = described(
@@ -91,7 +91,7 @@ class AssessmentSettings:
     fidelity: Literal["full", "auto", "contact"] = described(
         "full",
         "full runs every method, to compare them; auto runs what settles the verdict of a case, where no PDFs are "
-        "made; contact is full, with contact dynamics of what stays undecided",
+        "made; contact is full, with contact dynamics of what cannot be told else",
     )
     fidelity_risk: float = described(
         0.01, "largest probability of a wrong verdict with which fidelity: auto stops; 0: none", ge=0, le=0.2

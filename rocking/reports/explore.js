@@ -81,11 +81,10 @@
       record.id.split(/(?<=[_.-])/).forEach((piece) => { name.append(piece); add(name, "wbr"); });
       for (const peak of [record.pga, record.pgv]) add(row, "td", { class: "peak" }, peak === null ? "–" : Number(peak.toPrecision(2)));
       structures.forEach((structure, s) => {
-        const { verdict, cell, text, fill } = caseOf(record, structure);
+        const { verdict, cell, text } = caseOf(record, structure);
         const title = `${structure.name} under ${record.id}: ${text}`;
         const names = { title, "aria-label": title, "data-record": r, "data-structure": s, "data-verdict": verdict };
-        const button = add(add(row, "td"), "button", { type: "button", class: `cell ${verdict.replace(" ", "-")}`, tabindex: -1, "aria-pressed": false, ...names }, cell);
-        if (fill) button.style.backgroundColor = fill;
+        add(add(row, "td"), "button", { type: "button", class: `cell ${verdict.replaceAll(" ", "-")}`, tabindex: -1, "aria-pressed": false, ...names }, cell);
       });
     });
     order("worst");

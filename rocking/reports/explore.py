@@ -13,16 +13,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rocking.assessment.case import RecordResult, StationResult
+from rocking.assessment.decide import Verdict
 from rocking.assessment.over_periods import placed
 from rocking.assessment.rows import ComparisonRow, RecordRows
-from rocking.assessment.verdict import NEGLIGIBLE, Verdict
+from rocking.assessment.verdict import NEGLIGIBLE
 from rocking.motion.response import Response
 from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.processing import displacement
 from rocking.reports.drawings import fallen_rotation
 from rocking.reports.panels import moving_span, rotation_ratios
-from rocking.reports.printing import LOOKS, band_text, cell_text, fill_of, ratio
+from rocking.reports.printing import LOOKS, band_text, cell_text, ratio
 from rocking.reports.record import warnings_of, worst_cases
 from rocking.structures import Mechanism, Structure
 
@@ -53,7 +54,7 @@ def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[s
     worst = worst_cases(rows.comparison)
     components = {row.component for row in worst.values()}
     failure = " ".join(["no result.", *(each.message for each in rows.failures)])
-    nothing = {"verdict": Verdict.UNKNOWN, "cell": cell_text(None), "text": failure, "severity": [-9]}
+    nothing = {"verdict": Verdict.CANNOT_BE_TOLD, "cell": cell_text(None), "text": failure, "severity": [-9]}
     cases = {
         station.structure: _case(
             station,
@@ -93,12 +94,15 @@ def explore_page(records: Iterable[Content], structures: Mapping[str, Structure]
     both = {"records": of_records, "structures": of_structures}
     content = json.dumps(both, allow_nan=False, separators=(",", ":"))
     colours = "".join(
-        f".{verdict.replace(' ', '-')} {{ background: {fill}; color: {ink}; }}\n"
+        f".{_css(verdict)} {{ background: {fill}; color: {ink}; }}\n"
         for verdict, (_, fill, ink, _) in LOOKS.items()
     )
+    legend = (f'<span class="cell {_css(word)}">{sign}</span> {word}' for word, (sign, *_) in LOOKS.items())
     pieces = {
         "title": escape(title or "Rocking of structures under recorded earthquakes"),
         "count": f"{counted(len(of_records), 'record')}, {counted(len(structures), 'structure')}",
+        "verdicts": "".join(f"<option>{verdict}</option>" for verdict in LOOKS),
+        "legend": "\n".join(legend),
         "style": (_HERE / "explore.css").read_text(encoding="utf-8") + colours,
         "script": (_HERE / "explore.js").read_text(encoding="utf-8"),
         # no text of a user can end the element that holds it
@@ -106,6 +110,11 @@ def explore_page(records: Iterable[Content], structures: Mapping[str, Structure]
     }
     page = (_HERE / "explore.html").read_text(encoding="utf-8")
     return re.sub(r"{{ (\w+) }}", lambda name: pieces[name[1]], page).encode()
+
+
+def _css(verdict: Verdict) -> str:
+    """Return the class of a verdict's cells."""
+    return verdict.replace(" ", "-")
 
 
 def _case(
@@ -120,15 +129,17 @@ def _case(
     band = f" (5 to 95 % of the members: {band_text(station, ' to ')})" if station.members else ""
     crack = f" Crack that governs: {station.crack}." if station.crack else ""
     reserve = f" Reserve: {station.reserve_in_words}." if station.reserve else ""
+    decision = station.decision
     place = placed("", station.support_period_s).removeprefix(", ")
     place = f"At its worst, {place}: " if place else ""
+    share = f", {decision.share_in_words}" if decision.share_in_words else ""
+    doubts = f" Doubtful: {'; '.join(map(str, decision.doubts))}." if decision.doubts else ""
     case: Content = {
-        "verdict": str(station.verdict),
-        "cell": cell_text(station),
-        "fill": fill_of(station),
-        "text": f"{place}{station.verdict}: {station.why}. Largest rotation over critical rotation: "
+        "verdict": str(decision.word),
+        "cell": cell_text(decision),
+        "text": f"{place}{decision.word}{share}: {decision.why}.{doubts} Largest rotation over critical rotation: "
         f"{ratio(station.rotation_ratio, 2)} as given{band}, {closed} by the closed form.{crack}{reserve}",
-        "share": _number(station.overturning_share),
+        "share": _number(decision.share),
         "severity": [_number(min(each, 1e9)) for each in station.severity],
         "component": row.component if row else "",
         "predicted": _number(min(predicted, 1e9)),

@@ -261,9 +261,9 @@ def _plot_assessment(assessment: "StructureAssessment", axes: Axes) -> None:
     mechanism = assessment.mechanism
     band = (assessment.rotation_ratio_low, assessment.rotation_ratio_high)
     draw_rotation(axes, times, _over_critical(rotation, mechanism), band=band)
-    share = f"{100 * assessment.overturning_share:.0f} % of {assessment.members} members"
+    share = f"{assessment.decision.share_in_words} of {assessment.members} members"
     axes.set(xlabel=TIME, ylabel="rotation / critical rotation [-]", ylim=(-1.15, 1.15))
-    axes.set_title(f"{assessment.verdict}: overturns in {share}")
+    axes.set_title(f"{assessment.decision.word}: overturns in {share}")
     axes.legend()
 
 

@@ -6,13 +6,14 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from rocking.assessment.verdict import NEGLIGIBLE, Method, Verdict, rests
-from rocking.quantities import counted, percent
+from rocking.assessment.decide import Verdict
+from rocking.assessment.verdict import NEGLIGIBLE, Method, rests
+from rocking.quantities import counted
 from rocking.reports.units import unit_of, units_in_words
 from rocking.tables import Row
 
 if TYPE_CHECKING:
-    from rocking.assessment.verdict import Judgement
+    from rocking.assessment.decide import Decided, Decision
 
 Cell = str | dict[str, object]
 """A text; or a text that is strong, with another below it (layout.typ)."""
@@ -23,14 +24,16 @@ NOTHING = "–"
 """Printed where a cell is empty."""
 LOOKS: dict[Verdict, tuple[str, str, str, str]] = {
     Verdict.OVERTURNS: ("▲", "#7a2400", "#ffffff", "xxxx"),
-    Verdict.UNDECIDED: ("?", "#f0a030", "#000000", "///"),
-    Verdict.UNKNOWN: (NOTHING, "#ffffff", "#000000", ""),
+    Verdict.PROBABLY_OVERTURNS: ("△", "#e2793a", "#000000", "\\\\\\"),
+    Verdict.CANNOT_BE_TOLD: (NOTHING, "#ffffff", "#000000", ""),
+    Verdict.UNCERTAIN: ("?", "#f7bd5c", "#000000", "///"),
+    Verdict.PROBABLY_STANDS: ("○", "#f6ecd2", "#000000", "..."),
     Verdict.STANDS: ("●", "#dceaf7", "#000000", ""),
     Verdict.CANNOT_OVERTURN: ("■", "#c5d9ec", "#000000", ""),
 }
 """Sign, colour, colour of letters on it, and pattern of each verdict: in print without colour the others tell it."""
-_FEW_FALL, _MANY_FALL = (252, 226, 176), (229, 134, 26)
-"""Red, green and blue of an undecided case of which no member falls, and of one of which all do."""
+LEGEND = ", ".join(f"{sign} {verdict}" for verdict, (sign, *_) in LOOKS.items())
+"""The signs of a map."""
 METHODS = {
     Method.PRINTED: "Eq. 15, paper's block, a_sc",
     Method.PRINTED_UPLIFT: "Eq. 15, paper's block, a_sc,alt",
@@ -91,11 +94,11 @@ def ratio(value: float | None, digits: int = 3) -> str:
     return NOTHING if math.isnan(value) else "rests" if rests(value) else "overturns"
 
 
-def to_spread(value: float, judgement: "Judgement") -> str:
-    """Return a rotation ratio of `judgement` with no more digits, three at most, than the spread of its members has a
+def to_spread(value: float, result: "Decided") -> str:
+    """Return a rotation ratio of `result` with no more digits, three at most, than the spread of its members has a
     meaning for: to a tenth of it.
     """
-    spread = judgement.rotation_ratio_high - judgement.rotation_ratio_low
+    spread = result.rotation_ratio_high - result.rotation_ratio_low
     if rests(value) or not math.isfinite(value):
         return ratio(value)
     if not 0 < spread < math.inf:
@@ -104,45 +107,17 @@ def to_spread(value: float, judgement: "Judgement") -> str:
     return number(value, min(max(digits, 1), 3))
 
 
-def fill_of(judgement: "Judgement | None") -> str:
-    """Return the colour of a case: that of its verdict, of an undecided one the deeper the more of its members fall."""
-    verdict = judgement.verdict if judgement else Verdict.UNKNOWN
-    share = judgement.overturning_share if judgement else math.nan
-    if verdict is not Verdict.UNDECIDED or math.isnan(share):
-        return LOOKS[verdict][1]
-    mixed = (round(few + share * (many - few)) for few, many in zip(_FEW_FALL, _MANY_FALL, strict=True))
-    return "#" + "".join(f"{part:02x}" for part in mixed)
+def cell_text(decision: "Decision | None") -> str:
+    """Return a case in a map: its sign and the share behind it; "≥ 12 %" where that is only the least."""
+    sign = LOOKS[decision.word if decision else Verdict.CANNOT_BE_TOLD][0]
+    share = decision.share_in_words if decision else ""
+    return f"{sign} {share.replace('at least', '≥')}".strip()
 
 
-def cell_text(judgement: "Judgement | None") -> str:
-    """Return a case in a map: its sign, and the number behind it, whose form says which it is.
-
-    "5/6": stacks of courses that fall, of those that contact dynamics followed. "12 %": share of the members that
-    overturn. "11–100 %": that of two cracks, where all fall with one and not with the other. "0.4": rotation ratio of a
-    single run.
-    """
-    sign = LOOKS[judgement.verdict if judgement else Verdict.UNKNOWN][0]
-    if judgement is not None and judgement.stack_runs:
-        return f"{sign} {judgement.stack_falls}/{judgement.stack_runs}"
-    if judgement is not None and judgement.one_crack_falls:
-        other = (judgement.statics_overturning_members or 0) / (judgement.statics_members or 1)
-        return f"{sign} {percent(other)}–{percent(judgement.overturning_share)}\u00a0%"
-    if judgement is not None and judgement.members and judgement.verdict is Verdict.UNDECIDED:
-        # What contacts leave undecided though no member overturns has no share to print.
-        return (
-            f"{sign} {percent(judgement.overturning_share)}\u00a0%" if judgement.overturning_members else sign
-        )
-    if judgement is not None and judgement.members:
-        return f"{sign} {percent(judgement.overturning_share)}\u00a0%"
-    if judgement is not None and judgement.rotation_ratio < math.inf:
-        return f"{sign} {number(judgement.rotation_ratio, 2)}"
-    return sign
-
-
-def band_text(judgement: "Judgement", to: str) -> str:
+def band_text(result: "Decided", to: str) -> str:
     """Return the rotation ratios that 5 and 95 % of the members do not exceed, with `to` between them; one if equal."""
-    low = ratio(judgement.rotation_ratio_low, 2)
-    high = ratio(judgement.rotation_ratio_high, 2)
+    low = ratio(result.rotation_ratio_low, 2)
+    high = ratio(result.rotation_ratio_high, 2)
     return low if low == high else f"{low}{to}{high}"
 
 

@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 
 from rocking.assessment.case import RecordResult, StationResult
-from rocking.assessment.causes import Origin
-from rocking.assessment.deciding import CRACK, deciding
+from rocking.assessment.decide import Verdict
 from rocking.assessment.over_periods import placed
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
@@ -24,7 +23,7 @@ from rocking.assessment.rows import (
     VerdictRow,
     structure_rows,
 )
-from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Verdict, agreement
+from rocking.assessment.verdict import NEGLIGIBLE, Agreement, agreement
 from rocking.codes.settings import DesignSettings
 from rocking.quantities import GRAVITY, counted, percent
 from rocking.records.dates import day_of
@@ -222,10 +221,11 @@ def headlines(result: RecordResult) -> list[dict[str, str]]:
     for station in result.worst_first:
         if station.scene.place.supports:
             continue
-        remark = station.count if station.verdict is Verdict.OVERTURNS else ""
-        if station.verdict in (Verdict.UNDECIDED, Verdict.UNKNOWN, Verdict.CANNOT_OVERTURN):
-            remark = station.why
-        groups.setdefault(station.verdict, []).append(station.structure + (f" ({remark})" if remark else ""))
+        decision = station.decision
+        said = decision.word in (Verdict.UNCERTAIN, Verdict.CANNOT_BE_TOLD, Verdict.CANNOT_OVERTURN)
+        parts = [decision.share_in_words, decision.why if said else ""]
+        remark = ": ".join(filter(None, parts))
+        groups.setdefault(decision.word, []).append(station.structure + (f" ({remark})" if remark else ""))
     lines = []
     for verdict, names in groups.items():
         room = sum(end <= MOST_LETTERS for end in accumulate(map(len, names)))
@@ -271,32 +271,14 @@ def _cautions(report: RecordReport) -> list[str]:
     ]
 
 
-_TELLS = 0.2
-"""Share of the variance of overturning from which on knowing one input better is worth a measurement."""
-_MEASURES = {
-    "restitution": "measure the restitution, or take it from tests of such masonry",
-    "processing": "take a processed record of the network instead of the raw one",
-    CRACK: "find out where it cracks, and give it (crack: known)",
-}
-"""The advice for an input that is not known."""
-
-
 def _advice(report: RecordReport) -> list[str]:
-    """Return what would tell more of the undecided cases of a record, each thing to do once with its structures."""
+    """Return what would tell more of the cases that are not sure, each thing to do once with its structures."""
     to_do: dict[str, list[str]] = {}
     for station in report.stations:
-        if station.verdict is not Verdict.UNDECIDED or station.ensembles is None:
+        if station.decision.word.is_sure:
             continue
-        worth = [
-            _MEASURES[each.name]
-            for each in deciding(station.ensembles)
-            if each.origin is Origin.IGNORANCE and each.share >= _TELLS and each.name in _MEASURES
-        ]
-        things = worth[:1]
-        if station.is_in_doubt:
-            things = ["follow it by contact dynamics (fidelity: contact)"]
-        for thing in things:
-            to_do.setdefault(thing, []).append(report.called(station.structure))
+        for remark in station.decision.tells:
+            to_do.setdefault(str(remark), []).append(report.called(station.structure))
     return [
         f"To learn more of {printing.listed(list(dict.fromkeys(names)))}: {thing}."
         for thing, names in to_do.items()
@@ -570,11 +552,11 @@ VERDICT_COLUMNS: list[Column] = [
     *columns_of(VerdictRow, "structure=1.4"),
     (
         "Verdict",
-        "0.7",
+        "0.8",
         "l",
-        lambda station: strong(str(station.verdict), not station.verdict.stays_up),
+        lambda station: strong(str(station.decision.word), not station.decision.word.stays_up),
     ),
-    ("Members that overturn", "0.75", "l", lambda station: words(station.counts_in_brief)),
+    ("Share that overturns", "0.75", "l", lambda station: words(station.decision.share_in_words)),
     ("As given", "0.7", "l", lambda station: printing.to_spread(station.rotation_ratio, station)),
     ("5 %", "0.65", "r", lambda station: printing.to_spread(station.rotation_ratio_low, station)),
     ("50 %", "0.65", "r", lambda station: printing.to_spread(station.rotation_ratio_median, station)),

@@ -15,17 +15,18 @@ from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator
 from matplotlib.transforms import Affine2D
 
 from rocking.assessment.case import StationResult
+from rocking.assessment.decide import Verdict
 from rocking.assessment.over_periods import placed
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import RATIO_COLUMNS, ComparisonRow
-from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Method, Verdict, rests
+from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Method, rests
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.measures import record_measures
 from rocking.reports.drawings import draw_structure, fallen_rotation, round_length
 from rocking.reports.panels import draw_energy_map, draw_motion, draw_rotation, moving_span
-from rocking.reports.printing import LOOKS, fill_of, number, ratio, to_spread
+from rocking.reports.printing import LOOKS, number, ratio, to_spread
 from rocking.reports.style import PREDICTED, PULSE, TEXT_WIDTH, elided, new_figure, panel_at, styled, wrapped
 from rocking.reports.units import unit_of
 from rocking.structures import Structure
@@ -214,7 +215,7 @@ def reserve_figure(stations: Sequence[StationResult], labels: Mapping[str, str])
     least = min([0.5, *(0.8 * each for each in found)])
     panel.axvline(1.0, color="black", linewidth=0.8)
     for place, (station, reserve) in enumerate(reserves):
-        colour = fill_of(station)
+        colour = LOOKS[station.decision.word][1]
         low = limit if math.isnan(reserve.low) else reserve.low
         high = limit if math.isnan(reserve.high) else reserve.high
         bar: dict[str, Any] = {
@@ -259,8 +260,7 @@ def _reserve_in_numbers(reserve: Reserve) -> str:
 
 def _draw_state(axes: Axes, structure: Structure, station: StationResult, middle: float, top: float) -> None:
     """Draw a structure with the crack of its verdict in a column of the strip, at its `middle` and `top` [mm]."""
-    sign, _, ink, hatch = LOOKS[station.verdict]
-    colour = fill_of(station)
+    sign, colour, ink, hatch = LOOKS[station.decision.word]
     cracked = (each.structure for each in structure.candidates() if each.description == station.crack)
     structure = next(cracked, structure)
     rotation = drawn_rotation(structure, station)
@@ -280,14 +280,14 @@ def _draw_state(axes: Axes, structure: Structure, station: StationResult, middle
     axes.text(middle + bar * scale / 2 + 1, foot - 2.0, f"{bar:g} m", va="center", fontsize=7)
     frame = Rectangle((middle - 16, foot - 8.5), 32, 4.5, facecolor=colour, edgecolor="0.25", linewidth=0.5)
     axes.add_patch(frame)
-    word = f"{sign} {station.verdict}"
+    word = f"{sign} {station.decision.word}"
     axes.text(middle, foot - 6.3, word, ha="center", va="center", color=ink, fontweight="bold")
 
 
 def drawn_rotation(structure: Structure, station: StationResult) -> float:
     """Return the signed rotation of a structure on page one, rad: fallen, at its largest rotation or at rest."""
     side = -1 if station.peak_side == -1 else 1
-    if math.isinf(station.rotation_ratio) or station.verdict is Verdict.OVERTURNS:
+    if math.isinf(station.rotation_ratio) or station.decision.word is Verdict.OVERTURNS:
         return fallen_rotation(structure, side)
     if not station.rotation_ratio > NEGLIGIBLE:
         return 0.0
@@ -300,11 +300,10 @@ def _lines(structure: Structure, station: StationResult, peak_acceleration: floa
     static = structure.static_multiplier
     two_sides = not (rests(station.rotation_ratio) or structure.symmetric)
     side = f" {structure.side_names[station.peak_side < 0]}" if two_sides and station.peak_side else ""
-    members = f"{station.count} overturn" if station.members else "one run"
-    if station.one_crack_falls:
-        members = f"{station.count} overturn with {_short(station.crack)}"
+    share = station.decision.share_in_words
+    members = f"{share} of members overturn" if station.members and share else share
     lines = [
-        members,
+        *([members] if members else []),
         f"as given {to_spread(station.rotation_ratio, station)}{side}",
     ]
     if station.members and not rests(station.rotation_ratio_high) and station.rotation_ratio_low < math.inf:
@@ -313,8 +312,7 @@ def _lines(structure: Structure, station: StationResult, peak_acceleration: floa
         )
         lines.append(f"5–95 %: {low} to {'falling' if high == 'overturns' else high}")
     lines.append(f"static {number(static, 2)} g, PGA {number(peak_acceleration / static, 2)} ×")
-    if not station.one_crack_falls:
-        lines.append(_short(station.crack))
+    lines.append(_short(station.crack))
     if station.statics_members:
         count = f"{station.statics_overturning_members} of {station.statics_members}"
         whose = "else" if station.body_crack_is_given else "by statics"

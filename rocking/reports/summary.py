@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from rocking.assessment.decide import ORDER, Verdict, worst_first
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
     AgreementRow,
@@ -19,15 +20,7 @@ from rocking.assessment.rows import (
     VerdictRow,
     worst_period_each,
 )
-from rocking.assessment.verdict import (
-    ORDER,
-    Agreement,
-    Method,
-    Verdict,
-    agreement,
-    within_factor_two,
-    worst_first,
-)
+from rocking.assessment.verdict import Agreement, Method, agreement, within_factor_two
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.quantities import GRAVITY, counted
 from rocking.reports import printing
@@ -138,7 +131,7 @@ def _data(
         "outcomes-figure": pictures(
             outcomes_figure,
             shown if len(shown) > 1 else (),
-            "Number of records under which each structure overturns, is undecided and stands.",
+            "Number of records under which each structure has each verdict.",
         ),
         "map": severity_map(shown, records),
         "supports": pictures(
@@ -205,7 +198,7 @@ def _notices(records: "DataFrame", comparison: "DataFrame", failures: int) -> li
 def outcome_counts(verdicts: Sequence[VerdictRow]) -> dict[str, Counter[Verdict]]:
     """Return of each structure under how many records it has each verdict; the structures the worst first."""
     counts: dict[str, Counter[Verdict]] = {
-        name: Counter() for name in worst_first((row.structure, row) for row in verdicts)
+        name: Counter() for name in worst_first((row.structure, row.decision) for row in verdicts)
     }
     for row in verdicts:
         counts[row.structure][row.verdict] += 1
@@ -213,32 +206,21 @@ def outcome_counts(verdicts: Sequence[VerdictRow]) -> dict[str, Counter[Verdict]
 
 
 def outcome_sentences(verdicts: Sequence[VerdictRow]) -> list[str]:
-    """Return which structures overturn, which stay undecided and which stand, a sentence for each kind that occurs."""
+    """Return which structures have which verdict at worst, a sentence for each that occurs, the worst first."""
     counts = outcome_counts(verdicts)
-    records = len({row.record for row in verdicts})
-    fall = [name for name, each in counts.items() if each[Verdict.OVERTURNS]]
-    open_ = [name for name, each in counts.items() if name not in fall and each[Verdict.UNDECIDED]]
-    unknown = [name for name, each in counts.items() if name not in fall + open_ and each[Verdict.UNKNOWN]]
-    held = [name for name, each in counts.items() if each[Verdict.CANNOT_OVERTURN] == each.total()]
-    stand = [name for name in counts if name not in fall + open_ + unknown + held]
-    under = "under every record" if records > 1 else "under the record"
+    several = len({row.record for row in verdicts}) > 1
     sentences = []
-    if fall:
-        at_least = "at least one record" if records > 1 else "the record"
-        names = [f"{name} ({counts[name][Verdict.OVERTURNS]} of {counts[name].total()})" for name in fall]
-        sentences.append(f"Overturning under {at_least}: {printing.listed(names, most=MOST_NAMED)}.")
-    if open_:
-        names = [f"{name} ({counts[name][Verdict.UNDECIDED]} of {counts[name].total()})" for name in open_]
-        listed = printing.listed(names, most=MOST_NAMED)
-        sentences.append(f"Overturning under none, but undecided under some: {listed}.")
-    if unknown:
-        sentences.append(f"Without an answer under some: {printing.listed(unknown, most=MOST_NAMED)}.")
-    if stand:
-        sentences.append(f"Standing {under}: {printing.listed(stand, most=MOST_NAMED)}.")
-    if held:
-        sentences.append(
-            f"Held by what ties it, so that it cannot overturn: {printing.listed(held, most=MOST_NAMED)}."
-        )
+    for word in ORDER:
+        at_worst = [name for name, each in counts.items() if next(filter(each.get, ORDER)) is word]
+        if not at_worst:
+            continue
+        if several and not word.stays_up:
+            under = "at least one record"
+            at_worst = [f"{name} ({counts[name][word]} of {counts[name].total()})" for name in at_worst]
+        else:
+            under = "every record" if several else "the record"
+        names = printing.listed(at_worst, most=MOST_NAMED)
+        sentences.append(f"{printing.sentence(word.predicate)} under {under}: {names}.")
     return sentences
 
 
@@ -279,7 +261,10 @@ def outcomes_figure(verdicts: Sequence[VerdictRow]) -> Figure:
 
 def severity_map(verdicts: Sequence[VerdictRow], records: "DataFrame") -> dict[str, object]:
     """Return verdict and share by record and structure, both the worst first. verdicts: the worst first."""
-    names = [worst_first((getattr(row, which), row) for row in verdicts) for which in ("record", "structure")]
+    names = [
+        worst_first((getattr(row, which), row.decision) for row in verdicts)
+        for which in ("record", "structure")
+    ]
     rows = names[0][:MOST_MAPPED]
     columns = names[1][:MOST_STRUCTURES]
     others = [(len(names[0]) - len(rows), "record"), (len(names[1]) - len(columns), "structure")]
@@ -299,14 +284,15 @@ def severity_map(verdicts: Sequence[VerdictRow], records: "DataFrame") -> dict[s
             }
             for name in rows
         ],
+        "legend": printing.LEGEND,
         "note": f" Not shown, but in verdicts.csv: {rest}." if rest else "",
     }
 
 
 def _cell(verdict_row: VerdictRow | None) -> dict[str, str]:
-    verdict = verdict_row.verdict if verdict_row else Verdict.UNKNOWN
-    _, _, ink, _ = printing.LOOKS[verdict]
-    return {"text": printing.cell_text(verdict_row), "fill": printing.fill_of(verdict_row), "ink": ink}
+    decision = verdict_row.decision if verdict_row else None
+    _, fill, ink, _ = printing.LOOKS[decision.word if decision else Verdict.CANNOT_BE_TOLD]
+    return {"text": printing.cell_text(decision), "fill": fill, "ink": ink}
 
 
 def structure_table(verdicts: Sequence[VerdictRow]) -> dict[str, object]:
@@ -314,15 +300,14 @@ def structure_table(verdicts: Sequence[VerdictRow]) -> dict[str, object]:
     worst = {row.structure: row for row in reversed(verdicts)}
     counts = outcome_counts(verdicts)
     present = {row.verdict for row in verdicts}
-    rare = (Verdict.UNKNOWN, Verdict.CANNOT_OVERTURN)
-    kinds = [verdict for verdict in ORDER if verdict in present or verdict not in rare]
+    kinds = [verdict for verdict in ORDER if verdict in present]
     heads = [printing.sentence(verdict) for verdict in kinds]
     return table_of(
         [(name, *[counts[name][verdict] for verdict in kinds], worst[name]) for name in counts],
         ("Structure", "1.6", "l", lambda row: strong(row[0])),
         *((head, "auto", "r", lambda row, at=at: str(row[at])) for at, head in enumerate(heads, start=1)),
         ("Worst record", "1.6", "l", lambda row: row[-1].record),
-        ("Overturns there in", "0.8", "l", lambda row: words(row[-1].counts_in_brief)),
+        ("Overturns there in", "0.8", "l", lambda row: words(row[-1].decision.share_in_words)),
         ("As given", "0.7", "r", lambda row: ratio(row[-1].rotation_ratio, 2)),
         ("5–95 % of the members", "1.3", "r", lambda row: printing.band_text(row[-1], " – ")),
     )

@@ -84,7 +84,7 @@ def _draw_shares(axes: Axes, structures: Sequence[SceneResult]) -> None:
     """Draw share against period, one line for each structure; a marker has the colour of its verdict."""
     for line, each in zip(_LINES * len(structures), structures, strict=False):
         periods = each.periods
-        shares = [station.overturning_share for station in each.stations]
+        shares = [station.decision.share for station in each.stations]
         axes.plot(
             periods,
             shares,
@@ -95,7 +95,7 @@ def _draw_shares(axes: Axes, structures: Sequence[SceneResult]) -> None:
             zorder=1,
         )
         for period, share, station in zip(periods, shares, each.stations, strict=True):
-            colour = LOOKS[station.verdict][1]
+            colour = LOOKS[station.decision.word][1]
             axes.plot(
                 [period],
                 [share],

@@ -15,8 +15,9 @@ from types import TracebackType
 from typing import BinaryIO, TextIO
 
 from rocking.assessment.case import SceneResult
+from rocking.assessment.decide import ORDER, worst_first
 from rocking.assessment.rows import FailureRow, VerdictRow, worst_period_each
-from rocking.assessment.verdict import ORDER, Verdict, rocks, worst_first
+from rocking.assessment.verdict import rocks
 from rocking.errors import RecordError, RockingError
 from rocking.quantities import counted, escaped
 from rocking.study.folder import new_log
@@ -25,8 +26,7 @@ from rocking.tables import read_table
 _MOST = 6
 """Rows of a list at the end; a screen should hold it beside the lines of a dozen records."""
 _FEW = 3
-"""Undecided structures that the line of a record names; of more it tells the number."""
-_MARKS = {Verdict.UNDECIDED: "?", Verdict.UNKNOWN: "–"}
+"""Structures of one verdict between standing and overturning that the line of a record names; of more the number."""
 _PIPE = "ROCKING_PROGRESS"
 """The variable of the environment that names the pipe from the jobs to the one who waits."""
 _LOGS: list[Path] = []
@@ -36,9 +36,9 @@ _LONGEST = 1000
 
 
 def record_line(scenes: Iterable[SceneResult], failures: Iterable[FailureRow]) -> str:
-    """Say in one line what came of a record: "overturns: pier; undecided: wall (12 of 64); stands: arch 0.31".
+    """Say in one line what came of a record: "overturns: pier (100 %); uncertain: wall (19 %); stands: arch 0.31".
 
-    The numbers are members of the ensemble that overturn, or the largest rotation over the critical one of the worst
+    The numbers are the shares that overturn, or of what stands the largest rotation over the critical one of the worst
     component. What could not be assessed comes first. Structures on supports stand at the end in a sentence each.
     """
     reasons = ((f"{each.structure}: " if each.structure else "") + each.message for each in failures)
@@ -46,37 +46,40 @@ def record_line(scenes: Iterable[SceneResult], failures: Iterable[FailureRow]) -
     scenes = sorted(scenes, key=lambda scene: scene.worst.severity, reverse=True)
     on_the_ground = [scene.worst for scene in scenes if not scene.scene.place.supports]
     for each in on_the_ground:
-        number = f" {each.rotation_ratio:.2g}" if rocks(each.rotation_ratio) else ""
-        if each.verdict is Verdict.UNDECIDED:
-            number = f" ({each.counts or each.crack})"
+        decision = each.decision
+        share = decision.share_in_words
+        number = f" ({share})" if share else ""
+        if decision.word.stays_up:
+            number = f" {each.rotation_ratio:.2g}" if rocks(each.rotation_ratio) else ""
         divided = "," in each.structure or ";" in each.structure
         name = f'"{each.structure}"' if divided else each.structure
-        parts[each.verdict].append(name + number)
-    if len(undecided := parts[Verdict.UNDECIDED]) > _FEW:
-        parts[Verdict.UNDECIDED] = [str(len(undecided)), f"in {VerdictRow.table.file_name}"]
+        parts[decision.word].append(name + number)
+    for word in ORDER:
+        if not word.is_sure and len(parts[word]) > _FEW:
+            parts[word] = [str(len(parts[word])), f"in {VerdictRow.table.file_name}"]
     lines = [f"{word}: {text}" for word, names in parts.items() if (text := ", ".join(names))]
     return "; ".join([*lines, *(scene.sentence for scene in scenes if scene.scene.place.supports)])
 
 
 def closing_lines(verdicts: Sequence[VerdictRow], failures: Iterable[FailureRow]) -> Iterator[str]:
-    """Yield a table of the structures that do not stand everywhere: two counts, and the names of the records.
+    """Yield a table of the structures that do not stand everywhere: a count for each verdict, and names of records.
 
     Below it stand the records that failed.
     """
-    doubtful = [each for each in worst_period_each(verdicts) if not each.verdict.stays_up]
+    doubtful = [each for each in worst_period_each(verdicts) if not each.decision.word.stays_up]
     of_all = Counter(each.structure for each in doubtful)
-    counts = Counter((each.structure, each.verdict) for each in doubtful)
-    ordered = sorted(of_all, key=lambda name: (-counts[name, Verdict.OVERTURNS], -of_all[name]))
+    counts = Counter((each.structure, each.decision.word) for each in doubtful)
+    words = [word for word in ORDER if any(counts[name, word] for name in of_all)]
+    ordered = sorted(of_all, key=lambda name: [-counts[name, word] for word in words])
     records = counted(len({each.record for each in verdicts}), "record")
     if ordered:
         width = max(9, *map(len, ordered[:_MOST]))
         yield f"Of {records}:"
-        yield f"  {'':<{width}}  overturns  undecided  records (?: undecided, –: unknown)"
+        yield f"  {'':<{width}}  {'  '.join(words)}  records, the worst first"
         for name in ordered[:_MOST]:
-            of_it = (each for each in doubtful if each.structure == name)
-            names = ", ".join(each.record + _MARKS.get(each.verdict, "") for each in of_it)
-            numbers = (counts[name, verdict] for verdict in (Verdict.OVERTURNS, Verdict.UNDECIDED))
-            yield f"  {name:<{width}}  {'  '.join(f'{number:>9}' for number in numbers)}  {names}"
+            names = ", ".join(each.record for each in doubtful if each.structure == name)
+            numbers = "  ".join(f"{counts[name, word]:>{len(word)}}" for word in words)
+            yield f"  {name:<{width}}  {numbers}  {names}"
         if len(ordered) > _MOST:
             yield f"  and {counted(len(ordered) - _MOST, 'more structure')}, in {VerdictRow.table.file_name}"
     elif verdicts:
@@ -101,7 +104,7 @@ def paths_to_read(results: Path, verdicts: Iterable[VerdictRow]) -> Iterator[str
     summary = results / "summary"
     yield from (f"Page to explore: {page}" for page in sorted(summary.glob("*.html")))
     yield f"Summary: {report if (report := summary / 'summary.pdf').is_file() else summary}"
-    records = worst_first((each.record, each) for each in verdicts)
+    records = worst_first((each.record, each.decision) for each in verdicts)
     if records and (report := results / records[0] / "report.pdf").is_file():
         yield f"Report of the worst record: {report}"
 

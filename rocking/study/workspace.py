@@ -126,7 +126,9 @@ def assess_file(
 
 def _told(station: StationResult, scale_factor: float) -> Iterator[str]:
     """Yield the verdict on a structure with its count and reason, then what each component does by itself."""
-    yield f"{placed(station.structure, station.support_period_s)}: {station.verdict}; {station.why}"
+    decision = station.decision
+    share = f" ({decision.share_in_words})" if decision.share_in_words else ""
+    yield f"{placed(station.structure, station.support_period_s)}: {decision.word}{share}; {decision.why}"
     for component, case in station.cases.items():
         if case.answer is None:
             continue

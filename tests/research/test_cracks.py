@@ -6,7 +6,7 @@ import pytest
 from docs.research import cracks
 from docs.research.cracks import KINDS, CrackRow, Member, crack_scores, members, ruled, stack
 from docs.research.report import Target
-from rocking.assessment.verdict import Verdict
+from rocking.assessment.decide import Verdict, decide
 from rocking.motion import integrate
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
@@ -42,17 +42,17 @@ def test_a_column_is_the_block_that_it_is_cut_from():
 def test_the_rule_stands_only_where_every_joint_does():
     mechanisms = members(6)["column"].mechanisms
     lift = mechanisms[0].uplift_multiplier * GRAVITY
-    assert ruled(mechanisms, 0, pulse(0.9 * lift))[0] is Verdict.STANDS
-    assert ruled(mechanisms, 0, pulse(12 * lift))[0] is Verdict.OVERTURNS
-    verdict, shares = ruled({0: mechanisms[0], 5: mechanisms[5]}, 5, pulse(3 * lift))
-    assert shares[0] == 1 and shares[5] == 0 and verdict is Verdict.UNDECIDED
+    assert decide(ruled(mechanisms, 0, pulse(0.9 * lift))[0]).word is Verdict.STANDS
+    assert decide(ruled(mechanisms, 0, pulse(12 * lift))[0]).word is Verdict.OVERTURNS
+    facts, shares = ruled({0: mechanisms[0], 5: mechanisms[5]}, 5, pulse(3 * lift))
+    assert shares[0] == 1 and shares[5] == 0 and decide(facts).word is Verdict.UNCERTAIN
 
 
 def test_the_scores_count_what_they_name():
     base = {"structure": "column", "courses": 6, "record": "r", "scale_factor": 1.0, "static_joint": 0}
     base |= {"static_share": 0.0, "largest_share": 0.0, "falls_in_lmgc90": False}
     cases = [(Verdict.STANDS, False, 0), (Verdict.STANDS, True, 3), (Verdict.OVERTURNS, True, 0)]
-    cases += [(Verdict.UNDECIDED, True, 0)]
+    cases += [(Verdict.UNCERTAIN, True, 0)]
     rows = [
         CrackRow(verdict=verdict, falls=falls, opened=opened, site=str(k), **base)
         for k, (verdict, falls, opened) in enumerate(cases)

@@ -9,7 +9,7 @@ import pytest
 from docs.research import ensembles
 from docs.research.ensembles import CHOSEN, LEFT_OUT, PAIRS, EnsembleTrial, ScreeningTrial, try_ensembles
 from docs.research.sites import SiteRecord
-from rocking.assessment.verdict import Verdict
+from rocking.assessment.decide import Verdict
 from rocking.records import Accelerogram
 from rocking.structures import Block, Spire, Wall
 
@@ -46,7 +46,7 @@ def test_two_components_of_a_site_are_tried_as_a_pair_too():
 
 def test_each_measure_counts_what_it_names():
     shares = {f"share{which}": 0.5 for which in ("", "_64", "_256", "_drawn")}
-    names = {"record": "a", "site": "s", "half": CHOSEN, "structure": "b", "verdict": Verdict.UNDECIDED}
+    names = {"record": "a", "site": "s", "half": CHOSEN, "structure": "b", "verdict": Verdict.UNCERTAIN}
     first = EnsembleTrial(scale_factor=1.0, members=64, draws=4000, inside_band=0.9, **names, **shares)
     wrong = replace(first, share_64=0.6, share_256=0.54, site="t")
     sure = replace(first, verdict=Verdict.STANDS, share=0.0, share_drawn=0.09, site="u")
@@ -58,12 +58,12 @@ def test_each_measure_counts_what_it_names():
 
 
 def test_each_measure_of_the_screen_counts_what_it_names():
-    stands, overturns, undecided = Verdict.STANDS, Verdict.OVERTURNS, Verdict.UNDECIDED
+    stands, overturns, uncertain = Verdict.STANDS, Verdict.OVERTURNS, Verdict.UNCERTAIN
     cases = [
         (stands, stands, 0.06, 0.0, 0.0),
         (stands, stands, 0.04, 0.0, 0.6),
         (stands, overturns, np.nan, 0.02, 0.04),
-        (undecided, stands, 0.01, 0.5, 0.6),
+        (uncertain, stands, 0.01, 0.5, 0.6),
         (overturns, overturns, np.nan, 0.9, 1.0),
     ]
     about = {"record": "r", "structure": "wall", "scale_factor": 1.0}

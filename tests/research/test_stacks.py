@@ -1,5 +1,7 @@
 """Verdicts with and without contact dynamics beside stacks: what a trial holds, and what its scores count."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -17,7 +19,7 @@ from docs.research.stacks import (
     stack_scores,
 )
 from rocking.assessment.contacts import ContactShare
-from rocking.assessment.verdict import Verdict
+from rocking.assessment.decide import CrackFacts, Facts, Verdict
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.remarks import Kind, Remark
@@ -39,11 +41,15 @@ def test_a_member_stays_whole_below_uplift_and_falls_far_above_it(kind):
 
 
 def test_contact_dynamics_decides_what_a_doubt_leaves_open():
-    doubted = Judged(Verdict.STANDS, Remark(Kind.CONTACTS_OPEN), ContactShare(0, 6))
-    assert (doubted.without, doubted.verdict) == (Verdict.UNDECIDED, Verdict.STANDS)
-    falling = Judged(Verdict.STANDS, Remark(Kind.COURSES_THROWN), ContactShare(2, 6))
-    assert falling.verdict is Verdict.UNDECIDED
-    assert Judged(Verdict.STANDS, None, None).verdict is Verdict.STANDS
+    stands = Facts(cracks=(CrackFacts("", 0, 64, farthest=0.5),))
+    doubted = replace(stands, doubts=(Remark(Kind.CONTACTS_OPEN),))
+    settled = Judged(doubted, ContactShare(0, 64))
+    assert (settled.mechanism, settled.without) == (Verdict.STANDS, Verdict.CANNOT_BE_TOLD)
+    assert settled.verdict is Verdict.STANDS
+    assert Judged(doubted, ContactShare(0, 6)).verdict is Verdict.PROBABLY_STANDS
+    assert Judged(doubted, ContactShare(1, 6)).verdict is Verdict.UNCERTAIN
+    assert Judged(doubted, ContactShare(reason="no stack")).verdict is Verdict.CANNOT_BE_TOLD
+    assert Judged(stands).verdict is Verdict.STANDS
 
 
 def test_a_trial_is_the_same_at_every_call():
@@ -57,7 +63,7 @@ def test_the_scores_count_what_they_name():
     base = {"record": "r", "structure": "spire", "courses": 6, "scale_factor": 1.0, "velocity_ratio_s": 0.1}
     base |= {"contact_s": 0.1, "stack_falls": None, "stack_runs": None, "opened": 1}
     base |= {"opened_height_m": 1.0}
-    stands, falls, open_ = Verdict.STANDS, Verdict.OVERTURNS, Verdict.UNDECIDED
+    stands, falls, open_ = Verdict.STANDS, Verdict.OVERTURNS, Verdict.CANNOT_BE_TOLD
     cases = [
         (stands, "thrown", open_, stands, False, 0.1, False),
         (stands, "thrown", open_, falls, True, 0.9, False),
@@ -88,9 +94,9 @@ def test_the_scores_count_what_they_name():
     assert found["stacks of storeys that open most between two feet"] == (0.5, 4)
     assert found['falls among "stands" with it that open most between two feet'] == (0.0, 1)
     assert found['survivals among "overturns" with it that open so'] == (0.0, 1)
-    assert found["undecided without contact dynamics"] == (pytest.approx(0.6), 5)
-    assert found["undecided with it"] == (pytest.approx(0.2), 5)
-    assert found["undecided that contact dynamics settles"] == (pytest.approx(2 / 3), 3)
+    assert found["open without contact dynamics"] == (pytest.approx(0.6), 5)
+    assert found["open with it"] == (pytest.approx(0.2), 5)
+    assert found["open that contact dynamics settles"] == (pytest.approx(2 / 3), 3)
     assert found["right among those that it settles"] == (1.0, 2)
 
 

@@ -8,10 +8,11 @@ import pytest
 from docs.research.sites import SiteRecord, structures_tried
 from docs.research.tiers import answer_scores, left_out, tier_cases
 from rocking.assessment import fidelity
+from rocking.assessment.decide import Verdict
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.fidelity import Tier, read_tiers
 from rocking.assessment.ground_motions import GroundMotions
-from rocking.assessment.verdict import Method, Verdict
+from rocking.assessment.verdict import Method
 from rocking.records import Accelerogram
 from rocking.structures import Block
 
@@ -62,7 +63,7 @@ def test_the_structures_tried_are_those_behind_the_tiers_that_ship():
 def trial(site: str, method: Method, overturns: bool, share: float) -> dict[str, object]:
     """An answer that costs a tenth of the mechanism where it settles the case, and a tenth more where it does not."""
     spent = 1.1 if method is Method.MECHANISM_ON_RECORD else 0.1
-    verdict = {0.0: Verdict.STANDS, 1.0: Verdict.OVERTURNS}.get(share, Verdict.UNDECIDED)
+    verdict = {0.0: Verdict.STANDS, 1.0: Verdict.OVERTURNS}.get(share, Verdict.UNCERTAIN)
     case = {"site": site, "method": method, "overturns": overturns, "overturning_share": share}
     case["beside_overturns"] = share == 1
     case |= {"verdict": verdict, "quick_verdict": verdict, "alone_s": spent, "beside_s": spent}
@@ -77,7 +78,7 @@ def test_each_measure_of_the_cheapest_answers_counts_what_it_names():
         trial("b", Method.BLOCK_ON_RECORD, True, 0.5),
         trial("b", Method.MECHANISM_ON_RECORD, False, 0.3),
         trial("c", Method.BLOCK_ON_RECORD, False, 0.0)
-        | {"beside_overturns": True, "quick_verdict": "undecided"},
+        | {"beside_overturns": True, "quick_verdict": Verdict.UNCERTAIN},
     ]
     rows = list(answer_scores(pd.DataFrame(trials)))
     assert {(row.cases, row.sites) for row in rows} == {(6, 3)}
@@ -90,7 +91,7 @@ def test_each_measure_of_the_cheapest_answers_counts_what_it_names():
             "members against the verdict of the block": 0.5,
             "wrong verdicts among those settled": 2 / 4,
             "opposite verdict of the ensemble among those settled": 1 / 4,
-            "undecided in the ensemble among those settled": 1 / 4,
+            "open in the ensemble among those settled": 1 / 4,
             "verdicts of the ensemble that its early end changes": 1 / 6,
             "CPU saved of the mechanism for all": 1 - 1.6 / 6,
             "CPU saved of mechanism and ensemble for all": 1 - 11.6 / 246,

@@ -32,7 +32,7 @@ def cells(study, name: str) -> list[dict[str, str]]:
 
 
 def test_every_line_of_the_page_answers_its_question(study):
-    """A warning is an error; what overturns, what is undecided and what failed are counted again in the bare files."""
+    """A warning is an error; what overturns, what is uncertain and what failed are counted again in the bare files."""
     page = (ROOT / "docs" / "pages" / "tables.md").read_text(encoding="utf-8")
     (block,) = re.findall(r"^```py\n(.*?)^```$", page, re.M | re.S)
     lines = map(ast.unparse, ast.parse(block).body)
@@ -44,8 +44,8 @@ def test_every_line_of_the_page_answers_its_question(study):
         if row["verdict"] == "overturns":
             falls[row["structure"]].add(row["record"])
     assert falls and answers[0].to_dict() == {name: len(records) for name, records in falls.items()}
-    undecided = [row["record"] for row in cells(study, "verdicts") if row["verdict"] == "undecided"]
-    assert list(answers[1]["record"]) == undecided
+    uncertain = [row["record"] for row in cells(study, "verdicts") if row["verdict"] == "uncertain"]
+    assert list(answers[1]["record"]) == uncertain
     assert answers[2].notna().all(axis=None)
     (failure,) = answers[-1].to_dict("records")
     assert failure["record"] == "broken" and failure["message"]

@@ -8,11 +8,11 @@ from rocking.assessment.rows.of_record import RATIO_COLUMNS as RATIO_COLUMNS
 from rocking.assessment.rows.of_record import RECORD_TABLES as RECORD_TABLES
 from rocking.assessment.rows.of_record import ComparedCase as ComparedCase
 from rocking.assessment.rows.of_record import ComparisonRow as ComparisonRow
+from rocking.assessment.rows.of_record import DecidedStation as DecidedStation
 from rocking.assessment.rows.of_record import FailedCase as FailedCase
 from rocking.assessment.rows.of_record import FailureRow as FailureRow
 from rocking.assessment.rows.of_record import HistoryRow as HistoryRow
 from rocking.assessment.rows.of_record import Identity as Identity
-from rocking.assessment.rows.of_record import JudgedStation as JudgedStation
 from rocking.assessment.rows.of_record import PulseRow as PulseRow
 from rocking.assessment.rows.of_record import ReadComponent as ReadComponent
 from rocking.assessment.rows.of_record import RecordRow as RecordRow

@@ -7,6 +7,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
+from rocking.assessment.decide import Decision, Verdict
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows.meanings import (
     COMPONENT,
@@ -22,9 +23,7 @@ from rocking.assessment.rows.meanings import (
 from rocking.assessment.verdict import (
     BOTH_COMPONENTS,
     Agreement,
-    Judgement,
     Method,
-    Verdict,
     agreement,
     ratio_in_words,
     within_factor_two,
@@ -35,7 +34,7 @@ from rocking.pulses import Pulse, PulseEvidence, VelocityPulse
 from rocking.pulses.analysis import PulseAnalysis, worth
 from rocking.records import Accelerogram, RotD
 from rocking.records.measures import RecordMeasures, record_measures
-from rocking.remarks import Kind
+from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Regime
 from rocking.structures import EquivalentBlock
 from rocking.tables import Columns, Row, RowOf, row, write_tables, written_together
@@ -457,8 +456,8 @@ class ComparisonRow(CaseRow[ComparedCase]):
     integrated_rotation_ratio: float = of_case(
         "Rotation ratio of the mechanism under the record", lambda of: of.case.integrated_rotation_ratio
     )
-    overturning_share: float = of_case(OVERTURNING_SHARE, lambda of: of.station.overturning_share)
-    verdict: Verdict = of_case(VERDICT, lambda of: of.station.verdict)
+    overturning_share: float = of_case(OVERTURNING_SHARE, lambda of: of.station.decision.share)
+    verdict: Verdict = of_case(VERDICT, lambda of: of.station.decision.word)
     prediction_in_words: str = of_case(
         "Prediction beside integration, in words", lambda of: ratio_in_words(*of.both)
     )
@@ -588,7 +587,7 @@ RATIO_COLUMNS = {
 
 
 @dataclass(frozen=True)
-class JudgedStation(OfStructure):
+class DecidedStation(OfStructure):
     """The result of one structure. identity: of the component that rotates most, but for the name of the component."""
 
     @property
@@ -597,26 +596,43 @@ class JudgedStation(OfStructure):
         return self.station.reserve
 
 
-of_station = Columns(JudgedStation)
+of_station = Columns(DecidedStation)
 
 
 @row("verdicts")
-class VerdictRow(CaseRow[JudgedStation], Judgement):
-    """One row per record and structure: the verdict over all components, its count and its reason.
+class VerdictRow(CaseRow[DecidedStation]):
+    """One row per record and structure: the decision over all components, and the numbers of the crack that governs.
 
     The component is that of the governing case.
     """
 
-    verdict: Verdict = of_station(VERDICT, lambda of: of.station.verdict)
+    verdict: Verdict = of_station(VERDICT, lambda of: of.station.decision.word)
+    overturning_share: float = of_station(OVERTURNING_SHARE, lambda of: of.station.decision.share)
+    share_low: float = of_station(
+        "Least share that overturns, over the cracks and what failed or is not known",
+        lambda of: of.station.decision.interval[0],
+    )
+    share_high: float = of_station(
+        "Largest share that overturns, likewise", lambda of: of.station.decision.interval[1]
+    )
+    why: str = of_station("Reason for the verdict", lambda of: of.station.decision.why)
+    doubts: tuple[Kind, ...] = of_station(
+        "Kinds of doubt that may make it worse than said",
+        lambda of: tuple(each.kind for each in of.station.decision.doubts),
+    )
+    tells: tuple[Kind, ...] = of_station(
+        "Kinds of what would tell more", lambda of: tuple(each.kind for each in of.station.decision.tells)
+    )
     overturning_members: int = of_station(
         "Number of members that overturn", lambda of: of.station.overturning_members
     )
-    members: int = of_station("Number of members; 0 without an ensemble", lambda of: of.station.members)
+    members: int = of_station(
+        "Number of members that were followed; 0 without an ensemble", lambda of: of.station.members
+    )
     failed_members: int = of_station(
         "Number of members whose integration failed",
         lambda of: of.station.ensemble.failed_members if of.station.ensemble else 0,
     )
-    overturning_share: float = of_station(OVERTURNING_SHARE, lambda of: of.station.overturning_share)
     crack: str = of_station(
         "Crack that governs, to which the numbers belong; empty where only one may form",
         lambda of: of.station.crack,
@@ -673,9 +689,9 @@ class VerdictRow(CaseRow[JudgedStation], Judgement):
         lambda of: tuple(each.kind for each in of.station.reserve_doubts) if of.reserve else (),
     )
     decided_by: str = of_station(
-        "What decides an undecided case, with its share of the variance", lambda of: of.station.decided_by
+        "What decides where the members disagree, with its share of the variance",
+        lambda of: of.station.decided_by,
     )
-    why: str = of_station("Reason for the verdict", lambda of: of.station.why)
     stack_falls: int | None = of_station(
         "Stacks of courses that fall in contact dynamics; empty: not asked", lambda of: of.station.stack_falls
     )
@@ -683,6 +699,24 @@ class VerdictRow(CaseRow[JudgedStation], Judgement):
         "Stacks that were followed, over amplitudes, time steps and directions",
         lambda of: of.station.stack_runs,
     )
+
+    @property
+    def decision(self) -> Decision:
+        """The decision that was written."""
+        return Decision(
+            word=self.verdict,
+            share=self.overturning_share,
+            interval=(self.share_low, self.share_high),
+            why=self.why,
+            doubts=tuple(map(Remark, self.doubts)),
+            tells=tuple(map(Remark, self.tells)),
+        )
+
+    @property
+    def severity(self) -> tuple[float, ...]:
+        """Key by which the worst of several comes last, as that of the result."""
+        rotation = -1.0 if math.isnan(self.rotation_ratio) else self.rotation_ratio
+        return *self.decision.severity, rotation
 
     @property
     def reserve(self) -> Reserve | None:
@@ -740,8 +774,8 @@ class SupportRow(CaseRow[CarriedStructure]):
         lambda of: of.measures.code_spectral_acceleration,
         equation="C7.2.5",
     )
-    verdict: Verdict = of_support(VERDICT, lambda of: of.station.verdict)
-    overturning_share: float = of_support(OVERTURNING_SHARE, lambda of: of.station.overturning_share)
+    verdict: Verdict = of_support(VERDICT, lambda of: of.station.decision.word)
+    overturning_share: float = of_support(OVERTURNING_SHARE, lambda of: of.station.decision.share)
 
 
 def structures_carried(
@@ -972,7 +1006,7 @@ def rows_of_record(
     verdicts = []
     for station in result.stations:
         identity = by_component[station.worst.component] if station.worst else identities[0]
-        judged = JudgedStation(replace(identity, component=station.component), station)
+        judged = DecidedStation(replace(identity, component=station.component), station)
         verdicts.append(VerdictRow.of(judged))
     components = list(zip(identities, result.components, strict=True))
     return RecordRows(

@@ -14,7 +14,14 @@ from rocking.assessment.case import CaseResult, Failure, StationResult
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer
-from rocking.assessment.rows import ComparisonRow, FailedCase, FailureRow, Identity, JudgedStation, VerdictRow
+from rocking.assessment.rows import (
+    ComparisonRow,
+    DecidedStation,
+    FailedCase,
+    FailureRow,
+    Identity,
+    VerdictRow,
+)
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import EnsembleSettings
 from rocking.assessment.verdict import BOTH_COMPONENTS, Method
@@ -89,7 +96,8 @@ def station(*cases: CaseResult, falls_in_directions: int | None = None) -> Stati
 def verdicts(stations: Sequence[StationResult], record: str = "a") -> list[VerdictRow]:
     """Their rows."""
     return [
-        VerdictRow.of(JudgedStation(Identity(record, each.component, 1.0, "", ""), each)) for each in stations
+        VerdictRow.of(DecidedStation(Identity(record, each.component, 1.0, "", ""), each))
+        for each in stations
     ]
 
 

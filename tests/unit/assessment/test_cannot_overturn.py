@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import rocking
+from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.rows import structure_rows
-from rocking.assessment.verdict import ORDER, Verdict
 from rocking.errors import StructureError
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram

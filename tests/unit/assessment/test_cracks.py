@@ -9,11 +9,11 @@ import rocking
 from rocking.assessment.assess import assess_case
 from rocking.assessment.component import component_of
 from rocking.assessment.cracks import cracks, ensemble_over_cracks
+from rocking.assessment.decide import Verdict
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.ground_motions import GroundMotions, processed
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.variations import candidates, processed_variants
-from rocking.assessment.verdict import Verdict
 from rocking.fragility.curves import fragility
 from rocking.motion import integrate
 from rocking.pulses import Pulse
@@ -34,7 +34,8 @@ def record(amplitude: float, period: float = 0.9) -> Accelerogram:
 
 
 @pytest.mark.parametrize(
-    ("structure", "expected"), [(WALL, {Verdict.STANDS, Verdict.OVERTURNS}), (SPIRE, {Verdict.UNDECIDED})]
+    ("structure", "expected"),
+    [(WALL, {Verdict.STANDS, Verdict.OVERTURNS}), (SPIRE, {Verdict.CANNOT_BE_TOLD})],
 )
 def test_the_verdict_and_every_number_are_those_of_all_cracks_followed_one_by_one(structure, expected):
     """The oracle follows every crack in full; a spire, which tapers, never stands once it has lifted."""
@@ -45,20 +46,24 @@ def test_the_verdict_and_every_number_are_those_of_all_cracks_followed_one_by_on
         assessment = rocking.assess(motion, structure)
         motions = GroundMotions.of(motion)
         alone = {each.description: ensemble(each.mechanism, motions) for each in cracks(structure)}
-        of_statics = alone[cracks(structure)[0].description].verdict
-        if of_statics is not Verdict.STANDS:
-            assert assessment.verdict is of_statics
-        elif {each.verdict for each in alone.values()} == {Verdict.STANDS}:
-            assert assessment.verdict is (Verdict.UNDECIDED if structure.tapers else Verdict.STANDS)
-            if structure.tapers:
-                assert assessment.why == "courses above a rocking body may be thrown"
+        words = {name: each.facts().step(0.05) for name, each in alone.items()}
+        of_statics = words[cracks(structure)[0].description]
+        worst = max(words.values(), key=lambda word: word.badness)
+        if of_statics in (Verdict.STANDS, Verdict.PROBABLY_STANDS):
+            worst = min(worst, Verdict.UNCERTAIN, key=lambda word: word.badness)
+        elif of_statics is not Verdict.OVERTURNS:
+            worst = min(worst, Verdict.PROBABLY_OVERTURNS, key=lambda word: word.badness)
+        if structure.tapers and worst.badness < Verdict.PROBABLY_OVERTURNS.badness:
+            assert assessment.verdict is Verdict.CANNOT_BE_TOLD
+            assert assessment.why.startswith("courses above a rocking body may be thrown; ")
         else:
-            assert assessment.verdict is Verdict.UNDECIDED
-            assert assessment.crack in alone and assessment.crack in repr(assessment)
+            assert assessment.verdict is worst
+        assert assessment.crack in alone or not assessment.crack
         if of_statics is not Verdict.OVERTURNS:
-            worst = max(each.overturning_share for each in alone.values())
-            # 64 members beside the 256 to which an ensemble near a limit grows
-            assert assessment.overturning_share == pytest.approx(worst, abs=1 / 64)
+            largest = max(each.overturning_share for each in alone.values())
+            # 64 members beside the 256 to which an ensemble near an edge grows
+            share = assessment.ensembles.governing.ensemble.overturning_share
+            assert share == pytest.approx(largest, abs=1 / 32)
         seen.add(assessment.verdict)
     assert expected <= seen
 
@@ -71,7 +76,6 @@ def test_no_crack_is_followed_beyond_doubt_and_none_by_more_than_its_ensemble(st
         followed = ensemble_over_cracks(structure, motions, AssessmentSettings()).followed
         doubted.append(len(followed) - 1)
         assert len({each.description for each in followed}) == len(followed) <= len(cracks(structure))
-        assert all(each.ensemble.members <= 64 for each in followed[1:])
     assert doubted[0] == 0, "what hardly lifts leaves no other crack in doubt"
     assert doubted[-1] == 0, "what overturns by statics already needs no other crack"
     assert max(doubted) > 0

@@ -9,6 +9,7 @@ from scipy.constants import g
 from rocking.assessment import fidelity
 from rocking.assessment.assess import assess_case
 from rocking.assessment.component import component_of
+from rocking.assessment.decide import Verdict
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.fidelity import (
     NUDGES,
@@ -21,7 +22,7 @@ from rocking.assessment.fidelity import (
 )
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.assessment.verdict import Method, Verdict
+from rocking.assessment.verdict import Method
 from rocking.motion.integration import integrate
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
@@ -81,7 +82,7 @@ def test_where_an_ensemble_would_follow_the_block_may_settle_it():
     assert cheapest_answer(MECHANISM, motion).method is Method.MECHANISM_ON_RECORD
     answer = cheapest_answer(MECHANISM, motion, ensemble_follows=True)
     assert answer.method is Method.BLOCK_ON_RECORD and answer.response is None
-    assert ensemble(MECHANISM, GroundMotions.of(motion)).verdict is Verdict.STANDS
+    assert ensemble(MECHANISM, GroundMotions.of(motion)).facts().step(0.05) is Verdict.STANDS
     falls = cheapest_answer(MECHANISM, record(40.0), ensemble_follows=True, risk=0.1)
     assert falls.method is Method.BLOCK_ON_RECORD and falls.outcome is Outcome.OVERTURNS
     settings = AssessmentSettings(fidelity="auto")

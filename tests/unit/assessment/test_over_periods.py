@@ -2,10 +2,10 @@
 
 import pytest
 
+from rocking.assessment.decide import Verdict
 from rocking.assessment.over_periods import periods_in_words, placed
-from rocking.assessment.verdict import Verdict
 
-S, O, U, X = Verdict.STANDS, Verdict.OVERTURNS, Verdict.UNDECIDED, Verdict.UNKNOWN
+S, O, U, X = Verdict.STANDS, Verdict.OVERTURNS, Verdict.UNCERTAIN, Verdict.CANNOT_BE_TOLD
 PERIODS = (0.0, 0.13, 0.218, 0.367, 0.617)
 
 
@@ -15,11 +15,11 @@ PERIODS = (0.0, 0.13, 0.218, 0.367, 0.617)
         ((S, S, S, S, S), "stands on the ground and on a building of T_b ≤ 0.617 s"),
         ((S, S, S, O, O), "stands on a building of T_b ≤ 0.218 s, overturns from 0.367 s on (tried to 0.617 s)"),
         ((S, O, O, O, O), "stands on the ground, overturns from 0.13 s on (tried to 0.617 s)"),
-        ((S, S, U, O, S), "stands on a building of T_b ≤ 0.13 s, is undecided at T_b 0.218 s, overturns at "
+        ((S, S, U, O, S), "stands on a building of T_b ≤ 0.13 s, is uncertain at T_b 0.218 s, overturns at "
                           "T_b 0.367 s, stands at T_b 0.617 s"),
         ((S, O, O, S, S), "stands on the ground, overturns from 0.13 to 0.218 s, stands from 0.367 s on (tried to "
                           "0.617 s)"),
-        ((S, X), "stands on the ground, is unknown at T_b 0.13 s"),
+        ((S, X), "stands on the ground, cannot be told at T_b 0.13 s"),
         ((O, O, O, O, O), "overturns on the ground and on a building of T_b ≤ 0.617 s"),
     ],
 )  # fmt: skip

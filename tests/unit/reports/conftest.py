@@ -11,6 +11,7 @@ import pytest
 
 from rocking.assessment.assess import Extent, assess_record
 from rocking.assessment.case import SceneResult, StationResult
+from rocking.assessment.decide import Verdict
 from rocking.assessment.rows import (
     AgreementRow,
     ComparisonRow,
@@ -26,7 +27,6 @@ from rocking.assessment.rows import (
 )
 from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.verdict import Verdict
 from rocking.pulses import Pulse
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.reports.record import RecordReport
@@ -65,7 +65,7 @@ def pages(document: bytes) -> list[list[Word]]:
 
 def judged(verdict: Verdict, rotation_ratio: float, structure: str = "", peak_side: int = 1) -> StationResult:
     """What became of a structure, by its verdict and the rotation ratio as given."""
-    falls = {Verdict.STANDS: 0, Verdict.OVERTURNS: 64, Verdict.UNDECIDED: 32}[verdict]
+    falls = {Verdict.STANDS: 0, Verdict.OVERTURNS: 64, Verdict.UNCERTAIN: 32}[verdict]
     return station(case("EW", rotation_ratio, structure, peak_side, falls=falls))
 
 

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from rocking.assessment.verdict import Agreement, Verdict
+from rocking.assessment.decide import Verdict
+from rocking.assessment.verdict import Agreement
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.records.measures import record_measures
@@ -54,7 +55,7 @@ def test_page_one_draws_a_structure_as_it_fell_rocked_or_stands():
     assert drawn_rotation(block, judged(Verdict.STANDS, 0.0)) == 0
     assert drawn_rotation(block, judged(Verdict.STANDS, 0.4, peak_side=-1)) == pytest.approx(-0.4 * critical)
     assert drawn_rotation(block, judged(Verdict.OVERTURNS, math.inf)) > critical
-    assert drawn_rotation(block, judged(Verdict.UNDECIDED, math.inf, peak_side=-1)) < -critical
+    assert drawn_rotation(block, judged(Verdict.UNCERTAIN, math.inf, peak_side=-1)) < -critical
 
 
 def test_a_thinned_trace_keeps_its_peaks_and_few_points():

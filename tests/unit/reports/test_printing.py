@@ -5,10 +5,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from rocking.assessment.rows import PulseRow, VerdictRow
-from rocking.assessment.verdict import Verdict
+from rocking.assessment.decide import ORDER, CrackFacts, Facts, decide
+from rocking.assessment.rows import PulseRow
+from rocking.remarks import Kind, Remark
 from rocking.reports import printing
-from tests.unit.assessment.made_rows import filled
 
 
 @pytest.mark.parametrize(
@@ -57,33 +57,26 @@ def test_a_ratio_has_no_more_digits_than_a_tenth_of_its_spread(value, spread, pr
     assert printing.to_spread(value, judgement) == printed
 
 
+def crack(falls: int) -> CrackFacts:
+    """A crack with which so many of 64 members overturn."""
+    return CrackFacts("hinge", falls, 64, farthest=math.inf if falls else 0.8)
+
+
 @pytest.mark.parametrize(
-    ("verdict", "numbers", "printed"),
+    ("facts", "printed"),
     [
-        (
-            Verdict.OVERTURNS,
-            {"members": 64, "overturning_members": 62, "overturning_share": 62 / 64},
-            "▲ 97 %",
-        ),
-        (Verdict.UNDECIDED, {"members": 64, "overturning_members": 0, "overturning_share": 0.0}, "?"),
-        (Verdict.STANDS, {"members": 0, "rotation_ratio": 0.4}, "● 0.40"),
-        # what contact dynamics decides has its own count, whatever the members of the mechanism do
-        (
-            Verdict.STANDS,
-            {
-                "members": 64,
-                "overturning_members": 20,
-                "overturning_share": 20 / 64,
-                "stack_falls": 0,
-                "stack_runs": 6,
-            },
-            "● 0/6",
-        ),
+        (Facts(cracks=(crack(62),)), "△ 97 %"),
+        (Facts(cracks=(crack(64),)), "▲ 100 %"),
+        (Facts(cracks=(crack(0), crack(30))), "? 0–47 %"),
+        (Facts(cracks=(crack(8),), doubts=(Remark(Kind.CONTACTS_OPEN),)), "– ≥ 12 %"),
+        (Facts(cracks=(crack(0),), stacks=(20, 24)), "△ 0–83 %"),
+        (Facts(failures=("No.",)), "–"),
+        (Facts(cracks=(crack(0),), never_lets_go="stays tied"), "■"),
+        (Facts(run_ratio=0.2), "○ one run"),
     ],
 )
-def test_the_number_of_a_cell_has_the_form_of_what_it_counts(verdict, numbers, printed):
-    row = filled(VerdictRow, record="a", structure="pier", verdict=verdict, **numbers)
-    assert printing.cell_text(row).replace("\u00a0", " ") == printed
+def test_a_cell_holds_the_sign_and_the_share_of_its_decision(facts, printed):
+    assert printing.cell_text(decide(facts)).replace("\u00a0", " ") == printed
 
 
 def _contrast(one: str, other: str) -> float:
@@ -98,18 +91,11 @@ def _contrast(one: str, other: str) -> float:
     return (high + 0.05) / (low + 0.05)
 
 
-def test_an_undecided_case_is_the_deeper_in_colour_the_more_of_its_members_fall():
-    def fill(verdict, share):
-        row = filled(VerdictRow, record="a", structure="pier", verdict=verdict, overturning_share=share)
-        return printing.fill_of(row)
-
-    fills = [fill(Verdict.UNDECIDED, share) for share in (0.0, 0.25, 0.5, 0.75, 1.0)]
-    on_white = [_contrast(each, "#ffffff") for each in fills]
-    assert on_white == sorted(on_white) and on_white[-1] > 2 * on_white[0]
-    assert all(_contrast(each, "#000000") >= 4.5 for each in fills), "a number on it is read"
-    assert fill(Verdict.STANDS, 0.02) == printing.LOOKS[Verdict.STANDS][1]
-    assert fill(Verdict.UNDECIDED, math.nan) == printing.LOOKS[Verdict.UNDECIDED][1]
-    assert printing.fill_of(None) == printing.LOOKS[Verdict.UNKNOWN][1]
+def test_each_verdict_has_a_sign_of_its_own_and_is_read_on_its_colour():
+    assert list(printing.LOOKS) == list(ORDER)
+    signs, fills, inks, _ = zip(*printing.LOOKS.values(), strict=True)
+    assert len(set(signs)) == len(set(fills)) == len(ORDER)
+    assert all(_contrast(fill, ink) >= 4.5 for fill, ink in zip(fills, inks, strict=True))
 
 
 def test_names_in_a_row_are_told_apart():

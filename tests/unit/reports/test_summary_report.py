@@ -103,16 +103,24 @@ def test_the_summary_counts_the_verdicts_of_each_structure_and_names_its_worst_r
     ]
     data = summary_data(summary_tables(CASES, verdicts=judged), SETTINGS)
     rows = {row[0]["text"]: row[1:] for row in data["structures"]["rows"]}
-    assert rows["wall"][:5] == ["1", "1", "0", "two", "64 of 64"]
-    assert rows["pier"][3:] == ["one", "20 of 64", "overturns", "0.50 – overturns"]
+    assert list(data["structures"]["heads"][1:5]) == [
+        "Overturns",
+        "Uncertain",
+        "Probably stands",
+        "Stands",
+    ]
+    assert rows["wall"][:6] == ["1", "0", "1", "0", "two", "100\u00a0%"]
+    assert rows["pier"][4:] == ["one", "31\u00a0%", "overturns", "0.50 – overturns"]
     assert data["outcomes"] == [
-        "Overturning under at least one record: wall (1 of 2).",
-        "Overturning under none, but undecided under some: pier (1 of 1).",
-        "Standing under every record: arch.",
+        "Overturns under at least one record: wall (1 of 2).",
+        "Is uncertain under at least one record: pier (1 of 1).",
+        "Stands under every record: arch.",
     ]
     (figure,) = data["outcomes-figure"]
-    drawn = re.findall(r">(wall|pier|arch|▲ overturns|\? undecided|● stands)<", figure["svg"])
-    assert sorted(drawn[:3]) == ["arch", "pier", "wall"] and len(drawn) == 6
+    drawn = re.findall(
+        r">(wall|pier|arch|▲ overturns|\? uncertain|○ probably stands|● stands)<", figure["svg"]
+    )
+    assert sorted(drawn[:3]) == ["arch", "pier", "wall"] and len(drawn) == 7
 
 
 def test_the_map_holds_sign_and_share_with_the_worst_record_and_structure_first():
@@ -123,8 +131,8 @@ def test_the_map_holds_sign_and_share_with_the_worst_record_and_structure_first(
     assert content["heads"] == ["pier", "wall", "arch"]
     assert [row["record"] for row in content["rows"]] == ["one", "two", "three"]
     assert [[cell["text"] for cell in row["cells"]] for row in content["rows"]] == [
-        ["▲", "–", "–"],
-        ["–", "? 94\u00a0%", "● 0.80"],
+        ["? one run", "–", "–"],
+        ["–", "△ 94\u00a0%", "? one run"],
         ["–", "● 0\u00a0%", "–"],
     ]
 

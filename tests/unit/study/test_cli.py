@@ -138,7 +138,8 @@ def test_assess_tells_overturning_from_no_uplift(record, blocks, capsys):
     assert main(["assess", str(record), str(blocks), "--unit", "g"]) == 0
     lines = capsys.readouterr().out.splitlines()
     told = [line.split(": ")[1].split(";")[0] for line in lines]
-    assert told == ["overturns", "overturns", "stands", "no uplift"], "verdict, then the component by itself"
+    expected = ["overturns (100\u00a0%)", "overturns", "stands (0\u00a0%)", "no uplift"]
+    assert told == expected, "verdict and share, then the component by itself"
 
 
 @pytest.mark.parametrize(
@@ -167,15 +168,17 @@ def test_terminal_tables_and_python_say_the_same_of_every_shipped_structure(
     for row in table:
         name, verdict = row["structure"], row["verdict"]
         period = float(row["support_period_s"] or "nan")
-        assert any(line.startswith(f"{placed(name, period)}: {verdict}; ") for line in lines)
         if period > 0:
+            assert any(line.startswith(f"{placed(name, period)}: {verdict}") for line in lines)
             continue
         assessment = rocking.assess([first, second], bodies[name].structure)
         assert (assessment.verdict, str(assessment.overturning_members)) == (
             verdict,
             row["overturning_members"],
         )
-        assert f"{placed(name, period)}: {verdict}; {assessment.why}" in lines
+        share = assessment.decision.share_in_words
+        assert f"{placed(name, period)}: {verdict}{f' ({share})' if share else ''}; {row['why']}" in lines
+        assert row["why"] == assessment.why
 
 
 def test_assess_opens_a_file_once_and_writes_report_and_tables_like_a_study(
