@@ -49,6 +49,7 @@ def drawn_facade(draw):
         loads_held=bool(draw.random() < 0.5),
         top_slab="flat" if draw.random() < 0.3 else "hinged",
         thrust=float(draw.choice([0.0, 800.0])),
+        crack="known",  # the family is asked for by its joints
         behind=behind,
         restitution=0.6,
         tie_heights=ties,
@@ -121,9 +122,12 @@ def test_least_multiplier_is_that_of_limit_analysis_over_courses():
         try:
             wall, courses, joints = drawn_facade(draw) if draw.random() < 0.7 else drawn_wall(draw)
         except rocking.RockingError:
-            continue  # its thrust pushes it over at rest
+            continue  # as one body already
         walls += 1
         family = wall.held_wall.family(joints[:-1])
+        if family[0][1] <= 0:
+            assert -np.inf in (courses.multiplier(1), courses.multiplier(-1))
+            continue  # it does not stand at rest
         for direction in (1, -1):
             own = [each for each in family if each[0].outwards == (direction > 0)]
             expected = courses.multiplier(direction)
@@ -245,17 +249,15 @@ OPENINGS = {
 
 @pytest.mark.parametrize("case", OPENINGS)
 def test_acceleration_of_a_chain_is_that_of_positions_and_energy(case):
-    """I, J, G and B together, from φ'' at states in which each counts; derivatives of 30 digits."""
+    """I, J, G and B together, from φ'' in a state in which each counts; derivatives of 30 digits."""
     wall, opening = OPENINGS[case]
     opened = wall.opened(opening)
     side = opened.linkage.side(0.5)
-    lagrangian = opened_lagrangian(wall, opening)
-    for share, velocity, ground in ((0.05, 0.3, 1.7), (0.4, -0.8, -2.5), (0.9, 0.5, 0.6)):
-        phi = share * min(side.critical_rotation, 0.15)
-        expected = lagrangian.acceleration(phi, velocity, ground, GRAVITY)
-        pull = side.at("inertia_slope", phi) / 2 * velocity**2 + side.at("gravity", phi) * GRAVITY
-        found = -(pull + side.at("ground", phi) * ground) / side.at("inertia", phi)
-        assert found == pytest.approx(expected, rel=1e-8)
+    phi, velocity, ground = 0.6 * min(side.critical_rotation, 0.15), -0.8, -2.5
+    expected = opened_lagrangian(wall, opening).acceleration(phi, velocity, ground, GRAVITY)
+    pull = side.at("inertia_slope", phi) / 2 * velocity**2 + side.at("gravity", phi) * GRAVITY
+    found = -(pull + side.at("ground", phi) * ground) / side.at("inertia", phi)
+    assert found == pytest.approx(expected, rel=1e-8)
 
 
 @pytest.mark.parametrize("slab", ["hinged", "flat"])
