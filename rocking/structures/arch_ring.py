@@ -7,7 +7,7 @@ Piers add one more section below each springing: FOOT before the left springing 
 contacts are the inner corner (as the intrados) and the outer corner (as the extrados).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -105,7 +105,9 @@ class Piers:
 class Ring:
     """A circular ring of centreline radius 1: thickness t/r, embrace_angle β [rad], voussoirs (None: continuous).
 
-    fill: what lies on its extrados and moves with it, or None. piers: below its springings, or None.
+    fill: what lies on its extrados and moves with it, or None. piers: below its springings, or None. crushed: by a
+    line of thrust, where contacts lie half the depth pressed inside the ring: γ t/(1.7 f_c), then M₀, V, H and λ of
+    the line; None where nothing crushes.
     """
 
     thickness: float
@@ -113,6 +115,7 @@ class Ring:
     voussoirs: int | None = None
     fill: Fill | None = None
     piers: Piers | None = None
+    crushed: tuple[float, ...] | None = None
 
     @property
     def ends(self) -> np.ndarray:
@@ -150,20 +153,41 @@ class Ring:
         return np.where(foot == 0, self.on_arch(section), foot * self.ends[1])
 
     def contact_points(self, section: np.ndarray, contact: ArrayLike) -> np.ndarray:
-        """The points of the intrados (contact = 1) or extrados (−1), at a foot the inner or outer corner; complex."""
+        """The points of the intrados (contact = 1) or extrados (−1), at a foot the inner or outer corner; complex.
+
+        Of a ring that is crushed they lie inside, where the part that is pressed has its middle.
+        """
         contact = np.asarray(contact)
-        points = (1 - contact * self.thickness / 2) * 1j * np.exp(-1j * section)
+        aside = self._insets(section)[0]
+        points = (1 - contact * (self.thickness / 2 - aside)) * 1j * np.exp(-1j * section)
         if self.piers is None:
             return points
         foot = self.feet(section)
         inner, outer = self.piers.corners[:2]
-        corner = np.where(contact > 0, inner.real, outer.real)
+        corner = np.where(contact > 0, inner.real + aside, outer.real - aside)
         return np.where(foot == 0, points, foot * corner + 1j * inner.imag)
+
+    def _insets(self, section: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """How far in contacts lie at `section`, over r, and the derivative with the section."""
+        if self.crushed is None:
+            return np.zeros(np.shape(section)), np.zeros(np.shape(section))
+        softness, *line = self.crushed
+        unknowns = np.array([*line, 1.0])
+        whole = replace(self, crushed=None)
+        breadth = np.full(np.shape(section), self.thickness)
+        if self.piers is not None:
+            breadth = np.where(self.feet(section) == 0, breadth, self.piers.width)
+        both = [np.full(np.shape(section), contact) for contact in (INTRADOS, EXTRADOS)]
+        # the gaps to both edges are the normal force times the breadth of the joint
+        normal = sum(whole.gaps(section, contact) for contact in both) @ unknowns / breadth
+        slope = sum(whole.gap_slopes(section, contact) for contact in both) @ unknowns / breadth
+        return softness * normal, softness * slope
 
     def sector(self, first: float, last: float) -> np.ndarray:
         """The outline of the ring between two sections, complex, an arc of points every two degrees."""
         sections = np.linspace(first, last, max(2, int((last - first) / np.radians(2)) + 2))
-        inner, outer = (self.contact_points(sections, contact) for contact in (INTRADOS, EXTRADOS))
+        whole = replace(self, crushed=None)
+        inner, outer = (whole.contact_points(sections, contact) for contact in (INTRADOS, EXTRADOS))
         return np.concatenate([inner, outer[::-1]])
 
     def bars(self, edges: np.ndarray) -> Bars:
@@ -232,7 +256,7 @@ class Ring:
         load, load_rate = self.loads(section)
         point = self.contact_points(section, contact)
         # A point of the ring turns clockwise as the angle from the left springing grows.
-        point_rate = -1j * point
+        point_rate = -1j * point + contact * self._insets(section)[1] * 1j * np.exp(-1j * section)
 
         by_point = _moment(0.0, point_rate, load)
         # Only the last two columns of `_moment` hold the loads; the others do not change with them.

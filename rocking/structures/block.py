@@ -1,29 +1,31 @@
 """Rigid bodies that rock about a corner (theory: section 2): rectangular block (Housner 1963), spire, any other."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
 from rocking.errors import StructureError
+from rocking.structures.crushing import PRESSED, check_pressed, inset
 from rocking.structures.drawing import Path, rectangle, span, swept
-from rocking.structures.fields import OneSided, Value, count, length, restitution_value
+from rocking.structures.fields import OneSided, OptionalUnitWeight, Value, count, length, restitution_value
 from rocking.structures.linkage import STILL, Restitution, Turning
 from rocking.structures.stack import MOST_COURSES, Course, Stack, counted_courses, courses_between
-from rocking.structures.structure import CrackedAtHeight, Structure, free_to_both_sides
+from rocking.structures.structure import CrackedAtHeight, Crushable, Structure, free_to_both_sides
 
 Balanced = Annotated[Restitution, restitution_value("momentum", "housner")]
 
 
 @dataclass(frozen=True, repr=False)
-class Block(Structure):
+class Block(Crushable):
     """A homogeneous rectangular block that rocks about its two bottom corners.
 
     semi_diagonal: R, m. slenderness: α, rad, in (0, π/2); tan α = breadth/height.
     restitution: η in [0, 1]; "momentum" or "housner" (the same balance, 1 − 1.5 sin²α, the default). A
     one-sided block leans on something that no balance of the block alone describes, so it needs a number.
     one_sided: it rocks away from what it leans on only, and is thrown back at every impact.
+    compressive_strength, Pa, with unit_weight, N/m³: its foot crushes at the edge, so that it turns further in.
     Raises StructureError when it cannot stand.
 
     >>> rocking.Block(semi_diagonal=2.0, slenderness=0.2).mechanism()
@@ -47,6 +49,11 @@ class Block(Structure):
     ]
     restitution: Balanced = None
     one_sided: OneSided = False
+    unit_weight: OptionalUnitWeight = field(default=None, kw_only=True)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self._stand_crushed()
 
     @classmethod
     def of_size(
@@ -57,12 +64,22 @@ class Block(Structure):
         one_sided: bool = False,
         *,
         restitution_range: float | None = None,
+        compressive_strength: float | None = None,
+        unit_weight: float | None = None,
     ) -> "Block":
         """Return the block of that breadth and height [m]; the others as for the class."""
         cls.check_values("of_size", breadth=breadth, height=height)
         half = np.hypot(breadth, height) / 2
         slenderness = np.arctan2(breadth, height)
-        return cls(half, slenderness, restitution, one_sided, restitution_range=restitution_range)
+        return cls(
+            half,
+            slenderness,
+            restitution,
+            one_sided,
+            restitution_range=restitution_range,
+            compressive_strength=compressive_strength,
+            unit_weight=unit_weight,
+        )
 
     @property
     def breadth(self) -> float:
@@ -78,7 +95,15 @@ class Block(Structure):
 
     def _linkage(self, mirrored: bool) -> Turning:
         inertia = (self.breadth**2 + self.height**2) / 12
-        return Turning(self.breadth / 2, [1.0], [0.5j * self.height], [inertia], slenderness=self.slenderness)
+        weight = (self.unit_weight or 0.0) * self.breadth * self.height
+        aside = inset(weight, self.compressive_strength, self.breadth)
+        return Turning(
+            self.breadth / 2 - aside,
+            [1.0],
+            [0.5j * self.height],
+            [inertia],
+            slenderness=None if aside else self.slenderness,
+        )
 
     def stack(self, courses: int | None = None) -> Stack:
         """Return it as one body, or as so many drums."""
@@ -189,6 +214,17 @@ _SPREAD = {"circular": 3 / 20, "square": 1 / 5}
 """Mean square of one horizontal coordinate over a solid cone or pyramid, in squares of its half width."""
 
 
+def _strip(plan: str, half_width: float, depth: float) -> np.ndarray:
+    """Area of a section up to a `depth` [m] from its edge, m², and its first moment about that edge, m³."""
+    depth = min(max(depth, 0.0), 2 * half_width)
+    if plan == "square":
+        return 2 * half_width * np.array([depth, depth**2 / 2])
+    angle = np.arccos(1 - depth / half_width)
+    area = half_width**2 * (angle - np.sin(2 * angle) / 2)
+    about_centre = 2 / 3 * (half_width * np.sin(angle)) ** 3
+    return np.array([area, half_width * area - about_centre])
+
+
 @dataclass(frozen=True, repr=False)
 class Spire(CrackedAtHeight):
     """A cone (plan "circular") or a square pyramid ("square") that rocks about the edge of a horizontal crack.
@@ -196,7 +232,8 @@ class Spire(CrackedAtHeight):
     width: at the base, diameter or side, m. height: of the whole spire, m. wall_thickness: horizontal thickness of a
     hollow one, m, the inner surface parallel to the outer; None when it is solid. crack_height: above the base, m; the
     default of 0 says nothing of where it cracks, unless crack is "given" or "known".
-    restitution, one_sided: as for a RigidBody. courses: their number over the whole height, for contact dynamics.
+    restitution, one_sided: as for a RigidBody. compressive_strength, unit_weight: as for a Block. courses: their number
+    over the whole height, for contact dynamics.
     Raises StructureError when it cannot stand, or the crack lies outside it.
 
     >>> rocking.Spire(width=3.0, height=15.0, wall_thickness=0.25, crack_height=5.0).mechanism()
@@ -226,6 +263,7 @@ class Spire(CrackedAtHeight):
         int | None,
         count("Number of courses of the masonry, for contact dynamics; left out: 6", 10, 1, MOST_COURSES),
     ] = None
+    unit_weight: OptionalUnitWeight = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -239,6 +277,7 @@ class Spire(CrackedAtHeight):
                 f"crack_height is {self.crack_height!r} m, but must lie on the spire, "
                 f"from 0 to below its height of {self.height!r} m."
             )
+        self._stand_crushed()
 
     @property
     def crack_position(self) -> float:
@@ -267,12 +306,38 @@ class Spire(CrackedAtHeight):
         mass, first, second, across = solid
         centre = first / mass
         return Turning(
-            self.half_width + 1j * self.crack_height,
+            self.half_width - self._pressed_inset(mass) + 1j * self.crack_height,
             [1.0],
             [1j * (self.crack_height + centre)],
             [(second + across) / mass - centre**2],
             end_rotation=float(np.pi - np.arctan2(2 * self.height, self.width)),
         )
+
+    def _pressed_inset(self, volume: float) -> float:
+        """How far the edge of the crack moves in, m: to the middle of the part of the section that is pressed.
+
+        volume: of all above, as `_solid` counts it: three times that over the area of the section by its width.
+        """
+        if self.compressive_strength is None or self.unit_weight is None:
+            return 0.0
+        from scipy.optimize import brentq  # slow to import, and needed here only
+
+        outer = self.half_width
+        inner = max(outer - (outer if self.wall_thickness is None else self.wall_thickness), 0.0)
+        area = _SECTION[self.plan]
+        pressed = self.unit_weight * area * volume / 3 / (PRESSED * self.compressive_strength)
+        check_pressed(pressed, area * (outer**2 - inner**2))
+
+        def strip(depth: float) -> np.ndarray:
+            hollow = _strip(self.plan, inner, depth - (outer - inner)) if inner else np.zeros(2)
+            solid: np.ndarray = (
+                _strip(self.plan, outer, depth) - hollow - np.array([0.0, (outer - inner) * hollow[0]])
+            )
+            return solid
+
+        depth = brentq(lambda depth: strip(depth)[0] - pressed, 0.0, 2 * outer, xtol=1e-15, rtol=1e-14)
+        found = strip(depth)
+        return float(found[1] / found[0])
 
     def _solid(self, half_width: float) -> np.ndarray:
         """Volume and integrals of z, z² and x² of a solid of that half width and this spire's slope, up to a factor."""

@@ -13,6 +13,7 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, whole
+from rocking.structures.crushing import inset
 from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import Value, restitution_value
 from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
@@ -53,7 +54,7 @@ class Facade(Tied):
     top of every storey that bears one (of every storey where no load is given), which hold it inwards there, or
     "cross_walls", which hold it inwards everywhere; one_sided is an older name, True for cross walls and False for
     nothing. restitution: η in [0, 1] or "momentum" (the default), for both sides; inward_restitution: of the inward
-    side instead. Where something stands behind it must be a number, that of the impact on it. Ties: as `Tied`.
+    side instead. Where something stands behind it must be a number, that of the impact on it. The rest: as `Tied`.
     Raises StructureError when it cannot stand.
 
     >>> rocking.Facade((3.5, 3.0), (0.6, 0.5), unit_weight=20e3, restitution=0.8).mechanism().positive
@@ -253,7 +254,9 @@ class Facade(Tied):
             middle = -self.thicknesses[storey] / 2
             rides = not self.loads_held
             if storey == last and self.top_slab == "flat":
-                loads.append(Load(middle, levels[storey + 1], load, rides, slab=-middle))
+                loads.append(
+                    Load(middle, levels[storey + 1], load, rides, slab=self._slab_edge(storey, load))
+                )
             elif load:
                 loads.append(Load(middle - self.eccentricity, levels[storey + 1], load, rides))
         bears = self.floor_loads if any(self.floor_loads) else [1.0] * len(storeys)
@@ -269,7 +272,13 @@ class Facade(Tied):
             tuple(sorted(holds)),
             ((thrust_height, self.thrust),) if self.thrust else (),
             backed=self.behind == "cross_walls" or bool(self.behind is None and self.one_sided),
+            strength=self.compressive_strength,
         )
+
+    def _slab_edge(self, storey: int, load: float) -> float:
+        """Distance of the edge on which a slab lies from the middle of its wall, m."""
+        thickness = self.thicknesses[storey]
+        return thickness / 2 - inset(load, self.compressive_strength, thickness)
 
     @cached_property
     def _tie_levels(self) -> tuple[float, ...]:
@@ -297,6 +306,9 @@ class Facade(Tied):
         opened = self._opened_linkage(mirrored)
         if opened is not None:
             return opened
+        if self.compressive_strength is not None:
+            crack = Opening(self.crack_position, outwards=not mirrored)
+            return self.held_wall.linkage(crack, crack, self._hung(mirrored))
         base = self._lowest_storey
         outwards = -1.0 if mirrored else 1.0
         thicknesses = np.array(self.thicknesses)[base:]
@@ -336,7 +348,8 @@ class Facade(Tied):
                 continue
             across = -self.thicknesses[storey] / 2 - self.eccentricity
             if storey == last and self.top_slab == "flat":
-                across = -self.thicknesses[storey] * (1 + lean) / 2  # the edge that rises
+                # the edge that rises
+                across = -self.thicknesses[storey] / 2 - lean * self._slab_edge(storey, load)
             hung.append(self._load(complex(outwards * across, level), part, load, self.loads_held))
         if self.thrust:
             height = self.height if self.thrust_height is None else self.thrust_height

@@ -19,7 +19,7 @@ from rocking.described import Described
 from rocking.errors import StructureError
 from rocking.quantities import LENGTHS, finite
 
-_SI = {"°": np.pi / 180, "kN": 1e3, "kN/m": 1e3, "kN/m²": 1e3, "kN/m³": 1e3}
+_SI = {"°": np.pi / 180, "kN": 1e3, "kN/m": 1e3, "kN/m²": 1e3, "kN/m³": 1e3, "MPa": 1e6}
 """The value of a unit of the file in SI; units that are not here are SI."""
 _MOST = 1e9
 """The most that a number may be in the unit of the file where nothing less is stated: beyond it the powers of numbers,
@@ -67,6 +67,31 @@ RestitutionNumber = Annotated[float, restitution_value()]
 OneSided = Annotated[
     bool,
     Value("Rocks away from what it leans on only; needs a restitution number", False, phrase="one-sided"),
+]
+
+
+CompressiveStrength = Annotated[
+    float | None,
+    Value(
+        "Compressive strength of the masonry, at which the edges of joints crush and hinges move in; left out: they "
+        "do not crush",
+        2.0,
+        "MPa",
+        (0.5, 100),
+        "f",
+        phrase="compressive strength {value}",
+        bounds={"ge": 1e-3},
+    ),
+]
+OptionalUnitWeight = Annotated[
+    float | None,
+    Value(
+        "Weight of the masonry; needed where a compressive strength is given",
+        20.0,
+        "kN/m³",
+        (8, 30),
+        bounds={"ge": 1e-6},
+    ),
 ]
 
 

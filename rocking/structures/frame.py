@@ -1,6 +1,6 @@
 """The symmetric rocking frame of equal columns under a rigid beam (Makris and Vassiliou 2013; theory: section 3)."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Annotated, ClassVar
 
 import numpy as np
@@ -8,10 +8,11 @@ import numpy as np
 from rocking.errors import StructureError
 from rocking.structures.block import Block
 from rocking.structures.contacts import Contacts, MotionState, UnknownContacts
+from rocking.structures.crushing import inset
 from rocking.structures.drawing import Path, rectangle, span
-from rocking.structures.fields import Value, count, length, restitution_value
+from rocking.structures.fields import OptionalUnitWeight, Value, count, length, restitution_value
 from rocking.structures.linkage import Hung, Motion, PointMotion, Restitution, Turning, keeps_last
-from rocking.structures.structure import Structure
+from rocking.structures.structure import Crushable
 
 Columns = Annotated[int, count("How many columns", 4, 2, 1000)]
 BeamMassRatio = Annotated[
@@ -21,12 +22,13 @@ Balanced = Annotated[Restitution, restitution_value("momentum")]
 
 
 @dataclass(frozen=True, repr=False)
-class Frame(Structure):
+class Frame(Crushable):
     """`columns` equal free-standing columns capped by a freely supported rigid beam; all turn by the same φ.
 
     column: one column. columns: how many, 2 or more. beam_mass_ratio: γ, the mass of the beam over that of all columns
     together. restitution: η in [0, 1], or "momentum" (the default), (1 − 1.5 sin²α + 3γ cos 2α)/(1 + 3γ); it needs
     columns so slender that the balance is positive. The column's own restitution plays no part.
+    compressive_strength, Pa, with unit_weight, N/m³: feet and heads of the columns crush at their edges.
     The rotation ends when the columns lie. Raises StructureError when it cannot stand.
 
     >>> column = rocking.Block.of_size(breadth=1.1, height=8.0)
@@ -43,11 +45,13 @@ class Frame(Structure):
     columns: Columns
     beam_mass_ratio: BeamMassRatio
     restitution: Balanced = None
+    unit_weight: OptionalUnitWeight = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         super().__post_init__()
         if not isinstance(self.column, Block) or self.column.one_sided:
             raise StructureError(f"column is {self.column!r}, but must be a Block that rocks to both sides.")
+        self._stand_crushed()
 
     @classmethod
     def of_columns(
@@ -59,10 +63,20 @@ class Frame(Structure):
         restitution: Restitution = None,
         *,
         restitution_range: float | None = None,
+        compressive_strength: float | None = None,
+        unit_weight: float | None = None,
     ) -> "Frame":
         """Return the frame whose columns have that breadth and height [m]; the others as for the class."""
         column = Block.of_size(column_breadth, column_height)
-        return cls(column, columns, beam_mass_ratio, restitution, restitution_range=restitution_range)
+        return cls(
+            column,
+            columns,
+            beam_mass_ratio,
+            restitution,
+            restitution_range=restitution_range,
+            compressive_strength=compressive_strength,
+            unit_weight=unit_weight,
+        )
 
     @property
     def column_breadth(self) -> float:
@@ -75,7 +89,12 @@ class Frame(Structure):
         return self.column.height
 
     def _linkage(self, mirrored: bool) -> "FrameLinkage":
-        return FrameLinkage(self.column, self._axes, self.beam_mass_ratio)
+        breadth = self.column.breadth
+        weight = (self.unit_weight or 0.0) * breadth * self.column.height
+        beam = self.beam_mass_ratio * weight
+        strength = self.compressive_strength
+        insets = inset(weight + beam, strength, breadth), inset(beam, strength, breadth)
+        return FrameLinkage(self.column, self._axes, self.beam_mass_ratio, insets)
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         """Columns 0.6 of their height apart, and a beam of their material and breadth as deep as its mass asks."""
@@ -109,22 +128,29 @@ class Frame(Structure):
 class FrameLinkage(Turning):
     """Columns of mass 1 that all turn by the same φ as the first does, and the beam that rests on their heads.
 
-    The beam does not turn: it moves as its point at the left top corner of the first column.
+    The beam does not turn: it moves as its point at the left top corner of the first column. insets: how far the
+    corners at the feet and the heads move in as they crush, m.
     """
 
-    def __init__(self, column: Block, axes: np.ndarray, beam_mass_ratio: float) -> None:
+    def __init__(
+        self,
+        column: Block,
+        axes: np.ndarray,
+        beam_mass_ratio: float,
+        insets: tuple[float, float] = (0.0, 0.0),
+    ) -> None:
         half = column.breadth / 2
         height = column.height
         number = axes.size
         self._apart = axes - axes[0]
-        self._head = axes[0] - half + 1j * height
+        self._head = axes[0] - half + insets[1] + 1j * height
         super().__init__(
-            axes[0] + half,
+            axes[0] + half - insets[0],
             [number],
             [axes[0] + 0.5j * height],
             [number * ((2 * half) ** 2 + height**2) / 12],
             [Hung("load", self._head, 0, mass=number * beam_mass_ratio)],
-            slenderness=column.slenderness,
+            slenderness=None if insets[0] else column.slenderness,
         )
 
     @keeps_last

@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rocking.structures.chain import Chain
+from rocking.structures.crushing import inset
 from rocking.structures.drawing import rectangle
 from rocking.structures.linkage import STILL, Hung, Linkage, Turning
 
@@ -83,7 +84,7 @@ class Storey(NamedTuple):
 class Load(NamedTuple):
     """A weight [N/m] that bears at x, z [m]; it rides sideways, or something else holds its mass.
 
-    slab: half the breadth on which it lies as a slab that stays flat, m; 0 on a bearing.
+    slab: half the distance of the edges on which it lies as a slab that stays flat, m; 0 on a bearing.
     """
 
     x: float
@@ -117,7 +118,7 @@ class HeldWall:
     """Masonry, what bears and pushes on it, and what holds it.
 
     storeys: from the ground up. thrusts: height [m] and force outwards [N/m]. backed: cross walls stand behind it, so
-    that nothing moves inwards.
+    that nothing moves inwards. strength: f_c at which the edges of joints crush, Pa; or None.
     """
 
     storeys: tuple[Storey, ...]
@@ -125,6 +126,7 @@ class HeldWall:
     holds: tuple[Hold, ...]
     thrusts: tuple[tuple[float, float], ...] = ()
     backed: bool = False
+    strength: float | None = None
 
     @property
     def height(self) -> float:
@@ -132,9 +134,20 @@ class HeldWall:
         return self.storeys[-1].high
 
     def faces(self, height: float) -> tuple[float, float]:
-        """The inner and the outer edge of the joint at `height` [m], where the thinner storey ends, m."""
+        """Return about which points the joint at `height` [m] opens, inwards and outwards, m.
+
+        They are the edges of the thinner storey that ends there, or lie where what presses on them crushes the edge.
+        Raises DoesNotStandError where all of the joint crushes.
+        """
         meeting = [each for each in self.storeys if each.low <= height <= each.high]
-        return max(each.left for each in meeting), min(each.right for each in meeting)
+        inner = max(each.left for each in meeting)
+        outer = min(each.right for each in meeting)
+        pressing = sum(each.weight * max(each.high - max(each.low, height), 0.0) for each in self.storeys)
+        pressing += sum(
+            load.weight for load in self.loads if load.z > height or (load.slab and load.z == height)
+        )
+        aside = inset(pressing, self.strength, outer - inner)
+        return inner + aside, outer - aside
 
     @cached_property
     def _joints(self) -> dict[float, tuple[float, float, float]]:
@@ -414,7 +427,9 @@ class HeldWall:
         return complex(outer if turn > 0 else inner, height)
 
     def _face(self, height: float, outwards: bool) -> complex:
-        """The point at which the wall is held at `height` [m] on its outer or its inner face."""
+        """The point at which the wall is held at `height` [m] on its outer or its inner face, or by what lies on it."""
+        if any(hold.height == height and hold.kind == "top" for hold in self.holds):
+            return self._edge(height, 1.0 if outwards else -1.0)
         storey = next(each for each in self.storeys if each.low < height <= each.high)
         return complex(storey.right if outwards else storey.left, height)
 

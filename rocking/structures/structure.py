@@ -17,7 +17,7 @@ from rocking.structures.capacity import CapacityCurve as CapacityCurve
 from rocking.structures.capacity import StaticCapacity
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.drawing import Dimension, Mark, Path, plane
-from rocking.structures.fields import Field, Form, Value, constructor
+from rocking.structures.fields import CompressiveStrength, Field, Form, Value, constructor
 from rocking.structures.linkage import STILL, Linkage, Motion, Restitution, momentum_balance
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.stack import Stack
@@ -510,7 +510,30 @@ class Candidate:
 
 
 @dataclass(frozen=True, repr=False)
-class Crackable(Structure):
+class Crushable(Structure):
+    """A structure of masonry whose joints crush at their edges, so that its hinges move in (theory: section 12.8).
+
+    compressive_strength: f_c, Pa; None: nothing crushes. It needs the `unit_weight` of the masonry, N/m³.
+    """
+
+    compressive_strength: CompressiveStrength = field(default=None, kw_only=True)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.compressive_strength is not None and getattr(self, "unit_weight", None) is None:
+            raise StructureError(
+                f"unit_weight is missing, but must be given with a compressive_strength of "
+                f"{self.compressive_strength!r} Pa, for what presses on the joints follows from it; give it in N/m³."
+            )
+
+    def _stand_crushed(self) -> None:
+        """Refuse what its own weight crushes; called once its other values are checked."""
+        if self.compressive_strength is not None:
+            self.mechanism()
+
+
+@dataclass(frozen=True, repr=False)
+class Crackable(Crushable):
     """A structure that may open somewhere else than where it is described.
 
     crack: "given" where the place is meant: it decides, and what else may form is told beside it. "known" where it

@@ -59,6 +59,7 @@ class Tied(CrackedAtHeight):
     N/m, None for elastic ties, and tie_plastic_elongation, m, by which they yield before they break. A tie pulls
     inwards only; one that is tightened needs a structure that cannot rock inwards.
     one_sided: it leans on cross walls and rocks outwards only; restitution must then be a number.
+    compressive_strength: of the masonry, Pa; None: the edges of its joints do not crush.
     opening: of one of its `mechanisms()`, in which alone it moves; files do not give it.
     """
 

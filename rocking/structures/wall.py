@@ -4,7 +4,7 @@ x is measured from the middle of the wall, outwards (to the right) positive; the
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Annotated, ClassVar, Literal, Self, TypedDict, Unpack
 
@@ -13,8 +13,9 @@ import numpy as np
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, finite
 from rocking.structures.contacts import Contacts, MotionState
+from rocking.structures.crushing import inset
 from rocking.structures.drawing import Path, rectangle, span
-from rocking.structures.fields import OneSided, Value, length, restitution_value
+from rocking.structures.fields import OneSided, OptionalUnitWeight, Value, length, restitution_value
 from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
 from rocking.structures.linkage import Hung, Linkage, Motion, Restitution, cross, keeps_last
 from rocking.structures.stack import Course, Held, Stack, counted_courses, course_at, courses_between, slab
@@ -162,6 +163,7 @@ class LoadedWallOptions(TypedDict, total=False):
     tie_plastic_elongation: float
     one_sided: bool
     restitution_range: float | None
+    compressive_strength: float | None
 
 
 @dataclass(frozen=True, repr=False)
@@ -275,7 +277,8 @@ class Wall(CrackedWall):
     lower block's. restitution: η in [0, 1] or "momentum" (the default): the impulses at the hinges of the
     mirrored mechanism do no work on it. For equal blocks that is (1 − 4.5 sin²α)/(1 + 3 sin²α), which
     reaches 0 at sin²α = 2/9; squatter walls get 0 and a StructureWarning. one_sided: it leans on cross walls and bends
-    outwards only, thrown back at every impact; it needs a number.
+    outwards only, thrown back at every impact; it needs a number. compressive_strength, Pa, with unit_weight, N/m³: the
+    edges of its joints crush, so that its hinges move in.
     Raises StructureError when it cannot stand.
 
     >>> rocking.Wall(lower_height=1.6, upper_height=1.6, thickness=0.25).mechanism()
@@ -290,6 +293,25 @@ class Wall(CrackedWall):
 
     restitution: Balanced = None
     one_sided: OneSided = False
+    unit_weight: OptionalUnitWeight = field(default=None, kw_only=True)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self._stand_crushed()
+
+    def _linkage(self, mirrored: bool) -> Linkage:
+        if self.compressive_strength is None or self.unit_weight is None:
+            return super()._linkage(mirrored)
+        half = self.thickness / 2
+        top = self.height
+        masonry = HeldWall(
+            (Storey(0.0, top, -half, half, self.unit_weight * self.thickness),),
+            (),
+            (Hold(top, "top", np.inf, inwards=True),),
+            strength=self.compressive_strength,
+        )
+        hinge = Opening(0.0, self.lower_height, top)
+        return masonry.linkage(hinge, hinge, ())
 
     @classmethod
     def of_size(
@@ -302,6 +324,8 @@ class Wall(CrackedWall):
         *,
         crack: Crack = None,
         restitution_range: float | None = None,
+        compressive_strength: float | None = None,
+        unit_weight: float | None = None,
     ) -> Self:
         """Return the wall of that height and thickness [m], hinged where statics puts the hinge or as it is given."""
         lower, upper, crack = cls._heights(height, hinge_height, crack)
@@ -313,6 +337,8 @@ class Wall(CrackedWall):
             one_sided,
             crack=crack,
             restitution_range=restitution_range,
+            compressive_strength=compressive_strength,
+            unit_weight=unit_weight,
         )
         return wall._hinged(hinge_height)
 
@@ -327,6 +353,8 @@ class Wall(CrackedWall):
         *,
         crack: Crack = None,
         restitution_range: float | None = None,
+        compressive_strength: float | None = None,
+        unit_weight: float | None = None,
     ) -> Self:
         """Return the wall of that total height whose hinge lies at `hinge_height` [m] above the base."""
         return cls.of_size(
@@ -337,6 +365,8 @@ class Wall(CrackedWall):
             one_sided,
             crack=crack,
             restitution_range=restitution_range,
+            compressive_strength=compressive_strength,
+            unit_weight=unit_weight,
         )
 
 
@@ -423,13 +453,19 @@ class LoadedWall(CrackedWall, Tied):
         holds = [Hold(height, "tie", self._yield_force, inwards=False) for height in sorted(ties)]
         slab = self.top_slab == "flat"
         across = 0.0 if slab else -self.eccentricity
-        load = Load(across, top, self.top_load, rides=False, slab=half * slab)
+        load = Load(across, top, self.top_load, rides=False, slab=self._slab_edge * slab)
         return HeldWall(
             (Storey(0.0, top, -half, half, self.unit_weight * self.thickness),),
             (load,) if self.top_load else (),
             (*holds, Hold(top, "top", np.inf, inwards=True)),
             backed=self.one_sided,
+            strength=self.compressive_strength,
         )
+
+    @property
+    def _slab_edge(self) -> float:
+        """Distance of the edge on which a slab lies from the middle of the wall, m."""
+        return self.thickness / 2 - inset(self.top_load, self.compressive_strength, self.thickness)
 
     def opened(self, opening: Opening) -> Self:
         return replace(self, crack="known", opening=opening)
@@ -441,6 +477,9 @@ class LoadedWall(CrackedWall, Tied):
         opened = self._opened_linkage(mirrored)
         if opened is not None:
             return opened
+        if self.compressive_strength is not None:
+            hinge = Opening(0.0, self.lower_height, self.height, outwards=not mirrored)
+            return self.held_wall.linkage(hinge, hinge, self._hung(mirrored), guided=True)
         weight = self.unit_weight * self.height * self.thickness
         return WallLinkage(self.lower_height, self.upper_height, self.thickness, weight, self._hung(mirrored))
 
@@ -477,7 +516,7 @@ class LoadedWall(CrackedWall, Tied):
         # The upper body leans back; a slab rests on the edge that rises, the bearing of a hinge lies inwards.
         lean = -outwards if way is None else way.lean_of_top
         if self.top_load:
-            across = -lean * half if self.top_slab == "flat" else -self.eccentricity
+            across = -lean * self._slab_edge if self.top_slab == "flat" else -self.eccentricity
             bearing = complex(outwards * across, self.height)
             hung.append(self._load(bearing, self._part_at(self.height), self.top_load, self.load_held))
         for height in self.tie_heights:

@@ -16,6 +16,7 @@ class Courses:
 
     loads: (x, z, weight, rides). slab: (weight, rides) of a flat one on top. ties: (z, force). floors, backs: heights
     at which something behind pushes outwards. stops: heights that are held both ways. thrusts: (z, force).
+    strength: of the masonry, kPa; joints press at points N/(1.7 f_c) in from their edges.
     All forces in kN per m. A height belongs to the course below it.
     """
 
@@ -29,6 +30,7 @@ class Courses:
     floors: list = field(default_factory=list)
     stops: list = field(default_factory=list)
     thrusts: list = field(default_factory=list)
+    strength: float = np.inf
 
     def multiplier(self, direction: int) -> float:
         """The largest λ with the ground's inertia forces to `direction`, 1 outwards; inf where none is too large."""
@@ -64,7 +66,10 @@ class Courses:
         for k in range(n):
             inner = max(self.left[k], self.left[k - 1]) if k else self.left[0]
             outer = min(self.right[k], self.right[k - 1]) if k else self.right[0]
-            for x in (inner, outer):
+            # what presses on a joint is all that stands above it, for no hold bears weight
+            above = self.weight[k:].sum() + sum(p for _, z, p, _ in self.loads if z > self.levels[k] + 1e-9)
+            aside = (above + (self.slab[0] if self.slab else 0.0)) / (1.7 * self.strength)
+            for x in (inner + aside, outer - aside):
                 press = column(0, None)
                 act(press, k, x, self.levels[k], 0, 1)
                 if k:
@@ -76,7 +81,8 @@ class Courses:
         if self.slab:
             weight, rides = self.slab
             top = self.levels[-1]
-            for x in (self.left[-1], self.right[-1]):
+            aside = weight / (1.7 * self.strength)
+            for x in (self.left[-1] + aside, self.right[-1] - aside):
                 press = column(0, None)
                 act(press, n - 1, x, top, 0, -1)
                 press[-1] += 1

@@ -50,13 +50,14 @@ def drawn_facade(draw):
         top_slab="flat" if draw.random() < 0.3 else "hinged",
         thrust=float(draw.choice([0.0, 800.0])),
         crack="known",  # the family is asked for by its joints
+        compressive_strength=crushes(draw),
         behind=behind,
         restitution=0.6,
         tie_heights=ties,
         tie_stiffness=2e7,
         tie_strength=strength,
     )
-    courses = masonry(joints, levels, thicknesses, 18.0)
+    courses = masonry(joints, levels, thicknesses, 18.0, facade.compressive_strength)
     rides = not facade.loads_held
     bearings = [
         (-t / 2 - eccentricity, z, load / 1e3, rides)
@@ -93,8 +94,9 @@ def drawn_wall(draw):
         tie_heights=ties,
         tie_stiffness=2e7 if ties else 0.0,
         tie_strength=strength,
+        compressive_strength=crushes(draw),
     )
-    courses = masonry(joints, (0.0, height), (thickness,), 19.0)
+    courses = masonry(joints, (0.0, height), (thickness,), 19.0, wall.compressive_strength)
     courses.left, courses.right = courses.left + thickness / 2, courses.right + thickness / 2
     if wall.top_slab == "flat":
         courses.slab = load / 1e3, 0.0
@@ -107,10 +109,16 @@ def drawn_wall(draw):
     return wall, courses, joints
 
 
-def masonry(joints, levels, thicknesses, unit_weight):
+def crushes(draw):
+    return None if draw.random() < 0.5 else float(draw.uniform(1e6, 5e6))
+
+
+def masonry(joints, levels, thicknesses, unit_weight, strength):
     middles = (joints[1:] + joints[:-1]) / 2
     of_course = np.array(thicknesses)[np.searchsorted(levels, middles) - 1]
-    return Courses(joints, -of_course, 0 * of_course, unit_weight * of_course * np.diff(joints))
+    weights = unit_weight * of_course * np.diff(joints)
+    presses = np.inf if strength is None else strength / 1e3
+    return Courses(joints, -of_course, 0 * of_course, weights, strength=presses)
 
 
 def test_least_multiplier_is_that_of_limit_analysis_over_courses():
