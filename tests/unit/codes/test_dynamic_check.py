@@ -121,8 +121,8 @@ def test_stout_blocks_meet_it_and_slender_ones_do_not(records):
 def test_what_one_set_meets_is_not_called_met_where_others_do_not(records):
     """Between blocks that all sets pass and that none passes, there is one that some pass, and it is refused."""
     between = []
-    for breadth in np.linspace(0.4, 0.8, 9):
-        found = rocking.check(Block.of_size(float(breadth), 3.0), SPECTRUM, records=records).dynamic
+    for breadth in (0.4, 0.5, 0.6):
+        found = rocking.check(Block.of_size(breadth, 3.0), SPECTRUM, records=records).dynamic
         between.append(found)
         assert found.passed == (
             found.demand <= found.capacity and not found.exceeding and found.share >= 0.95

@@ -90,6 +90,7 @@ def errors(name: str, panel: str) -> dict[str, np.ndarray]:
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("figure", ["figure_3", "figure_6"])
 def test_the_period_of_the_block_exact_at_rest_is_closer_than_the_paper_s(figure):
     ours = errors(figure, "c")
@@ -100,6 +101,7 @@ def test_the_period_of_the_block_exact_at_rest_is_closer_than_the_paper_s(figure
         assert np.abs(ours[label]).max() <= np.abs(printed).max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("figure", ["figure_4", "figure_7"])
 @pytest.mark.parametrize("panel", ["a", "b"])
 def test_the_block_exact_at_rest_overturns_more_nearly_when_the_structure_does(figure, panel):

@@ -134,6 +134,14 @@ JOINED = {
 
 
 @pytest.mark.real_records
+@pytest.mark.parametrize("folder", [each for each in JOINED if not each.startswith("formats_")])
+def test_the_files_of_a_real_station_are_joined(real_records, folder):
+    _, rows = list_folder(real_records / folder)
+    assert sum(len(row["file"].split(";")) for row in rows if ";" in row["file"]) == JOINED[folder]
+
+
+@pytest.mark.slow
+@pytest.mark.real_records
 def test_the_real_stations_are_joined_and_no_other(real_records):
     _, rows = list_folder(real_records)
     joined = [row["file"].split(";") for row in rows if ";" in row["file"]]

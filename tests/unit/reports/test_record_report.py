@@ -85,6 +85,7 @@ def test_page_one_begins_with_the_verdicts_by_name_and_holds_no_table(example, d
     assert "PGA 0." in data["key"][0] and " g, PGV " in data["key"][0] and "D5–95" in data["key"][0]
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_an_outcome_that_processing_decides_is_told(example):
     ratios = iter([0.3, np.inf])
     variations = [
@@ -97,6 +98,7 @@ def test_an_outcome_that_processing_decides_is_told(example):
     assert any("depends on the processing of the record: arch 20 m" in text for text in sentences)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_the_reason_of_a_miss_is_told_apart(example):
     """The block under the whole record overturns as the mechanism does: the pulse is the reason."""
     changed = {
@@ -173,6 +175,7 @@ def test_a_failure_is_one_page_that_says_why(message):
     assert "".join(message.split()) in extracted(document)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_contact_that_fails_is_told_first(example):
     comparison = [replace(row, slides=True, bounces=True) for row in example.tables.comparison]
     data = with_tables(example, comparison=comparison)
@@ -181,6 +184,7 @@ def test_a_contact_that_fails_is_told_first(example):
     assert data["methods"]["rows"][0][-2:] == ["yes", "yes"]
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_reserve_that_may_be_too_high_is_told_as_such(example):
     """Of a structure whose contacts open the mechanism knows too little; of the others nothing is said."""
     name = next(each.structure for each in example.stations if each.reserve is not None)
@@ -205,6 +209,7 @@ def test_the_reserve_of_a_spire_is_always_told_as_the_mechanisms(example):
     assert words.endswith("too high where courses above a rocking body may be thrown")
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_front_that_is_free_to_rock_through_its_floors_is_told_on_page_one():
     sizes = {"storey_heights": (3.5, 3.0), "thicknesses": (0.6, 0.5), "unit_weight": 20e3}
     fronts = {
@@ -227,6 +232,7 @@ def _columns(table: dict) -> list[tuple[str, tuple[str, ...]]]:
     return list(zip(table["heads"], zip(*table["rows"], strict=True), strict=True))
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_report_in_g_and_centimetres_prints_the_same_numbers_in_them(example):
     """Every number is that of SI units over the size of its unit: 9.80665 m/s², .01 m/s and .01 m."""
     settings = {**example.settings, "display_units": "g and cm"}
