@@ -17,11 +17,13 @@ rule all:
         TARGETS,
 
 
-include: "workflow/rules/summarise.smk"
-include: "workflow/rules/assess.smk"
-include: "workflow/rules/trade.smk"
-include: "workflow/rules/fragility.smk"
+# The five steps of every record, then what stands over all of them.
+include: "workflow/rules/record.smk"
+include: "workflow/rules/batch.smk"
+include: "workflow/rules/summary.smk"
 include: "workflow/rules/checks.smk"
+include: "workflow/rules/fragility.smk"
+include: "workflow/rules/trade.smk"
 include: "workflow/rules/paper.smk"
 include: "workflow/rules/documentation.smk"
 
@@ -32,9 +34,6 @@ if Path(workflow.basedir, "docs", "research").is_dir():
     include: "docs/research/research.smk"
 
 
-PLAN.hashes.save()
-
-
 # Not before: a dry run leaves the catalogue as it is.
 onstart:
     begin(PLAN)
@@ -42,4 +41,5 @@ onstart:
 
 # The tables stand all the same, and say why; but a study of which nothing could be read has not succeeded.
 onsuccess:
+    PLAN.contents.save()
     check_any_read(Path(SUMMARY), PLAN.records)

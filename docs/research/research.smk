@@ -74,8 +74,8 @@ for TARGET, (TELLS, CATALOGUES, FILES) in TARGETS_OF_RESEARCH.items():
         benchmark:
             f"{SUMMARY}/benchmarks/{TARGET}.tsv"
         params:
-            structures_sha256=PLAN.structures_sha256,
-            package_sha256=PACKAGE,
+            structures_sha256=sha256_of(*structure_hashes(PLAN.scenes).items()),
+            package_sha256=package_sha256(),
         message:
             TELLS
         script:

@@ -96,5 +96,5 @@ if __name__ == "__main__":
         settings.mirror,
         settings.structures,
         Path(snakemake.output[0]).parent,
-        line_writer(Path(snakemake.log[0])),
+        line_writer(Path(snakemake.log[0]), snakemake.rule),
     )

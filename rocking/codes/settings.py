@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 from rocking.codes.design_spectrum import SOILS, TOPOGRAPHIES, DesignSpectrum
 from rocking.described import check_described, described
@@ -17,6 +17,9 @@ class DesignSettings:
 
     Without ag and without points there is none.
     """
+
+    LEVEL: ClassVar[tuple[str, ...]] = ("ag", "f0", "tc_star", "soil", "topography", "points", "damping")
+    """Those that give the spectrum itself."""
 
     ag: float | None = described(
         None, "peak acceleration a_g on rock; null: no design level", "g", gt=0, le=3

@@ -19,14 +19,21 @@ from rocking.reports.structures import CheckedStructure, structures_report
 from rocking.study.job import Study
 from rocking.study.selection import pool_of, select_for
 from rocking.study.settings import StudyDesign
-from rocking.tables import read_table, write_tables, write_whole
+from rocking.tables import write_tables, write_whole
 
 
-def write_checks(study: Study, folder: Path, tell: Callable[[str], None] = lambda _: None) -> None:
-    """Write code_checks.csv and structures.pdf of `study` into `folder`, where its verdicts lie.
+def write_checks(
+    study: Study,
+    folder: Path,
+    verdicts: Sequence[VerdictRow],
+    records: Iterable[RecordRow],
+    tell: Callable[[str], None] = lambda _: None,
+) -> None:
+    """Write code_checks.csv and structures.pdf of `study` into `folder`.
 
-    A structure that cannot be checked costs no other, and without sets of records the dynamic check alone is left out;
-    both are said. tell: takes a line for each structure. Raises ConfigurationError where there is no design level.
+    verdicts, records: the rows of all records of the study. tell: takes a line for each structure. A structure that
+    cannot be checked costs no other, and without sets of records the dynamic check alone is left out; both are said.
+    Raises ConfigurationError where there is no design level.
     """
     design = study.settings.design_spectrum
     spectrum = design.spectrum()
@@ -35,8 +42,7 @@ def write_checks(study: Study, folder: Path, tell: Callable[[str], None] = lambd
             "setting design_spectrum.ag_g is null, and so is points, but checks need a design level; give one."
         )
     selection, notices = _sets(study)
-    verdicts = read_table(VerdictRow, folder)
-    station_of = {each.record: _station(each) for each in read_table(RecordRow, folder)}
+    station_of = {each.record: _station(each) for each in records}
     pages = []
     for name, scene in study.scenes.items():
         for support in scene.place.axis:

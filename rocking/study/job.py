@@ -2,11 +2,10 @@
 
 import contextlib
 import fcntl
-import os
 import signal
 import sys
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
@@ -14,24 +13,24 @@ from typing import Any
 from rocking.assessment.assess import Clock, Extent, Store, assess_record, with_histories
 from rocking.assessment.case import Failure, RecordResult
 from rocking.assessment.compilation import compile_all
-from rocking.assessment.listed import load_scenes
 from rocking.assessment.rows import HistoryRow, RecordRows, history_rows, rows_of_record
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.store import RecordStore, computation_version
-from rocking.errors import ConfigurationError, RecordError, RockingError, about
-from rocking.hashes import sha256_of
-from rocking.records import Accelerogram, CatalogueRecord, aligned, load_catalogue, open_station
+from rocking.errors import ConfigurationError, RockingError, about
+from rocking.records import Accelerogram, CatalogueRecord, aligned, open_station
 from rocking.records.processing import process
 from rocking.records.scaling import ScalingTarget, scaled_to
 from rocking.records.station import station_of
 from rocking.structures import Structure
 from rocking.study.folder import locked
-from rocking.study.plan import JOBS, structures_sha256
-from rocking.study.results import SPECTRA, case_timings_of, cases_of, remove_copies, written_part
-from rocking.study.settings import Settings, read_settings
-from rocking.study.terminal import record_line, tell, tell_error
-from rocking.tables import write_rows, write_whole
+from rocking.study.made_from import TABLE, records_of, settings_sha256
+from rocking.study.plan import JOBS, plan_of_job
+from rocking.study.results import case_timings_of, cases_of, outcome_of, write_outcome
+from rocking.study.seals import Seals
+from rocking.study.settings import Settings
+from rocking.study.terminal import line_writer, log_error, record_line, tell, tell_error
+from rocking.tables import write_rows, write_whole, written_together
 
 Opened = tuple[list[Accelerogram], Accelerogram | None]
 """The horizontal components of a record, and its vertical one where that acts too."""
@@ -56,10 +55,11 @@ class Study:
     @cached_property
     def assessment(self) -> AssessmentSettings:
         """The settings of the assessment: in full where a report or histories are made, which show every case."""
-        whole = self.settings.reports or self.settings.histories
-        if whole and self.settings.fidelity == "auto":
-            return replace(self.settings, fidelity="full")
-        return self.settings
+        settings = self.settings
+        own = {each.name: getattr(settings, each.name) for each in fields(AssessmentSettings)}
+        if settings.fidelity == "auto" and (settings.reports or settings.histories):
+            own["fidelity"] = "full"
+        return AssessmentSettings(**own)
 
     @cached_property
     def extent(self) -> Extent:
@@ -101,84 +101,121 @@ class Study:
         return accelerogram
 
 
-def begin_job(config: Mapping[str, Any], params: Any) -> tuple[Study, list[CatalogueRecord]]:
-    """Return the study and the records of a job, from its `config` and what `Plan.params` planned for it.
+@dataclass(frozen=True)
+class Job:
+    """The work on one product of a study, from what it was planned for to its seal.
 
-    The next run waits for the end of this process, should its scheduler be killed. Raises ConfigurationError when the
-    structure list or the catalogue says something else than it did then.
+    key: what `Seals.key` gave when the product was planned. study: of which the settings that the product is made from
+    can be read. records: those of the product, in catalogue order. log: of the job. tell: adds a line to the log, and
+    tells it to the one who waits.
     """
+
+    product: str
+    key: str
+    study: Study
+    records: Sequence[CatalogueRecord]
+    seals: Seals
+    log: Path
+    tell: Callable[[str], None]
+
+    @property
+    def results(self) -> Path:
+        """The folder of the results."""
+        return Path(self.study.settings.results)
+
+    def finish(self, files: Iterable[str | Path]) -> None:
+        """Seal the `files` of the product. Raises ConfigurationError where what it is made from changed meanwhile."""
+        self.seals.write(self.product, self.key, map(Path, files))
+
+
+def begin_job(config: Mapping[str, Any], params: Any, log: str) -> Job:
+    """Return the job of the product that `params` name, with the key that was planned for it.
+
+    The next run waits for the end of this process, should its scheduler be killed. Raises ConfigurationError when what
+    the product is made from is not what it was then.
+    """
+    kind = params.product.partition("/")[0]
     sys.excepthook = tell_error
+    tell_line = line_writer(Path(log), kind)
     with contextlib.suppress(OSError):
         locked(JOBS, fcntl.LOCK_SH)  # never closed: held to the end
         # Ctrl-C comes from the scheduler, as SIGTERM.
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         signal.signal(signal.SIGTERM, signal.default_int_handler)
-    settings = read_settings(config)
-    scenes = load_scenes(settings.structures)
-    rows = {row.id: row for row in load_catalogue(settings.catalogue)}
-    records = [rows[name] for name in params.records if name in rows]
-    for name, sha256, before in (
-        (settings.structures, structures_sha256(scenes), params.structures_sha256),
-        (settings.catalogue, sha256_of(*records), params.records_sha256),
-    ):
-        if sha256 != before:
-            raise ConfigurationError(f"{name}: the file changed while the study ran; start the study again.")
+    plan = plan_of_job(config, params.product)
+    if plan.seals.key(params.product) != params.key:
+        raise ConfigurationError(
+            f"{params.product}: a file or a setting changed while the study ran; start the study again."
+        )
     compile_all(partial(tell, "compile"))
-    return Study(scenes, settings, params.settings_sha256), records
+    settings = TABLE[kind].handed(plan.settings)
+    study = Study(plan.scenes, settings, settings_sha256(plan.settings, plan.scenes))
+    records = [plan.records[each] for each in records_of(params.product, plan)]
+    return Job(params.product, params.key, study, records, plan.seals, Path(log), tell_line)
 
 
-def run_job(
-    records: Iterable[CatalogueRecord],
-    study: Study,
-    part: Path,
-    results: Path,
-    tell: Callable[[str], object] = lambda _: None,
-    files: Iterable[str] = (),
-) -> None:
-    """Assess `records`, one after another: their tables and what the page to explore shows of them go into `part`.
+def work_on(record: CatalogueRecord, job: Job) -> None:
+    """Assess one record of a job and keep its outcome; of a record with a folder of its own write the files there.
 
-    Where the settings ask for it, the report, the tables that it names and the histories of each go into its folder
-    below `results`. tell: takes a line for each record. files: must still be there at the end, lest a folder that went
-    away for a while be taken for records that cannot be read. Raises RecordError, and leaves nothing, when one is not.
+    Whatever goes wrong with a record costs no other: its outcome is a row that says why.
     """
-    with written_part(part) as add:
-        for record in records:
-            timings = case_timings_of(results, record.id)
-            store = RecordStore(cases_of(results, record.id), tell, timings)
-            result = assess_catalogued(record, study, store=store)
-            store.save()
-            if study.settings.reports or study.settings.histories:
-                result = with_histories(result, study.settings.tolerance)
-            rows = rows_of(result, record, study)
-            folder = results / record.id
-            content = None
-            if study.settings.reports:
-                from rocking.reports.explore import record_content  # matplotlib takes a second to import
+    try:
+        _assess_and_write(record, job)
+    except (RockingError, OSError, MemoryError):  # of the machine or of the study, not of this record
+        raise
+    except Exception as fault:
+        log_error(fault)
+        failure = Failure("fault", fault_in_words(fault, job.log))
+        _write(RecordResult(record=record.id, failures=(("", failure),)), record, job)
 
-                write_report(result, rows, study, folder)
-                content = record_content(result, rows, study.structures)
-                level = study.settings.design_spectrum.spectrum()
-                if level is not None:
-                    from rocking.reports.design_figure import component_spectra  # as above
 
-                    content[SPECTRA] = component_spectra(result.accelerograms, level)
-            else:
-                remove_copies(folder)
-            if study.settings.histories:
-                histories = history_rows(record.id, result.responses)
-                write_rows(HistoryRow, histories, folder / HistoryRow.table.file_name)
-            add(rows, content)
-            tell(f"{record.id}: {record_line(result.scenes.values(), rows.failures)}")
-        for path in files:
-            if not os.path.isfile(path):
-                raise RecordError(f"{path}: the file went away while the study ran; bring it back.")
+def fault_in_words(fault: Exception, log: Path) -> str:
+    """Return the sentence on an error that no input may cause."""
+    said = " ".join(f"{type(fault).__name__}: {fault}".split())
+    return f"a fault of rocking in this file ({said}); please report it, with {log}."
+
+
+def _assess_and_write(record: CatalogueRecord, job: Job) -> None:
+    study = job.study
+    timings = case_timings_of(job.results, record.id)
+    store = RecordStore(cases_of(job.results, record.id), job.tell, timings)
+    result = assess_catalogued(record, study, store=store)
+    store.save()
+    if study.settings.reports or study.settings.histories:
+        result = with_histories(result, study.settings.tolerance)
+    _write(result, record, job)
+
+
+def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:
+    """Write the outcome of a record, and in a job of its own the files in its folder."""
+    study = job.study
+    rows = rows_of(result, record, study)
+    folder = job.results / record.id
+    page: Mapping[str, Any] = {}
+    spectra: Mapping[str, Sequence[float]] = {}
+    with written_together():
+        if job.product.startswith("records/"):
+            rows.write(folder)
+        if study.settings.reports:
+            from rocking.reports.design_figure import component_spectra  # matplotlib takes a second to import
+            from rocking.reports.explore import record_content
+
+            write_report(result, rows, study, folder)
+            page = record_content(result, rows, study.structures)
+            level = study.settings.design_spectrum.spectrum()
+            if level is not None:
+                spectra = component_spectra(result.accelerograms, level)
+        if study.settings.histories:
+            histories = history_rows(record.id, result.responses)
+            write_rows(HistoryRow, histories, folder / HistoryRow.table.file_name)
+        write_outcome(outcome_of(job.results, record.id), rows.tables, page, spectra)
+    job.tell(f"{record.id}: {record_line(result.scenes.values(), rows.failures)}")
 
 
 def write_report(result: RecordResult, rows: RecordRows, study: Study, folder: Path) -> None:
     """Write report.pdf of one record into `folder`, beside the tables that it names."""
     from rocking.reports.record import RecordReport, failure_report  # matplotlib takes a second to import
 
-    rows.write(folder)
     if rows.comparison:
         report = RecordReport(result, rows, study.structures, study.settings.mapping()).pdf()
     else:

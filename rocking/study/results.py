@@ -1,44 +1,56 @@
-"""The results of a study: each job writes the rows of its records into tables of its own, gathered and read here."""
+"""The results of a study: what is kept of each record for what stands over all records, and the tables read back."""
 
-import csv
-import heapq
 import json
-import re
 import shutil
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from contextlib import ExitStack, contextmanager
-from operator import itemgetter
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_type_hints
 
-from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, RecordRows, TimingRow, TradeRow
+from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, TimingRow, TradeRow
+from rocking.assessment.store import decoded, encoded
 from rocking.codes.rows import CodeCheckRow
 from rocking.errors import RockingError
-from rocking.tables import Row, csv_lines, frame, rows_written, whole, write_whole, written_together
+from rocking.records import CatalogueRecord
+from rocking.study.seals import MADE_FROM
+from rocking.tables import Row, frame, read_whole, write_whole, written_together
 from rocking.tables.csv_rows import check_columns, readable
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-PAGE = "explore.jsonl"
-"""Beside them: what the page to explore shows of each record, one JSON value a line."""
-PROVENANCE = "provenance.json"
-"""In the folder of the summary: what the results were made from and with."""
-SPECTRA = "spectra"
-"""The key of these under which the spectra of the components stand, for the summary, where there is a design level."""
+_LARGEST = 200_000_000
+"""Bytes of what is kept of a product that are read; of a record under ten structures some hundred thousand."""
 _ROWS: tuple[type[Row], ...] = (*RECORD_TABLES, *SUMMARY_TABLES, TradeRow, CodeCheckRow)
 _TABLES = {each.table.name: each for each in _ROWS}
-_JOB = re.compile(r"\d{5}_of_\d{5}")
+
+FORMER = ("summary/jobs", "summary/cases")
+"""Where former versions kept what now stands in MADE_FROM."""
+Rows = Mapping[type[Row], Iterable[Row]]
+"""The rows of tables by their class."""
 
 
-def part(results: Path, job: str) -> Path:
-    """Return the folder of the tables of one job."""
-    return results / "summary" / "jobs" / job
+@dataclass(frozen=True)
+class Outcome:
+    """What a record leaves: the rows of its tables, by their class, and what documents over all records show of it.
+
+    page: what the page to explore shows. spectra: of the components, m/s², where there is a design level. Without
+    reports both are empty.
+    """
+
+    rows: Mapping[type[Row], list[Row]]
+    page: dict[str, Any]
+    spectra: Mapping[str, Sequence[float]]
+
+
+def outcome_of(results: Path, record: str) -> Path:
+    """Return the file that keeps the outcome of a record."""
+    return results / MADE_FROM / "outcomes" / f"{record}.json"
 
 
 def cases_of(results: Path, record: str) -> Path:
     """Return the file that keeps the results of the cases of a record, for the next run."""
-    return results / "summary" / "cases" / f"{record}.json"
+    return results / MADE_FROM / "cases" / f"{record}.json"
 
 
 def case_timings_of(results: Path, record: str) -> Path:
@@ -46,85 +58,77 @@ def case_timings_of(results: Path, record: str) -> Path:
     return results / "summary" / "benchmarks" / "cases" / f"{record}.json"
 
 
-def remove_other_cases(results: Path, records: Collection[str]) -> None:
+def remove_others(results: Path, records: Collection[str]) -> None:
     """Remove what is kept of records that the study does not hold any more."""
-    for folder in (cases_of(results, "").parent, case_timings_of(results, "").parent):
-        for path in folder.glob("*.json"):
+    for place in (outcome_of(results, ""), cases_of(results, ""), case_timings_of(results, "")):
+        for path in place.parent.glob("*.json"):
             if path.stem not in records:
                 path.unlink(missing_ok=True)
+    for former in FORMER:
+        shutil.rmtree(results / former, ignore_errors=True)
 
 
-@contextmanager
-def written_part(folder: Path) -> Iterator[Callable[[RecordRows, Mapping[str, Any] | None], None]]:
-    """Yield what adds a record to the files in `folder`, which appear together at the end, or not at all.
-
-    It takes the tables of the record and, where there is one, what the page to explore shows of it.
-    """
-    with written_together(), ExitStack() as stack:
-        tables = {
-            each: stack.enter_context(rows_written(each, folder / each.table.file_name))
-            for each in RECORD_TABLES
-        }
-        page = stack.enter_context(whole(folder / PAGE))
-
-        def add(record: RecordRows, content: Mapping[str, Any] | None) -> None:
-            for each, rows in record.tables.items():
-                tables[each](rows)
-            if content is not None:
-                page.write(json.dumps(content, allow_nan=False, separators=(",", ":")).encode() + b"\n")
-
-        yield add
+def write_outcome(
+    path: Path, rows: Rows, page: Mapping[str, Any], spectra: Mapping[str, Sequence[float]]
+) -> None:
+    """Keep the outcome of a record."""
+    content = {"rows": encoded_rows(rows), "page": page, "spectra": spectra}
+    write_whole(path, json.dumps(content, separators=(",", ":")).encode())
 
 
-def page_contents(folders: Iterable[Path], records: Iterable[str]) -> list[dict[str, Any]]:
-    """Return what the page to explore shows of `records`, in their order, from the `folders` of all jobs."""
-    lines = (line for folder in folders for line in (folder / PAGE).read_bytes().splitlines())
-    contents = {content["id"]: content for content in map(json.loads, lines)}
-    return [contents[record] for record in records if record in contents]
+def read_outcome(path: Path) -> Outcome:
+    """Return the outcome of a record. Raises RockingError where it is not what this version writes."""
+    try:
+        content = json.loads(read_whole(path, _LARGEST, RockingError))
+        return Outcome(decoded_rows(content["rows"], RECORD_TABLES), content["page"], content["spectra"])
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+        raise RockingError(f"{path}: it is damaged ({error}); remove it and run the study again.") from None
 
 
-def table_lines(row_class: type[Row], folders: Iterable[Path], records: Iterable[str]) -> Iterator[bytes]:
-    """Yield a table of `records` in their order, head first, from the parts in `folders`, which keep that order."""
-    place = {record: number for number, record in enumerate(records)}
-
-    def placed(path: Path) -> Iterator[tuple[int, str]]:
-        with readable(path) as stream:
-            check_columns(row_class.table, next(csv.reader(stream), []), path)
-            for line in stream:  # a row is one line, and begins with the identifier
-                if (record := line.partition(",")[0]) in place:
-                    yield place[record], line
-
-    yield from (line.encode() for line in csv_lines(row_class, ()))
-    parts = (placed(folder / row_class.table.file_name) for folder in folders)
-    yield from (line.encode() for _, line in heapq.merge(*parts, key=itemgetter(0)))
+def outcomes_of(results: Path, records: Iterable[CatalogueRecord]) -> Iterator[Outcome]:
+    """Yield the outcome of each record, one at a time."""
+    for record in records:
+        yield read_outcome(outcome_of(results, record.id))
 
 
-def remove_copies(folder: Path) -> None:
-    """Remove the tables of one record from its folder: copies of a run before, or tables of an earlier version."""
-    if folder.is_dir():
-        for each in RECORD_TABLES:
-            (folder / each.table.file_name).unlink(missing_ok=True)
+def encoded_rows(rows: Rows) -> dict[str, list[list[Any]]]:
+    """Return what JSON can hold of the rows of tables: by the name of the table the cells of each row."""
+    return {
+        each.table.name: [[encoded(getattr(row, name)) for name in each.table.column_names] for row in of_it]
+        for each, of_it in rows.items()
+    }
 
 
-def parts_in(results: Path) -> list[Path]:
-    """Return the folders of the jobs that stand in the results."""
-    return sorted(each for each in part(results, "").glob("*") if _JOB.fullmatch(each.name))
+def decoded_rows(
+    content: Mapping[str, list[list[Any]]], tables: Iterable[type[Row]]
+) -> dict[type[Row], list[Row]]:
+    """Return the rows of `tables` that `encoded_rows` gave. Raises ValueError, KeyError or TypeError for others."""
+    rows: dict[type[Row], list[Row]] = {}
+    for each in tables:
+        hints = get_type_hints(each)
+        kinds = [(name, hints[name]) for name in each.table.column_names]
+        rows[each] = [
+            each(**{name: decoded(kind, cell) for (name, kind), cell in zip(kinds, cells, strict=True)})
+            for cells in content[each.table.name]
+        ]
+    return rows
 
 
-def remove_other_parts(results: Path, jobs: Collection[str]) -> None:
-    """Remove what is left of jobs that records were shared out to before, whose rows would stand twice."""
-    for folder in parts_in(results):
-        if folder.name not in jobs:
-            shutil.rmtree(folder)
+def _lines_of(row_class: type[Row], path: Path, record: str) -> Iterator[bytes]:
+    """Yield the lines of one record in a table over all records, behind its head."""
+    with readable(path) as stream:
+        head = stream.readline()
+        check_columns(row_class.table, head.rstrip("\n").split(","), path)
+        yield head.encode()
+        # A row is one line, and begins with the identifier of its record.
+        yield from (line.encode() for line in stream if line.startswith(f"{record},"))
 
 
 class Results:
-    """The folder of a study's results: each table is an attribute, read when it is asked for.
+    """The folder of a study's results: each table is an attribute, read from its CSV when it is asked for.
 
     >>> results = rocking.open_results("results")  # doctest: +SKIP
     >>> results.comparison.groupby("structure")["within_factor_two"].mean()  # doctest: +SKIP
-
-    A table that the summary does not hold, as `responses`, is gathered from those of the jobs, sorted by record.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -141,22 +145,22 @@ class Results:
         names = list(row_class.table.column_names if columns is None else columns)
         if (summary := self.folder / "summary" / file).exists():
             return frame(row_class, summary, names)
-        parts = [path for part in parts_in(self.folder) if (path := part / file).exists()]
-        paths = parts or sorted(self.folder.glob(f"*/{file}"))  # of records that were assessed one by one
+        paths = sorted(self.folder.glob(f"*/{file}"))  # of records that were assessed one by one
         if not paths:
             raise RockingError(f"{self.folder} holds no {file}; name the folder of a study's results.")
         table = pd.concat([frame(row_class, path, ["record", *names]) for path in paths])
         return table.sort_values("record", kind="stable", ignore_index=True)[names]
 
     def write_record(self, record: str, folder: Path | str | None = None) -> list[Path]:
-        """Write the tables of one record as CSV into `folder`, else beside its report, and return their paths.
+        """Write the tables of one record as CSV into `folder`, else into its folder, and return their paths.
 
-        A copy as the tables are now: the next run that assesses the record removes it from there. Raises RockingError
-        where there is no such record.
+        Raises RockingError where there is no such record.
         """
         target = self.folder / record if folder is None else Path(folder)
-        parts = parts_in(self.folder)
-        tables = {each: list(table_lines(each, parts, [record])) for each in RECORD_TABLES}
+        summary = self.folder / "summary"
+        tables = {
+            each: list(_lines_of(each, summary / each.table.file_name, record)) for each in RECORD_TABLES
+        }
         if len(tables[TimingRow]) == 1:  # which every record has, also one that could not be read
             raise RockingError(
                 f"{self.folder} holds no tables of {record!r}; name a record of a study that has been run."

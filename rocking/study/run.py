@@ -6,6 +6,7 @@ import os
 import re
 import signal
 import sys
+import time
 from collections.abc import Iterator, Sequence
 from functools import cache
 from importlib.util import find_spec
@@ -20,7 +21,6 @@ from rocking.study import close_doors
 from rocking.study.folder import REMEMBERED, locked, new_log
 from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_plan, workflow_folder
 from rocking.study.settings import named_files
-from rocking.study.sharing import shared_by_work
 from rocking.study.terminal import Progress, closing_lines, fitting, paths_to_read
 from rocking.tables import read_table
 
@@ -42,6 +42,8 @@ _EXCEPTION = re.compile(r"(?m)^[\w.]*(?:Error|Exception)\b[^\n]{,200}")
 _RULE = re.compile(r"(?m)^rule (\w+):")
 _RESEARCH = re.compile(r'(?m)^    "(\w+)": \(')
 """The declaration of a rule, and of a target of the research."""
+_BETWEEN_LOOKS = 0.2
+"""s; after which a process that was asked to stop looks again for jobs that started."""
 _STOPS: list[int] = []
 """The signals by which somebody asked this process to stop."""
 
@@ -82,7 +84,7 @@ def run(folder: Path, options: Sequence[str]) -> int:
         flush=True,
     )
     with _logged(log) as terminal:
-        progress = Progress({f"assess_{job}": len(records) for job, records in plan.jobs.items()}, terminal)
+        progress = Progress(len(plan.records), len(plan.batches), terminal)
         with progress.followed():
             status = _snakemake(arguments)
     if _STOPS:
@@ -128,7 +130,7 @@ def targets(home: Path) -> list[str]:
     research = home / "docs" / "research" / "research.smk"
     if research.is_file():
         names |= set(_RESEARCH.findall(research.read_text(encoding="utf-8")))
-    return sorted(names - {"summarise"})
+    return sorted(names - {"record", "batch"})
 
 
 def _check_target(target: str, home: Path) -> None:
@@ -172,7 +174,7 @@ def _plan(folder: Path) -> Plan:
             f"{catalogue}: there is no catalogue yet; put records beside it, then: rocking catalogue {catalogue.parent}"
         )
     with contextlib.chdir(folder):
-        return shared_by_work(make_plan(settings))
+        return make_plan(settings)
 
 
 def _snakemake(arguments: Sequence[str]) -> int:
@@ -204,7 +206,8 @@ def _logged(log: Path) -> Iterator[TextIO]:
 def begin(plan: Plan) -> None:
     """Make sure that one process alone schedules the jobs of the study in this folder, and that it ends in order.
 
-    Waits for jobs that outlived their scheduler. When the process is asked to stop, its jobs are, and no other starts.
+    Waits for jobs that outlived their scheduler. When the process is asked to stop, its jobs are, and no other starts;
+    asked a second time, it ends at once, and its jobs with it.
     """
     hold(Path.cwd())
     os.close(locked(JOBS, fcntl.LOCK_EX))
@@ -215,19 +218,34 @@ def begin(plan: Plan) -> None:
         import psutil  # comes with snakemake
 
         graceful()
+        told: set[int] = set()
+        while True:  # a job that was chosen before may start after; the thread ends with the process
+            for process in psutil.Process().children(recursive=True):
+                with contextlib.suppress(psutil.NoSuchProcess):
+                    # A shell that started one waits for it. Told twice, a job would not end in order.
+                    if not process.children() and process.pid not in told:
+                        process.terminate()
+                        told.add(process.pid)
+            time.sleep(_BETWEEN_LOOKS)
+
+    def end_at_once(number: int) -> None:
+        import psutil
+
         for process in psutil.Process().children(recursive=True):
             with contextlib.suppress(psutil.NoSuchProcess):
-                if not process.children():  # a shell that started one waits for it
-                    process.terminate()
+                process.kill()
+        os._exit(128 + number)
 
     def stop(number: int, _: object) -> None:
         _STOPS.append(number)
-        if len(_STOPS) == 1:
-            Thread(target=end_jobs).start()  # the scheduler may be at its own lock
+        if len(_STOPS) > 1:
+            end_at_once(number)
+        Thread(target=end_jobs, daemon=True).start()  # the scheduler may be at its own lock
 
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, stop)
     plan.fill_hashes()
+    plan.contents.save()
 
 
 @cache

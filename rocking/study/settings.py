@@ -5,7 +5,7 @@ written, with its JSON schema, from these. After a change: make schema
 """
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields, is_dataclass
 from typing import Any, ClassVar, Literal
 
 import yaml
@@ -151,8 +151,8 @@ class Settings(AssessmentSettings):
     )
     records_per_job: int | None = described(
         None,
-        "number of records per job; null: 12, or 24 without reports; of many an eighth, at most 200; "
-        "fewer jobs where most cases are kept from before",
+        "number of records per batch where no reports are made; null: 24, of many an eighth, at most 200; with reports "
+        "each record has a job of its own",
         ge=1,
         le=100_000,
         heading=Heading.OUTPUT,
@@ -167,22 +167,75 @@ class Settings(AssessmentSettings):
             except RecordError as error:
                 raise ConfigurationError(str(error)) from None
 
+    @classmethod
+    def changing_numbers(cls) -> list[str]:
+        """Return the names of the settings, and of the sections, that change a number of a table."""
+        return [each.name for each in fields(cls) if _said_of(each.name, "changes_numbers", True)]
+
+    def told_in(self, names: Iterable[str]) -> dict[str, Any]:
+        """Return the values of some settings by their names, those of a section as section.name.
+
+        names: of settings and sections; section.name is one setting of a section.
+        """
+        chosen: dict[str, Any] = {}
+        for name in names:
+            top, _, part = name.partition(".")
+            value = getattr(self, top)
+            if part:
+                chosen[name] = getattr(value, part)
+            elif is_dataclass(value):
+                chosen |= {f"{name}.{each.name}": getattr(value, each.name) for each in fields(value)}
+            else:
+                chosen[name] = value
+        return chosen
+
+    def restricted(self, names: Iterable[str]) -> "Settings":
+        """Return these settings, of which only those named (see told_in) can be read; another raises an error.
+
+        A setting that is left out of a section has its default.
+        """
+        chosen: dict[str, Any] = {}
+        parts: dict[str, dict[str, Any]] = {}
+        for name in names:
+            top, _, part = name.partition(".")
+            if part:
+                parts.setdefault(top, {})[part] = getattr(getattr(self, top), part)
+            else:
+                chosen[top] = getattr(self, top)
+        for top, own in parts.items():
+            chosen[top] = type(getattr(self, top))(**own)
+        restricted = object.__new__(_Restricted)
+        vars(restricted).update(chosen)
+        return restricted
+
     def mapping(self) -> dict[str, Any]:
         """All settings by their names, and below "about" what every report tells of the study, by its label."""
-        return asdict(self) | {"about": self.about}
-
-    def numbers(self) -> dict[str, Any]:
-        """Those that change a number of a table."""
-        return {
-            name: value for name, value in asdict(self).items() if _said_of(name, "changes_numbers", True)
+        told = {
+            name: asdict(value) if is_dataclass(value) else value  # type: ignore[arg-type]
+            for name, value in vars(self).items()
         }
+        return told | {"about": self.about}
 
     @property
     def about(self) -> dict[str, str]:
         """The facts of the study that every report tells, by its label; what was left blank is left out."""
         labels = {name: each.more.get("told", "") for name, each in described_values(Settings).items()}
-        told = {label: getattr(self, name) for name, label in labels.items() if label}
+        told = {label: vars(self).get(name) for name, label in labels.items() if label}
         return {label: str(value) for label, value in told.items() if value}
+
+
+class _Restricted(Settings):
+    """Settings of which some cannot be read, lest a product depend on what the table does not say of it."""
+
+    def __getattribute__(self, name: str) -> Any:
+        if name in _FIELDS and name not in object.__getattribute__(self, "__dict__"):
+            raise ConfigurationError(
+                f"setting {name}: nothing says that it is needed here; add it to rocking.study.made_from.TABLE."
+            )
+        return object.__getattribute__(self, name)
+
+
+_FIELDS = frozenset(each.name for each in fields(Settings))
 
 
 def _said_of(name: str, what: str, otherwise: Any) -> Any:

@@ -1,10 +1,8 @@
 """The results over all records of a study: tables, report, figure and page, from its jobs; and their fragility."""
 
 import json
-import platform
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from contextlib import suppress
-from importlib.metadata import PackageNotFoundError, version
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,8 +14,14 @@ from rocking.assessment.rows import (
     AgreementRow,
     CapacityRow,
     ComparisonRow,
+    FailureRow,
+    PulseRow,
+    RecordRow,
     StructureRow,
+    SupportRow,
     TimingRow,
+    VariationRow,
+    VerdictRow,
     agreement_rows,
     capacity_rows,
     structure_rows,
@@ -25,27 +29,32 @@ from rocking.assessment.rows import (
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records import Accelerogram, CatalogueRecord
 from rocking.structures import Mechanism, Structure
-from rocking.study.job import Study
-from rocking.study.plan import structure_hashes
-from rocking.study.results import (
-    PROVENANCE,
-    SPECTRA,
-    page_contents,
-    part,
-    remove_other_cases,
-    remove_other_parts,
-    table_lines,
-)
-from rocking.study.seal import SEAL
+from rocking.study.job import Job, Study
+from rocking.study.made_from import package_sha256, structure_hashes, versions
+from rocking.study.results import Outcome, outcomes_of, remove_others
 from rocking.study.terminal import log_error
-from rocking.tables import Row, data_package, frame, write_tables, write_whole
+from rocking.tables import Row, data_package, frame, rows_written, write_tables, write_whole, written_together
 from rocking.tables.workbook import workbook
 
 if TYPE_CHECKING:
     from rocking.fragility.measures import IntensityMeasure
 
+PROVENANCE = "provenance.json"
+"""In the folder of the summary: what the results were made from and with."""
 WORKBOOK = "study.xlsx"
-"""The tables of the summary in one file, but for the times, which differ from run to run."""
+"""The tables of the summary in one file."""
+_NOT_IN_THE_WORKBOOK = (TimingRow, VariationRow)
+"""The times differ from run to run; the variations of each case are ten times as many as the cases."""
+_SHOWN = (
+    RecordRow,
+    PulseRow,
+    ComparisonRow,
+    VerdictRow,
+    SupportRow,
+    StructureRow,
+    AgreementRow,
+    FailureRow,
+)
 _GOVERNING = (
     "structure",
     "support_period_s",
@@ -54,103 +63,103 @@ _GOVERNING = (
     "overturning_share",
     "governing_overturning_share",
 )
-_SHOWN = (
-    "record",
-    "pulses",
-    "comparison",
-    "verdicts",
-    "supports",
-    "structures",
-    "agreement",
-    "failures",
-)
-_LIBRARIES = ("rocking", "obspy", "numpy", "scipy", "pandas", "matplotlib", "numba", "snakemake", "typst")
 
 
-def summarise(study: Study, records: Iterable[CatalogueRecord], jobs: Sequence[str], params: Any) -> None:
-    """Write everything that stands over all records, in their order, into the folder of the results.
-
-    params: what `Plan.params` planned; its hashes name the settings and the package.
-    """
-    results = Path(study.settings.results)
-    target = results / "summary"
-    parts = [part(results, job) for job in jobs]
-    hashes = {record.id: record.sha256 for record in records}
-    write_summary(parts, list(hashes), study.structures, target)
-    # Two descriptions of every column, because a data package may not name files outside its own folder.
-    of_summary = {each: each.table.file_name for each in SUMMARY_TABLES}
-    folders = [each.relative_to(results).as_posix() for each in parts]
-    of_jobs = {each: [f"{folder}/{each.table.file_name}" for folder in folders] for each in RECORD_TABLES}
-    write_whole(target / "datapackage.json", data_package("rocking-study-summary", of_summary))
-    write_whole(results / "datapackage.json", data_package("rocking-study", of_jobs))
-    versions = {"python": platform.python_version()}
-    for library in _LIBRARIES:
-        with suppress(PackageNotFoundError):
-            versions[library] = version(library)
+def summarise(job: Job) -> list[Path]:
+    """Write everything that stands over all records, in their order, and return the files."""
+    study = job.study
+    target = job.results / "summary"
+    files = [target / each.table.file_name for each in SUMMARY_TABLES]
+    outcomes = outcomes_of(job.results, job.records)
+    shown, pages, spectra = write_summary(outcomes, study.structures, target, study.settings.reports)
+    paths: dict[type[Row], str | list[str]] = {each: each.table.file_name for each in SUMMARY_TABLES}
+    write_whole(target / "datapackage.json", data_package("rocking-study", paths))
     provenance = {
-        "versions": versions,
+        "versions": versions(),
         "settings": study.settings.mapping(),
-        "hashes": {"settings": params.settings_sha256, "package": params.package_sha256},
+        "hashes": {"settings": study.settings_sha256, "package": package_sha256()},
         "structures": structure_hashes(study.scenes),
-        "records": hashes,
+        "records": {record.id: record.sha256 for record in job.records},
     }
     text = json.dumps(provenance, indent=1, sort_keys=True, default=str)
     write_whole(target / PROVENANCE, (text + "\n").encode())
+    files += [target / "datapackage.json", target / PROVENANCE]
     if study.settings.reports:
         from rocking.reports.explore import explore_page  # matplotlib takes half a second to import
 
-        contents = page_contents(parts, hashes)
-        spectra = [each for content in contents for each in content.pop(SPECTRA, {}).values()]
-        _report(target, study, results / "fragility", spectra)
-        page = explore_page(contents, study.structures, study.settings.study or "")
-        write_whole(target / "study.html", page)
-        paths = {each: target / each.table.file_name for each in SUMMARY_TABLES if each is not TimingRow}
-        write_whole(target / WORKBOOK, workbook(paths, study.settings.study or ""))
-    remove_other_parts(results, jobs)
-    remove_other_cases(results, hashes)
+        # A fragility that was measured by hand is shown as well, with the next run.
+        fragility = None if job.seals.why_again("fragility") else job.results / "fragility"
+        files += _report(target, study, shown, spectra, fragility)
+        write_whole(target / "study.html", explore_page(pages, study.structures, study.settings.study or ""))
+        sheets = {each: rows for each, rows in shown.items() if each not in _NOT_IN_THE_WORKBOOK}
+        write_whole(target / WORKBOOK, workbook(sheets, study.settings.study or ""))
+        files += [target / "study.html", target / WORKBOOK]
+    remove_others(job.results, [record.id for record in job.records])
+    return files
 
 
 def write_summary(
-    parts: Sequence[Path], records: Sequence[str], structures: Mapping[str, Structure], target: Path
-) -> None:
-    """Write the tables of the summary into `target`: of `records`, in their order, from their jobs in `parts`."""
-    for each in SUMMARY_TABLES:
-        if each in RECORD_TABLES:
-            write_whole(target / each.table.file_name, table_lines(each, parts, records))
-    cases = frame(ComparisonRow, target / ComparisonRow.table.file_name, AGREEMENT_COLUMNS)
-    tables: dict[type[Row], Iterable[Row]] = {
-        StructureRow: structure_rows(structures),
-        CapacityRow: capacity_rows(structures),
-        AgreementRow: agreement_rows(cases),
-    }
-    write_tables(tables, target)
+    outcomes: Iterable[Outcome], structures: Mapping[str, Structure], target: Path, reports: bool
+) -> tuple[dict[type[Row], list[Row]], list[dict[str, Any]], list[Sequence[float]]]:
+    """Write the tables of the summary into `target`, record by record.
+
+    reports: whether the rows, and what the page to explore and the spectra show of each record, are returned as well:
+    of thousands of records, which have no reports, they would fill the memory.
+    """
+    kept: dict[type[Row], list[Row]] = {each: [] for each in SUMMARY_TABLES}
+    pages: list[dict[str, Any]] = []
+    spectra: list[Sequence[float]] = []
+    of_records = [each for each in SUMMARY_TABLES if each in RECORD_TABLES]
+    with written_together(), ExitStack() as stack:
+        write = {
+            each: stack.enter_context(rows_written(each, target / each.table.file_name))
+            for each in of_records
+        }
+        for outcome in outcomes:
+            for each in of_records:
+                write[each](outcome.rows[each])
+                if reports or each is ComparisonRow:
+                    kept[each] += outcome.rows[each]
+            if reports:
+                pages.append(outcome.page)
+                spectra += outcome.spectra.values()
+        kept[StructureRow] = list(structure_rows(structures))
+        kept[CapacityRow] = list(capacity_rows(structures))
+        kept[AgreementRow] = list(
+            agreement_rows(frame(ComparisonRow, kept[ComparisonRow], AGREEMENT_COLUMNS))
+        )
+        write_tables({each: rows for each, rows in kept.items() if each not in write}, target)
+    return kept, pages, spectra
 
 
-def _report(folder: Path, study: Study, fragility: Path, spectra: Sequence[Sequence[float]]) -> None:
-    """Write summary.pdf and its figure beside the summary tables in `folder`, with fragility and trade if measured.
+def _report(
+    folder: Path,
+    study: Study,
+    rows: Mapping[type[Row], Sequence[Row]],
+    spectra: Sequence[Sequence[float]],
+    fragility: Path | None,
+) -> list[Path]:
+    """Write summary.pdf and its figure beside the summary tables in `folder`, and return the two.
 
-    spectra: of the components, where there is a design level.
+    spectra: of the components, where there is a design level. fragility: its folder, where it was measured.
     """
     from rocking.reports.style import svg  # as above
     from rocking.reports.summary import prediction_scatter, summary_report
     from rocking.reports.trade import trade_picture
 
-    tables = {
-        each.table.name: frame(each, folder / each.table.file_name)
-        for each in SUMMARY_TABLES
-        if each.table.name in _SHOWN
-    }
-    if (fragility / SEAL).exists():  # which a table that was cut or edited has lost
+    tables = {each.table.name: frame(each, rows[each]) for each in _SHOWN}
+    if fragility is not None:
         from rocking.fragility.rows import FragilitySummaryRow, IdaRow  # a quarter of a second
 
         tables["fragility_summary"] = frame(FragilitySummaryRow, fragility / "fragility_summary.csv")
         tables["ida"] = frame(IdaRow, fragility / "ida.csv", _GOVERNING)
-    trade = trade_picture(folder) if study.settings.trade.in_summary else []
+    pictures = trade_picture(folder) if study.settings.trade.in_summary else []
     level = study.settings.design_spectrum.spectrum()
     design = (level, spectra) if level is not None and spectra else None
-    write_whole(folder / "summary.pdf", summary_report(tables, study.settings.mapping(), trade, design))
-    scatter = svg(prediction_scatter(tables["comparison"])).encode()
-    write_whole(folder / "prediction_against_integration.svg", scatter)
+    write_whole(folder / "summary.pdf", summary_report(tables, study.settings.mapping(), pictures, design))
+    figure = folder / "prediction_against_integration.svg"
+    write_whole(figure, svg(prediction_scatter(tables["comparison"])).encode())
+    return [folder / "summary.pdf", figure]
 
 
 # Whole on purpose: one loop fills the tables, of which a structure costs no other.
@@ -195,8 +204,8 @@ def write_fragility(
                 structure,
                 intensity_measure=settings.intensity_measure,
                 largest_factor=settings.largest_factor,
-                ensemble=study.assessment.ensemble if settings.members else None,
-                tolerance=study.assessment.tolerance,
+                ensemble=study.settings.ensemble if settings.members else None,
+                tolerance=study.settings.tolerance,
                 support=support,
             ).analysis
             assert analysis is not None

@@ -112,14 +112,14 @@ def paths_to_read(results: Path, verdicts: Iterable[VerdictRow]) -> Iterator[str
 class Progress:
     """Turns what jobs and scheduler tell into lines for a person, and counts what is done.
 
-    records: how many each job takes, by the name of its rule. On a terminal, lines are cut to its width, and "12 of 44
-    records, about 1 min left" stands below them.
+    records: of the study. On a terminal, lines are cut to its width, and "12 of 44 records, about 1 min left" stands
+    below them.
     """
 
     in_this_process: "Progress | None" = None
 
-    def __init__(self, records: Mapping[str, int], stream: TextIO) -> None:
-        self._records = records
+    def __init__(self, records: int, batches: int, stream: TextIO) -> None:
+        self._of_a_job = {"record": 1.0, "batch": records / max(1, batches)}
         self._stream = stream
         self._back = "\r\x1b[K" if stream.isatty() else ""  # to the begin of the line, and the line empty
         self._total = 0
@@ -151,18 +151,19 @@ class Progress:
         for line in iter(lines.readline, b"\n"):
             self.tell_line(*json.loads(line))
 
-    def tell_plan(self, jobs: Iterable[str]) -> None:
-        """Take up which jobs will run."""
-        self._total = sum(self._records.get(job, 0) for job in jobs)
+    def tell_plan(self, jobs: Mapping[str, int]) -> None:
+        """Take up how many jobs of each rule will run."""
+        self._total = round(sum(self._of_a_job.get(rule, 0) * number for rule, number in jobs.items()))
         self._show()
 
-    def tell_line(self, job: str, line: str) -> None:
+    def tell_line(self, rule: str, line: str) -> None:
         """Show a line of a job; those that assess tell one for each record. Keep the reason why one failed."""
-        if job == "error":
+        if rule == "error":
             self.reasons.append(line)
             return
-        self._done += job in self._records
-        self._show(line if job in self._records else f"{job}: {line}")
+        of_a_record = rule in ("records", "batches")
+        self._done += of_a_record
+        self._show(line if of_a_record else f"{rule}: {line}")
 
     def _show(self, *lines: str) -> None:
         for line in lines:
@@ -187,15 +188,15 @@ def tell(job: str, line: str) -> None:
         stream.write(json.dumps([job, line[:_LONGEST]], ensure_ascii=False).encode() + b"\n")
 
 
-def line_writer(log: Path) -> Callable[[str], None]:
-    """Return what adds a line to `log`, begun anew, and tells it."""
+def line_writer(log: Path, rule: str) -> Callable[[str], None]:
+    """Return what adds a line to a new `log`, and tells it as one of a job of this `rule`."""
     new_log(log).close()
     _LOGS[:] = [log]
 
     def add(line: str) -> None:
         with log.open("a", encoding="utf-8") as stream:
             print(line, file=stream)
-        tell(log.stem, line)
+        tell(rule, line)
 
     return add
 

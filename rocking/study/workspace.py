@@ -18,7 +18,8 @@ from rocking.records.folder import catalogue_of_folder
 from rocking.records.listing import listing_text
 from rocking.records.read import read
 from rocking.study.job import Study, assess_catalogued, rows_of, write_report
-from rocking.study.plan import settings_sha256, workflow_folder
+from rocking.study.made_from import settings_sha256
+from rocking.study.plan import workflow_folder
 from rocking.study.settings import Settings, commented_yaml
 from rocking.tables import Row, write_tables, write_whole
 
@@ -114,6 +115,7 @@ def assess_file(
     result = assess_catalogued(record, study, study.open(record, channels))
     rows = rows_of(result, record, study)
     if output is not None:
+        rows.write(output / record.id)
         write_report(result, rows, study, output / record.id)
         tables: dict[type[Row], Iterable[Row]] = {
             StructureRow: structure_rows(study.structures),

@@ -1,15 +1,13 @@
 """Tables as one workbook of a spreadsheet (XLSX): a sheet a table, typed cells, and units in the heads."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from datetime import datetime
 from io import BytesIO
-from pathlib import Path
 from typing import Any
 
 from rocking.described import Described
 from rocking.quantities import escaped
-from rocking.tables.csv_rows import read_rows
 from rocking.tables.row import Row
 
 MOST_ROWS = 1_048_575
@@ -22,8 +20,8 @@ _MADE = datetime(2000, 1, 1)
 """Stands in the file as its date, so that two runs of a study give the same bytes."""
 
 
-def workbook(tables: Mapping[type[Row], Path], title: str = "") -> bytes:
-    """Return a workbook of the CSV `tables`, one sheet each, behind a sheet that says what every column means.
+def workbook(tables: Mapping[type[Row], Sequence[Row]], title: str = "") -> bytes:
+    """Return a workbook of the rows of `tables`, one sheet each, behind a sheet that says what every column means.
 
     A number is a number, a truth a truth, overturning (inf) the text INF, and what is missing an empty cell. A table of
     more rows than a sheet holds is left out, and the first sheet says so.
@@ -42,15 +40,13 @@ def workbook(tables: Mapping[type[Row], Path], title: str = "") -> bytes:
         about.set_column(place, place, width)
     about.freeze_panes(1, 0)
     line = 1
-    for kind, path in tables.items():
-        too_long = _rows_of(path) > MOST_ROWS
-        if too_long:
-            about.write_string(
-                line, 0, f"{kind.table.name} has more rows than a sheet holds; read {path.name}."
-            )
+    for kind, rows in tables.items():
+        if len(rows) > MOST_ROWS:
+            file = kind.table.file_name
+            about.write_string(line, 0, f"{kind.table.name} has more rows than a sheet holds; read {file}.")
             line += 1
             continue
-        _add_sheet(book, bold, kind, path)
+        _add_sheet(book, bold, kind, rows)
         for each in kind.table.columns:
             for place, text in enumerate((kind.table.name, _head(each), each.name, each.unit, each.meaning)):
                 about.write_string(line, place, text)
@@ -64,12 +60,7 @@ def _head(column: Described) -> str:
     return f"{column.attribute} [{column.unit}]" if column.unit else column.attribute
 
 
-def _rows_of(path: Path) -> int:
-    with path.open("rb") as stream:
-        return sum(1 for _ in stream) - 1
-
-
-def _add_sheet(book: Any, bold: Any, kind: type[Row], path: Path) -> None:
+def _add_sheet(book: Any, bold: Any, kind: type[Row], rows: Sequence[Row]) -> None:
     columns = kind.table.columns
     sheet = book.add_worksheet(kind.table.name[:31])
     for place, each in enumerate(columns):
@@ -77,10 +68,9 @@ def _add_sheet(book: Any, bold: Any, kind: type[Row], path: Path) -> None:
         sheet.write_string(0, place, head, bold)
         sheet.set_column(place, place, min(len(head) + 2, _WIDEST))
     sheet.freeze_panes(1, 1)
-    number = 0
-    for number, row in enumerate(read_rows(kind, path), start=1):
+    for number, row in enumerate(rows, start=1):
         _write_row(sheet, number, (getattr(row, each.name) for each in columns))
-    sheet.autofilter(0, 0, number, len(columns) - 1)
+    sheet.autofilter(0, 0, len(rows), len(columns) - 1)
 
 
 def _write_row(sheet: Any, number: int, values: Iterable[object]) -> None:

@@ -118,17 +118,17 @@ class SmallStudy:
             path.relative_to(self.results).as_posix(): path.read_bytes()
             for path in sorted(self.results.rglob("*"))
             if path.is_file() and path.suffix in {".csv", ".json"} and path.name not in MEASURED
+            if not {".made_from", "benchmarks"} & set(path.relative_to(self.results).parts)
         }
 
     def rows_of(self, record: str) -> dict[str, list[bytes]]:
-        """The lines of one record in the tables of all jobs, by table, but for what may differ between runs."""
-        found: dict[str, list[bytes]] = {}
-        for path in sorted((self.results / "summary" / "jobs").glob("*/*.csv")):
-            if path.name not in MEASURED:
-                lines = path.read_bytes().splitlines()
-                own = [line for line in lines if line.startswith(f"{record},".encode())]
-                found[path.name] = found.get(path.name, []) + own
-        return found
+        """The lines of one record in the tables of the summary, by table, but for what may differ between runs."""
+        tables = [path for path in (self.results / "summary").glob("*.csv") if path.name not in MEASURED]
+        start = f"{record},".encode()
+        return {
+            path.name: [line for line in path.read_bytes().splitlines() if line.startswith(start)]
+            for path in sorted(tables)
+        }
 
     def unfinished(self) -> list[Path]:
         """Temporary files that somebody left behind."""
@@ -142,11 +142,11 @@ class SmallStudy:
 def kinds_of_jobs(told: str) -> list[str]:
     """The kinds of jobs in the table that snakemake prints before a run and a dry run, without the target."""
     table = told.partition("Job stats:")[2].partition("\ntotal ")[0]
-    return sorted(re.findall(r"(?m)^(assess|summarise|report|trade|fragility)(?:_\w+)? +\d+ *$", table))
+    return sorted(re.findall(r"(?m)^(record|batch|summary|checks|trade|fragility) +\d+ *$", table))
 
 
 def new_study(folder: Path, tree: Path) -> SmallStudy:
-    """A study without records: two structures, no reports, one record a job."""
+    """A study without records: two structures, no reports, one record a batch."""
     (folder / "records").mkdir(parents=True)
     settings = {"reports": False, "records_per_job": 1}
     (folder / "config.yaml").write_text(yaml.safe_dump(settings), encoding="utf-8")

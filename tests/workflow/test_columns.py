@@ -10,10 +10,12 @@ from rocking.assessment.settings import EnsembleSettings
 from rocking.floors.place import Place
 from rocking.floors.support import Mode, Support
 from rocking.records.catalogue import CatalogueRecord
-from rocking.study.job import Study, run_job
+from rocking.study.job import Study
+from rocking.study.results import outcomes_of
 from rocking.study.settings import Settings, StudyFragility
 from rocking.study.summary import write_fragility, write_summary
 from tests.unit.assessment.made_rows import Impossible
+from tests.unit.study.made_jobs import worked
 from tests.workflow.conftest import ROOT
 
 STRUCTURES = """
@@ -27,6 +29,11 @@ STRUCTURES = """
 """
 EMPTY = {("intensity_measures.csv", name) for name in ("p_value", "power", "slope")}
 """What stays empty here: a regression needs more stations than two."""
+
+
+def _write_tables(records: list[CatalogueRecord], study: Study, results: Path) -> None:
+    worked(records, study, results)
+    write_summary(outcomes_of(results, records), study.structures, results / "summary", False)
 
 
 def test_every_column_is_filled_somewhere(tmp_path: Path) -> None:
@@ -46,19 +53,16 @@ def test_every_column_is_filled_somewhere(tmp_path: Path) -> None:
     fragility = StudyFragility(members=False, hazard=str(tmp_path / "hazard.txt"))
     settings = Settings(reports=False, histories=True, vertical=True, fragility=fragility)
     study = Study(load_scenes(tmp_path / "structures.yaml"), settings, "made")
-    part = tmp_path / "summary" / "jobs" / "00000_of_00001"
-    run_job(records, study, part, tmp_path)
-    write_summary([part], [record.id for record in records], study.structures, tmp_path / "summary")
+    worked(records, study, tmp_path)
+    write_summary(outcomes_of(tmp_path, records), study.structures, tmp_path / "summary", False)
     alone = replace(settings, fidelity="auto", histories=False, ensemble=EnsembleSettings(members=0))
     contact = replace(settings, fidelity="contact", histories=False)
     spire = {"spire": study.scenes["spire"]}
-    run_job([pulse], Study(spire, contact), tmp_path / "contact", tmp_path)
+    _write_tables([pulse], Study(spire, contact), tmp_path / "contact")
     failing = on_the_ground({"facade": study.structures["facade"], "impossible": Impossible()})
     too_stiff = Place("rack", (Support((Mode(1e-3, 0.05, 1.0),)),))
     failing["instrument"] = replace(failing["facade"], name="instrument", place=too_stiff)
-    run_job(
-        [records[1], replace(pulse, scale_factor=6.0)], Study(failing, alone), tmp_path / "auto", tmp_path
-    )
+    _write_tables([records[1], replace(pulse, scale_factor=6.0)], Study(failing, alone), tmp_path / "auto")
     write_fragility(records[1:3], study, tmp_path / "fragility")
     columns, filled = set(), set()
     for path in tmp_path.rglob("*.csv"):

@@ -19,10 +19,10 @@ from rocking.records.catalogue import load_catalogue
 from rocking.records.processing import displacement
 from rocking.reports.explore import BINS, drawings, explore_page, extremes
 from rocking.sine_pulse import predict_maximum
-from rocking.study.job import Study, run_job
-from rocking.study.results import page_contents
+from rocking.study.job import Study
+from rocking.study.results import outcomes_of
 from rocking.study.settings import read_settings
-from rocking.tables import read_table
+from tests.unit.study.made_jobs import worked
 from tests.workflow.write_study import write_study
 
 PATIENCE = 100
@@ -57,10 +57,10 @@ def _explored(folder: Path, structures: str) -> tuple[Path, Study, list]:
     choices = {"ensemble": {"members": 16}, "candidates": 0, "processing_variants": False}
     study = Study(load_scenes(folder / "structures.yaml"), read_settings(choices | paths))
     records = load_catalogue(paths["catalogue"])
-    run_job(records, study, results / "part", results)
+    worked(records, study, results)
     (results / "summary").mkdir(parents=True, exist_ok=True)
     page = results / "summary" / "study.html"
-    contents = page_contents([results / "part"], [record.id for record in records])
+    contents = [outcome.page for outcome in outcomes_of(results, records)]
     page.write_bytes(explore_page(contents, study.structures, f"A study of {HOSTILE}"))
     return page, study, list(records)
 
@@ -154,7 +154,8 @@ def test_the_page_carries_the_closed_form_of_each_case_and_the_path_of_the_groun
 
 def test_the_page_tells_the_reserve_that_the_table_holds_and_what_it_leaves_out(content, study):
     """The factors of verdicts.csv stand in the words; those of a spire with what its mechanism does not follow."""
-    rows = {row.structure: row for row in read_table(VerdictRow, study[0].parent.parent / "part")}
+    outcomes = outcomes_of(study[0].parent.parent, study[2])
+    rows = {row.structure: row for outcome in outcomes for row in outcome.rows[VerdictRow]}
     cases = content["records"][0]["cases"]
     assert cases
     for name, case in cases.items():

@@ -11,10 +11,10 @@ import time
 from pathlib import Path
 
 import pytest
+import yaml
 
 from rocking.records.synthetic import SyntheticRecord, at2_text
-from rocking.study.seal import SEAL, write_seal
-from tests.workflow.conftest import kinds_of_jobs
+from rocking.study.plan import make_plan
 
 OTHER = at2_text(SyntheticRecord("other", 9, 4.0, 0.7, 1.0, 1.0, 6.0, 0.01)).encode()
 LONG_AGO, IN_TEN_YEARS = 1e9, time.time() + 3e8
@@ -30,20 +30,18 @@ def test_a_run_compares_every_record_with_every_structure(finished) -> None:
 
 
 def test_every_described_file_stands_and_has_the_described_columns(finished) -> None:
-    for folder in (finished.results, finished.results / "summary"):
-        package = json.loads((folder / "datapackage.json").read_text())
-        assert package["resources"], folder
-        for resource in package["resources"]:
-            paths = resource["path"] if isinstance(resource["path"], list) else [resource["path"]]
-            names = [field["name"] for field in resource["schema"]["fields"]]
-            for path in paths:
-                with (folder / path).open(newline="") as stream:
-                    assert next(csv.reader(stream)) == names, path
+    folder = finished.results / "summary"
+    package = json.loads((folder / "datapackage.json").read_text())
+    described = {resource["path"]: resource["schema"]["fields"] for resource in package["resources"]}
+    assert set(described) == {path.name for path in folder.glob("*.csv")}
+    for path, fields in described.items():
+        with (folder / path).open(newline="") as stream:
+            assert next(csv.reader(stream)) == [field["name"] for field in fields], path
 
 
 @pytest.mark.parametrize(
     ("edited", "again"),
-    [("motion/nonlinear_kernel.py", ["assess"] * 2 + ["summarise"]), ("reports/record.py", [])],
+    [("motion/nonlinear_kernel.py", ["batch", "summary"]), ("reports/record.py", [])],
     ids=["numbers", "appearance"],
 )
 def test_an_edit_of_the_package_runs_again_what_depends_on_it(finished, edited, again) -> None:
@@ -80,44 +78,45 @@ def test_what_the_settings_ask_for_is_waited_for(finished) -> None:
     """The graph is built from the settings alone, whatever lies in the results."""
     settings = ("reports=true", "trade={in_summary: true}", "fragility={in_every_run: true}")
     told = finished.run("--dry-run", "--config", *settings)
-    for rule in ("summarise", "trade", "fragility"):
+    for rule in ("summary", "trade", "fragility"):
         assert re.search(rf"(?m)^{rule} +1 *$", told), told
-    (reason,) = re.findall(r": Summarise all records\nReason: (.*)", told)
-    assert "fragility/fragility.csv" in reason, told
+    (reason,) = re.findall(r": Summary of all records\nReason: (.*)", told)
+    assert ".made_from/fragility.json" in reason, told
 
 
-def test_the_page_takes_up_fragility_where_it_was_measured(finished, tmp_path: Path) -> None:
+def test_the_page_takes_up_fragility_where_it_was_measured(finished, tmp_path: Path, monkeypatch) -> None:
     study = finished.copy_to(tmp_path / "study")
-    table, seal = (study.results / "fragility" / name for name in ("fragility.csv", SEAL))
+    monkeypatch.chdir(study.folder)
+    table = study.results / "fragility" / "fragility.csv"
     table.parent.mkdir()
     table.write_text("measured since\n", encoding="utf-8")
     assert study.planned() == [], "what nobody sealed may be anything"
-    write_seal(seal, "", [table], study.results)
-    assert study.planned() == ["summarise"]
+    seals = make_plan(yaml.safe_load(Path("config.yaml").read_text())).seals
+    seals.write("fragility", seals.key("fragility"), [Path("results/fragility/fragility.csv")])
+    assert study.planned() == ["summary"]
     table.write_text("edited since\n", encoding="utf-8")
-    told = study.run("--dry-run")
-    assert "fragility/fragility.csv is not as it was written; snakemake fragility makes it again." in told
-    assert not seal.exists() and kinds_of_jobs(told) == []
+    assert study.planned() == []
+    told = study.rocking("run", str(study.folder)).stdout
+    why = "fragility: results/fragility/fragility.csv is not as it was written"
+    assert f"{why}; computed again by: rocking run . fragility." in told
 
 
 def test_a_record_that_changed_and_one_more_compute_their_own_jobs_only(finished, tmp_path: Path) -> None:
-    """Whatever the date of the file; and what a folder of a record copied of its old tables goes."""
+    """Whatever the date of the file."""
     study = finished.copy_to(tmp_path / "study")
-    study.rocking("tables", str(study.results), "good_1")
     file, rows = study.folder / "records" / "good_1.txt", study.rows()
     file.write_bytes(OTHER)
     os.utime(file, (LONG_AGO, LONG_AGO))
-    assert study.planned() == ["assess", "summarise"]
+    assert study.planned() == ["batch", "summary"]
     os.utime(file, (IN_TEN_YEARS, IN_TEN_YEARS))
     rows[0]["sha256"] = hashlib.sha256(OTHER).hexdigest()
     study.write_catalogue(rows)
     study.add_synthetic("good_4", 4)
-    assert sum(map(int, re.findall(r"(?m)^assess\w* +(\d+) *$", study.run()))) == 2
+    assert sum(map(int, re.findall(r"(?m)^batch +(\d+) *$", study.run()))) == 2
     assert study.rows_of("good_1")["record.csv"] != finished.rows_of("good_1")["record.csv"]
     for name in ("good_2", "good_3"):
         assert finished.rows_of(name)["comparison.csv"] and study.rows_of(name) == finished.rows_of(name)
     assert b"good_4" in study.tables()["summary/comparison.csv"]
-    assert not list((study.results / "good_1").iterdir()), "a copy of its tables would say something else"
     assert study.planned() == [], "the second run has nothing to do, in ten years as now"
 
 
@@ -137,7 +136,6 @@ def test_a_dry_run_changes_nothing_and_a_run_in_other_jobs_fills_in_the_hash(fin
     assert contents() == before
     study.run("--config", "records_per_job=3")
     assert study.rows() == rows
-    assert [path.name for path in (study.results / "summary" / "jobs").iterdir()] == ["00000_of_00001"]
     for name in ("good_1", "good_2", "good_3"):
         assert study.rows_of(name) == finished.rows_of(name)
     path = "summary/comparison.csv"
@@ -160,7 +158,7 @@ def test_a_date_a_comment_or_line_ends_compute_nothing_and_a_number_everything(f
         os.utime(study.folder / "records" / name, (LONG_AGO, LONG_AGO))
     assert study.planned() == []
     structures.write_text(structures.read_text().replace("3.2", "3.3"))
-    assert study.planned() == ["assess"] * 2 + ["summarise"]
+    assert study.planned() == ["batch", "summary"]
 
 
 def test_a_study_of_broken_records_only_has_failed(start, tmp_path: Path) -> None:

@@ -24,7 +24,7 @@ def _jobs_run(study) -> bool:
 
 
 def _record_is_done(study) -> bool:
-    return any(log.stat().st_size for log in study.results.glob("summary/logs/assess_*.log"))
+    return any(log.stat().st_size for log in study.results.glob("summary/logs/batches/*.log"))
 
 
 @contextmanager
@@ -108,9 +108,9 @@ def test_a_run_waits_for_the_jobs_of_one_whose_scheduler_alone_was_killed(start,
 )
 def test_a_second_run_is_locked_out_and_harms_nothing(finished, tmp_path: Path, otherwise: bool) -> None:
     study = finished.copy_to(tmp_path / "study")
-    tables = study.results.glob("summary/jobs/*/record.csv")  # as a run that was stopped leaves them:
-    (job,) = {table.parent for table in tables if "good_3" in table.read_text()}
-    shutil.rmtree(job)
+    seals = study.results.glob(".made_from/batches/*.json")  # as a run that was stopped leaves them:
+    (seal,) = [path for path in seals if "good_3" in path.read_text()]
+    seal.unlink()
     (study.results / "summary" / "provenance.json").unlink()
     with _started(study, *(study.command() if otherwise else ())) as first:
         os.killpg(first.pid, signal.SIGSTOP)  # on a slow machine it would end before the others begin
@@ -149,7 +149,7 @@ def test_a_damaged_memory_of_snakemake_is_told_in_a_sentence(finished, tmp_path,
     assert study.planned() == []
 
 
-AWAY = "the file went away while the study ran; bring it back."
+AWAY = "a file or a setting changed while the study ran; start the study again."
 
 
 @pytest.mark.parametrize(
@@ -161,7 +161,7 @@ AWAY = "the file went away while the study ran; bring it back."
     ids=["records vanish", "results read-only"],
 )
 def test_after_a_folder_fails_the_same_command_goes_on(finished, start, tmp_path, name, harm, mend, words):
-    """In the midst of a job of three records, of which none is then taken for one that cannot be read."""
+    """In the midst of a batch of three records, of which none is then taken for one that cannot be read."""
     study = start.copy_to(tmp_path / "study")
     config = study.folder / "config.yaml"
     config.write_text(config.read_text().replace("records_per_job: 1", "records_per_job: 3"))

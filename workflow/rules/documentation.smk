@@ -13,7 +13,7 @@ rule documentation:
     log:
         f"{SUMMARY}/logs/documentation.log",
     params:
-        package_sha256=PACKAGE,
+        package_sha256=package_sha256(),
     message:
         "Set the documentation"
     script:

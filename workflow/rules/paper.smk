@@ -14,7 +14,7 @@ rule paper:
     benchmark:
         f"{SUMMARY}/benchmarks/paper.tsv"
     params:
-        package_sha256=PACKAGE,
+        package_sha256=package_sha256(),
     message:
         "Redraw the figures of the paper"
     script:

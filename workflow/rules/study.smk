@@ -1,7 +1,8 @@
-"""What is studied: settings, records and structures, checked before the first job starts."""
+"""What is studied: settings, records and structures, checked before the first job starts; and when a job runs again."""
 
-import os
-from pathlib import Path  # for the rules
+import re
+import sys
+from pathlib import Path
 
 from rocking.study import close_doors
 
@@ -9,16 +10,15 @@ close_doors()  # before the imports that open them
 
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES
 from rocking.hashes import sha256_of
+from rocking.study.made_from import package_sha256, structure_hashes
 from rocking.study.plan import check_config_file, config_file, make_plan
-from rocking.study.results import PAGE, part
+from rocking.study.results import outcome_of
 from rocking.study.run import begin
-from rocking.study.seal import SEAL, TRADE_SEAL, remove_broken_seals
-from rocking.study.sharing import shared_by_work
-from rocking.study.terminal import check_any_read, tell
+from rocking.study.terminal import check_any_read
 from snakemake.utils import update_config
 
-# What the user writes (catalogue, records, StationXML, structures) is watched by its content, in params, not as input:
-# snakemake goes by dates, and behind a file that is dated in the future it removes what a job wrote.
+# What the user writes (catalogue, records, StationXML, structures) is watched by its content, not as input: snakemake goes
+# by dates, and behind a file that is dated in the future it removes what a job wrote.
 for FILE in workflow.overwrite_configfiles:
     check_config_file(Path(FILE))
 if not workflow.overwrite_configfiles:
@@ -27,31 +27,46 @@ if not workflow.overwrite_configfiles:
     CONFIG = check_config_file(FILE)
     update_config(CONFIG, config)  # what --config says
     config.update(CONFIG)
-PLAN = shared_by_work(make_plan(config))
-if workflow.is_main_process:
-    for SENTENCE in remove_broken_seals(PLAN):
-        tell("results", SENTENCE)
-# The page that snakemake --report makes shows captions and params as they stand: no text of a study may be in them, only its
-# hashes.
+PLAN = make_plan(config)
+SEALS = PLAN.seals
 SETTINGS = PLAN.settings
-PACKAGE = PLAN.package_sha256
 RESULTS = SETTINGS.results
 SUMMARY = f"{RESULTS}/summary"
-FRAGILITY = f"{RESULTS}/fragility/fragility.csv"
+CHECKS = SETTINGS.design_spectrum.ag or SETTINGS.design_spectrum.points
 
 
-def part_of(job):
-    """The files of a job over all its records."""
-    return [
-        f"{part(Path(RESULTS), job)}/{name}"
-        for name in (*(each.table.file_name for each in RECORD_TABLES), PAGE, SEAL)
-    ]
+wildcard_constraints:
+    record="|".join(map(re.escape, PLAN.records)),
+    batch="|".join(PLAN.batches),
 
 
-def own_of(job):
-    """The files of each record of a job, where the settings ask for them."""
-    names = ["report.pdf"] * SETTINGS.reports + ["histories.csv"] * SETTINGS.histories
-    return [f"{RESULTS}/{record}/{name}" for record in PLAN.jobs[job] for name in names]
+def product_of(name):
+    """The product that a job makes, by the wildcards of its rule."""
+    return lambda wildcards: name.format(**wildcards)
+
+
+def unless_sealed(name):
+    """No input, but a job runs again where the seal of what it makes does not hold (rocking.study.made_from)."""
+
+    def force(wildcards):
+        product = name.format(**wildcards)
+        if workflow.is_main_process and (why := SEALS.why_again(product)):
+            # As --forcerun does: the one trigger that snakemake does not remember, and that needs no file to be written.
+            workflow.dag.forcefiles.add(str(SEALS.path(product)))
+            if SEALS.path(product).exists():  # else nothing stands, which snakemake tells
+                print(f"{product}: {why}.", file=sys.stderr)
+        return []
+
+    return force
+
+
+def key_of(name):
+    """One hash for what a product is made from: --report prints params, so that no text of a study may be in them."""
+    return lambda wildcards: SEALS.key(name.format(**wildcards))
+
+
+def seal_of(name):
+    return str(SEALS.path(name))
 
 
 def in_report(name, caption, category, **labels):
@@ -59,15 +74,14 @@ def in_report(name, caption, category, **labels):
     return report(f"{SUMMARY}/{name}", caption=f"../report/{caption}.rst", category=category, labels=labels)
 
 
-TARGETS = [f"{SUMMARY}/{each.table.file_name}" for each in SUMMARY_TABLES]
-TARGETS += [f"{SUMMARY}/{name}" for name in ("provenance.json", "datapackage.json", SEAL)]
-TARGETS += [path for job in PLAN.jobs for path in (*part_of(job), *own_of(job))]
-if SETTINGS.reports:
-    TARGETS += [
-        f"{SUMMARY}/{name}" for name in ("summary.pdf", "prediction_against_integration.svg", "study.html")
-    ]
-    TARGETS += [f"{SUMMARY}/study.xlsx"]
-if SETTINGS.design_spectrum.ag or SETTINGS.design_spectrum.points:
-    TARGETS += [f"{SUMMARY}/code_checks.csv", f"{SUMMARY}/structures.pdf"]
+if PLAN.makes_reports:
+    OF_RECORDS = [str(outcome_of(Path(RESULTS), record)) for record in PLAN.records]
+else:
+    OF_RECORDS = [seal_of(f"batches/{batch}") for batch in PLAN.batches]
+TARGETS = [seal_of("summary")]
+if PLAN.makes_reports:
+    TARGETS += [f"{RESULTS}/{record}/report.pdf" for record in PLAN.records if SETTINGS.reports]
+if CHECKS:
+    TARGETS += [seal_of("checks")]
 if SETTINGS.fragility.in_every_run:
-    TARGETS += [f"{RESULTS}/fragility/fragility.pdf", f"{RESULTS}/fragility/{SEAL}"]
+    TARGETS += [seal_of("fragility")]

@@ -1,20 +1,22 @@
-"""Measure what accuracy costs, on records and structures of this study, and say which method to buy."""
+"""What accuracy costs, on records and structures of this study, and which method to choose."""
 
 
 rule trade:
+    input:
+        unless_sealed("trade"),
     output:
         table=f"{SUMMARY}/trade.csv",
         description=f"{SUMMARY}/trade.json",
         pdf=f"{SUMMARY}/trade.pdf",
         svg=f"{SUMMARY}/trade.svg",
-        seal=f"{SUMMARY}/{TRADE_SEAL}",
+        seal=seal_of("trade"),
     log:
         f"{SUMMARY}/logs/trade.log",
     benchmark:
         f"{SUMMARY}/benchmarks/trade.tsv"
     params:
-        **PLAN.params(),
-        made_from=PLAN.trade_made_from,
+        product="trade",
+        key=key_of("trade"),
     message:
         "Measure the error and the time of every method"
     script:

@@ -9,8 +9,6 @@ from rocking.assessment.trade import trade
 from rocking.errors import RockingError
 from rocking.reports.trade import write_trade_report
 from rocking.study.job import begin_job
-from rocking.study.seal import write_seal
-from rocking.study.terminal import line_writer
 from rocking.tables import write_tables
 
 MOST_RECORDS = 70
@@ -29,12 +27,12 @@ def components(study, records, tell):
 
 
 if __name__ == "__main__":
-    output, tell = snakemake.output, line_writer(Path(snakemake.log[0]))
-    study, records = begin_job(snakemake.config, snakemake.params)
+    job = begin_job(snakemake.config, snakemake.params, snakemake.log[0])
+    output, study = snakemake.output, job.study
     folder = Path(output.pdf).parent
     # The methods are compared on records: what stands on a support is taken on the ground.
-    rows = trade(components(study, records, tell), study.structures, settings=study.settings, tell=tell)
+    tried = components(study, job.records, job.tell)
+    rows = trade(tried, study.structures, settings=study.settings, tell=job.tell)
     write_tables({TradeRow: rows}, folder, "rocking-trade", "trade.json")
     write_trade_report(folder, Path(output.pdf), Path(output.svg))
-    made = [Path(file) for file in output if file != output.seal]
-    write_seal(Path(output.seal), snakemake.params.made_from, made, folder.parent)
+    job.finish(output)

@@ -20,6 +20,7 @@ from rocking.assessment.rows.of_record import RecordRows as RecordRows
 from rocking.assessment.rows.of_record import SupportRow as SupportRow
 from rocking.assessment.rows.of_record import TimedStage as TimedStage
 from rocking.assessment.rows.of_record import TimingRow as TimingRow
+from rocking.assessment.rows.of_record import VariationRow as VariationRow
 from rocking.assessment.rows.of_record import VerdictRow as VerdictRow
 from rocking.assessment.rows.of_record import history_rows as history_rows
 from rocking.assessment.rows.of_record import pulses_found as pulses_found

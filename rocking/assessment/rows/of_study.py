@@ -342,6 +342,7 @@ SUMMARY_TABLES: tuple[type[Row], ...] = (
     rows.ComparisonRow,
     rows.VerdictRow,
     rows.SupportRow,
+    rows.VariationRow,
     AgreementRow,
     StructureRow,
     CapacityRow,

@@ -21,9 +21,8 @@ from rocking.remarks import Kind
 from rocking.reports.structures import share_interval, structures_data
 from rocking.study.checks import shares_by_station, write_checks
 from rocking.study.job import Study
-from rocking.study.plan import structures_sha256
 from rocking.study.settings import Settings, read_settings
-from rocking.tables import read_table, write_tables
+from rocking.tables import read_table
 from tests.made_pools import DESIGN, made_pool
 from tests.unit.assessment import made_rows
 from tests.unit.assessment.made_rows import filled
@@ -45,7 +44,6 @@ def study(tmp_path):
         writer = csv.DictWriter(stream, list(rows[0]))
         writer.writeheader()
         writer.writerows(rows)
-    write_tables({VerdictRow: [], RecordRow: []}, tmp_path)
     settings = {"catalogue": str(tmp_path / "catalogue.csv"), "processing": {"apply": "never"}}
     return settings, tmp_path
 
@@ -60,7 +58,7 @@ def test_a_structure_list_says_what_vibrates_freely_and_what_falls(study):
     )
     structures = load_scenes(listed)
     changed = read_settings(settings | {"design_spectrum": DESIGN})
-    write_checks(Study(structures, changed), folder)
+    write_checks(Study(structures, changed), folder, [], [])
     spectrum = changed.design_spectrum.spectrum()
     rows = {(each.structure, each.check): each for each in read_table(CodeCheckRow, folder)}
     expected = check(STRUCTURES["parapet"], spectrum, elastic_period=0.12, support_loss=0.05)
@@ -69,7 +67,6 @@ def test_a_structure_list_says_what_vibrates_freely_and_what_falls(study):
             assert rows[name, kind].level_capacity_m_s2 == pytest.approx(each.capacity, rel=1e-12)
     assert rows["free", "nonlinear"].level_capacity_m_s2 < rows["plain", "nonlinear"].level_capacity_m_s2
     assert structures["free"].structure == structures["plain"].structure
-    assert structures_sha256({"a": structures["free"]}) != structures_sha256({"a": structures["plain"]})
     for wrong in ("elastic_period_s: 0", "support_loss_m: -1", "elastic_period_s: soon"):
         listed.write_text(f"- {{name: free, type: block, breadth_m: 0.45, height_m: 3.0, {wrong}}}\n")
         with pytest.raises(ConfigurationError, match=rf"\(free\): {wrong.split(':')[0]} is "):
@@ -82,6 +79,8 @@ def test_every_structure_has_its_checks_and_its_page(study):
     write_checks(
         Study(on_the_ground(STRUCTURES), read_settings(settings | {"design_spectrum": DESIGN})),
         folder,
+        [],
+        [],
         told.append,
     )
     rows = read_table(CodeCheckRow, folder)
@@ -105,6 +104,8 @@ def test_without_sets_the_formulas_stand_and_the_page_says_so(study):
             read_settings(settings | {"design_spectrum": DESIGN | {"stations": 40}}),
         ),
         folder,
+        [],
+        [],
     )
     assert {each.check for each in read_table(CodeCheckRow, folder)} == {"linear", "nonlinear"}
 
@@ -112,7 +113,7 @@ def test_without_sets_the_formulas_stand_and_the_page_says_so(study):
 def test_checks_without_a_design_level_are_refused(study):
     settings, folder = study
     with pytest.raises(ConfigurationError, match="checks need a design level"):
-        write_checks(Study(on_the_ground(STRUCTURES), read_settings(settings)), folder)
+        write_checks(Study(on_the_ground(STRUCTURES), read_settings(settings)), folder, [], [])
 
 
 def test_a_structure_that_cannot_be_checked_costs_no_other(study):
@@ -125,6 +126,8 @@ def test_a_structure_that_cannot_be_checked_costs_no_other(study):
     write_checks(
         Study(on_the_ground(structures), read_settings(settings | {"design_spectrum": design})),
         folder,
+        [],
+        [],
         told.append,
     )
     assert "the spectrum ends at 1 s" in told[0]
@@ -275,13 +278,12 @@ def test_the_page_to_sign_carries_the_caveat_of_page_one(study, monkeypatch):
         reserve=Reserve(0.6, 0.7, 0.8, 3.0),
     )
     station = made_rows.station(lifting)
-    rows = {VerdictRow: made_rows.verdicts([station]), RecordRow: [filled(RecordRow, record="a", samples=2)]}
-    write_tables(rows, folder)
+    verdicts = made_rows.verdicts([station])
+    records = [filled(RecordRow, record="a", samples=2)]
     pages = []
     monkeypatch.setattr("rocking.study.checks.structures_report", lambda made, *_: pages.extend(made) or b"")
-    write_checks(
-        Study(on_the_ground(STRUCTURES), read_settings(settings | {"design_spectrum": DESIGN})), folder
-    )
+    changed = read_settings(settings | {"design_spectrum": DESIGN})
+    write_checks(Study(on_the_ground(STRUCTURES), changed), folder, verdicts, records)
     data = structures_data(pages, DesignSpectrum.ntc(1.0, 2.5, 0.3), Settings().mapping())
     signed = {page.name: text["share"] for page, text in zip(pages, data["pages"], strict=True)}
     caveat = station.reserve_in_words.partition("; ")[2]
@@ -376,8 +378,6 @@ def test_each_page_tells_the_share_of_its_own_structure(study, monkeypatch):
         for record in ("a", "b", "c")
     ]
     records = [filled(RecordRow, record=name, station=name) for name in ("a", "b", "c")]
-    tables = {VerdictRow: verdicts, RecordRow: records}
-    monkeypatch.setattr("rocking.study.checks.read_table", lambda row_class, _: tables[row_class])
     pages = {}
 
     def report(structures, *_):
@@ -385,8 +385,7 @@ def test_each_page_tells_the_share_of_its_own_structure(study, monkeypatch):
         return b"%PDF"
 
     monkeypatch.setattr("rocking.study.checks.structures_report", report)
-    write_checks(
-        Study(on_the_ground(STRUCTURES), read_settings(settings | {"design_spectrum": DESIGN})), folder
-    )
+    changed = read_settings(settings | {"design_spectrum": DESIGN})
+    write_checks(Study(on_the_ground(STRUCTURES), changed), folder, verdicts, records)
     assert {name: page.overturning_share for name, page in pages.items()} == shares
     assert all(page.records == page.stations == 3 for page in pages.values())

@@ -248,7 +248,7 @@ def test_run_plans_a_study_in_its_own_folder(study, monkeypatch, capfd):
     told = capfd.readouterr()
     assert "results/own_record/report.pdf" in told.out + told.err
     assert main(["run", study.name, "fragility", "--", "--dry-run"]) == 0
-    assert "fragility.csv" in "".join(capfd.readouterr())
+    assert "Scale the records until the structures overturn" in "".join(capfd.readouterr())
     assert not (study / "results").exists()
 
 

@@ -8,8 +8,8 @@ import pytest
 
 from rocking.errors import ConfigurationError, RockingError
 from rocking.study.cli import main
+from rocking.study.contents import ContentHashes
 from rocking.study.folder import check_own, locked, new_log, results_folder
-from rocking.study.hashes import ContentHashes
 
 PIER = "- {name: pier, type: block, breadth_m: 2.0, height_m: 9.0}\n"
 MINE = b"a file of the user\n"
@@ -53,8 +53,8 @@ def test_a_plain_folder_inside_is_allowed_by_whatever_path(study: Path, name: st
 @pytest.mark.parametrize(
     "link",
     [
-        ".snakemake", ".snakemake/rocking_run.lock", ".snakemake/rocking_jobs.lock", ".snakemake/rocking_hashes.json",
-        ".snakemake/log", "results", "results/a", "results/summary", "results/summary/jobs",
+        ".snakemake", ".snakemake/rocking_run.lock", ".snakemake/rocking_jobs.lock", ".snakemake/log",
+        "results", "results/a", "results/summary", "results/.made_from", "results/.made_from/contents.json",
         "results/summary/logs/run.log", "results/summary/benchmarks/assess_00000_of_00001.tsv",
         "results/summary/record.csv",
     ],

@@ -67,7 +67,7 @@ def test_a_table_beside_the_curves_fails_alone(tmp_path, monkeypatch):
         raise np.linalg.LinAlgError("Singular matrix")
 
     monkeypatch.setattr(import_module("rocking.fragility.rows"), "explanation", singular)
-    tell = line_writer(tmp_path / "fragility.log")
+    tell = line_writer(tmp_path / "fragility.log", "fragility")
     study = replace(_study(), scenes=on_the_ground({"slender": STRUCTURES["slender"]}))
     (reason,) = write_fragility(_records(tmp_path, 2), study, tmp_path / "out", tell)
     assert reason.startswith("slender: intensity_measures.csv has no row of it")

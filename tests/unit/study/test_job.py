@@ -6,7 +6,6 @@ import re
 from dataclasses import replace
 from itertools import chain
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -19,21 +18,25 @@ from rocking.assessment.rows import (
     HistoryRow,
     PulseRow,
     RecordRows,
+    TimingRow,
     TradeMethod,
     TradeRow,
 )
 from rocking.assessment.scene import on_the_ground
+from rocking.errors import RockingError
 from rocking.motion import integrate
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SHIPPED, SyntheticRecord, at2_text
 from rocking.structures import Block
-from rocking.study.job import Study, assess_catalogued, rows_of, run_job
-from rocking.study.results import Results, page_contents, part
+from rocking.study.job import Study, assess_catalogued, rows_of, work_on
+from rocking.study.results import Results, outcome_of, outcomes_of, read_outcome
 from rocking.study.settings import Settings, StudyTrade
 from rocking.study.summary import summarise, write_summary
+from rocking.study.terminal import line_writer
 from rocking.tables import csv_lines, frame, read_rows, write_tables
 from tests.unit.assessment.made_rows import Impossible, filled
+from tests.unit.study.made_jobs import made_job, worked
 
 ROOT = Path(__file__).parents[3]
 CONTENT = at2_text(SyntheticRecord("made", 1, 4.0, 0.6, 1.0, 1.0, 6.0, 0.01)).encode()
@@ -93,28 +96,43 @@ def test_no_source_loads_more_than_data() -> None:
 
 
 @pytest.fixture
-def in_two_jobs(tmp_path: Path) -> tuple[Path, list[CatalogueRecord]]:
-    """Results with the parts of two jobs, and the records in the order of their catalogue: no job has neighbours."""
+def of_four(tmp_path: Path) -> tuple[Path, list[CatalogueRecord]]:
+    """Results of four records, one of which is none, and the records in the order of their catalogue."""
     contents = {"one": CONTENT, "bad": b"no record", "three": CONTENT, "two": CONTENT}
     records = [_record(tmp_path, name, content) for name, content in contents.items()]
-    for place in (0, 1):
-        folder = part(tmp_path / "results", f"0000{place}_of_00002")
-        told: list[str] = []
-        run_job(records[place::2], _study(), folder, tmp_path / "results", told.append)
-        assert [line.partition(": ")[0] for line in told] == [record.id for record in records[place::2]]
-    assert "failed: " in told[0]
+    told: list[str] = []
+    worked(records[::-1], _study(), tmp_path / "results", told)
+    assert [line.partition(": ")[0] for line in told] == [record.id for record in records[::-1]]
+    assert "failed: " in told[2]
     return tmp_path / "results", records
 
 
-def test_the_summary_holds_every_row_of_every_record_in_its_order(in_two_jobs) -> None:
-    results, records = in_two_jobs
-    parts = [part(results, f"0000{place}_of_00002") for place in (1, 0)]
-    write_summary(parts, [record.id for record in records], {}, results / "summary")
+def test_the_summary_holds_every_row_of_every_record_in_its_order(of_four) -> None:
+    results, records = of_four
+    write_summary(outcomes_of(results, records), {}, results / "summary", False)
     for each in (PulseRow, ComparisonRow, FailureRow):
         found = [getattr(_rows(record, _study()), each.table.name) for record in records]
         lines = list(csv_lines(each, chain.from_iterable(found)))
         assert "".join(lines) == (results / "summary" / each.table.file_name).read_text(encoding="utf-8")
         assert each is FailureRow or len(lines) > 3
+
+
+def test_an_outcome_holds_the_rows_to_the_last_digit(of_four) -> None:
+    results, records = of_four
+    for record in records:
+        kept = read_outcome(outcome_of(results, record.id)).rows
+        computed = _rows(record, _study()).tables
+        assert set(kept) == set(computed)
+        for each in set(kept) - {TimingRow}:
+            assert list(csv_lines(each, kept[each])) == list(csv_lines(each, computed[each])), each
+
+
+@pytest.mark.parametrize("damaged", [b"", b"{", b"[]", b'{"rows": {}}'])
+def test_a_damaged_outcome_is_told_with_its_path(of_four, damaged) -> None:
+    path = outcome_of(of_four[0], "one")
+    path.write_bytes(damaged)
+    with pytest.raises(RockingError, match=r"one\.json: it is damaged"):
+        read_outcome(path)
 
 
 @pytest.mark.parametrize("in_summary", [False, True])
@@ -128,7 +146,7 @@ def test_a_summary_draws_the_trade_where_its_study_measures_it(tmp_path, monkeyp
     results = tmp_path / "results"
     changed = {"reports": True, "trade": StudyTrade(in_summary), "results": str(results)}
     study = replace(_study(), settings=replace(_study().settings, **changed))
-    run_job([_record(tmp_path)], study, part(results, "00000_of_00001"), results)
+    job = worked([_record(tmp_path)], study, results)
     row = filled(
         TradeRow,
         method=TradeMethod.FINE,
@@ -139,13 +157,13 @@ def test_a_summary_draws_the_trade_where_its_study_measures_it(tmp_path, monkeyp
         cpu_s=1e-3,
     )
     write_tables({TradeRow: [row]}, results / "summary")
-    hashes = SimpleNamespace(settings_sha256="", package_sha256="")
-    summarise(study, [_record(tmp_path)], ["00000_of_00001"], hashes)
+    summarise(job)
     assert len(trades[0]) == in_summary
 
 
-def test_the_tables_of_one_record_are_those_that_it_has_alone(in_two_jobs, tmp_path: Path) -> None:
-    results, records = in_two_jobs
+def test_the_tables_of_one_record_are_those_that_it_has_alone(of_four, tmp_path: Path) -> None:
+    results, records = of_four
+    write_summary(outcomes_of(results, records), {}, results / "summary", False)
     for record in records:
         written = Results(results).write_record(record.id, tmp_path / "copy" / record.id)
         assert [path.name for path in written] == [each.table.file_name for each in RECORD_TABLES]
@@ -155,14 +173,39 @@ def test_the_tables_of_one_record_are_those_that_it_has_alone(in_two_jobs, tmp_p
                 assert path.read_bytes() == (tmp_path / "alone" / path.name).read_bytes()
 
 
-def test_a_job_that_breaks_off_leaves_nothing(tmp_path: Path) -> None:
-    class Broken(Block):
-        def mechanism(self) -> None:
-            raise MemoryError
+class Broken(Block):
+    error: type[BaseException] = MemoryError
 
+    def mechanism(self) -> None:
+        raise self.error("of the machine")
+
+
+class Faulty(Broken):
+    error = ZeroDivisionError
+
+
+def test_a_job_that_breaks_off_leaves_nothing(tmp_path: Path) -> None:
     with pytest.raises(MemoryError):
-        run_job([_record(tmp_path)], _study(broken=Broken(1.0, 0.2)), tmp_path / "part", tmp_path)
-    assert not list((tmp_path / "part").iterdir())
+        worked([_record(tmp_path)], _study(broken=Broken(1.0, 0.2)), tmp_path / "results")
+    assert not list((tmp_path / "results").rglob("*.json"))
+
+
+def test_a_fault_of_this_package_costs_no_other_record_and_asks_to_be_reported(tmp_path: Path) -> None:
+    """Whatever is raised becomes a row of its record, and the traceback stands in the log that the row names."""
+    results = tmp_path / "results"
+    records = [_record(tmp_path, "first"), _record(tmp_path, "second")]
+    line_writer(results / "made.log", "batches")
+    job = made_job(records, _study(faulty=Faulty(1.0, 0.2)), results)
+    work_on(records[0], job)
+    work_on(records[1], replace(job, study=replace(job.study, scenes=_study().scenes)))
+    first, second = (outcome.rows for outcome in outcomes_of(results, records))
+    (failure,) = first[FailureRow]
+    assert failure.stage == "fault"
+    assert failure.message == (
+        f"a fault of rocking in this file (ZeroDivisionError: of the machine); please report it, with {job.log}."
+    )
+    assert "ZeroDivisionError: of the machine" in job.log.read_text() and "Traceback" in job.log.read_text()
+    assert not second[FailureRow] and second[ComparisonRow]
 
 
 @pytest.mark.parametrize("fidelity", ["full", "auto"])
@@ -189,13 +232,13 @@ def test_a_job_reads_each_file_once_and_writes_all_from_what_it_has(tmp_path: Pa
     monkeypatch.setattr(
         os, "open", lambda path, *more, **named: opened.append(str(path)) or real(path, *more, **named)
     )
-    run_job([record], study, tmp_path / "part", tmp_path / "results")
+    worked([record], study, tmp_path / "results")
     assert opened.count(str(tmp_path / "made.AT2")) == 1
     folder = tmp_path / "results" / "made"
     assert (folder / "report.pdf").read_bytes().startswith(b"%PDF")
     assert {each.table.file_name for each in RECORD_TABLES} <= {path.name for path in folder.iterdir()}
-    (content,) = page_contents([tmp_path / "part"], ["made"])
-    assert content["cases"]["block"]["history"] and content["motions"]
+    page = read_outcome(outcome_of(tmp_path / "results", "made")).page
+    assert page["cases"]["block"]["history"] and page["motions"]
 
 
 def test_a_history_is_that_of_the_response(tmp_path: Path) -> None:
@@ -203,7 +246,7 @@ def test_a_history_is_that_of_the_response(tmp_path: Path) -> None:
     study = _study(falls=Block.of_size(0.2, 2.0), rocks=Block.of_size(1.0, 4.0))
     study = replace(study, settings=replace(study.settings, histories=True))
     records = [_record(tmp_path), _record(tmp_path, "bad", b"no record")]
-    run_job(records, study, tmp_path / "part", tmp_path / "results")
+    worked(records, study, tmp_path / "results")
     assert list(read_rows(HistoryRow, tmp_path / "results" / "bad" / "histories.csv")) == []
     table = frame(HistoryRow, tmp_path / "results" / "made" / "histories.csv")
     (accelerogram,) = study.open(records[0])[0]

@@ -13,11 +13,12 @@ from hypothesis import strategies as st
 
 from rocking.errors import ConfigurationError
 from rocking.records import CatalogueRecord
-from rocking.study import hashes as hashes_module
-from rocking.study import plan
-from rocking.study.hashes import ContentHashes
+from rocking.study import contents as contents_module
+from rocking.study import made_from
+from rocking.study.contents import ContentHashes
 from rocking.study.job import begin_job
-from rocking.study.plan import Plan, make_plan, share_out
+from rocking.study.made_from import settings_sha256
+from rocking.study.plan import Plan, batches_of, make_plan
 from rocking.study.settings import Settings
 
 ROOT = Path(__file__).parents[3]
@@ -54,8 +55,9 @@ def test_a_blank_hash_is_filled_in_and_checked_from_then_on(tmp_path: Path) -> N
     first = make_plan(settings)
     assert Path(str(settings["catalogue"])).read_bytes() == before, "a plan alone writes nothing"
     assert first.records["a"].sha256 == hashlib.sha256(b"one").hexdigest() and first.records["b"].sha256 == ""
+    key = first.seals.key("records/a")
     first.fill_hashes()
-    begin_job(settings, SimpleNamespace(**first.params()))
+    assert make_plan(settings).seals.key("records/a") == key, "what was planned before holds after"
     (tmp_path / "a.AT2").write_bytes(b"two")
     assert make_plan(settings).records["a"].sha256 == first.records["a"].sha256
 
@@ -77,67 +79,78 @@ def test_all_defects_of_all_three_files_stand_in_one_message(tmp_path: Path) -> 
 )
 def test_what_was_edited_after_planning_stops_the_job(tmp_path: Path, name: str, old: str, new: str) -> None:
     settings = _write(tmp_path, f"a,a.AT2,{SHA256}\nb,b.AT2,{SHA256}\n", records_per_job=10)
-    made = make_plan(settings)
-    params, path = SimpleNamespace(**made.params(*made.jobs)), Path(str(settings[name]))
+    (batch,) = make_plan(settings).batches
+    product = f"batches/{batch}"
+    params = SimpleNamespace(product=product, key=make_plan(settings).seals.key(product))
+    path = Path(str(settings[name]))
     path.write_text("\n# a comment\n" * (name == "structures") + path.read_text())
-    assert {record.id for record in begin_job(settings, params)[1]} == {"a", "b"}
+    assert [record.id for record in begin_job(settings, params, "log").records] == ["a", "b"]
     path.write_text(path.read_text().replace(old, new, 1))
     with pytest.raises(ConfigurationError, match="changed while the study ran"):
-        begin_job(settings, params)
+        begin_job(settings, params, "log")
+    path.write_text(path.read_text().replace(f"a,a.AT2,{SHA256}\n", ""))
+    if name == "catalogue":
+        (tmp_path / "catalogue.csv").write_text("id,file,sha256\nb,b.AT2,\n")
+        with pytest.raises(ConfigurationError, match="record a is not in it any more"):
+            begin_job(settings, SimpleNamespace(product="records/a", key=""), "log")
 
 
 def test_what_changes_no_number_does_not_change_the_hash_of_the_settings(tmp_path: Path) -> None:
     settings = _write(tmp_path, f"a,a.AT2,{SHA256}\n")
     changes = ({}, {"reports": False}, {"results": str(tmp_path / "elsewhere")}, {"records_per_job": 7})
-    hashes = {make_plan(settings | changed).settings_sha256 for changed in changes}
+
+    def hash_of(changed: dict[str, object]) -> str:
+        made = make_plan(settings | changed)
+        return settings_sha256(made.settings, made.scenes)
+
+    hashes = {hash_of(changed) for changed in changes}
     assert len(hashes) == 1
-    assert make_plan(settings | {"tolerance": 1e-7}).settings_sha256 not in hashes
+    assert hash_of({"tolerance": 1e-7}) not in hashes
 
 
 def test_the_hash_of_the_package_follows_its_source(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shutil.copytree(ROOT / "rocking", tmp_path / "rocking", ignore=shutil.ignore_patterns("__pycache__"))
-    monkeypatch.setattr(plan, "__file__", str(tmp_path / "rocking" / "study" / "plan.py"))
-    whole = plan.package_sha256()
+    monkeypatch.setattr(made_from, "__file__", str(tmp_path / "rocking" / "study" / "made_from.py"))
+    whole = made_from.package_sha256.__wrapped__()
     with (tmp_path / "rocking" / "study" / "plan.py").open("a") as stream:
         stream.write("# edited\n")
-    edited = plan.package_sha256()
+    edited = made_from.package_sha256.__wrapped__()
     (tmp_path / "rocking" / "quantities.py").rename(tmp_path / "rocking" / "measures.py")
-    assert len({whole, edited, plan.package_sha256()}) == 3
+    assert len({whole, edited, made_from.package_sha256.__wrapped__()}) == 3
 
 
 @given(
     st.sets(st.text("abcdef0123456789", min_size=1, max_size=8), min_size=1, max_size=400),
     st.none() | st.integers(1, 50),
 )
-def test_every_record_is_in_one_job(identifiers: set[str], size: int | None) -> None:
-    jobs = share_out(sorted(identifiers), size)
-    shared = [identifier for job in jobs.values() for identifier in job]
+def test_every_record_is_in_one_batch(identifiers: set[str], size: int | None) -> None:
+    batches = batches_of(sorted(identifiers), size)
+    shared = [identifier for batch in batches.values() for identifier in batch]
     assert sorted(shared) == sorted(identifiers)
-    assert all(job == tuple(sorted(job)) for job in jobs.values())
+    assert all(batch == tuple(sorted(batch)) for batch in batches.values())
 
 
 @pytest.mark.parametrize(
-    ("number", "reports", "size", "jobs"),
+    ("number", "size", "batches"),
     [
-        (12, True, None, 1), (13, True, None, 2), (24, False, None, 1), (25, False, None, 2), (97, True, None, 8),
-        (1600, True, None, 8), (1601, True, None, 16), (100_000, False, None, 512),
-        (100, True, 25, 4), (101, True, 25, 8),
+        (24, None, 1), (25, None, 2), (193, None, 8), (1600, None, 8), (1601, None, 16), (100_000, None, 512),
+        (100, 25, 4), (101, 25, 8),
     ],
 )  # fmt: skip
-def test_records_are_shared_out_to_a_power_of_two_by_the_hash_of_each(number, reports, size, jobs) -> None:
-    """The setting says: 12, or 24 without reports; of many an eighth, at most 200."""
+def test_records_are_shared_out_to_a_power_of_two_by_the_hash_of_each(number, size, batches) -> None:
+    """The setting says: 24; of many an eighth, at most 200."""
     names = [f"r{place}" for place in range(number)]
-    shared = share_out(names, size, reports)
-    assert {name.partition("_of_")[2] for name in shared} == {f"{jobs:05d}"}
+    shared = batches_of(names, size)
+    assert {name.partition("_of_")[2] for name in shared} == {f"{batches:05d}"}
     for name in names[:3]:
-        place = int(hashlib.sha256(name.encode()).hexdigest()[:8], 16) % jobs
-        assert name in shared[f"{place:05d}_of_{jobs:05d}"]
+        place = int(hashlib.sha256(name.encode()).hexdigest()[:8], 16) % batches
+        assert name in shared[f"{place:05d}_of_{batches:05d}"]
 
 
 @pytest.mark.parametrize("number", [20, 100, 700, 3000])
-def test_a_record_more_changes_one_job(number: int) -> None:
-    before = share_out([f"record_{i}" for i in range(number)])
-    after = share_out([f"record_{i}" for i in range(number + 1)])
+def test_a_record_more_changes_one_batch(number: int) -> None:
+    before = batches_of([f"record_{i}" for i in range(number)])
+    after = batches_of([f"record_{i}" for i in range(number + 1)])
     assert len(set(after.items()) - set(before.items())) == 1
 
 
@@ -152,7 +165,7 @@ def _record(folder: Path, content: bytes = b"samples", **cells: object) -> Catal
 
 def _hash(record: CatalogueRecord, hashes: ContentHashes | None = None, **settings: object) -> str:
     made = hashes or ContentHashes(Path("nowhere"))
-    return Plan(Settings(**settings), {"a": record}, {}, "", "", "", made).params()["files_sha256"]
+    return repr(Plan(Settings(**settings), {"a": record}, {}, made).files("a"))
 
 
 @pytest.mark.parametrize("when", [1e9, time.time() + 3e8], ids=["long ago", "in ten years"])
@@ -188,9 +201,9 @@ def test_every_file_that_is_read_counts_and_no_other(tmp_path, cells, content, f
 
 def test_a_file_that_stayed_is_not_read_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     record, store = _record(tmp_path), tmp_path / "hashes.json"
-    for settled in (hashes_module._SETTLED, -1.0):
+    for settled in (contents_module._SETTLED, -1.0):
         assert not store.exists(), "what changed a moment ago may change again"
-        monkeypatch.setattr(hashes_module, "_SETTLED", settled)
+        monkeypatch.setattr(contents_module, "_SETTLED", settled)
         hashes = ContentHashes(store)
         first = _hash(record, hashes)
         hashes.save()
@@ -217,14 +230,15 @@ def test_results_whose_record_is_gone_are_told(tmp_path: Path) -> None:
 def test_an_edit_of_the_reports_is_in_the_hash_of_the_package_and_not_in_that_of_its_numbers(
     tmp_path, monkeypatch
 ):
-    for name in ("reports/page.py", "motion/table.py", "study/plan.py"):
+    for name in ("reports/page.py", "motion/table.py", "study/made_from.py"):
         path = tmp_path / name
         path.parent.mkdir()
         path.write_text("1\n")
-    monkeypatch.setattr("rocking.study.plan.__file__", str(tmp_path / "study" / "plan.py"))
+    monkeypatch.setattr(made_from, "__file__", str(tmp_path / "study" / "made_from.py"))
 
     def hashes() -> tuple[str, str]:
-        return plan.package_sha256(), plan.package_sha256(reports=False)
+        hash_of = made_from.package_sha256.__wrapped__
+        return hash_of(), hash_of(reports=False)
 
     before = hashes()
     (tmp_path / "reports" / "page.py").write_text("2\n")

@@ -8,7 +8,7 @@ import rocking
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, StructureRow, TimedStage, TimingRow
 from rocking.errors import RockingError
 from rocking.study.cli import main
-from rocking.study.results import cases_of, part, remove_copies, remove_other_cases
+from rocking.study.results import cases_of, outcome_of, remove_others
 from rocking.tables import read_rows, write_rows
 
 
@@ -19,12 +19,8 @@ def _timing(record: str) -> TimingRow:
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
     for each in SUMMARY_TABLES:
-        if each is not TimingRow:
-            write_rows(each, [], tmp_path / "summary" / each.table.file_name)
-    for number, record in enumerate(("b", "a")):
-        folder = part(tmp_path, f"0000{number}_of_00002")
-        for each in RECORD_TABLES:
-            write_rows(each, [_timing(record)] if each is TimingRow else [], folder / each.table.file_name)
+        rows = [_timing("b"), _timing("a")] if each is TimingRow else []
+        write_rows(each, rows, tmp_path / "summary" / each.table.file_name)
     return tmp_path
 
 
@@ -61,26 +57,15 @@ def test_the_tables_of_records_assessed_one_by_one_are_gathered(tmp_path: Path) 
     assert rocking.open_results(tmp_path).timings["record"].tolist() == ["a", "b"]
 
 
-def test_cases_of_other_records_are_removed_by_whichever_run_comes_first(tmp_path: Path) -> None:
-    for record in ("kept", "gone", "removed meanwhile"):
-        path = cases_of(tmp_path, record)
+def test_what_is_kept_of_other_records_is_removed_and_so_is_what_former_versions_kept(tmp_path: Path) -> None:
+    kept = [place(tmp_path, record) for place in (cases_of, outcome_of) for record in ("kept", "gone")]
+    former = tmp_path / "summary" / "jobs" / "00000_of_00001" / "record.csv"
+    for path in (*kept, former):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.touch()
-
-    class Records(set[str]):
-        """The records of the study; while it is asked, another run removes a file."""
-
-        def __contains__(self, name: object) -> bool:
-            cases_of(tmp_path, "removed meanwhile").unlink(missing_ok=True)
-            return super().__contains__(name)
-
-    remove_other_cases(tmp_path, Records({"kept"}))
-    assert [each.stem for each in cases_of(tmp_path, "").parent.iterdir()] == ["kept"]
-
-
-def test_of_the_tables_of_one_record_those_are_removed_that_there_are(tmp_path: Path) -> None:
-    """An earlier version wrote fewer of them, and a user may have removed some."""
-    write_rows(TimingRow, [_timing("a")], tmp_path / TimingRow.table.file_name)
-    (tmp_path / "report.pdf").touch()
-    remove_copies(tmp_path)
-    assert [each.name for each in tmp_path.iterdir()] == ["report.pdf"]
+    remove_others(tmp_path, ["kept"])
+    assert [path for path in kept if path.exists()] == [
+        cases_of(tmp_path, "kept"),
+        outcome_of(tmp_path, "kept"),
+    ]
+    assert not (tmp_path / "summary" / "jobs").exists()

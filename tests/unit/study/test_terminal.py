@@ -87,16 +87,16 @@ def test_the_paths_are_those_that_exist(tmp_path: Path) -> None:
 def test_what_is_sent_stands_in_the_log_and_on_the_terminal(tmp_path: Path) -> None:
     (tmp_path / "assess_a.log").write_text("of an older run\n")
     stream = io.StringIO()
-    with Progress({"assess_a": 2}, stream).followed():
-        line_writer(tmp_path / "assess_a.log")("one: rests: pier")
-        line_writer(tmp_path / "trade.log")("1 of 12: one, pier: 14 runs")
-    line_writer(tmp_path / "trade.log")("first")  # nobody reads any more, and nobody waits for it
+    with Progress(2, 1, stream).followed():
+        line_writer(tmp_path / "assess_a.log", "records")("one: rests: pier")
+        line_writer(tmp_path / "trade.log", "trade")("1 of 12: one, pier: 14 runs")
+    line_writer(tmp_path / "trade.log", "trade")("first")  # nobody reads any more, and nobody waits for it
     assert (tmp_path / "assess_a.log").read_text() == "one: rests: pier\n"
     assert stream.getvalue().splitlines() == ["one: rests: pier", "trade: 1 of 12: one, pier: 14 runs"]
 
 
 def test_the_log_holds_the_error_that_ends_a_job(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    line_writer(log := tmp_path / "fragility.log")("1 of 2: pier")
+    line_writer(log := tmp_path / "fragility.log", "fragility")("1 of 2: pier")
     try:
         raise ZeroDivisionError("by nothing")
     except ZeroDivisionError as error:
@@ -114,9 +114,9 @@ class Terminal(io.StringIO):
 
 def test_on_a_terminal_it_says_how_far_it_has_come(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(terminal, "fitting", lambda line, stream: line)
-    progress = Progress({"assess_a": 40}, stream := Terminal())
-    progress.tell_plan(["assess_a", "summarise"])
+    progress = Progress(40, 2, stream := Terminal())
+    progress.tell_plan({"batch": 2, "summary": 1})
     assert stream.getvalue().endswith("0 of 40 records")
     progress._began -= 600  # ten minutes for the first record
-    progress.tell_line("assess_a", "one: stands: pier")
+    progress.tell_line("batches", "one: stands: pier")
     assert stream.getvalue().endswith("1 of 40 records, about 390 min left")

@@ -1,7 +1,8 @@
-"""The hashes by which a study knows whether something changed: of what an object says, and of the content of files."""
+"""The sha256 of the files that a study reads, kept from run to run, so that a plan reads only what was touched."""
 
 import json
 import math
+import os
 import stat
 import time
 from contextlib import suppress
@@ -16,12 +17,20 @@ _LARGEST_STORE = 500_000_000
 _SETTLED = 2.0
 """s; a file that changed more recently may change again without its times telling, so its hash is not kept."""
 
+Mark = list[int]
+"""Inode, size, and times of the last change of a file in ns: of its content, and of anything (ctime), which no program
+can set. Two files of one mark are taken for the same."""
+
+
+def mark_of(status: os.stat_result) -> Mark:
+    """Return the mark of a file."""
+    return [status.st_ino, status.st_size, status.st_mtime_ns, status.st_ctime_ns]
+
 
 class ContentHashes:
-    """The sha256 of files, which the file `store` keeps from run to run for as long as their size and times stay.
+    """The sha256 of files, which the file `store` keeps for as long as their marks stay.
 
-    Among these stands the time of the last change (ctime), which no program can set. largest: bytes of a file that is
-    looked at; None for whatever size.
+    To lose the store costs time alone. largest: bytes of a file that is looked at; None for whatever size.
     """
 
     def __init__(self, store: Path | None = None, largest: int | None = None) -> None:
@@ -39,7 +48,7 @@ class ContentHashes:
             status = path.stat()
             if not stat.S_ISREG(status.st_mode) or status.st_size > self._largest:
                 return ""
-            mark = f"{path} {status.st_ino} {status.st_size} {status.st_mtime_ns} {status.st_ctime_ns}"
+            mark = f"{path} {mark_of(status)}"
             if (sha256 := self._before.get(mark)) is None:
                 sha256 = sha256_of_file(path)
         except OSError:
