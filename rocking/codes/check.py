@@ -7,6 +7,7 @@ from rocking.codes.local_mechanism import LIMIT_STATES, LimitPoint, LocalMechani
 from rocking.errors import ConfigurationError
 from rocking.floors.support import Support
 from rocking.quantities import finite, kind_of, positive
+from rocking.remarks import Kind, Remark
 
 CONFIDENCE_FACTOR = 1.35
 """The factor of the level of knowledge LC1, which C8.7.1.2.1 asks for unless crushing enters α; here it does not."""
@@ -20,11 +21,6 @@ _LARGE_RATIO = 100.0
 LEAST_SHARE = 0.95
 """Share of SETS sets or more that must meet the check for it to be called met."""
 
-CONFIRMED = (
-    "Of 96 checks of cantilevers that real records of 25 stations called met, those of 25 other stations confirmed 72; "
-    "in the other 24 one station let the cantilever fall."
-)
-"""The finding of the target code_sets of docs/research on what a check that is met is worth."""
 
 RISK = 0.05
 """Risk of the bound on the share of stations that nobody saw and that let a structure fall."""
@@ -71,7 +67,7 @@ class Check:
 
     capacity, demand: a_g on rock [m/s²] at which the limit state is reached and that of the spectrum, or displacements
     [m], as `unit` says. mechanism: what opens, and to which side it falls. refusal: why it is not called met, where
-    that is not in the numbers.
+    that is not in the numbers; else None.
 
     >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
     >>> rocking.check(rocking.Block.of_size(breadth=0.6, height=2.0), spectrum).linear.clause
@@ -84,7 +80,7 @@ class Check:
     demand: float
     mechanism: str
     unit: str = "m/s²"
-    refusal: str = ""
+    refusal: Remark | None = None
 
     @property
     def ratio(self) -> float:
@@ -164,15 +160,16 @@ class DynamicCheck(Check):
         )
 
     @property
-    def caution(self) -> str:
-        """The sentence that belongs beside a check that is met: how far the stations of the pool speak for others."""
+    def caution(self) -> Remark | None:
+        """How far the stations of the pool speak for others, which belongs beside a check that is met."""
         if not self.passed:
-            return ""
+            return None
         unseen = 1 - RISK ** (1 / self.stations)
-        return (
-            f"That the check is met is no proof for other stations than the {self.stations} of the pool: even if none "
-            f"of these lets it fall, up to {100 * unseen:.0f} % of all stations may, and of sets of other stations as "
-            f"few as {100 * self.interval[0]:.0f} % may meet the check. {CONFIRMED}"
+        return Remark.of(
+            Kind.OTHER_STATIONS,
+            stations=self.stations,
+            unseen_percent=100 * unseen,
+            least_percent=100 * self.interval[0],
         )
 
 
@@ -196,7 +193,7 @@ class StructureCheck:
     damage_level: float
     mechanisms: tuple[LocalMechanism, ...] = field(repr=False)
     governing: LocalMechanism = field(repr=False)
-    remark: str = ""
+    remark: Remark | None = None
 
     @property
     def checks(self) -> tuple[Check, ...]:

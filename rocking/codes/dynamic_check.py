@@ -28,8 +28,9 @@ from rocking.codes.selection import SETS, Selection
 from rocking.codes.static_check import kinematic_check
 from rocking.errors import ConfigurationError
 from rocking.floors.support import Support
-from rocking.quantities import counted, kind_of
+from rocking.quantities import kind_of
 from rocking.records.accelerogram import Accelerogram
+from rocking.remarks import Kind, Remark
 from rocking.structures import Mechanism, Side, Structure
 from rocking.structures.mechanism import SideTie
 
@@ -122,20 +123,21 @@ def _dynamic_check(by_formula: StructureCheck, records: Selection, support: Supp
     return replace(found, refusal=_refusal(found))
 
 
-def _refusal(found: DynamicCheck) -> str:
+def _refusal(found: DynamicCheck) -> Remark | None:
     if found.exceeding:
-        return f"not met: d₀ is exceeded under {found.exceeding} of {found.motions} motions"
+        return Remark.of(Kind.DISPLACEMENT_EXCEEDED, exceeding=found.exceeding, motions=found.motions)
     if not found.met_by_the_set:
-        return "not met"
+        return Remark(Kind.CHECK_NOT_MET)
     if found.sets < SETS:
-        return (
-            f"met by this set, but not called met: {counted(found.sets, 'other set')} lay within the limits, and "
-            f"{SETS} must be asked; give more records, or a narrower range of periods"
-        )
+        return Remark.of(Kind.SETS_TOO_FEW, sets=found.sets, asked=SETS)
     if not found.sets_agree:
-        of_sets = f"{100 * found.share:.0f} % of {found.sets} sets"
-        return f"met by this set, but not called met: it is by {of_sets}, and {100 * LEAST_SHARE:.0f} % must"
-    return ""
+        return Remark.of(
+            Kind.SETS_DISAGREE,
+            share_percent=100 * found.share,
+            sets=found.sets,
+            least_percent=100 * LEAST_SHARE,
+        )
+    return None
 
 
 def _met(use: np.ndarray, falls: np.ndarray, sets: np.ndarray) -> np.ndarray:

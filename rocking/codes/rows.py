@@ -121,7 +121,7 @@ class CodeCheckRow(PlacedRow[MadeCheck]):
     confidence_factor: float = of_check("Confidence factor FC", lambda of: of.governing.confidence_factor)
     why: str = of_check(
         "Why a check is not called met, or others were not made",
-        lambda of: of.check.refusal or of.checked.remark,
+        lambda of: str(of.check.refusal or of.checked.remark or ""),
     )
 
 

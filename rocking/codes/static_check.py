@@ -18,6 +18,7 @@ from rocking.codes.floor_demand import FloorDemand
 from rocking.codes.local_mechanism import LIMIT_STATES, LimitState, LocalMechanism
 from rocking.errors import ConfigurationError, StructureError
 from rocking.quantities import GRAVITY, kind_of, positive
+from rocking.remarks import Kind, Remark
 from rocking.structures import Structure
 
 _SAME = 1e-9
@@ -108,12 +109,9 @@ def _level_check(made: StructureCheck, spectrum: DesignSpectrum, clause: str, ca
     )
 
 
-def _not_made(mechanism: LocalMechanism) -> str:
+def _not_made(mechanism: LocalMechanism) -> Remark:
     """Why checks that need d_0 were not made."""
-    return (
-        f"It cannot overturn: it {mechanism.body.mechanism().never_lets_go}. The displacement d₀ that the nonlinear "
-        "and the dynamic check ask for does not exist, so that neither was made; the force in the ties is not checked."
-    )
+    return Remark.of(Kind.NO_DISPLACEMENT, why=mechanism.body.mechanism().never_lets_go)
 
 
 def _local_mechanisms(structure: Structure, terms: CodeTerms) -> tuple[LocalMechanism, ...]:

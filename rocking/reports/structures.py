@@ -212,7 +212,7 @@ def _sentences(checked: StructureCheck) -> list[str]:
         said = f"Dynamic check under {counted(dynamic.motions, 'motion')}: {dynamic.sentence}"
         lines.append(f"{said}; {dynamic.refusal}." if dynamic.refusal else f"{said}. {dynamic.caution}")
     elif checked.remark:
-        lines.append(checked.remark)
+        lines.append(str(checked.remark))
     else:
         lines.append("The dynamic check was not made: there are no sets of records for it.")
     return lines

@@ -17,7 +17,7 @@ from rocking.codes.check import DynamicCheck
 from rocking.codes.rows import CodeCheckRow, disagreement
 from rocking.errors import ConfigurationError
 from rocking.motion.response import ModelCheck
-from rocking.remarks import Kind
+from rocking.remarks import Kind, Remark
 from rocking.reports.structures import share_interval, structures_data
 from rocking.study.checks import shares_by_station, write_checks
 from rocking.study.job import Study
@@ -137,7 +137,7 @@ def test_a_structure_that_cannot_be_checked_costs_no_other(study):
 def found(passed, exceeding=0, **others):
     values = {
         "clause": "C8.7.1.2.1.9", "limit_state": "SLV", "capacity": 0.1, "demand": 0.05 if passed else 0.2,
-        "mechanism": "as given", "unit": "m", "refusal": "" if passed else "not met", "exceeding": exceeding,
+        "mechanism": "as given", "unit": "m", "refusal": None if passed else Remark(Kind.CHECK_NOT_MET), "exceeding": exceeding,
         "motions": 40, "stations": 57, "sets": 200, "share": 1.0 if passed else 0.1, "interval": (0.0, 1.0),
     }  # fmt: skip
     return DynamicCheck(**values | others)
@@ -178,10 +178,11 @@ def test_sets_that_are_few_contradict_no_formula_and_sets_that_disagree_do():
         checks = (formulas.linear, formulas.nonlinear, dynamic)
         return disagreement(SimpleNamespace(dynamic=dynamic, checks=checks), 0.0, 20)
 
-    few = found(True, refusal="met by this set, but not called met: 72 other sets", sets=72)
-    unlike = found(True, refusal="met by this set, but not called met: 44 %", share=0.44, interval=(0.1, 0.9))
+    few = found(True, refusal=Remark.of(Kind.SETS_TOO_FEW, sets=72, asked=200), sets=72)
+    disagree = Remark.of(Kind.SETS_DISAGREE, share_percent=44.0, sets=200, least_percent=95.0)
+    unlike = found(True, refusal=disagree, share=0.44, interval=(0.1, 0.9))
     assert few.outcome == unlike.outcome == "not called met"
-    assert found(False).outcome == found(True, 2, refusal="not met: 2 of 40").outcome == "not met"
+    assert found(False).outcome == found(True, 2, refusal=Remark(Kind.CHECK_NOT_MET)).outcome == "not met"
     assert said(few) == ""
     assert (
         "depends on the records: the chosen set meets it, and of 200 sets drawn 44 % meet it (10 to 90 %"
@@ -192,10 +193,11 @@ def test_sets_that_are_few_contradict_no_formula_and_sets_that_disagree_do():
 def test_a_check_that_is_met_tells_how_far_its_stations_speak_for_others():
     """Of 57 stations none: at most 5.1 % of all at 95 %, as (1 − .0512)^57 = .05; "" where not met."""
     met = found(True, interval=(0.35, 1.0))
-    assert "other stations than the 57 of the pool" in met.caution
-    assert "up to 5 % of all stations may" in met.caution and "as few as 35 % may meet" in met.caution
+    assert met.caution["stations"] == 57
+    assert met.caution["unseen_percent"] == pytest.approx(5.12, abs=0.01)
+    assert met.caution["least_percent"] == 35.0
     assert pytest.approx(0.05, rel=2e-3) == (1 - 0.0512) ** 57
-    assert found(False).caution == ""
+    assert found(False).caution is None
 
 
 def test_the_interval_of_a_share_is_that_of_wilson():
