@@ -203,6 +203,20 @@ class Kind(StrEnum):
         "them on the ground."
     )
 
+    # A structure, and where it stands.
+    SIZE_UNUSUAL = auto(), (
+        "{about} is {value:.6g}{unit}, but is usually between {low:g} and {high:g}{unit} for {type}; check the unit."
+    )
+    FLOORS_BEHIND = auto(), (
+        "It rocks inwards as freely as outwards, though the floors that it carries or is tied to stand behind it: with "
+        "behind: floors or cross_walls and the restitution of its impact on them it does not; neither is the safe side "
+        "in every case, so follow both."
+    )
+    HEAVY_ON_SUPPORT = auto(), (
+        "{about} has {ratio:.2g} of the mass of {support}: beyond {limit:g} what it gives back changes rotations by "
+        "more than a per cent, at 0.1 by 11 % in the median, and is left out here."
+    )
+
     # A check of a code.
     CHECK_NOT_MET = auto(), "not met"
     DISPLACEMENT_EXCEEDED = auto(), "not met: d₀ is exceeded under {exceeding} of {motions} motions"

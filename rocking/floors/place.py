@@ -15,6 +15,7 @@ import numpy as np
 from rocking.errors import ConfigurationError, RecordError
 from rocking.floors.support import Mode, Support
 from rocking.quantities import finite
+from rocking.remarks import Kind, Remark
 
 TYPE_NAME = "support"
 """The `type` of an entry of a structure list that is a support."""
@@ -63,13 +64,12 @@ class Place:
             return None
         return support.modes[0].period if support else 0.0
 
-    def warning(self, structure: str) -> str:
-        """Return that a structure is too heavy for the support to be followed alone; "" where it is not."""
+    def warning(self, structure: str) -> Remark | None:
+        """Return that a structure is too heavy for the support to be followed alone; None where it is not."""
         if self.mass_ratio is None or self.mass_ratio <= HEAVY:
-            return ""
-        return (
-            f"{structure} has {self.mass_ratio:.2g} of the mass of {self.name}: beyond {HEAVY:g} what it gives back "
-            "changes rotations by more than a per cent, at 0.1 by 11 % in the median, and is left out here."
+            return None
+        return Remark.of(
+            Kind.HEAVY_ON_SUPPORT, structure, ratio=self.mass_ratio, support=self.name, limit=HEAVY
         )
 
 

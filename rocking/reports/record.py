@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib.metadata import version
 from itertools import accumulate
@@ -254,20 +254,22 @@ def _sentences(report: RecordReport) -> list[str]:
     depends = list(dict.fromkeys(depends))
     remark = f"Whether it overturns depends on the processing of the record: {printing.listed(depends)}."
     scenes = (each.scene for each in report.result.carried)
-    heavy = dict.fromkeys(filter(None, (scene.place.warning(scene.name) for scene in scenes)))
+    warnings = (scene.place.warning(scene.name) for scene in scenes)
+    heavy = dict.fromkeys(str(each) for each in warnings if each)
     notes = [*_cautions(report), *([remark] if depends else []), *heavy]
     return [*notes, *warnings_of(report.tables)]
 
 
 def _cautions(report: RecordReport) -> list[str]:
     """Return what the models of structures that lift leave out, each sentence once."""
-    of_sentence: dict[str, list[str]] = {}
+    concerned: dict[Remark, list[str]] = {}
     for station in report.stations:
-        caution = station.body.caution if isinstance(station.body, Structure) else ""
+        caution = station.body.caution if isinstance(station.body, Structure) else None
         if caution and station.rotation_ratio > 0:
-            of_sentence.setdefault(caution, []).append(report.called(station.structure))
+            concerned.setdefault(caution, []).append(report.called(station.structure))
     return [
-        f"{printing.listed(list(dict.fromkeys(names)))}: {caution}." for caution, names in of_sentence.items()
+        str(replace(caution, about=printing.listed(list(dict.fromkeys(names)))))
+        for caution, names in concerned.items()
     ]
 
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, whole
+from rocking.remarks import Kind, Remark
 from rocking.structures.crushing import inset
 from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import Value, restitution_value
@@ -231,15 +232,11 @@ class Facade(Tied):
         return False
 
     @property
-    def caution(self) -> str:
-        """A sentence where floors stand behind it through which the model lets it rock."""
+    def caution(self) -> Remark | None:
+        """A remark where floors stand behind it through which the model lets it rock."""
         if self.behind or self.one_sided or not (any(self.floor_loads) or self.tie_heights):
-            return ""
-        return (
-            "It rocks inwards as freely as outwards, though the floors that it carries or is tied to stand behind it: "
-            "with behind: floors or cross_walls and the restitution of its impact on them it does not; neither is the "
-            "safe side in every case, so follow both"
-        )
+            return None
+        return Remark(Kind.FLOORS_BEHIND)
 
     @cached_property
     def held_wall(self) -> HeldWall:

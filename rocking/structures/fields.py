@@ -18,6 +18,7 @@ from annotated_types import Interval, MinLen
 from rocking.described import Described
 from rocking.errors import StructureError
 from rocking.quantities import LENGTHS, finite
+from rocking.remarks import Kind, Remark
 
 _SI = {"°": np.pi / 180, "kN": 1e3, "kN/m": 1e3, "kN/m²": 1e3, "kN/m³": 1e3, "MPa": 1e6}
 """The value of a unit of the file in SI; units that are not here are SI."""
@@ -153,16 +154,21 @@ class Field(Described):
         """Return the phrase of the description for the value written `text`."""
         return self.value.phrase.format(name=self.name.replace("_", " "), value=text + self.suffix)
 
-    def remark(self, kind: str, value: object) -> str:
-        """Return the sentence on a value (of the file) beyond the plausible range, or nothing."""
+    def remark(self, kind: str, value: object) -> Remark | None:
+        """Return the remark on a value (of the file) beyond the plausible range, None within."""
         low, high = self.value.usual or (-np.inf, np.inf)
         values = value if isinstance(value, list | tuple) else [value]
         beyond = [each for each in values if isinstance(each, int | float) and not low <= each <= high]
         if not beyond:
-            return ""
-        return (
-            f"{self.key} is {beyond[0]:.6g}{self.suffix}, but is usually between {low:g} and {high:g}{self.suffix} for "
-            f"{article(kind)}; check the unit."
+            return None
+        return Remark.of(
+            Kind.SIZE_UNUSUAL,
+            self.key,
+            value=beyond[0],
+            low=float(low),
+            high=float(high),
+            unit=self.suffix,
+            type=article(kind),
         )
 
 

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from rocking.errors import DoesNotStandError, StructureError, StructureWarning
 from rocking.quantities import within
+from rocking.remarks import Remark
 from rocking.structures.capacity import CapacityCurve as CapacityCurve
 from rocking.structures.capacity import StaticCapacity
 from rocking.structures.contacts import Contacts, MotionState
@@ -106,7 +107,7 @@ class Structure(ABC):
 
     def __repr__(self) -> str:
         """The description, and the first remark on unusual values."""
-        return " ".join([f"{type(self).__name__}({self.description})", *self.remarks[:1]])
+        return " ".join([f"{type(self).__name__}({self.description})", *map(str, self.remarks[:1])])
 
     def mechanism(self) -> Mechanism:
         """Return the structure in standard form; the same object at every call."""
@@ -128,9 +129,9 @@ class Structure(ABC):
         return "to the right", "to the left"
 
     @property
-    def caution(self) -> str:
-        """A sentence on what the model of this structure leaves out beside every verdict on it; "" where nothing."""
-        return ""
+    def caution(self) -> Remark | None:
+        """What the model of this structure leaves out beside every verdict on it; None where nothing."""
+        return None
 
     @cached_property
     def linkages(self) -> tuple[Linkage, ...]:
@@ -366,8 +367,8 @@ class Structure(ABC):
         return ", ".join(" × ".join(texts) + unit for unit, texts in by_unit.items())
 
     @property
-    def remarks(self) -> tuple[str, ...]:
-        """A sentence for each size beyond its plausible range."""
+    def remarks(self) -> tuple[Remark, ...]:
+        """A remark on each size beyond its plausible range."""
         remarks = (given.field.remark(self.type_name, given.value) for given in self._values)
         return tuple(remark for remark in remarks if remark)
 

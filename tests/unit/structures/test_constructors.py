@@ -5,6 +5,7 @@ import pytest
 
 import rocking
 from rocking.errors import RockingError, StructureError
+from rocking.remarks import Kind
 
 TIED = {"tie_heights": (1.6,), "tie_strength": 4e3}
 
@@ -48,7 +49,9 @@ def test_a_very_stiff_tie_is_taken_with_the_same_remark_by_facade_and_wall():
     assert not wall.mechanism().can_overturn
     assert facade.mechanism().critical_rotation == pytest.approx(np.pi / 2, abs=1e-3)
     for structure in (facade, wall):
-        assert "tie_stiffness_kN_m2 is 1e+06 kN/m², but is usually between" in structure.remarks[0]
+        unusual = structure.remarks[0]
+        assert (unusual.kind, unusual.about) == (Kind.SIZE_UNUSUAL, "tie_stiffness_kN_m2")
+        assert (unusual["value"], unusual["unit"]) == (pytest.approx(1e6), " kN/m²")
 
 
 def test_a_structure_tells_what_is_unusual_about_it():
