@@ -11,14 +11,12 @@ from rocking.assessment.decide import Decision, Verdict
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows.meanings import (
     COMPONENT,
-    OVERTURNING_SHARE,
     PEAK_SIDE,
     RECORD,
     RECORD_SHA256,
     SCALE_FACTOR,
     STRUCTURE,
     SUPPORT_PERIOD,
-    VERDICT,
 )
 from rocking.assessment.verdict import (
     BOTH_COMPONENTS,
@@ -115,6 +113,19 @@ class CaseRow(ComponentRow[C]):
     def case(self) -> tuple[str, str, float | None]:
         """Component, structure and period of its support."""
         return self.component, self.structure, self.support_period_s
+
+
+@row()
+class DecidedRow(CaseRow[C]):
+    """A row about a case that says what becomes of the structure over all components."""
+
+    verdict: Verdict = of_structure(
+        f"The verdict: {', '.join(Verdict)}", lambda each: each.station.decision.word
+    )
+    overturning_share: float = of_structure(
+        "Share of the members that overturn; of a single run 0 or 1; empty where none can be told",
+        lambda each: each.station.decision.share,
+    )
 
 
 # What was read --------------------------------------------------------------------------------------------
@@ -443,7 +454,7 @@ _FIRST = (
 
 
 @row("comparison", first=_FIRST)
-class ComparisonRow(CaseRow[ComparedCase]):
+class ComparisonRow(DecidedRow[ComparedCase]):
     """One row per structure: the closed form under the dominant pulse beside the integration of the whole record.
 
     The columns from the impacts to the warning are those of the integration.
@@ -456,8 +467,6 @@ class ComparisonRow(CaseRow[ComparedCase]):
     integrated_rotation_ratio: float = of_case(
         "Rotation ratio of the mechanism under the record", lambda of: of.case.integrated_rotation_ratio
     )
-    overturning_share: float = of_case(OVERTURNING_SHARE, lambda of: of.station.decision.share)
-    verdict: Verdict = of_case(VERDICT, lambda of: of.station.decision.word)
     prediction_in_words: str = of_case(
         "Prediction beside integration, in words", lambda of: ratio_in_words(*of.both)
     )
@@ -555,9 +564,6 @@ class ComparisonRow(CaseRow[ComparedCase]):
         "Warning about what the model leaves out; or empty",
         lambda of: str(of.response.warning) if of.response and of.response.warning else "",
     )
-    answer_method: Method = of_case(
-        "Method that settled the verdict; see the setting fidelity", lambda of: of.answer.method
-    )
     answer_reason: str = of_case(
         "Reason why that method sufficed, with fidelity: auto", lambda of: of.answer.reason
     )
@@ -600,14 +606,12 @@ of_station = Columns(DecidedStation)
 
 
 @row("verdicts")
-class VerdictRow(CaseRow[DecidedStation]):
+class VerdictRow(DecidedRow[DecidedStation]):
     """One row per record and structure: the decision over all components, and the numbers of the crack that governs.
 
     The component is that of the governing case.
     """
 
-    verdict: Verdict = of_station(VERDICT, lambda of: of.station.decision.word)
-    overturning_share: float = of_station(OVERTURNING_SHARE, lambda of: of.station.decision.share)
     share_low: float = of_station(
         "Least share that overturns, over the cracks and what failed or is not known",
         lambda of: of.station.decision.interval[0],
@@ -756,7 +760,7 @@ of_support = Columns(CarriedStructure)
 
 
 @row("supports")
-class SupportRow(CaseRow[CarriedStructure]):
+class SupportRow(DecidedRow[CarriedStructure]):
     """One row per component and structure on a support: the motion there, and the verdict over all components."""
 
     support: str = of_support("Name of the support in the list", lambda of: of.station.scene.place.name)
@@ -774,8 +778,6 @@ class SupportRow(CaseRow[CarriedStructure]):
         lambda of: of.measures.code_spectral_acceleration,
         equation="C7.2.5",
     )
-    verdict: Verdict = of_support(VERDICT, lambda of: of.station.decision.word)
-    overturning_share: float = of_support(OVERTURNING_SHARE, lambda of: of.station.decision.share)
 
 
 def structures_carried(

@@ -21,7 +21,6 @@ from rocking.assessment.rows import (
 )
 from rocking.assessment.verdict import (
     Agreement,
-    Method,
     agreement,
     ratio_in_words,
     within_factor_two,
@@ -54,7 +53,6 @@ def case(structure: str, predicted: float, integrated: float, record: str = "one
         structure=structure,
         predicted_rotation_ratio=predicted,
         integrated_rotation_ratio=integrated,
-        answer_method=Method.MECHANISM_ON_RECORD,
         prediction_in_words=ratio_in_words(predicted, integrated),
         within_factor_two=within_factor_two(predicted, integrated),
         agreement=agreement(predicted, integrated),
