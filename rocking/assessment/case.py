@@ -562,8 +562,12 @@ class SceneResult:
 
     @property
     def worst(self) -> StationResult:
-        """The result of the period that is worst; the first among equals."""
-        return max(self.stations, key=lambda station: station.severity)
+        """The result of the period that is worst; the first among equals.
+
+        On the ground it stands beside a support for comparison only, and sets no word where it stands on one.
+        """
+        carried = [station for station in self.stations if station.support_period_s]
+        return max(carried or self.stations, key=lambda station: station.severity)
 
     @property
     def sentence(self) -> str:

@@ -2,13 +2,14 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.over_periods import placed
 from rocking.assessment.reserve import Reserve
 from rocking.codes.check import Check, StructureCheck
@@ -45,9 +46,10 @@ class CheckedStructure:
 
     place, support: where it stands, and of what stands on a support one along its axis, None on the ground below it.
     checked: None where it could not be checked, and `refusal` then says why. overturning_share: mean over the stations
-    of the study, of each the mean over its records, nan without any; records, stations: how many there are. reserves:
-    under each record of the study under which one was sought; reserve_doubts: the kinds of doubt for which they may be
-    too high.
+    of the study, of each the mean over its records, nan without any; records, stations: how many there are, but for
+    those of which it cannot be told. verdicts: stations by the worst verdict on it there, and doubts: what may make
+    one worse than said. reserves: under each record of the study under which one was sought; reserve_doubts: the kinds
+    of doubt for which they may be too high.
     """
 
     name: str
@@ -59,6 +61,8 @@ class CheckedStructure:
     overturning_share: float = math.nan
     records: int = 0
     stations: int = 0
+    verdicts: Mapping[Verdict, int] = field(default_factory=dict)
+    doubts: Sequence[Kind] = ()
     reserves: Sequence[Reserve] = ()
     reserve_doubts: Sequence[Kind] = ()
 
@@ -263,13 +267,20 @@ def _comparison(page: CheckedStructure) -> str:
 
 
 def _share(each: CheckedStructure) -> str:
+    counts = ", ".join(
+        f"{word.predicate} under {counted(each.verdicts[word], 'station')}"
+        for word in ORDER
+        if each.verdicts.get(word)
+    )
+    reasons = f" ({'; '.join(str(Remark(kind)) for kind in each.doubts)})" if each.doubts else ""
     if not each.stations:
-        return "No record of the study tells whether it overturns."
+        told = f"; it {counts}{reasons}" if counts else ""
+        return f"No record of the study tells whether it overturns{told}."
     low, high = share_interval(each.overturning_share, each.stations)
     share = (
         f"Under the {counted(each.records, 'record')} of {counted(each.stations, 'station')} of the study, uncertain "
         f"inputs considered, it overturns with a share of {percent(each.overturning_share)} % (90 % interval over "
-        f"stations: {percent(low)} to {percent(high)} %)."
+        f"stations: {percent(low)} to {percent(high)} %). By the worst record of each it {counts}{reasons}."
     )
     return f"{share} {_reserve(each)}"
 

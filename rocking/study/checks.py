@@ -1,9 +1,11 @@
 """The checks of every structure of a study at its design level: their table, and the page of each."""
 
 import math
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
+from rocking.assessment.decide import Verdict, worse
 from rocking.assessment.over_periods import placed
 from rocking.assessment.rows import RecordRow, VerdictRow
 from rocking.assessment.scene import Scene
@@ -103,6 +105,8 @@ def _checked(
         overturning_share=sum(shares) / len(shares) if shares else math.nan,
         records=len(known),
         stations=len(shares),
+        verdicts=verdicts_by_station(verdicts, station_of),
+        doubts=sorted({kind for each in verdicts for kind in each.doubts}),
         reserves=[each.reserve for each in verdicts if each.reserve is not None],
         reserve_doubts=sorted({kind for each in verdicts for kind in each.reserve_doubts}),
     )
@@ -117,6 +121,15 @@ def shares_by_station(verdicts: Iterable[VerdictRow], station_of: Mapping[str, s
     for each in verdicts:
         shares.setdefault(station_of[each.record], []).append(each.overturning_share)
     return [sum(own) / len(own) for own in shares.values()]
+
+
+def verdicts_by_station(verdicts: Iterable[VerdictRow], station_of: Mapping[str, str]) -> Counter[Verdict]:
+    """Return under how many stations each verdict is the worst one of its records."""
+    worst: dict[str, Verdict] = {}
+    for each in verdicts:
+        station = station_of[each.record]
+        worst[station] = worse(each.verdict, worst.get(station, each.verdict))
+    return Counter(worst.values())
 
 
 def _station(record: RecordRow) -> str:

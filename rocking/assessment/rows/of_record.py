@@ -731,11 +731,14 @@ class VerdictRow(DecidedRow[DecidedStation]):
 
 
 def worst_period_each(verdicts: Iterable[VerdictRow]) -> list[VerdictRow]:
-    """Return the verdicts, of each record and structure on a support that of the worst period only; the worst first."""
+    """Return the verdicts, of each record and structure on a support that of the worst period only; the worst first.
+
+    On the ground it stands beside a support for comparison only.
+    """
     shown: dict[tuple[str, str], VerdictRow] = {}
-    for each in sorted(verdicts, key=lambda each: each.severity, reverse=True):
+    for each in sorted(verdicts, key=lambda each: (each.support_period_s != 0, each.severity), reverse=True):
         shown.setdefault((each.record, each.structure), each)
-    return list(shown.values())
+    return sorted(shown.values(), key=lambda each: each.severity, reverse=True)
 
 
 @dataclass(frozen=True)

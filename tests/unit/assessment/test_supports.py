@@ -1,12 +1,15 @@
 """Structures on supports: the same motion as a record gives the same rows, and one row for each period."""
 
+import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from rocking.assessment.assess import Extent, assess_record, with_histories
-from rocking.assessment.rows import rows_of_record
+from rocking.assessment.case import SceneResult
+from rocking.assessment.rows import rows_of_record, worst_period_each
 from rocking.assessment.scene import Scene, on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.store import RecordStore
@@ -15,6 +18,8 @@ from rocking.fragility.curves import fragility
 from rocking.motion.integration import integrate
 from rocking.records import Accelerogram
 from rocking.structures import Block
+from tests.unit.assessment import made_rows
+from tests.unit.assessment.made_rows import case, verdicts
 
 STEP = 0.01
 BODY = Block(semi_diagonal=0.5, slenderness=0.25)
@@ -107,6 +112,22 @@ def test_a_stored_case_of_one_support_is_not_taken_for_another(tmp_path):
         for station, same in zip(first.stations, other.stations, strict=True):
             assert same.overturning_share == station.overturning_share
             assert same.rotation_ratio == station.rotation_ratio
+
+
+def test_the_ground_sets_no_word_of_what_stands_on_a_floor():
+    """It overturns on the ground and stands on the floor, or the other way round: the floor's word is told."""
+    falls = made_rows.station(case("EW", math.inf, falls=64))
+    stands = made_rows.station(case("EW", 0.1, falls=0))
+    for ground, floor in ((falls, stands), (stands, falls)):
+        rows = [
+            replace(row, support_period_s=period)
+            for period, row in zip((0.0, 0.25), verdicts([ground, floor]), strict=True)
+        ]
+        assert [each.support_period_s for each in worst_period_each(rows)] == [0.25]
+        along = [
+            SimpleNamespace(support_period_s=each.support_period_s, severity=each.severity) for each in rows
+        ]
+        assert SceneResult(ground.scene, tuple(along)).worst.support_period_s == 0.25
 
 
 def test_fragility_is_against_the_intensity_of_the_ground():

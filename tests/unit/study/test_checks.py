@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from rocking import Block, DesignSpectrum, Facade, check
+from rocking.assessment.decide import Verdict
 from rocking.assessment.listed import load_scenes
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import RecordRow, VerdictRow
@@ -376,7 +377,13 @@ def test_each_page_tells_the_share_of_its_own_structure(study, monkeypatch):
     settings, folder = study
     shares = {"parapet": 1.0, "front": 0.0}
     verdicts = [
-        filled(VerdictRow, structure=structure, record=record, overturning_share=share)
+        filled(
+            VerdictRow,
+            structure=structure,
+            record=record,
+            overturning_share=share,
+            verdict=Verdict.OVERTURNS if share else Verdict.STANDS,
+        )
         for structure, share in shares.items()
         for record in ("a", "b", "c")
     ]

@@ -1,0 +1,175 @@
+"""Whoever prints a case, to whatever reader, prints the same word, share and doubt: those of the one decision."""
+
+import math
+import zipfile
+from dataclasses import replace
+from io import BytesIO
+from xml.etree import ElementTree
+
+import pytest
+
+from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
+from rocking.assessment.decide import Verdict
+from rocking.assessment.rows import VerdictRow, rows_of_record
+from rocking.codes.design_spectrum import DesignSpectrum
+from rocking.remarks import Kind, Remark
+from rocking.reports import record_figures
+from rocking.reports.explore import record_content
+from rocking.reports.printing import LOOKS, cell_text
+from rocking.reports.record import RecordReport
+from rocking.reports.structures import structures_data
+from rocking.reports.summary import summary_data
+from rocking.study.checks import _checked
+from rocking.study.settings import StudyDesign
+from rocking.study.terminal import record_line
+from rocking.study.workspace import _told
+from rocking.tables import read_table, write_rows
+from rocking.tables.workbook import workbook
+from tests.unit.assessment.made_rows import members
+from tests.unit.reports.conftest import SETTINGS, summarised
+
+NO_BREAK = "\u00a0"
+SPECTRUM = DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
+
+
+def with_members(station, falls, doubt=None):
+    """The result with ensembles of 64 of each of its cracks, of which so many overturn, and a doubt."""
+    cracks = tuple(
+        FollowedCrack(f"hinge {place}" if len(falls) > 1 else "", math.nan, members(each))
+        for place, each in enumerate(falls)
+    )
+    ensembles = CrackEnsembles(cracks)
+    cases = {
+        name: replace(case, ensembles=ensembles, doubt=doubt, reserve=None)
+        for name, case in station.cases.items()
+    }
+    return replace(station, cases=cases)
+
+
+@pytest.fixture(scope="module")
+def report(example) -> RecordReport:
+    """The example with as many words as it has structures; one is doubtful, and of one the cracks disagree."""
+    made = {
+        "block 4 m": ([64], None),
+        "block 1 m": ([50], None),
+        "wall 3 m": ([0, 63], None),
+        "arch 20 m": ([12], Remark(Kind.CONTACTS_OPEN)),
+    }
+    scenes = {
+        name: replace(
+            scene,
+            stations=tuple(
+                with_members(each, *made[name]) if name in made else each for each in scene.stations
+            ),
+        )
+        for name, scene in example.result.scenes.items()
+    }
+    result = replace(example.result, scenes=scenes)
+    return replace(example, result=result, tables=rows_of_record(result, "cd" * 32, "CC0-1.0"))
+
+
+@pytest.fixture(scope="module")
+def decisions(report):
+    """The decision on each structure: what everybody has to say."""
+    return {each.structure: each.decision for each in report.result.stations}
+
+
+def test_the_example_has_five_words_a_range_and_a_doubt(decisions):
+    words = {name: str(each.word) for name, each in decisions.items()}
+    assert words == {
+        "block 4 m": "overturns",
+        "block 1 m": "probably overturns",
+        "wall 3 m": "uncertain",
+        "arch 20 m": "cannot be told",
+        "squat block": "stands",
+    }
+    assert decisions["wall 3 m"].share_in_words == f"0–98{NO_BREAK}%"
+    assert decisions["arch 20 m"].share_in_words == f"at least 19{NO_BREAK}%"
+
+
+def test_the_tables_hold_it(report, decisions, tmp_path):
+    write_rows(VerdictRow, report.tables.verdicts, tmp_path / "verdicts.csv")
+    for row in read_table(VerdictRow, tmp_path):
+        assert repr(row.decision) == repr(decisions[row.structure])
+    assert report.tables.comparison
+    for row in report.tables.comparison:
+        decision = decisions[row.structure]
+        assert row.verdict is decision.word
+        assert row.overturning_share == pytest.approx(decision.share, nan_ok=True)
+
+
+def test_the_workbook_holds_it(report, decisions):
+    with zipfile.ZipFile(BytesIO(workbook({VerdictRow: report.tables.verdicts}, "A study"))) as book:
+        sheet = ElementTree.fromstring(book.read("xl/worksheets/sheet2.xml"))
+    tag = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}row"
+    lines = ["|".join("".join(cell.itertext()) for cell in line) for line in sheet.iter(tag)]
+    for name, decision in decisions.items():
+        (line,) = (each for each in lines if f"|{name}|" in f"|{each}|")
+        assert f"|{decision.word}|" in line
+        assert decision.why in line
+        assert all(doubt.kind in line for doubt in decision.doubts)
+
+
+def test_the_terminal_says_it(report, decisions):
+    line = record_line(report.result.scenes.values(), [])
+    told = [text for each in report.result.stations for text in _told(each, 1.0)]
+    for name, decision in decisions.items():
+        (own,) = (text for text in told if text.startswith(f"{name}: "))
+        assert own == f"{name}: {decision.word} ({decision.share_in_words}); {decision.why}"
+        said = name if decision.word is Verdict.STANDS else f"{name} ({decision.share_in_words})"
+        assert f"{decision.word}: {said}" in line
+
+
+def test_page_one_says_it(report, decisions):
+    data = report.data()
+    lines = {line["verdict"].lower(): line["names"] for line in data["headlines"]}
+    table = {row[1]: row[2:4] for row in data["verdicts"]["rows"]}
+    for station in report.result.stations:
+        decision = decisions[station.structure]
+        assert station.structure in lines[decision.word]
+        assert decision.share_in_words in lines[decision.word]
+        assert table[station.structure][0]["text"] == decision.word
+        assert table[station.structure][1] == decision.share_in_words
+        below = record_figures._lines(report.structures[station.structure], station, 0.5)
+        assert decision.share_in_words in " ".join(below)
+    assert "contacts open" in lines["cannot be told"]
+
+
+def test_the_summary_says_it(report, decisions):
+    data = summary_data(summarised(report.tables, report.structures), SETTINGS)
+    assert [sentence.split(" under")[0] for sentence in data["outcomes"]] == [
+        "Overturns",
+        "Probably overturns",
+        "Cannot be told",
+        "Is uncertain",
+        "Stands",
+    ]
+    (row,) = data["map"]["rows"]
+    cells = dict(zip(data["map"]["heads"], row["cells"], strict=True))
+    table = {line[0]["text"]: line for line in data["structures"]["rows"]}
+    for name, decision in decisions.items():
+        assert cells[name]["text"] == cell_text(decision)
+        assert cells[name]["fill"] == LOOKS[decision.word][1]
+        assert decision.share_in_words in table[name]
+
+
+def test_the_page_to_explore_says_it(report, decisions):
+    cases = record_content(report.result, report.tables, report.structures)["cases"]
+    for name, decision in decisions.items():
+        assert cases[name]["verdict"] == decision.word
+        assert cases[name]["cell"] == cell_text(decision)
+        assert cases[name]["text"].startswith(f"{decision.word}, {decision.share_in_words}: {decision.why}.")
+        assert all(f" Doubtful: {doubt}." in cases[name]["text"] for doubt in decision.doubts)
+
+
+def test_the_page_to_sign_says_it(report, decisions):
+    """Of one record: its word, the mean of one share, and the doubt."""
+    stations = {row.record: row.station for row in report.tables.record}
+    for name, decision in decisions.items():
+        own = [row for row in report.tables.verdicts if row.structure == name]
+        page = _checked(report.result.scenes[name].scene, None, StudyDesign(), SPECTRUM, None, own, stations)
+        (data,) = structures_data([page], SPECTRUM, SETTINGS)["pages"]
+        assert f"it {decision.word.predicate} under 1 station" in data["share"]
+        if not math.isnan(decision.share):
+            assert f"a share of {100 * decision.share:.0f} %" in data["share"]
+        assert all(f"({doubt})" in data["share"] for doubt in decision.doubts)
