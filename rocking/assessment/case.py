@@ -30,7 +30,7 @@ from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Maximum
-from rocking.structures import EquivalentBlock, Mechanism, Outcome, Structure
+from rocking.structures import EquivalentBlock, Outcome, Structure
 
 DECISIVE = ("responses", "directions")
 """Stages whose failure leaves a structure without a result; the others only leave out what stands beside it."""
@@ -144,8 +144,7 @@ class CaseResult:
     sought for what is printed alone. overturning_estimate: from the
     peak velocity, where no ensemble ran; None of a structure unlike those behind the estimate. slides_at: acceleration
     [g] at which its joints slide before they lift, where the motion reaches it; else nan. variations: other cracks,
-    then other processings. durations: CPU time of each stage, and of each method within responses, s. fingerprint: of
-    motion, structure, settings and version of the computation.
+    then other processings. fingerprint: of motion, structure, settings and version of the computation.
     """
 
     structure: str
@@ -162,7 +161,6 @@ class CaseResult:
     contact: ContactShare | None = None
     variations: tuple[Variation, ...] = ()
     failures: tuple[Failure, ...] = ()
-    durations: Mapping[str, float] = field(default_factory=dict)
     fingerprint: str = ""
 
     @property
@@ -175,7 +173,7 @@ class CaseResult:
         answer = self.answer
         if answer is not None and answer.response is not None:
             answer = replace(answer, response=_without_history(answer.response))
-        return replace(self, prediction=None, responses=responses, answer=answer, reserve=None, durations={})
+        return replace(self, prediction=None, responses=responses, answer=answer, reserve=None)
 
     @property
     def ensemble(self) -> Ensemble | None:
@@ -208,13 +206,13 @@ class CaseResult:
             return 0.0
         return self.response.rotation_ratio if self.response else math.inf
 
-    def facts(self, body: Structure | Mechanism, failures: tuple[str, ...] = ()) -> Facts:
+    def facts(self, body: Structure, failures: tuple[str, ...] = ()) -> Facts:
         """Return what the decision asks of this case.
 
         body: the structure. failures: why other components are missing.
         """
         several = cracks(body)
-        given = isinstance(body, Structure) and body.crack_is_given
+        given = body.crack_is_given
         held = [each.mechanism.never_lets_go for each in (several[:1] if given else several)]
         settled = None
         rests = self.answer is not None and self.answer.outcome is Outcome.NO_UPLIFT
@@ -291,7 +289,7 @@ class StationResult:
         return self.scene.name
 
     @property
-    def body(self) -> Structure | Mechanism:
+    def body(self) -> Structure:
         """The structure itself."""
         return self.scene.structure
 
@@ -382,7 +380,7 @@ class StationResult:
         doubts = [each.doubt for each in both if each.doubt is not None]
         if any(each.check.bounces for each in both):
             doubts.append(Remark(Kind.CONTACTS_OPEN))
-        if isinstance(self.body, Structure) and self.body.tapers:
+        if self.body.tapers:
             doubts.append(Remark(Kind.COURSES_THROWN))
         return tuple(sorted(set(doubts), key=lambda each: each.kind))
 
@@ -480,7 +478,7 @@ class StationResult:
     @property
     def body_crack_is_given(self) -> bool:
         """Whether the structure says where it is cracked, so that this crack decides."""
-        return isinstance(self.body, Structure) and self.body.crack_is_given
+        return self.body.crack_is_given
 
     @property
     def statics_crack(self) -> str:

@@ -20,7 +20,7 @@ from rocking.motion.integration import integrate, strict
 from rocking.motion.response import check_model
 from rocking.records import Accelerogram
 from rocking.remarks import Kind, Remark
-from rocking.structures import Mechanism, Structure
+from rocking.structures import Structure
 from rocking.structures.linkage import Turning
 from rocking.structures.stack import COURSES, Stack
 
@@ -51,7 +51,7 @@ class Laid(Protocol):
 
 
 def doubt(
-    structure: Structure | Mechanism,
+    structure: Structure,
     motions: GroundMotions,
     rotation_ratio: float,
     settings: AssessmentSettings | None = None,
@@ -65,7 +65,7 @@ def doubt(
     below a fall of more than a radian.
     """
     settings = settings or AssessmentSettings()
-    if isinstance(structure, Mechanism) or not rotation_ratio > 0:
+    if not rotation_ratio > 0:
         return None
     if structure.tapers:
         return Remark(Kind.COURSES_THROWN)
@@ -73,7 +73,7 @@ def doubt(
         return None
     if bounces:
         return Remark(Kind.CONTACTS_OPEN)
-    if isinstance(structure.linkage, Turning):
+    if all(isinstance(each, Turning) for each in structure.linkages):
         return None
     cracked = structure.candidates()[0].structure
     for sign, motion in product(_signs(structure, settings), _directions(motions)):

@@ -109,10 +109,8 @@ class CrackEnsembles:
 
 
 @lru_cache(maxsize=256)
-def cracks(structure: Structure | Mechanism) -> tuple[Crack, ...]:
+def cracks(structure: Structure) -> tuple[Crack, ...]:
     """Return the mechanisms that may form; first the one that is given, or that statics chooses."""
-    if isinstance(structure, Mechanism):
-        return (Crack("", math.nan, structure),)
     return tuple(
         Crack(each.description, each.position, each.structure.mechanism(), _friction(each.structure))
         for each in structure.candidates(CRACKS)
@@ -122,8 +120,11 @@ def cracks(structure: Structure | Mechanism) -> tuple[Crack, ...]:
 def _friction(structure: Structure) -> float:
     """The largest friction that a joint needs as it lifts, to the side to which it does so first.
 
-    λ, the mean over all joints on the ground, where the mechanism alone does not tell the forces of each.
+    λ, the mean over all joints on the ground, where the mechanism alone does not tell the forces of each; 0 where no
+    joint is known.
     """
+    if not structure.linkages:
+        return 0.0
     sides = structure.mechanism().sides
     side = min(sides, key=lambda each: each.uplift_multiplier)
     sign = 1.0 if side is sides[0] else -1.0
@@ -137,7 +138,7 @@ def _friction(structure: Structure) -> float:
 
 
 def ensemble_over_cracks(
-    structure: Structure | Mechanism,
+    structure: Structure,
     motions: GroundMotions,
     settings: AssessmentSettings,
     *,
@@ -152,7 +153,7 @@ def ensemble_over_cracks(
     whatever the screen says; docs/pages/validation.md counts what it misses. verdict_only: as `ensemble` takes it.
     Raises MotionError as `integrate` does.
     """
-    given = isinstance(structure, Structure) and structure.crack_is_given
+    given = structure.crack_is_given
     several = cracks(structure)
     sliding = [each for each in several if slides_first(each, motions, settings)]
     first, *others = several if given else [each for each in several if each not in sliding] or several
@@ -161,8 +162,7 @@ def ensemble_over_cracks(
     )
     name = first.description if len(several) > 1 else ""
     statics = FollowedCrack(name, first.position, of_statics, first in sliding)
-    overturns = statics.facts.step(settings.ensemble.risk) is Verdict.OVERTURNS
-    if not others or isinstance(structure, Mechanism) or overturns:
+    if not others or statics.facts.step(settings.ensemble.risk) is Verdict.OVERTURNS:
         return CrackEnsembles((statics,), given)
     doubtful = (
         others

@@ -2,11 +2,11 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import cast
 
 from rocking.assessment.check_terms import CheckTerms
 from rocking.floors.place import GROUND, Place
 from rocking.structures import Mechanism, Structure
+from rocking.structures.alone import as_structure
 
 
 @dataclass(frozen=True)
@@ -24,8 +24,5 @@ class Scene:
 
 
 def on_the_ground(structures: Mapping[str, Structure | Mechanism]) -> dict[str, Scene]:
-    """Return the scenes of structures that no list puts anywhere, by name.
-
-    What is asked of the structure of a scene, a mechanism alone answers too.
-    """
-    return {name: Scene(name, cast(Structure, each)) for name, each in structures.items()}
+    """Return the scenes of structures that no list puts anywhere, by name."""
+    return {name: Scene(name, as_structure(each)) for name, each in structures.items()}

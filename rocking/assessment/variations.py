@@ -4,7 +4,6 @@ import math
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from types import MappingProxyType
 
 from rocking.assessment.ground_motions import AS_IT_IS
 from rocking.assessment.settings import AssessmentSettings
@@ -14,7 +13,7 @@ from rocking.motion.integration import integrate, strict
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum
-from rocking.structures import Mechanism, Structure
+from rocking.structures import Structure
 
 
 @dataclass(frozen=True)
@@ -62,34 +61,30 @@ def candidates(
 
 
 def processed_variants(
-    structures: Mapping[str, Structure],
+    structure: Structure,
     records: Mapping[str, Accelerogram],
     settings: AssessmentSettings,
-    as_it_is: Mapping[str, float] = MappingProxyType({}),
+    as_it_is: float = math.nan,
     vertical: Accelerogram | None = None,
-) -> dict[str, list[Variation]]:
-    """Return each of `structures` under each of `records`, by structure; one that cannot be followed is left out.
+) -> list[Variation]:
+    """Return a structure under each of `records`; one under which it cannot be followed is left out.
 
-    records: as `processed` gives them. as_it_is: the ratios under the record itself that need no integration, by
-    structure. vertical: acts with each.
+    records: as `processed` gives them. as_it_is: the ratio under the record itself, which needs no integration; nan
+    where it is not known. vertical: acts with each.
     """
-    varied: dict[str, list[Variation]] = {name: [] for name in structures}
+    variations = []
     for processing, record in records.items():
-        ratios = dict.fromkeys(structures, math.nan)
-        if processing == AS_IT_IS:
-            ratios |= as_it_is
-        rest = [name for name, ratio in ratios.items() if math.isnan(ratio)]
-        with suppress(RockingError):
-            computed = _rotation_ratios([structures[name] for name in rest], record, settings, vertical)
-            ratios |= zip(rest, computed, strict=True)
-        for name, ratio in ratios.items():
-            if not math.isnan(ratio):
-                varied[name].append(Variation(ratio, processing=processing))
-    return varied
+        ratio = as_it_is if processing == AS_IT_IS else math.nan
+        if math.isnan(ratio):
+            with suppress(RockingError):
+                (ratio,) = _rotation_ratios([structure], record, settings, vertical)
+        if not math.isnan(ratio):
+            variations.append(Variation(ratio, processing=processing))
+    return variations
 
 
 def _rotation_ratios(
-    structures: Sequence[Structure | Mechanism],
+    structures: Sequence[Structure],
     record: Accelerogram,
     settings: AssessmentSettings,
     vertical: Accelerogram | None = None,

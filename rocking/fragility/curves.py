@@ -32,6 +32,7 @@ from rocking.motion.integration import Rocking, reduce
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import EquivalentBlock, Mechanism, Structure
+from rocking.structures.alone import as_structure
 
 LEVELS = 40
 """Levels in all."""
@@ -376,8 +377,9 @@ def fragility(
     if isinstance(reduced, EquivalentBlock):
         raise ConfigurationError("structure is an equivalent block, but must be a structure or a mechanism.")
     names = _checked_stations(records, stations)
-    first, *others = cracks(structure if isinstance(structure, Structure) else reduced)
-    if isinstance(structure, Structure) and structure.crack_is_given:
+    body = as_structure(structure if isinstance(structure, Structure) else reduced)
+    first, *others = cracks(body)
+    if body.crack_is_given:
         others = []  # what is given decides
     mechanism = first.mechanism
     if mechanism.never_lets_go:

@@ -264,7 +264,7 @@ def _cautions(report: RecordReport) -> list[str]:
     """Return what the models of structures that lift leave out, each sentence once."""
     concerned: dict[Remark, list[str]] = {}
     for station in report.stations:
-        caution = station.body.caution if isinstance(station.body, Structure) else None
+        caution = station.body.caution
         if caution and station.rotation_ratio > 0:
             concerned.setdefault(caution, []).append(report.called(station.structure))
     return [

@@ -10,8 +10,9 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
-from rocking.assessment.assess import Clock, Extent, Store, assess_record, with_histories
+from rocking.assessment.assessor import Assessor, Store, with_histories
 from rocking.assessment.case import Failure, RecordResult
+from rocking.assessment.clock import Clock
 from rocking.assessment.compilation import compile_all
 from rocking.assessment.rows import HistoryRow, RecordRows, history_rows, rows_of_record
 from rocking.assessment.scene import Scene
@@ -61,15 +62,16 @@ class Study:
             own["fidelity"] = "full"
         return AssessmentSettings(**own)
 
-    @cached_property
-    def extent(self) -> Extent:
-        """The extent to which a case is followed."""
-        return Extent(
+    def assessor(self, store: Store | None, clock: Clock) -> Assessor:
+        """Return what assesses a record, as far as the settings ask."""
+        return Assessor(
             self.assessment,
             self.settings.candidates,
             self.settings.processing_variants,
             motion_measures=True,
             version=computation_version(),
+            store=store,
+            clock=clock,
         )
 
     def open(self, record: CatalogueRecord, channels: list[Accelerogram] | None = None) -> Opened:
@@ -235,15 +237,7 @@ def assess_catalogued(
     except RockingError as error:
         unread = Failure("read", error.beside(record.id))
         return RecordResult(record=record.id, failures=(("", unread),), durations=dict(clock.durations))
-    return assess_record(
-        record.id,
-        horizontal,
-        study.scenes,
-        study.extent,
-        vertical,
-        store=store,
-        clock=clock,
-    )
+    return study.assessor(store, clock).assess(record.id, horizontal, study.scenes, vertical)
 
 
 def rows_of(result: RecordResult, record: CatalogueRecord, study: Study) -> RecordRows:

@@ -9,9 +9,10 @@ import pytest
 from motion_cases import noise
 from scipy.constants import g
 
-from rocking.assessment.assess import Extent, assess_case, assess_record, predict, with_histories
+from rocking.assessment.assessor import Assessor, with_histories
 from rocking.assessment.case import CaseResult, StationResult
 from rocking.assessment.component import Component, HorizontalMotion, component_of, horizontal_motions
+from rocking.assessment.one_case import assess_case, predict
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
     ComparedCase,
@@ -101,7 +102,7 @@ def test_a_fragile_case_is_repeated_and_its_row_and_its_history_say_at_which_tol
     record = noise(11, 60, 0.05, g * block.mechanism().uplift_multiplier * 1.87260126893, 6)
     assert integrate(block, record).outcome is Outcome.OVERTURNS
     settings = AssessmentSettings(ensemble=EnsembleSettings(members=0))
-    result = assess_record("made", [record], on_the_ground({"block": block}), Extent(settings))
+    result = Assessor(settings).assess("made", [record], on_the_ground({"block": block}))
     (kept,) = result.stations[0].cases.values()
     row = compared(kept)
     assert (row.fragile, row.tolerance) == (True, 1e-9)
@@ -138,7 +139,7 @@ def test_a_record_without_a_pulse_is_integrated_all_the_same():
 
 def test_what_is_timed_adds_up_to_no_more_than_was_spent(case):
     started = process_time()
-    result = assess_record("made", [RECORD], on_the_ground({"block": BLOCK, "stout": Block(2.0, 0.3)}))
+    result = Assessor().assess("made", [RECORD], on_the_ground({"block": BLOCK, "stout": Block(2.0, 0.3)}))
     spent = process_time() - started
     durations = dict(result.durations)
     stages = [durations.pop(name) for name in ("pulses", "responses", "variations", "reserve")]

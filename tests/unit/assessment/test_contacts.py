@@ -7,14 +7,15 @@ import pytest
 
 import rocking
 from rocking import Accelerogram, Block, Frame, LoadedWall, Spire, Verdict, Wall
-from rocking.assessment.assess import assess_case
 from rocking.assessment.component import component_of
 from rocking.assessment.contacts import contact_share, doubt
 from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.one_case import assess_case
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.contacts.dynamics import STEP, follow_stack
 from rocking.quantities import GRAVITY
 from rocking.remarks import Kind, Remark
+from rocking.structures.alone import as_structure
 
 CONTACT = AssessmentSettings(fidelity="contact")
 SPIRE = Spire(width=3.0, height=15.0, wall_thickness=0.25)
@@ -99,7 +100,7 @@ def test_what_keeps_its_contacts_or_rests_is_not_doubted():
     motions = GroundMotions.of(sine(1.5, 0.3))
     assert doubt(Block.of_size(0.8, 4.0), motions, 0.1) is None
     assert doubt(Wall(1.6, 1.6, 0.25), motions, 0.0) is None
-    assert doubt(Block.of_size(0.8, 4.0).mechanism(), motions, 0.1) is None
+    assert doubt(as_structure(Block.of_size(0.8, 4.0).mechanism()), motions, 0.1) is None
 
 
 def test_directions_share_the_steps_and_unlike_sides_meet_both_signs():

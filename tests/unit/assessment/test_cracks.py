@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import rocking
-from rocking.assessment.assess import assess_case
 from rocking.assessment.component import component_of
 from rocking.assessment.cracks import cracks, ensemble_over_cracks
 from rocking.assessment.decide import Verdict
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.ground_motions import GroundMotions, processed
+from rocking.assessment.one_case import assess_case
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.variations import candidates, processed_variants
 from rocking.fragility.curves import fragility
@@ -131,7 +131,7 @@ def test_variations_are_followed_at_the_tolerance_at_which_a_fragile_run_is_repe
     assert at_settings != strictly
     settings = AssessmentSettings(tolerance=1e-3)
     assert candidates(LOW_WALL, motion, None, 5, settings)[2].integrated_rotation_ratio == strictly
-    (processing,) = processed_variants({"": LOW_WALL}, {"high-pass 0.2 Hz": motion}, settings)[""]
+    (processing,) = processed_variants(LOW_WALL, {"high-pass 0.2 Hz": motion}, settings)
     assert processing.integrated_rotation_ratio == strictly
 
 
@@ -157,7 +157,7 @@ def test_processing_that_changes_nothing_changes_no_answer():
     records = processed(SINE)
     block = Block(2.0, 0.2)
     assert "unchanged" in records
-    variations = processed_variants({"": block}, records, AssessmentSettings())[""]
+    variations = processed_variants(block, records, AssessmentSettings())
     ratios = {each.processing: each.integrated_rotation_ratio for each in variations}
     assert ratios["unchanged"] == integrate(block, SINE, 1e-9).rotation_ratio
     assert ratios["high-pass 0.2 Hz"] != ratios["unchanged"]

@@ -7,7 +7,6 @@ import pytest
 from scipy.constants import g
 
 from rocking.assessment import fidelity
-from rocking.assessment.assess import assess_case
 from rocking.assessment.component import component_of
 from rocking.assessment.decide import Verdict
 from rocking.assessment.ensemble import ensemble
@@ -21,6 +20,7 @@ from rocking.assessment.fidelity import (
     stays_at_rest,
 )
 from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.one_case import assess_case
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.verdict import Method
 from rocking.motion.integration import integrate

@@ -9,7 +9,7 @@ import pytest
 from scipy.constants import g
 from scipy.integrate import simpson
 
-from rocking.assessment.assess import Extent, assess_record
+from rocking.assessment.assessor import Assessor
 from rocking.assessment.rows import StructureRow, rows_of_record, structure_rows
 from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
@@ -38,7 +38,7 @@ def folder(request, tmp_path_factory) -> Path:
     folder = tmp_path_factory.mktemp(request.param)
     motion = Pulse(0.45 * g, 2 * math.pi / 0.45, 1.0).acceleration(np.arange(1000) * STEP)
     settings = AssessmentSettings(acceleration_scale=request.param, ensemble=EnsembleSettings(members=0))
-    result = assess_record("made", [Accelerogram(motion, STEP)], on_the_ground(STRUCTURES), Extent(settings))
+    result = Assessor(settings).assess("made", [Accelerogram(motion, STEP)], on_the_ground(STRUCTURES))
     rows_of_record(result).write(folder)
     write_rows(StructureRow, structure_rows(STRUCTURES), folder / "structures.csv")
     return folder

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import rocking
-from rocking.assessment.assess import Extent, assess_record
+from rocking.assessment.assessor import Assessor
 from rocking.assessment.case import StationResult
 from rocking.assessment.causes import CAUSES, lattice
 from rocking.assessment.ground_motions import GroundMotions
@@ -159,14 +159,14 @@ def test_on_a_support_it_is_sought_on_the_ground_and_at_the_worst_period_alone(t
     """There it is that of a structure whose list has this period and no other, and a store gives it back."""
     record = _record(1.5, 1)
     body = Block(0.6, 0.25)
-    extent = Extent(AssessmentSettings(ensemble=EnsembleSettings(members=16, reserve=30.0)))
+    settings = AssessmentSettings(ensemble=EnsembleSettings(members=16, reserve=30.0))
 
     def assessed(
         period: float | list[float], store: RecordStore | None = None
     ) -> dict[float | None, StationResult]:
         roof = place_from_config({"name": "roof", "period_s": period, "participation": 1.3})
         scenes = {"parapet": Scene("parapet", body, roof)}
-        result = assess_record("made", [record], scenes, extent, store=store)
+        result = Assessor(settings, store=store).assess("made", [record], scenes)
         return {each.support_period_s: each for each in result.stations}
 
     store = RecordStore(tmp_path / "cases")
@@ -178,6 +178,6 @@ def test_on_a_support_it_is_sought_on_the_ground_and_at_the_worst_period_alone(t
     alone = assessed(worst)
     assert {period: each.reserve for period, each in alone.items()} == sought
 
-    monkeypatch.setattr("rocking.assessment.assess.reserve", None)
+    monkeypatch.setattr("rocking.assessment.assessor.reserve", None)
     again = assessed([0.15, 0.6], RecordStore(tmp_path / "cases"))
     assert {period: each.reserve for period, each in again.items() if each.reserve is not None} == sought

@@ -3,7 +3,7 @@
 import numpy as np
 
 from rocking.assessment import rows
-from rocking.assessment.assess import assess_record
+from rocking.assessment.assessor import Assessor
 from rocking.assessment.scene import on_the_ground
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
@@ -14,7 +14,7 @@ def test_the_counts_and_quantiles_of_rows_are_those_of_the_members():
     """A block that a part of its members overturns; the members are counted anew."""
     motion = Pulse(3.5, 2 * np.pi / 0.8, 2.0).acceleration(np.arange(1000) * 0.01)
     record = Accelerogram(motion, 0.01, component="H1")
-    result = assess_record("made", [record], on_the_ground({"block": Block(2.0, 0.2)}))
+    result = Assessor().assess("made", [record], on_the_ground({"block": Block(2.0, 0.2)}))
     (case,) = result.stations[0].cases.values()
     ratios = case.ensembles.governing.ensemble.rotation_ratios
     falls = int(np.isposinf(ratios).sum())

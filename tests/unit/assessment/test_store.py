@@ -9,9 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rocking.assessment import assess, store
-from rocking.assessment.assess import Extent, assess_record, with_histories
+from rocking.assessment import assessor as assessing
+from rocking.assessment import store
+from rocking.assessment.assessor import Assessor, with_histories
 from rocking.assessment.case import RecordResult
+from rocking.assessment.clock import Clock
 from rocking.assessment.rows import TimingRow, rows_of_record
 from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
@@ -31,7 +33,7 @@ STRUCTURES = {
     "wall": Wall.hinged_at(6.0, 3.0, 0.4),
     "arch": Arch(5.0, 0.3, np.radians(150)),
 }
-EXTENT = Extent(
+ASSESSOR = Assessor(
     AssessmentSettings(ensemble=EnsembleSettings(members=16)),
     crack_heights=5,
     processing_variants=True,
@@ -39,9 +41,10 @@ EXTENT = Extent(
 )
 
 
-def computed(path: Path, records=PAIR, structures=STRUCTURES, extent=EXTENT, tell=print) -> RecordResult:
+def computed(path: Path, records=PAIR, structures=STRUCTURES, assessor=ASSESSOR, tell=print) -> RecordResult:
     kept = RecordStore(path, tell, path.with_name("timings.json"))
-    result = assess_record("made", records, on_the_ground(structures), extent, store=kept)
+    fresh = replace(assessor, store=kept, clock=Clock())
+    result = fresh.assess("made", records, on_the_ground(structures))
     kept.save()
     return result
 
@@ -60,9 +63,9 @@ def cells(result: RecordResult) -> list[list[str]]:
 def cases(monkeypatch) -> list[str]:
     """The structures whose cases are computed, in their order."""
     names: list[str] = []
-    for function in (assess.assess_case, assess.assess_directions):
+    for function in (assessing.assess_case, assessing.assess_directions):
         monkeypatch.setattr(
-            assess,
+            assessing,
             function.__name__,
             lambda name, *more, function=function: names.append(name) or function(name, *more),
         )
@@ -77,7 +80,7 @@ def test_what_is_kept_comes_back_to_the_last_digit(tmp_path, cases, records):
     again = computed(tmp_path / "made.json", records)
     assert cases == []
     assert cells(again) == cells(first)
-    whole = with_histories(again, EXTENT.settings.tolerance)
+    whole = with_histories(again, ASSESSOR.settings.tolerance)
     for name, response in first.responses.items():
         assert np.array_equal(whole.responses[name].rotation, response.rotation)
 
@@ -92,7 +95,7 @@ def test_what_is_kept_keeps_the_times_that_it_took(tmp_path):
         assert again[stage] == pytest.approx(first[stage], rel=1e-12), stage
     assert again["directions"] == pytest.approx(first["directions"], rel=0.2)
     (tmp_path / "timings.json").write_text("{")
-    assert computed(tmp_path / "made.json").durations["responses"] == 0.0
+    assert "responses" not in computed(tmp_path / "made.json").durations, "what is not known is not told"
 
 
 def test_only_what_changed_is_computed(tmp_path, cases):
@@ -105,16 +108,16 @@ def test_only_what_changed_is_computed(tmp_path, cases):
     renamed = {f"the {name}": structure for name, structure in changed.items()}
     computed(tmp_path / "made.json", structures=renamed)
     assert cases == [], "a name changes no number"
-    for extent in (
-        replace(EXTENT, crack_heights=3),
-        replace(EXTENT, settings=replace(EXTENT.settings, tolerance=1e-7)),
-        replace(EXTENT, version="other"),
+    for assessor in (
+        replace(ASSESSOR, crack_heights=3),
+        replace(ASSESSOR, settings=replace(ASSESSOR.settings, tolerance=1e-7)),
+        replace(ASSESSOR, version="other"),
     ):
         cases.clear()
-        computed(tmp_path / "made.json", structures=renamed, extent=extent)
+        computed(tmp_path / "made.json", structures=renamed, assessor=assessor)
         assert len(cases) == 9, "three structures under two components and over all directions"
     cases.clear()
-    computed(tmp_path / "made.json", [PAIR[0], PAIR[1].scaled(1 + 1e-12)], renamed, extent)
+    computed(tmp_path / "made.json", [PAIR[0], PAIR[1].scaled(1 + 1e-12)], renamed, assessor)
     assert sorted(set(cases)) == sorted(renamed) and len(cases) == 6, "the first component stays"
 
 

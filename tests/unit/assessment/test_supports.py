@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rocking.assessment.assess import Extent, assess_record, with_histories
+from rocking.assessment.assessor import Assessor, with_histories
 from rocking.assessment.case import SceneResult
 from rocking.assessment.rows import rows_of_record, worst_period_each
 from rocking.assessment.scene import Scene, on_the_ground
@@ -23,7 +23,7 @@ from tests.unit.assessment.made_rows import case, verdicts
 
 STEP = 0.01
 BODY = Block(semi_diagonal=0.5, slenderness=0.25)
-FULL = Extent(AssessmentSettings(fidelity="full", ensemble=EnsembleSettings(members=16, reserve=0.0)))
+FULL = Assessor(AssessmentSettings(fidelity="full", ensemble=EnsembleSettings(members=16, reserve=0.0)))
 ROOF = {"name": "roof", "damping_ratio": 0.05, "participation": 1.3}
 
 
@@ -44,8 +44,8 @@ def test_the_floors_motion_as_a_record_gives_the_same_rows():
     record = motion()
     carried = on_roof(0.3)
     (support,) = carried["parapet"].place.supports
-    there = assess_record("r", [record], carried, FULL)
-    given = assess_record("r", [support.motion(record)], on_the_ground({"parapet": BODY}), FULL)
+    there = FULL.assess("r", [record], carried)
+    given = FULL.assess("r", [support.motion(record)], on_the_ground({"parapet": BODY}))
     for table in ("comparison", "verdicts"):
         ours, theirs = (getattr(rows_of_record(each), table)[-1] for each in (there, given))
         for name in ours.values() if isinstance(ours, dict) else type(ours).__dataclass_fields__:
@@ -60,8 +60,8 @@ def test_the_floors_motion_as_a_record_gives_the_same_rows():
 
 def test_on_the_ground_it_is_what_it_is_without_a_support():
     record = motion()
-    rows = rows_of_record(assess_record("r", [record], on_roof(0.3), FULL)).verdicts
-    alone = rows_of_record(assess_record("r", [record], on_the_ground({"parapet": BODY}), FULL)).verdicts
+    rows = rows_of_record(FULL.assess("r", [record], on_roof(0.3))).verdicts
+    alone = rows_of_record(FULL.assess("r", [record], on_the_ground({"parapet": BODY}))).verdicts
     assert replace(rows[0], support_period_s=None) == alone[0]
     assert [row.support_period_s for row in rows] == [0.0, 0.3]
     assert (
@@ -72,7 +72,7 @@ def test_on_the_ground_it_is_what_it_is_without_a_support():
 
 def test_a_pair_and_its_vertical_component_go_through_the_support():
     first, second, up = motion(), motion("HNN", 9), motion("HNZ", 10, vertical=True)
-    result = assess_record("r", [first, second], on_roof([0.2, 0.6]), FULL, up)
+    result = FULL.assess("r", [first, second], on_roof([0.2, 0.6]), up)
     assert len(result.stations) == 10
     for station in result.stations:
         assert station.directions is not None
@@ -90,7 +90,7 @@ def test_a_pair_and_its_vertical_component_go_through_the_support():
 
 def test_a_support_that_the_record_is_too_coarse_for_costs_no_other():
     coarse = replace(motion(), time_step=0.1)
-    result = assess_record("r", [coarse], on_roof(0.15) | on_the_ground({"pier": BODY}), FULL)
+    result = FULL.assess("r", [coarse], on_roof(0.15) | on_the_ground({"pier": BODY}))
     ground, lost, pier = result.stations
     assert (lost.structure, lost.support_period_s, str(lost.verdict)) == ("parapet", 0.15, "cannot be told")
     assert "at least two samples of the record, 0.2 s" in lost.why
@@ -103,9 +103,9 @@ def test_a_support_that_the_record_is_too_coarse_for_costs_no_other():
 
 def test_a_stored_case_of_one_support_is_not_taken_for_another(tmp_path):
     record, store = motion(), RecordStore(tmp_path / "cases")
-    first = assess_record("r", [record], on_roof([0.2, 0.6]), FULL, store=store)
-    again = assess_record("r", [record], on_roof([0.2, 0.6]), FULL, store=store)
-    alone = assess_record("r", [record], on_roof([0.2, 0.6]), FULL)
+    first = replace(FULL, store=store).assess("r", [record], on_roof([0.2, 0.6]))
+    again = replace(FULL, store=store).assess("r", [record], on_roof([0.2, 0.6]))
+    alone = FULL.assess("r", [record], on_roof([0.2, 0.6]))
     assert len({station.overturning_share for station in first.stations}) > 1
     assert len(first.stations) == 10
     for other in (again, alone):

@@ -9,7 +9,7 @@ from html import unescape
 import numpy as np
 import pytest
 
-from rocking.assessment.assess import Extent, assess_record
+from rocking.assessment.assessor import Assessor
 from rocking.assessment.case import SceneResult, StationResult
 from rocking.assessment.decide import Verdict
 from rocking.assessment.rows import (
@@ -82,8 +82,8 @@ def shaken(component: str = "EW", scale_factor: float = 1.0, **identity) -> Acce
 
 def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[str, object]) -> RecordReport:
     """Compute every table of `record`, each component for itself, and return its report."""
-    extent = Extent(ASSESSMENT, crack_heights=7, processing_variants=True, motion_measures=True)
-    result = assess_record(record, accelerograms, on_the_ground(structures), extent)
+    assessor = Assessor(ASSESSMENT, crack_heights=7, processing_variants=True, motion_measures=True)
+    result = assessor.assess(record, accelerograms, on_the_ground(structures))
     rows = rows_of_record(result, "cd" * 32, "CC0-1.0")
     return RecordReport(result, rows, structures, SETTINGS)
 

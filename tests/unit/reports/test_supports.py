@@ -7,7 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from rocking.assessment.assess import Extent, assess_record
+from rocking.assessment.assessor import Assessor
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import rows_of_record
 from rocking.assessment.scene import Scene, on_the_ground
@@ -33,8 +33,8 @@ def report():
     pier = Block(semi_diagonal=4.0, slenderness=0.25)
     scenes = {"parapet": Scene("parapet", body, place_from_config(roof)), **on_the_ground({"pier": pier})}
     structures = {"parapet": body, "pier": pier}
-    extent = Extent(AssessmentSettings(fidelity="full", ensemble=EnsembleSettings(members=16)))
-    result = assess_record("made", [record], scenes, extent)
+    settings = AssessmentSettings(fidelity="full", ensemble=EnsembleSettings(members=16))
+    result = Assessor(settings).assess("made", [record], scenes)
     settings = {"tolerance": 1e-6, "acceleration_scale": "linearised", "friction_coefficient": 0.6}
     return RecordReport(result, rows_of_record(result), structures, settings)
 
@@ -107,7 +107,7 @@ def test_a_support_without_damping_has_no_spectrum_of_the_code():
     structures = {"parapet": body}
     scenes = {"parapet": Scene("parapet", body, place_from_config(roof))}
     few = AssessmentSettings(ensemble=EnsembleSettings(members=16, reserve=0.0))
-    result = assess_record("made", [record], scenes, Extent(few))
+    result = Assessor(few).assess("made", [record], scenes)
     rows = rows_of_record(result)
     assert np.isnan(rows.supports[-1].code_spectral_acceleration_m_s2)
     assert rows.supports[-1].floor_spectral_acceleration_m_s2 > 0

@@ -1,0 +1,368 @@
+"""The assessor: scenes under a record, each case sought in a store before it is computed, and its time taken."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
+from functools import cache, cached_property, partial
+from typing import Protocol, TypeVar
+
+from rocking.assessment.case import (
+    CaseResult,
+    Failure,
+    Motion,
+    RecordResult,
+    SceneResult,
+    StationResult,
+)
+from rocking.assessment.clock import Clock
+from rocking.assessment.component import (
+    Component,
+    ComponentPulses,
+    HorizontalMotion,
+    component_names,
+    component_of,
+    horizontal_motions,
+)
+from rocking.assessment.cracks import cracks
+from rocking.assessment.one_case import (
+    assess_case,
+    assess_directions,
+    ground_motions,
+    motion_of,
+    prediction_of,
+    with_variations,
+)
+from rocking.assessment.reserve import Reserve
+from rocking.assessment.reserve_search import reserve
+from rocking.assessment.scene import Scene
+from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.verdict import BOTH_COMPONENTS, Method
+from rocking.errors import RockingError
+from rocking.floors.support import Support
+from rocking.hashes import sha256_of
+from rocking.motion.integration import integrate
+from rocking.records import Accelerogram, aligned
+from rocking.structures import Structure
+
+T = TypeVar("T")
+
+
+class Store(Protocol):
+    """A place that keeps results by their fingerprint."""
+
+    def find(self, kind: type[T], fingerprint: str) -> T | None:
+        """Return the `kind` that was kept by this fingerprint; None where there is none."""
+
+    def durations(self, fingerprint: str) -> Mapping[str, float]:
+        """Return the CPU time of each stage that computed what is kept by this fingerprint, s."""
+
+    def keep(self, fingerprint: str, result: object, durations: Mapping[str, float]) -> None:
+        """Keep a result by its fingerprint, and the CPU time of each stage that computed it."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Shaking:
+    """The motion of a record at one place: its components as they arrive there.
+
+    vertical: of the record. pair: both components; None of one, of two that are none, and without an ensemble.
+    """
+
+    components: tuple[Component, ...]
+    vertical: Accelerogram | None
+    support: Support | None = None
+    pair: Motion | None = None
+
+    @cached_property
+    def by_name(self) -> dict[str, Component]:
+        """The components by the names by which they are asked for."""
+        names = component_names([each.accelerogram for each in self.components])
+        return dict(zip(names, self.components, strict=True))
+
+
+@dataclass(frozen=True, eq=False)
+class Assessor:
+    """Follows scenes under one record: `assess` does.
+
+    crack_heights: number of heights tried for a hinge or a crack. processing_variants: whether other processings are
+    tried. motion_measures: whether the velocity pulse of the components and their peaks over all directions are
+    measured, which tables tell. version: of the computation, which enters fingerprints. store: where results are sought
+    before they are computed, and kept. clock: has measured what came before.
+    """
+
+    settings: AssessmentSettings = field(default_factory=AssessmentSettings)
+    crack_heights: int = 0
+    processing_variants: bool = False
+    motion_measures: bool = False
+    version: str = ""
+    store: Store | None = None
+    clock: Clock = field(default_factory=Clock)
+
+    def assess(
+        self,
+        record: str,
+        horizontal: Sequence[Accelerogram],
+        scenes: Mapping[str, Scene],
+        vertical: Accelerogram | None = None,
+    ) -> RecordResult:
+        """Return what comes of every scene under a record; one that fails costs no other.
+
+        horizontal: its components. An ensemble over the directions of a pair speaks for both components, which then get
+        none of their own. A structure on a support meets the motion there, for each period of the support, and for
+        comparison that of the ground. The reserve is sought on the ground and at the worst period, which reports print.
+        """
+        grounds = self._components(horizontal, vertical, measured=self.motion_measures)
+        failures: list[tuple[str, Failure]] = []
+        shakings: dict[Support | None, _Shaking] = {}
+        stations: dict[tuple[str, Support | None], StationResult] = {}
+        for support in dict.fromkeys(
+            [None, *(each for scene in scenes.values() for each in scene.place.axis)]
+        ):
+            carried = [scene for scene in scenes.values() if support in scene.place.axis]
+            try:
+                components = grounds if support is None else self._on_support(support, grounds)
+            except RockingError as error:
+                names = component_names(horizontal)
+                stations |= {(each.name, support): _lost(each, support, names, error) for each in carried}
+                continue
+            shaking = shakings[support] = self._shaking(components, vertical, support, failures)
+            for scene in carried if components else ():
+                station = self._station(scene, shaking)
+                if support is None:
+                    station = self._with_reserve(station, shaking, failures)
+                stations[scene.name, support] = station
+
+        results = {}
+        for scene in scenes.values():
+            along = [
+                stations[scene.name, each] for each in scene.place.axis if (scene.name, each) in stations
+            ]
+            with_members = [station for station in along if station.support and station.decisive]
+            if with_members:
+                worst = max(with_members, key=lambda station: station.severity)
+                along[along.index(worst)] = self._with_reserve(worst, shakings[worst.support], failures)
+            if along:
+                results[scene.name] = SceneResult(scene, tuple(along))
+        return RecordResult(
+            record=record,
+            components=grounds,
+            scenes=results,
+            failures=tuple(failures),
+            durations=dict(self.clock.durations),
+            floors={support: each.components for support, each in shakings.items() if support is not None},
+        )
+
+    # The motion -----------------------------------------------------------------------------------------
+
+    def _components(
+        self, horizontal: Sequence[Accelerogram], vertical: Accelerogram | None, measured: bool
+    ) -> tuple[Component, ...]:
+        """The components with the pulses of each. measured: whether their measures as a pair are taken, too."""
+        beside = [None if vertical is None else aligned(vertical, each) for each in horizontal]
+        prints = [Motion((each,)).fingerprint for each in horizontal]
+
+        of_pair = cache(partial(horizontal_motions, horizontal))
+        components = []
+        for place, (accelerogram, lift) in enumerate(zip(horizontal, beside, strict=True)):
+            fingerprint = sha256_of("pulses", place, prints, self.settings.pulse, measured, self.version)
+
+            def sought(clock: Clock, place: int = place) -> ComponentPulses:
+                motion = HorizontalMotion()
+                if measured:
+                    with clock.stage("velocity pulse"):
+                        motion = of_pair()[place]
+                with clock.stage("pulses"):
+                    component = component_of(horizontal[place], self.settings.pulse, None, motion)
+                return ComponentPulses.of(component)
+
+            pulses = self._remembered(ComponentPulses, fingerprint, sought)
+            components.append(pulses.beside(accelerogram, lift))
+        return tuple(components)
+
+    def _on_support(self, support: Support, grounds: Sequence[Component]) -> tuple[Component, ...]:
+        """The components as they arrive on a support, with the pulses of the motion there."""
+        with self.clock.stage("supports"):
+            motions = [
+                Motion((each.accelerogram,), each.vertical, support).ground_motions(processing=False)
+                for each in grounds
+            ]
+        floors = [next(iter(each.horizontal.values())) for each in motions]
+        sought = self._components(floors, None, measured=False)
+        return tuple(
+            replace(each, vertical=motion.vertical, support=support, ground=ground)
+            for each, motion, ground in zip(sought, motions, grounds, strict=True)
+        )
+
+    def _shaking(
+        self,
+        components: tuple[Component, ...],
+        vertical: Accelerogram | None,
+        support: Support | None,
+        failures: list[tuple[str, Failure]],
+    ) -> _Shaking:
+        """The motion at one place; why it is no pair, or has no pulse, is added to the failures."""
+        shaking = _Shaking(components, vertical, support)
+        if len(components) == 2 and self.settings.ensemble.members:
+            grounds = tuple((each.ground or each).accelerogram for each in components)
+            pair = Motion(grounds, vertical, support)
+            try:
+                with self.clock.stage("directions"):
+                    ground_motions(pair, self.settings.ensemble.processing)
+                shaking = replace(shaking, pair=pair)
+            except RockingError as error:
+                failures.append((BOTH_COMPONENTS, Failure("directions", str(error))))
+        for name, component in shaking.by_name.items():
+            if component.failure:
+                failures.append((name, Failure("pulses", component.failure)))
+        return shaking
+
+    # One scene ------------------------------------------------------------------------------------------
+
+    def _station(self, scene: Scene, shaking: _Shaking) -> StationResult:
+        """The result of one scene at one place."""
+        cases = {}
+        for name, component in shaking.by_name.items():
+            case = self._case(scene, component, alone=shaking.pair is None)
+            cases[name] = replace(case, component=name)
+        directions = None
+        if shaking.pair is not None and any(case.answer is not None for case in cases.values()):
+            directions = self._directions(scene, shaking.pair, cases)
+        return StationResult(scene, cases, directions, shaking.support)
+
+    def _case(self, scene: Scene, component: Component, alone: bool) -> CaseResult:
+        """The case under one component. alone: whether no ensemble over directions speaks for it."""
+        structure = scene.structure
+
+        def followed(clock: Clock) -> CaseResult:
+            with clock.stage("responses"):
+                case = assess_case(scene.name, structure, component, self.settings, alone, clock)
+            with clock.stage("variations"):
+                return with_variations(
+                    case, structure, component, self.settings, self.crack_heights, self.processing_variants
+                )
+
+        fingerprint = self._fingerprint(motion_of(component), structure, alone)
+        case = self._remembered(CaseResult, fingerprint, followed, lambda case: case.kept)
+        if (
+            case.prediction is None and case.answer is not None
+        ):  # a pulse gives it at once, so no store keeps it
+            case = replace(case, prediction=prediction_of(structure.mechanism(), component, self.settings))
+        return replace(case, structure=scene.name, fingerprint=fingerprint)
+
+    def _directions(self, scene: Scene, pair: Motion, cases: Mapping[str, CaseResult]) -> CaseResult:
+        """The ensemble over all directions of a pair. cases: of its components."""
+        bounces = any(case.check.bounces for case in cases.values())
+
+        def followed(clock: Clock) -> CaseResult:
+            with clock.stage("directions"):
+                return assess_directions(scene.name, scene.structure, pair, self.settings, bounces)
+
+        fingerprint = self._fingerprint(pair, scene.structure, alone=True)
+        case = self._remembered(CaseResult, fingerprint, followed)
+        return replace(case, structure=scene.name, fingerprint=fingerprint)
+
+    def _with_reserve(
+        self, station: StationResult, shaking: _Shaking, failures: list[tuple[str, Failure]]
+    ) -> StationResult:
+        """The station with the reserve of the crack that governs the case that decides.
+
+        With fidelity: auto, which asks for the verdict alone, no reserve is sought, nor where nothing can overturn the
+        structure. Why there is none is added to the failures.
+        """
+        case = station.decisive
+        ensemble = self.settings.ensemble
+        if case is None or case.ensembles is None or self.settings.fidelity == "auto" or not ensemble.reserve:
+            return station
+        several = cracks(station.body)
+        description = case.ensembles.governing.description
+        governing = next((each for each in several if each.description == description), several[0])
+        if not governing.mechanism.can_overturn:
+            return station
+        of_pair = case is station.directions and shaking.pair is not None
+        motion = shaking.pair if of_pair else motion_of(shaking.by_name[case.component])
+        assert motion is not None
+
+        def sought(clock: Clock) -> Reserve:
+            with clock.stage("reserve"):
+                return reserve(governing.mechanism, ground_motions(motion, ensemble.processing), ensemble)
+
+        try:
+            fingerprint = sha256_of("reserve", case.fingerprint)
+            return station.with_reserve(self._remembered(Reserve, fingerprint, sought))
+        except RockingError as error:
+            failures.append((case.component, Failure("reserve", f"{station.structure}: {error}")))
+            return station
+
+    # What is kept ---------------------------------------------------------------------------------------
+
+    def _remembered(
+        self,
+        kind: type[T],
+        fingerprint: str,
+        compute: Callable[[Clock], T],
+        kept: Callable[[T], T] = lambda result: result,
+    ) -> T:
+        """What the store holds, else what is computed, of which it then holds the part that is `kept`."""
+        if self.store is not None:
+            found = self.store.find(kind, fingerprint)
+            if found is not None:
+                self.clock.add(self.store.durations(fingerprint))
+                return found
+        own = Clock()
+        result = compute(own)
+        self.clock.add(own.durations)
+        if self.store is not None:
+            self.store.keep(fingerprint, kept(result), own.durations)
+        return result
+
+    def _fingerprint(self, motion: Motion, structure: Structure, alone: bool) -> str:
+        """The hash of all that the result of a case depends on; "" where nothing keeps it."""
+        if self.store is None:
+            return ""
+        own = {each.name: getattr(self.settings, each.name) for each in fields(AssessmentSettings)}
+        return sha256_of(
+            motion.fingerprint,
+            structure.as_config(),
+            own,
+            self.crack_heights,
+            self.processing_variants,
+            alone,
+            self.version,
+        )
+
+
+def _lost(scene: Scene, support: Support | None, names: Sequence[str], error: RockingError) -> StationResult:
+    """The result of a scene to whose support the record cannot be taken: why. names: of the components."""
+    failure = Failure("responses", str(error))
+    cases = {name: CaseResult(structure=scene.name, component=name, failures=(failure,)) for name in names}
+    return StationResult(scene, cases, support=support)
+
+
+def with_histories(result: RecordResult, tolerance: float) -> RecordResult:
+    """Return a record's result whose responses hold their histories, which results that were kept do not."""
+    scenes = {}
+    for name, scene in result.scenes.items():
+        stations = []
+        for station in scene.stations:
+            components = result.components_under(station)
+            cases = {
+                component: _with_history(case, station.body, components[component], tolerance)
+                for component, case in station.cases.items()
+            }
+            stations.append(replace(station, cases=cases))
+        scenes[name] = replace(scene, stations=tuple(stations))
+    return replace(result, scenes=scenes)
+
+
+def _with_history(case: CaseResult, body: Structure, component: Component, tolerance: float) -> CaseResult:
+    response = case.response
+    if response is None or response.times is not None:
+        return case
+    # A fragile run was repeated at a smaller tolerance than that of the settings, which it states.
+    whole = integrate(
+        body,
+        component.accelerogram,
+        tolerance=min(tolerance, response.tolerance or tolerance),
+        vertical=component.vertical,
+        history=True,
+    )
+    whole = replace(whole, fragile=response.fragile)
+    return replace(case, responses={**case.responses, Method.MECHANISM_ON_RECORD: whole})

@@ -1,0 +1,306 @@
+"""One case: one structure under one motion, predicted, integrated and followed by its ensemble and its contacts."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import lru_cache, partial
+
+from rocking.assessment.case import CaseResult, Failure, Motion, Prediction
+from rocking.assessment.clock import Clock
+from rocking.assessment.component import Component
+from rocking.assessment.contacts import contact_share, doubt
+from rocking.assessment.cracks import cracks, ensemble_over_cracks, slides_first
+from rocking.assessment.decide import Verdict, decide
+from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
+from rocking.assessment.ground_motions import GroundMotions, processed
+from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.variations import candidates, processed_variants
+from rocking.assessment.verdict import BOTH_COMPONENTS, Method
+from rocking.errors import RockingError
+from rocking.motion.integration import integrate, strict
+from rocking.motion.response import UNKNOWN, Response, check_model
+from rocking.pulses import PulseEvidence, predicting_pulse
+from rocking.records import Accelerogram
+from rocking.sine_pulse import predict_maximum, printed_maximum
+from rocking.structures import Mechanism, Structure
+
+
+def predict(
+    mechanism: Mechanism, candidates: Sequence[PulseEvidence], settings: AssessmentSettings | None = None
+) -> Prediction:
+    """Return the closed forms of the equivalent block of `mechanism` under the candidate of largest demand.
+
+    candidates: as a pulse method offers them.
+    """
+    settings = settings or AssessmentSettings()
+    block = mechanism.equivalent_block(settings.acceleration_scale)
+    chosen = predicting_pulse(candidates, lambda pulse: predict_maximum(block, pulse).rotation_ratio)
+    pulse = chosen.pulse
+    return Prediction(
+        block=block,
+        pulse=pulse,
+        pulse_rank=candidates.index(chosen) + 1,
+        printed_rotation_ratio=printed_maximum(mechanism.equivalent_block("linearised"), pulse),
+        printed_uplift_rotation_ratio=printed_maximum(mechanism.equivalent_block("uplift"), pulse),
+        maximum=predict_maximum(block, pulse),
+    )
+
+
+def assess_case(
+    name: str,
+    structure: Structure,
+    component: Component,
+    settings: AssessmentSettings | None = None,
+    alone: bool = True,
+    clock: Clock | None = None,
+) -> CaseResult:
+    """Return what comes of one structure under one component; where it cannot be followed, why.
+
+    alone: False where an ensemble over the directions of the record speaks for its components, which then get neither
+    an ensemble nor an estimate of their own. clock: takes the time of each method that is compared.
+    """
+    settings = settings or AssessmentSettings()
+    try:
+        return _case(name, structure, component, settings, alone, clock or Clock())
+    except RockingError as error:
+        return CaseResult(
+            structure=name, component=component.name, failures=(Failure("responses", str(error)),)
+        )
+
+
+# Whole on purpose: the order in which a case is decided, and where it may end early.
+def _case(
+    name: str,
+    structure: Structure,
+    component: Component,
+    settings: AssessmentSettings,
+    alone: bool,
+    clock: Clock,
+) -> CaseResult:
+    record = component.accelerogram
+    vertical = component.vertical
+    mechanism = structure.mechanism()
+    prediction, responses = _compared_methods(mechanism, component, settings, clock)
+    members = settings.ensemble.members if alone else 0
+    auto = settings.fidelity == "auto"
+    if auto:
+        # What a peak velocity tells was learnt on the ground, not on supports that ring.
+        risk = settings.fidelity_risk if component.support is None else 0.0
+        answer = _cheapest(structure, mechanism, record, settings, risk, vertical, members > 0)
+        if answer.response is not None:
+            responses[Method.MECHANISM_ON_RECORD] = answer.response
+    else:
+        whole = responses[Method.MECHANISM_ON_RECORD]
+        answer = Answer(Method.MECHANISM_ON_RECORD, whole.outcome, "", whole)
+    check = UNKNOWN
+    if answer.response is not None:
+        check = check_model(structure, answer.response, record, vertical)
+    case = CaseResult(
+        structure=name,
+        component=component.name,
+        prediction=prediction,
+        responses=responses,
+        check=check,
+        answer=answer,
+    )
+    if not alone:
+        return case
+    motions = ground_motions(motion_of(component), settings.ensemble.processing)
+    if members and answer.method is Method.MECHANISM_ON_RECORD:
+        case = with_ensembles(case, structure, motions, settings)
+        return with_contacts(case, structure, motions, settings, check.bounces)
+    if vertical is None and component.support is None:
+        case = replace(case, overturning_estimate=estimated(Tier.PEAK_VELOCITY, mechanism, record))
+    return with_contacts(case, structure, motions, settings, check.bounces)
+
+
+def with_ensembles(
+    case: CaseResult,
+    structure: Structure,
+    motions: GroundMotions,
+    settings: AssessmentSettings,
+) -> CaseResult:
+    """Return the case with the ensembles of its cracks; with fidelity: auto, as far as the verdict asks for them."""
+    auto = settings.fidelity == "auto"
+    return replace(case, ensembles=ensemble_over_cracks(structure, motions, settings, verdict_only=auto))
+
+
+def with_contacts(
+    case: CaseResult,
+    structure: Structure,
+    motions: GroundMotions,
+    settings: AssessmentSettings,
+    bounces: bool | None,
+) -> CaseResult:
+    """Return the case with what its joints say: whether they slide, a doubt, and contact dynamics where that is asked.
+
+    A doubt is asked for every word below "probably overturns", and contact dynamics where there is a doubt. bounces:
+    whether a contact opens in a run as recorded; None where that is not known.
+    """
+    counting = cracks(structure)[:1] if structure.crack_is_given else cracks(structure)
+    if all(slides_first(each, motions, settings) for each in counting):
+        return replace(case, slides_at=counting[0].slides_at(settings.friction_coefficient))
+    if decide(case.facts(structure)).word.badness < Verdict.PROBABLY_OVERTURNS.badness:
+        reason = doubt(structure, motions, case.largest_rotation_ratio, settings, bounces)
+        case = replace(case, doubt=reason)
+    if settings.fidelity == "contact" and case.doubt is not None:
+        return replace(case, contact=contact_share(structure, motions, settings))
+    return case
+
+
+def prediction_of(
+    mechanism: Mechanism, component: Component, settings: AssessmentSettings
+) -> Prediction | None:
+    """Return the closed forms under one component; None without a pulse, and of what cannot overturn."""
+    # The block of what cannot overturn would: it says nothing of it.
+    if not (component.candidates and mechanism.can_overturn):
+        return None
+    return predict(mechanism, component.candidates, settings)
+
+
+def _compared_methods(
+    mechanism: Mechanism, component: Component, settings: AssessmentSettings, clock: Clock
+) -> tuple[Prediction | None, dict[Method, Response]]:
+    """The closed form and, with fidelity: full, every integration."""
+    # The block is made before the clock of the closed form starts, which does not count it.
+    block = mechanism.equivalent_block(settings.acceleration_scale)
+    with clock.stage(Method.CLOSED_FORM):
+        prediction = prediction_of(mechanism, component, settings)
+    responses: dict[Method, Response] = {}
+    if settings.fidelity == "auto":
+        return prediction, responses
+    record = component.accelerogram
+    vertical = component.vertical
+    follow_as_given = partial(
+        integrate,
+        mechanism,
+        record,
+        settings.tolerance,
+        history=True,
+        vertical=vertical,
+        fragility=True,
+    )
+    runs = {Method.MECHANISM_ON_RECORD: follow_as_given}
+    follow_simpler = partial(integrate, tolerance=strict(settings.tolerance))
+    if mechanism.can_overturn:
+        runs[Method.BLOCK_ON_RECORD] = partial(follow_simpler, block, record, vertical=vertical)
+    if prediction is not None:
+        runs[Method.MECHANISM_ON_PULSE] = partial(follow_simpler, mechanism, prediction.pulse)
+    for method, run in runs.items():
+        with clock.stage(method):
+            responses[method] = run()
+    return prediction, responses
+
+
+def motion_of(component: Component) -> Motion:
+    """Return the motion of one component, as the ground had it and what carries the structure."""
+    ground = component.ground or component
+    return Motion((ground.accelerogram,), ground.vertical, component.support)
+
+
+def _cheapest(
+    structure: Structure,
+    mechanism: Mechanism,
+    record: Accelerogram,
+    settings: AssessmentSettings,
+    risk: float,
+    vertical: Accelerogram | None,
+    ensemble_follows: bool,
+) -> Answer:
+    """Return what settles the verdict with the least work, at a `risk` of the opposite outcome.
+
+    Where other cracks may form, nothing cheaper than the mechanism settles it unless all of them rest, or stand by
+    their peak velocities.
+    """
+    mechanisms = [each.mechanism for each in cracks(structure)]
+    of_statics = mechanism if len(mechanisms) == 1 else mechanisms[0]
+    if len(mechanisms) > 1:
+        estimates = (estimated(Tier.PEAK_VELOCITY, each, record) for each in mechanisms)
+        if not all(each is not None and each.high <= risk for each in estimates):
+            risk = 0.0
+    answer = cheapest_answer(
+        of_statics,
+        record,
+        risk=risk,
+        ensemble_follows=ensemble_follows,
+        tolerance=settings.tolerance,
+        vertical=vertical,
+        history=True,
+    )
+    if answer.method is not Method.MECHANISM_ON_RECORD or of_statics is mechanism:
+        return answer
+    whole = integrate(
+        mechanism,
+        record,
+        tolerance=settings.tolerance,
+        vertical=vertical,
+        history=True,
+        fragility=True,
+    )
+    return replace(answer, outcome=whole.outcome, response=whole)
+
+
+def with_variations(
+    case: CaseResult,
+    structure: Structure,
+    component: Component,
+    settings: AssessmentSettings,
+    crack_heights: int,
+    processing_variants: bool,
+) -> CaseResult:
+    """Return the case with other cracks and other processings of the record beside it.
+
+    A crack that cannot be followed is told by its reason. crack_heights, processing_variants: as the assessor has them.
+    """
+    if case.answer is None:
+        return case
+    pulse = case.prediction.pulse if case.prediction else None
+    record = component.accelerogram
+    try:
+        of_cracks = candidates(structure, record, pulse, crack_heights, settings, component.vertical)
+        case = replace(case, variations=tuple(of_cracks))
+    except RockingError as error:
+        case = replace(case, failures=(*case.failures, Failure("variations", str(error))))
+    if not processing_variants:
+        return case
+    motions, vertical = _processings(component)
+    of_processings = processed_variants(
+        structure, motions, settings, case.integrated_rotation_ratio, vertical
+    )
+    return replace(case, variations=(*case.variations, *of_processings))
+
+
+@lru_cache(maxsize=2)  # the two components of a record
+def _processings(component: Component) -> tuple[Mapping[str, Accelerogram], Accelerogram | None]:
+    """The component after each variant of the processing, which comes before any support, and the vertical one."""
+    if component.support is None or component.ground is None:
+        return processed(component.accelerogram), component.vertical
+    ground = component.ground
+    variants = {("", name): each for name, each in processed(ground.accelerogram).items()}
+    floors = GroundMotions(variants, ground.vertical).on(component.support)
+    return {name: each for (_, name), each in floors.horizontal.items()}, floors.vertical
+
+
+@lru_cache(maxsize=2)
+def ground_motions(motion: Motion, processing: bool) -> GroundMotions:
+    """Return the motions that one motion stands for, made once for all structures and for their reserves."""
+    return motion.ground_motions(processing)
+
+
+def assess_directions(
+    name: str,
+    structure: Structure,
+    pair: Motion,
+    settings: AssessmentSettings,
+    bounces: bool | None = None,
+) -> CaseResult:
+    """Return the ensemble of one structure over all directions of a pair; where it cannot be followed, why.
+
+    bounces: whether a contact opens under one of the components as recorded; None where that is not known.
+    """
+    case = CaseResult(structure=name, component=BOTH_COMPONENTS)
+    motions = ground_motions(pair, settings.ensemble.processing)
+    try:
+        case = with_ensembles(case, structure, motions, settings)
+        return with_contacts(case, structure, motions, settings, bounces)
+    except RockingError as error:
+        return replace(case, failures=(Failure("directions", str(error)),))

@@ -1,0 +1,65 @@
+"""A mechanism alone, of which no geometry is known, as a structure that can be followed and nothing else."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rocking.errors import StructureError
+from rocking.structures.contacts import Contacts, UnknownContacts
+from rocking.structures.linkage import Linkage
+from rocking.structures.mechanism import Mechanism
+from rocking.structures.stack import Stack
+from rocking.structures.structure import Structure
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class MechanismAlone(Structure):
+    """A mechanism that somebody gives without its geometry: it has one crack, no outline and unknown contacts."""
+
+    of: Mechanism
+
+    def mechanism(self) -> Mechanism:
+        """Return the mechanism itself."""
+        return self.of
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether the negative side is the mirror image of the positive one."""
+        return self.of.symmetric
+
+    @property
+    def linkages(self) -> tuple[Linkage, ...]:
+        """None: no moving part is known."""
+        return ()
+
+    def contact_forces(
+        self,
+        rotation: ArrayLike,
+        angular_velocity: ArrayLike,
+        angular_acceleration: ArrayLike | None = None,
+        ground: ArrayLike = 0.0,
+        vertical: ArrayLike = 0.0,
+        largest: ArrayLike | None = None,
+    ) -> Contacts:
+        """Raise UnknownContacts."""
+        raise UnknownContacts("a mechanism alone has no contacts that are known")
+
+    def stack(self, courses: int | None = None) -> Stack:
+        """Raise StructureError."""
+        raise StructureError(
+            "a mechanism alone is no stack of courses, so that contact dynamics cannot follow it."
+        )
+
+    def _linkage(self, mirrored: bool) -> Linkage:
+        raise StructureError(
+            "a mechanism alone has no moving parts that are known; give the structure itself."
+        )
+
+    def _parts(self) -> list[tuple[int, np.ndarray]]:
+        return []
+
+
+def as_structure(followed: Structure | Mechanism) -> Structure:
+    """Return what is to be followed as a structure."""
+    return MechanismAlone(followed) if isinstance(followed, Mechanism) else followed

@@ -1,0 +1,34 @@
+"""A mechanism alone is followed as the structure that it is of, and tells nothing of contacts that nobody knows."""
+
+import numpy as np
+import pytest
+
+import rocking
+from rocking.errors import StructureError
+from rocking.pulses import Pulse
+from rocking.records import Accelerogram
+from rocking.structures.alone import as_structure
+from rocking.structures.contacts import UnknownContacts
+
+BLOCK = rocking.Block(2.0, 0.2)
+SHAKEN = Accelerogram(Pulse(3.0, 5.0, 0.5).acceleration(np.arange(600) * 0.01), 0.01)
+
+
+def test_its_members_are_those_of_its_structure():
+    of_structure = rocking.assess(SHAKEN, BLOCK, members=16)
+    alone = rocking.assess(SHAKEN, BLOCK.mechanism(), members=16)
+    np.testing.assert_array_equal(alone.rotation_ratios, of_structure.rotation_ratios)
+    assert 0 < alone.rotation_ratio == of_structure.rotation_ratio
+    (case,) = alone.cases.values()
+    assert case.check.bounces is None and case.doubt is None
+    (case,) = of_structure.cases.values()
+    assert case.check.bounces is False
+
+
+def test_what_needs_a_geometry_is_refused():
+    alone = as_structure(BLOCK.mechanism())
+    assert as_structure(BLOCK) is BLOCK
+    with pytest.raises(UnknownContacts, match="no contacts that are known"):
+        alone.contact_forces(0.01, 0.1)
+    with pytest.raises(StructureError, match="no stack of courses"):
+        alone.stack()
