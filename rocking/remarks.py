@@ -149,7 +149,7 @@ class Kind(StrEnum):
         "The file's own velocity is not the integral of its acceleration: it is damaged."
     )
     SAMPLES_SURPLUS = auto(), (
-        "The header declares {declared} samples, but the file holds {held}; all are kept."
+        "The header declares {declared} samples; the file holds {held}, and all are kept."
     )
     LINE_SURPLUS = auto(), (
         "The header declares {declared} samples; the 1 surplus line repeats the end and is left out."

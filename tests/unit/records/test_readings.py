@@ -13,7 +13,7 @@ from rocking.records import listing, load_catalogue
 from rocking.records.catalogue import catalogue_text, read_rows
 from rocking.records.folder import catalogue_of_folder
 from rocking.records.readings import STORE
-from rocking.remarks import Kind
+from rocking.remarks import Kind, Remark
 from rocking.study.workspace import write_catalogue
 
 ROWS = "".join(f"{i / 100},{i % 5},{i % 7}\n" for i in range(400))
@@ -149,7 +149,8 @@ def test_a_copy_is_no_new_name(folder: Path) -> None:
     again(folder)
     (folder / "copy.csv").write_bytes((folder / "r1.csv").read_bytes())
     text = again(folder)
-    assert "is now" not in text and "1 of them new" in text and "would count twice" in text
+    assert "is now" not in text and "1 of them new" in text
+    assert str(Remark.of(Kind.CONTENT_REPEATED, original="copy.csv")) in text
 
 
 def test_a_typed_cell_clears_its_request(folder: Path) -> None:

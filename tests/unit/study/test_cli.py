@@ -19,6 +19,7 @@ import rocking
 from rocking.assessment.listed import load_scenes
 from rocking.assessment.over_periods import placed
 from rocking.errors import ConfigurationError
+from rocking.remarks import Kind, Remark
 from rocking.study.cli import main
 from rocking.study.plan import check_config_file, make_plan, workflow_folder
 from rocking.tables.yaml_file import scalar_value
@@ -79,8 +80,9 @@ def rows(path):
 def test_a_factor_that_takes_the_peak_above_three_g_is_told(record, capsys, scale, warned):
     """The file reaches 0.5 g: six times that is the limit."""
     assert main(["read", str(record), "--unit", "g", f"--scale={scale}"]) == 0
-    text = capsys.readouterr().out
-    assert (f"Multiplied by {float(scale):g} the peak acceleration is" in text) == warned
+    peak = 0.5 * abs(float(scale))
+    told = Remark.of(Kind.PEAK_RARE_BY_FACTOR, factor=float(scale), peak_g=peak)
+    assert (str(told) in capsys.readouterr().out) == warned
 
 
 def test_an_unknown_target_names_those_there_are(study, capsys):
