@@ -161,7 +161,7 @@ class Support:
             f"Taken to a support of {self}: {finer} times as fine as the record, and {after * record.time_step:.4g} s "
             "of still ground after it."
         )
-        made = record.processed_by(motion, sentence, time_step=step)
+        made = record.processed_by(motion, sentence, time_step=step, smooth_steps=finer)
         left = sum(each.level(after) for each in ringing)
         if left <= 2 * RINGING * made.peak_acceleration:
             return made

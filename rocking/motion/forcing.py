@@ -1,4 +1,4 @@
-"""The ground motion as the kernel sees it: samples joined by straight lines, or one exact sine pulse."""
+"""The ground motion as the kernel sees it: samples joined by lines or curves, or one exact sine pulse."""
 
 import math
 from dataclasses import dataclass
@@ -7,13 +7,16 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from rocking.errors import MotionError
-from rocking.motion.nonlinear_kernel import Ground
+from rocking.motion.nonlinear_kernel import CURVE, Ground
 from rocking.pulses.pulse import Pulse
 from rocking.quantities import GRAVITY, kind_of
 from rocking.records.accelerogram import Accelerogram
 
 GroundMotion = Accelerogram | Pulse
 
+CURVE_ERROR = 1e-6
+"""Largest distance of a curve from the samples that it joins, over the peak of the motion: where one is farther, lines
+join them all."""
 
 _REMEMBERED = 64
 """Ground motions whose arrays are kept: more than the eight directions of a raw pair after each of six processings,
@@ -72,11 +75,38 @@ def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Fo
     return _forcing(motion, vertical)
 
 
+def _curves(motion: Accelerogram) -> np.ndarray:
+    """Return the curves (c, CURVE) through samples of every smooth stretch, by power of the time in it.
+
+    None, (0, CURVE), where there is no stretch, or where one is farther than CURVE_ERROR from a sample between those.
+    """
+    stretch = motion.smooth_steps
+    coefficients = min(CURVE, stretch - 1)
+    if coefficients < 3 or (motion.acceleration.size - 1) % stretch:
+        return np.empty((0, CURVE))
+    count = (motion.acceleration.size - 1) // stretch
+
+    def samples(places: np.ndarray) -> np.ndarray:
+        return np.stack([motion.acceleration[place:][::stretch][:count] for place in places])
+
+    # Close together at both ends, as Chebyshev's: what is between them departs most in the middle between two.
+    through = np.rint(stretch * (1 - np.cos(np.linspace(0, np.pi, coefficients))) / 2).astype(int)
+    between = np.setdiff1d((through[1:] + through[:-1]) // 2, through)
+    powers = np.linalg.inv(np.vander(through / stretch, increasing=True)) @ samples(through)
+    there = np.vander(between / stretch, coefficients, increasing=True) @ powers
+    if not np.abs(there - samples(between)).max() <= CURVE_ERROR * motion.peak_acceleration:
+        return np.empty((0, CURVE))
+    curves = np.zeros((count, CURVE))
+    curves[:, :coefficients] = powers.T / (stretch * motion.time_step) ** np.arange(coefficients)
+    return curves
+
+
 @lru_cache(maxsize=_REMEMBERED)
 def _forcing(motion: GroundMotion, vertical: Accelerogram | None) -> Forcing:
     # Copies, because a record's own arrays are read-only, for which the kernel would compile anew.
     horizontal = np.array([motion.amplitude] if isinstance(motion, Pulse) else motion.acceleration)
     lift = np.zeros(horizontal.size) if vertical is None else vertical.acceleration.copy()
+    curves = np.empty((0, CURVE)) if isinstance(motion, Pulse) else _curves(motion)
     ground = Ground(
         horizontal=horizontal,
         vertical=lift,
@@ -85,5 +115,7 @@ def _forcing(motion: GroundMotion, vertical: Accelerogram | None) -> Forcing:
         time_step=motion.period if isinstance(motion, Pulse) else motion.time_step,
         circular_frequency=motion.circular_frequency if isinstance(motion, Pulse) else 0.0,
         gravity=GRAVITY,
+        curves=curves,
+        stretch=motion.smooth_steps if isinstance(motion, Accelerogram) and curves.size else 1,
     )
     return Forcing(ground, motion.start_time if isinstance(motion, Pulse) else 0.0, vertical is not None)

@@ -63,12 +63,17 @@ class Sides(NamedTuple):
     ties: Ties | None = None
 
 
+CURVE = 6
+"""Coefficients of a curve that joins samples of a smooth motion."""
+
+
 class Ground(NamedTuple):
     """A ground motion: (n,) samples, or a sine of one period.
 
     horizontal, vertical: ü_g and ü_v at the samples; a sine has its amplitude and 0 there. strongest, lightest: the
     largest |ü_g| and the smallest ü_v from each sample to the end. time_step: s, the period of a sine.
-    circular_frequency: rad/s, 0 for samples. gravity: g.
+    circular_frequency: rad/s, 0 for samples. gravity: g. curves: (c, CURVE) ü_g over every `stretch` samples, by power
+    of the time since the first of them; none where it is linear between samples.
     """
 
     horizontal: np.ndarray
@@ -78,6 +83,8 @@ class Ground(NamedTuple):
     time_step: float
     circular_frequency: float
     gravity: float
+    curves: np.ndarray = np.empty((0, CURVE))
+    stretch: int = 1
 
 
 class Member(NamedTuple):
@@ -384,26 +391,27 @@ def _longest_step(ties, phase, slot, longest):
 
 
 @part
-def _sine_terms(pieces, k, j, u, s0, s1, square):
-    """The terms that bend a sine which starts as s0 + s1 t: coefficients of B̃ about u, then t² to t⁶ of the sine."""
-    if square == 0.0:
-        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+def _push_terms(pieces, k, j, u, bent):
+    """Coefficients of B̃ about u, by which a ground acceleration acts that is `bent`; zeros where it is linear."""
+    if bent[0] == 0.0 and bent[1] == 0.0 and bent[2] == 0.0 and bent[3] == 0.0:
+        return 0.0, 0.0, 0.0, 0.0, 0.0
     b0, b1, b2, b3, b4, _, _ = _shift(_polynomial(pieces, k, j, 0.0, 1.0), u)
-    s2, s3 = -square * s0 / 2, -square * s1 / 6
-    return b0, b1, b2, b3, b4, s2, s3, -square * s2 / 12, -square * s3 / 20, square * square * s2 / 360
+    return b0, b1, b2, b3, b4
 
 
 @part
-def _series(pieces, k, j, u, v, side, a0, a1, g0, g1, square, ties, phase):
+def _series(pieces, k, j, u, v, side, a0, a1, g0, g1, bent, ties, phase):
     """Taylor coefficients (v, x2, ..., x8) of the arc, at the place u of piece j of side k.
 
-    Ground acceleration a0 + a1 t (or the sine that starts so, with the squared frequency `square`), gravity g0 + g1 t.
+    Ground acceleration a0 + a1 t and bent[n] t^(n + 2), n up to 4; gravity g0 + g1 t. Beside them, what the fifth power
+    of the ground acceleration by itself adds to x7.
     """
     s0, s1, slot = side * a0, side * a1, 0 if side > 0 else 1
     own = _polynomial(pieces, k, j, g0, s0)
     w0, w1, w2, w3, w4, w5, w6 = _shift(_with_ties(ties, phase, slot, k, j, own), u)
     r0, r1, r2, r3, r4, r5, _ = _shift(_polynomial(pieces, k, j, g1, s1), u)
-    b0, b1, b2, b3, b4, s2, s3, s4, s5, s6 = _sine_terms(pieces, k, j, u, s0, s1, square)
+    b0, b1, b2, b3, b4 = _push_terms(pieces, k, j, u, bent)
+    s2, s3, s4, s5, s6 = side * bent[0], side * bent[1], side * bent[2], side * bent[3], side * bent[4]
     # pkn: coefficient n of the k-th power of the displacement within the step.
     x2 = -0.5 * w0
     x3 = (w1 * v + r0) * (-1 / 6)
@@ -432,12 +440,16 @@ def _series(pieces, k, j, u, v, side, a0, a1, g0, g1, square, ties, phase):
     driven = s2 * d4 + s3 * d3 + s4 * d2 + s5 * d1 + s6 * b0
     still = w1 * x6 + w2 * p26 + w3 * p36 + w4 * p46 + w5 * p56 + w6 * p33 * p33
     x8 = (still + r1 * x5 + r2 * p25 + r3 * p35 + r4 * p45 + r5 * p55 + driven) * (-1 / 56)
-    return v, x2, x3, x4, x5, x6, x7, x8
+    return (v, x2, x3, x4, x5, x6, x7, x8), s5 * b0 * (-1 / 42)
 
 
 @part
-def _short_series(pieces, k, j, u, v, s0, s1, g0, g1, ties, phase, slot):
-    """The first coefficients (v, x2, ..., x6) of `_series` for a ground acceleration s0 + s1 t against the side."""
+def _short_series(pieces, k, j, u, v, s0, s1, g0, g1, ties, phase, slot, bent):
+    """The first coefficients (v, x2, ..., x7) of `_series`, and the parts of x5, x6 and x7 that bound the remainder.
+
+    s0, s1: of the ground acceleration against the side. bent: as there, None where it is linear. A curve ends with its
+    fifth power, so that what it pushes by itself is whole with x7, which holds nothing else.
+    """
     if ties is None:
         p0, p1, p2, p3, p4 = _short_shift(_every_other(pieces, k, j, 0), u)
         q0, q1, q2, q3, q4 = _short_shift(_every_other(pieces, k, j, 1), u)
@@ -451,12 +463,33 @@ def _short_series(pieces, k, j, u, v, s0, s1, g0, g1, ties, phase, slot):
     square = v * v
     x2 = -0.5 * w0
     x3 = (w1 * v + r0) * (-1 / 6)
-    x4 = (w1 * x2 + w2 * square + r1 * v) * (-1 / 12)
+    p4 = p5 = p6 = p7 = cross5 = cross6 = beyond = 0.0
+    if bent is not None:
+        b0, b1, b2, _, _ = _short_shift(_every_other(pieces, k, j, 1), u)
+        s2, s3, s4, s5, _ = bent
+        p4, p5, p6, p7 = s2 * b0 * (-1 / 12), s3 * b0 * (-1 / 20), s4 * b0 * (-1 / 30), s5 * b0 * (-1 / 42)
+        d1, d2 = b1 * v, b1 * x2 + b2 * square
+        cross5, cross6, beyond = s2 * d1, s2 * d2 + s3 * d1, (abs(w1 * p5) + abs(s4 * d1)) * (1 / 42)
+    x4 = (w1 * x2 + w2 * square + r1 * v) * (-1 / 12) + p4
     double = 2 * v * x2
-    x5 = (w1 * x3 + w2 * double + w3 * square * v + r1 * x2 + r2 * square) * (-1 / 20)
-    bent = w1 * x4 + w2 * (2 * v * x3 + x2 * x2) + 3 * w3 * square * x2 + w4 * square * square
-    x6 = (bent + r1 * x3 + r2 * double + r3 * square * v) * (-1 / 30)
-    return v, x2, x3, x4, x5, x6
+    x5 = (w1 * x3 + w2 * double + w3 * square * v + r1 * x2 + r2 * square + cross5) * (-1 / 20)
+    still = w1 * x4 + w2 * (2 * v * x3 + x2 * x2) + 3 * w3 * square * x2 + w4 * square * square
+    x6 = (still + r1 * x3 + r2 * double + r3 * square * v + cross6) * (-1 / 30)
+    return (v, x2, x3, x4, x5 + p5, x6 + p6, p7), (abs(x5), abs(x6), beyond)
+
+
+@part
+def _curve(ground, i, tau, factor):
+    """`factor` times the curve of an interval, by power of the time since `tau` in it: two terms and what is bent."""
+    n = i // ground.stretch
+    t = (i - n * ground.stretch) * ground.time_step + tau
+    c1, c2, c3 = ground.curves[n, 1], ground.curves[n, 2], ground.curves[n, 3]
+    c4, c5 = ground.curves[n, 4], ground.curves[n, 5]
+    s0 = ground.curves[n, 0] + t * (c1 + t * (c2 + t * (c3 + t * (c4 + t * c5))))
+    s1 = c1 + t * (2 * c2 + t * (3 * c3 + t * (4 * c4 + t * 5 * c5)))
+    s2 = c2 + t * (3 * c3 + t * (6 * c4 + t * 10 * c5))
+    s3, s4 = c3 + t * (4 * c4 + t * 10 * c5), c4 + t * 5 * c5
+    return factor * s0, factor * s1, (factor * s2, factor * s3, factor * s4, factor * c5, 0.0)
 
 
 @compiled
@@ -493,14 +526,14 @@ def _monotone(x, h):
 
 
 @compiled
-def _accurate(x, h, arc, farthest, fastest, tolerance):
+def _accurate(x, sure, h, arc, farthest, fastest, tolerance):
     """Whether the last two terms of the series, which bound its remainder, are within the tolerance.
 
     They are measured against the largest arc and the largest speed of the present flight, so that small motions are as
-    accurate as large ones.
+    accurate as large ones. sure: the part of x7 after which nothing comes.
     """
     square = h * h
-    tail = square * square * square * (abs(x[6]) + h * abs(x[7]))
+    tail = square * square * square * (abs(x[6] - sure) + h * abs(x[7]))
     if tail * h <= tolerance * farthest and 8 * tail <= tolerance * fastest:
         return True
     largest, quickest = max(farthest, abs(arc + _displacement(x, h))), max(fastest, abs(_speed(x, h)))
@@ -508,11 +541,11 @@ def _accurate(x, h, arc, farthest, fastest, tolerance):
 
 
 @part
-def _stride(x, h, room, arc, farthest, fastest, tolerance):
+def _stride(x, sure, h, room, arc, farthest, fastest, tolerance):
     """Largest step up to h that is accurate, stays within reach of its piece, and turns at most once."""
     for _ in range(200):
         travel = h * (abs(x[0]) + h * (abs(x[1]) + h * (abs(x[2]) + h * abs(x[3]))))
-        if travel <= room and _accurate(x, h, arc, farthest, fastest, tolerance):
+        if travel <= room and _accurate(x, sure, h, arc, farthest, fastest, tolerance):
             break
         h *= 0.8
     least = 1e-6 * h
@@ -522,60 +555,75 @@ def _stride(x, h, room, arc, farthest, fastest, tolerance):
 
 
 @part
-def _eventless(x, h, share, arc, room, farthest, fastest, tolerance):
-    """Whether the short series is accurate over h, and the speed keeps its sign; the arc and the speed after it.
+def _eventless(x, bounds, h, share, arc, room, farthest, fastest, tolerance):
+    """Whether the short series is accurate over h; whether the speed keeps its sign and the arc its piece; arc and
+    speed after it; whether it may be accurate over 2h as well.
 
     Each term of the series is about `share` = h/τ of the one before it, τ being the shortest time of the structure. So
     the last term bounds the remainder; that share of the one before guards against a last term that happens to vanish.
     """
-    v, x2, x3, x4, x5, x6 = x
+    v, x2, x3, x4, x5, x6, x7 = x
+    fifth, sixth, beyond = bounds
     fourth = h * h * h * h
-    last, fifth = h * abs(x6), abs(x5)
-    tail = fourth * (last + share * fifth)
-    bend = h * (2 * abs(x2) + h * (3 * abs(x3) + h * (4 * abs(x4) + h * (5 * fifth + 6 * last))))
-    new = arc + h * (v + h * (x2 + h * (x3 + h * (x4 + h * (x5 + h * x6)))))
-    pull = v + h * (2 * x2 + h * (3 * x3 + h * (4 * x4 + h * (5 * x5 + h * 6 * x6))))
+    tail = fourth * (h * (sixth + h * beyond) + share * fifth)
+    bend = h * (3 * abs(x3) + h * (4 * abs(x4) + h * (5 * abs(x5) + h * (6 * abs(x6) + h * 7 * abs(x7)))))
+    bend = h * (2 * abs(x2) + bend)
+    new = arc + h * (v + h * (x2 + h * (x3 + h * (x4 + h * (x5 + h * (x6 + h * x7))))))
+    pull = v + h * (2 * x2 + h * (3 * x3 + h * (4 * x4 + h * (5 * x5 + h * (6 * x6 + h * 7 * x7)))))
     allowed = SHORT_SHARE * tolerance
-    accurate = tail * h <= allowed * max(farthest, new) and 6 * tail <= allowed * max(fastest, abs(pull))
-    return accurate and bend < abs(v) and h * (abs(v) + bend) <= room, new, pull
+    of_arc, of_speed = allowed * max(farthest, new), allowed * max(fastest, abs(pull))
+    accurate = tail * h <= of_arc and 6 * tail <= of_speed
+    spare = 128 * tail * h <= of_arc and 384 * tail <= of_speed
+    return accurate, bend < abs(v) and h * (abs(v) + bend) <= room, new, pull, spare
 
 
 @part
-def _glide(sides, phase, ground, member, k, motion, tolerance, log):
-    """Advance from sample to sample by the short series, up to one in which something may happen, or the end."""
+def _glide(sides, phase, ground, member, k, motion, tolerance, leap, log):
+    """Advance by the short series, up to a place from which something may happen, or to the end.
+
+    From sample to sample where lines join them, else over as many as the series is accurate for: `leap` at first; how
+    many at last comes back with the motion.
+    """
     i, tau, arc, speed, side, farthest, fastest = motion
-    pieces, grid, critical, h = sides.pieces, sides.grid, sides.critical[k], ground.time_step
-    horizontal, vertical, rate, slot = ground.horizontal, ground.vertical, 1 / h, 0 if side > 0 else 1
-    share = h / _longest_step(sides.ties, phase, slot, sides.longest_step[k])
-    if share > 1:
-        return motion
-    push, weight = side * member.horizontal * horizontal[i], ground.gravity + member.vertical * vertical[i]
-    while i < horizontal.size - 1:
-        next_push = side * member.horizontal * horizontal[i + 1]
-        next_weight = ground.gravity + member.vertical * vertical[i + 1]
+    pieces, grid, h = sides.pieces, sides.grid, ground.time_step
+    horizontal, vertical, slot = ground.horizontal, ground.vertical, 0 if side > 0 else 1
+    factor, longest = side * member.horizontal, _longest_step(sides.ties, phase, slot, sides.longest_step[k])
+    last, rate = horizontal.size - 1, 1 / h
+    if h > longest:
+        return motion, leap
+    while i < last:
+        steps = min(leap, ground.stretch - i % ground.stretch) if leap > 1 else 1
+        weight = ground.gravity + member.vertical * vertical[i]
+        heavier = (ground.gravity + member.vertical * vertical[i + 1] - weight) * rate
         j, centre, room = _place(grid, k, arc)
-        x = _short_series(
-            pieces,
-            k,
-            j,
-            arc - centre,
-            speed,
-            push,
-            (next_push - push) * rate,
-            weight,
-            (next_weight - weight) * rate,
-            sides.ties,
-            phase,
-            slot,
+        u, memory_of_ties = arc - centre, (sides.ties, phase, slot)
+        if ground.stretch > 1:
+            span, weight = steps * h - tau, weight + tau * heavier
+            push, steeper, bent = _curve(ground, i, tau, factor)
+            series = _short_series(
+                pieces, k, j, u, speed, push, steeper, weight, heavier, *memory_of_ties, bent
+            )
+        else:
+            span, push = h, factor * horizontal[i]
+            steeper = (factor * horizontal[i + 1] - push) * rate
+            series = _short_series(
+                pieces, k, j, u, speed, push, steeper, weight, heavier, *memory_of_ties, None
+            )
+        accurate, plain, new, pull, spare = _eventless(
+            *series, span, span / longest, arc, room, farthest, fastest, tolerance
         )
-        plain, new, pull = _eventless(x, h, share, arc, room, farthest, fastest, tolerance)
-        out = new > critical and pull > 0
-        if not plain or not new > 0 or out or _beyond(sides.ties, phase, slot, new) != 0:
+        if steps > 1 and not (accurate and span <= longest):
+            leap = steps // 2
+            continue
+        out = new > sides.critical[k] and pull > 0
+        if not (accurate and plain and new > 0) or out or _beyond(sides.ties, phase, slot, new) != 0:
             break
-        i, arc, speed, push, weight = i + 1, new, pull, next_push, next_weight
+        i, tau, arc, speed = i + steps, 0.0, new, pull
         farthest, fastest = max(farthest, arc), max(fastest, abs(speed))
+        if spare and leap < ground.stretch:
+            leap = min(2 * leap, ground.stretch)
         runs.write(log, i * h, side * arc, side * speed)
-    return Motion(i, tau, arc, speed, side, farthest, fastest)
+    return Motion(i, tau, arc, speed, side, farthest, fastest), leap
 
 
 @compiled
@@ -661,18 +709,25 @@ def _back(x):
 
 @part
 def _drive(ground, member, i, tau):
-    """ü_g, its slope, g + ü_v, its slope, and the squared frequency of a sine, at an offset of an interval."""
+    """ü_g, its slope, g + ü_v, its slope, and the further coefficients of ü_g, at an offset of an interval."""
+    straight = 0.0, 0.0, 0.0, 0.0, 0.0
     if _over(ground, i):
-        return 0.0, 0.0, ground.gravity, 0.0, 0.0
+        return 0.0, 0.0, ground.gravity, 0.0, straight
     if ground.circular_frequency > 0:
         omega, amplitude = ground.circular_frequency, member.horizontal * ground.horizontal[0]
-        sine, cosine = math.sin(omega * tau), math.cos(omega * tau)
-        return amplitude * sine, amplitude * omega * cosine, ground.gravity, 0.0, omega * omega
+        square, value, slope = omega * omega, math.sin(omega * tau), omega * math.cos(omega * tau)
+        a0, a1 = amplitude * value, amplitude * slope
+        a2, a3 = -square * a0 / 2, -square * a1 / 6
+        bent = a2, a3, -square * a2 / 12, -square * a3 / 20, square * square * a2 / 360
+        return a0, a1, ground.gravity, 0.0, bent
     push, weight = _accelerations(ground, member, i)
     next_push, next_weight = _accelerations(ground, member, i + 1)
     rate = 1 / ground.time_step
     push_rate, weight_rate = (next_push - push) * rate, (next_weight - weight) * rate
-    return push + tau * push_rate, push_rate, weight + tau * weight_rate, weight_rate, 0.0
+    if ground.stretch > 1:
+        a0, a1, bent = _curve(ground, i, tau, member.horizontal)
+        return a0, a1, weight + tau * weight_rate, weight_rate, bent
+    return push + tau * push_rate, push_rate, weight + tau * weight_rate, weight_rate, straight
 
 
 @compiled
@@ -709,6 +764,26 @@ def _lost(sides, phase, ground, member, k, motion):
 
 
 @part
+def _left(ground, i, tau):
+    """The time from an offset of an interval to where the ground motion next loses its smoothness."""
+    if _over(ground, i):
+        return np.inf
+    return (ground.stretch - i % ground.stretch) * ground.time_step - tau
+
+
+@part
+def _later(ground, i, tau, h, left):
+    """The interval and the offset after the time h, of `left` as `_left` gives it."""
+    if h == left:
+        return i + ground.stretch - i % ground.stretch, 0.0
+    tau += h
+    if ground.stretch > 1:
+        passed = int(tau / ground.time_step)
+        return i + passed, tau - passed * ground.time_step
+    return i, tau
+
+
+@part
 def _row(sides, side):
     """The row of a side in the table."""
     return 0 if side > 0 else sides.pieces.shape[0] - 1
@@ -742,14 +817,15 @@ def _step(sides, phase, ground, member, k, motion, tolerance, left):
     """The step up to `left` over which the series is accurate, and which turns once and keeps its phase of the ties."""
     i, tau, arc, speed, side, farthest, fastest = motion
     slot = 0 if side > 0 else 1
-    a0, a1, g0, g1, square = _drive(ground, member, i, tau)
+    a0, a1, g0, g1, bent = _drive(ground, member, i, tau)
     j, centre, room = _place(sides.grid, k, arc)
-    x = _series(sides.pieces, k, j, arc - centre, speed, side, a0, a1, g0, g1, square, sides.ties, phase)
+    x, last = _series(sides.pieces, k, j, arc - centre, speed, side, a0, a1, g0, g1, bent, sides.ties, phase)
     # an uplift where the acceleration is zero to rounding does not fall
     if arc == 0 and speed == 0 and x[1] < 0:
         x = x[0], 0.0, x[2], x[3], x[4], x[5], x[6], x[7]
     longest = min(left, _longest_step(sides.ties, phase, slot, sides.longest_step[k]))
-    h = _stride(x, longest, room, arc, farthest, fastest, tolerance)
+    sure = last if ground.stretch > 1 else 0.0  # a sine goes on, a curve ends
+    h = _stride(x, sure, longest, room, arc, farthest, fastest, tolerance)
     new, pull = arc + _displacement(x, h), _speed(x, h)
     turn, landing = _events(x, h, arc, speed, new, pull)
     until, leaves = _leaves(sides.ties, phase, slot, x, h, arc, speed, new, turn, landing)
@@ -777,7 +853,7 @@ def _carry_on(sides, phase, ground, member, k, motion, step, left, log):
         speed = min(speed, 0.0) if leaves == 2 else speed
         way = 1.0 if leaves == 1 or (leaves == 0 and speed > 0) else -1.0
         _enter(sides.ties, sides.grid, phase, side, k, arc, way)
-    i, tau = (i + 1, 0.0) if h == left else (i, tau + h)
+    i, tau = _later(ground, i, tau, h, left)
     runs.write(log, now + h, side * arc, side * speed)
     motion = Motion(i, tau, arc, speed, side, max(farthest, arc), max(fastest, abs(speed)))
     return motion, runs.OVERTURNS if _lost(sides, phase, ground, member, k, motion) else runs.ROCKS
@@ -789,7 +865,7 @@ def _strike(sides, phase, ground, member, k, motion, step, settle, best, log):
     i, tau, _, _, side, _, _ = motion
     landing, arrival = step.landing, -_speed(step.series, step.landing)
     now = i * ground.time_step + tau + landing
-    tau += landing
+    i, tau = _later(ground, i, tau, landing, np.nan)
     runs.write(log, now, 0.0, -side * arrival)
     speed = arrival * member.restitution[0 if side > 0 else 1]
     if not sides.one_sided:
@@ -810,7 +886,7 @@ def _rock(sides, ground, member, start, tolerance, settle, phase, best, log):
     """Follow a mechanism through a ground motion and on. Returns status, impacts, uplift time, last side, steps."""
     time_step, motion = ground.time_step, start
     _begin(sides, phase, start, best, log)
-    impacts, steps, turns = 0, 0, 0
+    impacts, steps, turns, leap = 0, 0, 0, 1
     status, uplift = (runs.ROCKS, 0.0) if start.side != 0 else (0, np.nan)
     while status <= runs.ROCKS:
         if motion.side == 0:
@@ -823,11 +899,12 @@ def _rock(sides, ground, member, start, tolerance, settle, phase, best, log):
         if time_step - motion.offset <= 0 and not _over(ground, motion.interval):
             _, _, arc, speed, side, farthest, fastest = motion
             motion = Motion(motion.interval + 1, 0.0, arc, speed, side, farthest, fastest)
-        if ground.circular_frequency == 0 and motion.offset == 0 and not _over(ground, motion.interval):
+        whole = motion.offset == 0 or ground.stretch > 1
+        if ground.circular_frequency == 0 and whole and not _over(ground, motion.interval):
             before = motion.interval
-            motion = _glide(sides, phase, ground, member, k, motion, tolerance, log)
+            motion, leap = _glide(sides, phase, ground, member, k, motion, tolerance, leap, log)
             steps += motion.interval - before
-        left = np.inf if _over(ground, motion.interval) else time_step - motion.offset
+        left = _left(ground, motion.interval, motion.offset)
         step = _step(sides, phase, ground, member, k, motion, tolerance, left)
         steps += 1
         if motion.speed > 0 and step.turn >= 0:

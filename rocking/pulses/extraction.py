@@ -126,7 +126,9 @@ def _thinned(accelerogram: Accelerogram, settings: PulseSettings) -> Accelerogra
     if each < LEAST_THINNING or accelerogram.acceleration.size <= 2 * each:
         return accelerogram
     thinned = accelerogram.acceleration[::each]
-    return replace(accelerogram, acceleration=thinned, time_step=each * accelerogram.time_step)
+    return replace(
+        accelerogram, acceleration=thinned, time_step=each * accelerogram.time_step, smooth_steps=1
+    )
 
 
 class Maxima(NamedTuple):

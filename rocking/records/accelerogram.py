@@ -52,7 +52,9 @@ class Accelerogram(Drawn):
     prints it: of the earthquake. latitude, longitude, elevation: of the station, degrees north and east, m above the
     sea. epicentral_distance: m. processed: whether the file says that its numbers are corrected, None where it cannot.
     initial_velocity, initial_displacement: of the ground at the first sample, m/s and m, where what a filter put before
-    the record was cut off. What is not known is "" or None. Raises RecordError for what is no accelerogram.
+    the record was cut off. smooth_steps: time steps within which the motion is smooth, one after another from the
+    start; 1 of a record, which is linear between its samples. What is not known is "" or None. Raises
+    RecordError for what is no accelerogram.
     """
 
     acceleration: np.ndarray
@@ -81,6 +83,7 @@ class Accelerogram(Drawn):
     processed: bool | None = False
     initial_velocity: float = 0.0
     initial_displacement: float = 0.0
+    smooth_steps: int = 1
 
     def __post_init__(self) -> None:
         with about(self.source.path) if self.source.path else nullcontext():
@@ -90,6 +93,11 @@ class Accelerogram(Drawn):
             object.__setattr__(self, "acceleration", _samples(self.acceleration))
             object.__setattr__(self, "time_step", positive(RecordError, "time_step", self.time_step, "s"))
             object.__setattr__(self, "scale_factor", finite(RecordError, "scale_factor", self.scale_factor))
+            whole = isinstance(self.smooth_steps, int) and not isinstance(self.smooth_steps, bool)
+            if not (whole and self.smooth_steps >= 1):
+                raise RecordError(
+                    f"smooth_steps is {self.smooth_steps!r}, but must be a whole number from 1 on."
+                )
         for doubt in self._doubts():
             if doubt not in self.warnings:
                 object.__setattr__(self, "warnings", (*self.warnings, doubt))
@@ -163,6 +171,7 @@ class Accelerogram(Drawn):
 
     def processed_by(self, acceleration: np.ndarray, step: str, **changes: Any) -> "Accelerogram":
         """Return a copy with new samples and one more processing sentence."""
+        changes = {"smooth_steps": 1} | changes
         return replace(self, acceleration=acceleration, processing=(*self.processing, step), **changes)
 
     def warned(self, *remarks: Remark) -> "Accelerogram":

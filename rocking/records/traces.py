@@ -35,6 +35,7 @@ OBSPY_EXTRAS = (
     "scale_factor",
     "initial_velocity",
     "initial_displacement",
+    "smooth_steps",
 )
 """The facts for which a trace of obspy has no place."""
 _CORNERS = (0.02, 0.05, 0.8, 0.95)

@@ -33,22 +33,35 @@ def series(k, j, u, v, side, push, gravity) -> np.ndarray:
 
 
 @pytest.mark.parametrize("side", [1, -1])
-@pytest.mark.parametrize("square", [0.0, 2.3])
-def test_the_series_of_a_step_solves_the_equation_of_motion(side: int, square: float) -> None:
+@pytest.mark.parametrize("kind", ["line", "sine", "curve"])
+def test_the_series_of_a_step_solves_the_equation_of_motion(side: int, kind: str) -> None:
+    """A sine keeps a'' = −ω² a and goes on, lines join samples, and a curve ends with its fifth power."""
     for _ in range(20):
         k, j = int(RNG.integers(2)), int(RNG.integers(3))
         u, v, a0, a1, g0, g1 = RNG.normal(size=6).tolist()
-        # A sine keeps a'' = −ω² a; samples are straight.
-        push = [a0, a1]
+        push = [a0, a1, *RNG.normal(size=4).tolist(), 0.0]
         for n in range(2, 7):
-            push.append(-square * push[n - 2] / (n * (n - 1)))
+            if kind != "curve":
+                square = 2.3 if kind == "sine" else 0.0
+                push[n] = -square * push[n - 2] / (n * (n - 1))
         expected = series(k, j, u, v, side, push, [g0, g1])
-        found = np.array(kernel._series(PIECES, k, j, u, v, side, a0, a1, g0, g1, square, None, None))
+        found, alone = kernel._series(PIECES, k, j, u, v, side, a0, a1, g0, g1, tuple(push[2:]), None, None)
         scale = 1e-11 * np.maximum.accumulate(np.abs(expected))
-        assert (np.abs(found - expected) <= scale).all()
-        if square == 0:
-            short = kernel._short_series(PIECES, k, j, u, v, side * a0, side * a1, g0, g1, None, None, side)
-            assert (np.abs(np.array(short) - expected[:6]) <= scale[:6]).all()
+        assert (np.abs(np.array(found) - expected) <= scale).all()
+        if kind == "sine":
+            continue
+        bent = tuple(side * each for each in push[2:]) if kind == "curve" else None
+        short, (fifth, sixth, beyond) = kernel._short_series(
+            PIECES, k, j, u, v, side * a0, side * a1, g0, g1, None, None, side, bent
+        )
+        assert (np.abs(np.array(short[:6]) - expected[:6]) <= scale[:6]).all()
+        # What the ground pushes by itself, B̃ at the place times each power of the time, is left out of the bounds.
+        pushed = side * powers(k, j, 1, u)(0.0) * np.array(push)
+        assert short[6] == pytest.approx(-pushed[5] / 42, rel=1e-9, abs=1e-15)
+        assert alone == pytest.approx(-pushed[5] / 42, rel=1e-9, abs=1e-15)
+        assert fifth == pytest.approx(abs(expected[4] + pushed[3] / 20), rel=1e-7, abs=1e-11)
+        assert sixth == pytest.approx(abs(expected[5] + pushed[4] / 30), rel=1e-7, abs=1e-11)
+        assert beyond >= 0
 
 
 def steps(count: int):
@@ -168,9 +181,14 @@ def test_a_short_step_keeps_its_promises() -> None:
     """What it calls plain turns nowhere, stays in its piece, and has a tail within the tolerance."""
     plain = 0
     for x, h, _ in steps(3000):
-        x, h = x[:6], h / 3
+        x, h = x[:7], h / 3
         arc, room = 0.8, 0.3
-        accepted, new, pull = kernel._eventless(x, h, 0.1, arc, room, 1.0, 1.0, 1e-2)
+        bounds = abs(x[4]), abs(x[5]), abs(x[6])
+        accurate, quiet, new, pull, spare = kernel._eventless(
+            tuple(x), bounds, h, 0.1, arc, room, 1.0, 1.0, 1e-2
+        )
+        accepted = accurate and quiet
+        assert accurate or not spare
         way = Polynomial([arc, *x])
         assert (new, pull) == pytest.approx((way(h), way.deriv()(h)), rel=1e-9, abs=1e-12)
         if not accepted:
