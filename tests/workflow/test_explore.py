@@ -283,7 +283,7 @@ def test_the_filters_leave_what_they_name(page):
     text.send_keys(" ")
     (choice,) = page("#verdict option:nth-child(4)")
     choice.click()
-    assert {each.get_attribute("data-verdict") for each in visible(page)} == {"unknown"}
+    assert {each.get_attribute("data-verdict") for each in visible(page)} == {"cannot be told"}
     assert 0 < len(visible(page)) < everything
 
 
