@@ -568,16 +568,16 @@ VERDICT_COLUMNS: list[Column] = [
 STRUCTURE_COLUMNS: list[Column] = [
     (
         "Structure, type and geometry",
-        "3.4",
+        "2.5",
         "l",
         lambda row: strong(row.structure) | {"below": f"{words(row.type)}: {row.geometry}"},
     ),
     *columns_of(
         StructureRow,
-        "frequency_parameter_rad_s=0.95 frequency_parameter_at_rest_rad_s=0.95 critical_rotation_rad=0.85 "
-        "uplift_multiplier=0.95 "
-        "acceleration_scale_linearised=1.15 acceleration_scale_uplift=1.15 restitution=1.1 restoring_defect=0.95 "
-        "forcing_defect",
+        "frequency_parameter_rad_s=1.05 frequency_parameter_at_rest_rad_s=1.05 critical_rotation_rad=0.95 "
+        "uplift_multiplier=1.05 "
+        "acceleration_scale_linearised=1.2 acceleration_scale_uplift=1.2 restitution=1.15 restoring_defect=1 "
+        "forcing_defect=0.9",
     ),
 ]
 PULSE_FIELDS = (
@@ -591,11 +591,13 @@ def _method_columns(rows: Sequence[ComparisonRow]) -> list[Column]:
     """Every method that gave anything beside the others, and what stands behind them."""
     heads = {RATIO_COLUMNS[method]: head for method, head in printing.METHODS.items()}
     names = [name for name in heads if not all(math.isnan(getattr(row, name)) for row in rows)]
-    of_methods = columns_of(ComparisonRow, " ".join(names))
+    of_methods = columns_of(ComparisonRow, " ".join(names), "0.92")
     return [
-        ("Comp.", "0.6", "l", lambda row: words(row.component)),
-        ("a [-]", "0.5", "r", lambda row: number(row.amplitude_ratio)),
-        ("ω/p [-]", "0.5", "r", lambda row: number(row.frequency_ratio)),
+        ("Comp.", "0.55", "l", lambda row: words(row.component)),
+        ("a [-]", "0.45", "r", lambda row: number(row.amplitude_ratio)),
+        ("ω/p [-]", "0.45", "r", lambda row: number(row.frequency_ratio)),
         *((heads[name], *column[1:]) for name, column in zip(names, of_methods, strict=True)),
-        *columns_of(ComparisonRow, "peak_time_s=0.45 impacts required_friction slides=0.5 bounces", "0.65"),
+        *columns_of(
+            ComparisonRow, "peak_time_s=0.45 impacts=0.7 required_friction slides=0.5 bounces=0.75", "0.65"
+        ),
     ]
