@@ -325,6 +325,24 @@ class Kind(StrEnum):
         "components {first} and {second}, as the files' names end, are not at right angles"
     )
     DECLARED_BY_SOME = auto(), "not all of them declare unit and time step"
+
+    # A catalogue and its folder, and a study before its run.
+    FILE_RENAMED = auto(), "{about}: the file {before} is now {now}, by its content; the row names it."
+    ROWS_TO_JOIN = auto(), (
+        "{files} are components of one station: name them all in the row {rows} to join them."
+    )
+    READINGS_UNUSABLE = auto(), "{about}: {why}; every file is read anew."
+    RECORD_REPEATED = auto(), (
+        "{about} ({file}): its content is that of {other} ({other_file}), so that one motion counts twice; leave one "
+        "of them out."
+    )
+    FILE_UNLISTED = auto(), "{about} is not in the catalogue; rocking catalogue {folder} adds what is new."
+    FILES_UNLISTED = auto(), "{files} files are not in the catalogue; rocking catalogue {folder} adds what is new."
+    RECORD_GONE = auto(), (
+        "{about} is of a record that is not in the catalogue any more; remove it if you do not need it."
+    )
+    OTHER_VERSION = auto(), "The results are of another version of rocking; they are computed again."
+    OUTDATED = auto(), "{about}: {why}; computed again by: rocking run . {about}."
     # fmt: on
 
 

@@ -15,6 +15,7 @@ from rocking.quantities import acceleration_factor, shown
 from rocking.records.formats.format import plain
 from rocking.records.formats.text import is_number
 from rocking.records.scaling import ScalingTarget
+from rocking.remarks import Kind, Remark
 from rocking.tables import read_whole
 
 _OBSPY = "obspy:"
@@ -290,16 +291,19 @@ def catalogue_text(rows: Iterable[Mapping[str, str]], columns: Sequence[str] = C
     return text.getvalue()
 
 
-def repeated(records: Iterable[CatalogueRecord]) -> tuple[str, ...]:
-    """Return a sentence for each record that is an earlier one again: one content and scale, a component in common."""
-    sentences = []
+def repeated(records: Iterable[CatalogueRecord]) -> tuple[Remark, ...]:
+    """Return a remark on each record that is an earlier one again: one content and scale, a component in common."""
+    remarks = []
     earlier: dict[tuple[str, float, str], list[CatalogueRecord]] = {}
     for record, file in [(row, file) for row in records for file in row.files if file.sha256]:
         same = earlier.setdefault((file.sha256, record.scale_factor, record.scale_to), [])
         chosen = set(record.components)  # none names all
         both = (each for each in same if not (chosen and each.components) or chosen & set(each.components))
         if other := next(both, None):
-            content = f"{record.id} ({file.name}): its content is that of {other.id} ({other.file})"
-            sentences.append(f"{content}, so that one motion counts twice; leave one of them out.")
+            remarks.append(
+                Remark.of(
+                    Kind.RECORD_REPEATED, record.id, file=file.name, other=other.id, other_file=other.file
+                )
+            )
         same.append(record)
-    return tuple(sentences)
+    return tuple(remarks)

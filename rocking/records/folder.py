@@ -38,13 +38,13 @@ class FolderCatalogue:
 
     files: every file, in the order of names. standing: the rows that the catalogue holds already, with the new names of
     files that were renamed, and without the request to fill in what was typed. new: the rows of the other files.
-    remarks: what there is to say beyond the files, one sentence each.
+    remarks: what there is to say beyond the files.
     """
 
     files: list[ListedFile]
     standing: list[Row]
     new: list[Row]
-    remarks: tuple[str, ...] = ()
+    remarks: tuple[Remark, ...] = ()
 
 
 def list_folder(
@@ -95,8 +95,8 @@ def catalogue_of_folder(
     for row in rows:
         _clear_filled(row)
     new = _new_rows(listed, {row["id"].lower() for row in rows})
-    remarks = (readings.remark, *renamed, *apart)
-    return FolderCatalogue(listed, rows, new, tuple(filter(None, remarks)))
+    of_store = [readings.remark] if readings.remark else []
+    return FolderCatalogue(listed, rows, new, (*of_store, *renamed, *apart))
 
 
 def _rows_by_file(rows: Iterable[Row]) -> dict[str, Row]:
@@ -128,7 +128,7 @@ def _declared_in(row: Row | None, declared: Mapping[str, Any]) -> dict[str, Any]
 
 def _follow_renamed(
     rows: Iterable[Row], rows_of: dict[str, Row], listed: Iterable[ListedFile]
-) -> Iterator[str]:
+) -> Iterator[Remark]:
     """Write the new names of renamed files into their rows, and say so: known by their sha256, the old name is gone."""
     present = {file.file for file in listed}
     strangers = {file.sha256: file.file for file in listed if file.sha256 and file.file not in rows_of}
@@ -142,7 +142,7 @@ def _follow_renamed(
             names[place] = _as_cell(now)
             rows_of[now] = row
             del strangers[sha256.strip()]
-            yield f"{row['id']}: the file {name.strip()} is now {now}, by its content; the row names it."
+            yield Remark.of(Kind.FILE_RENAMED, row["id"], before=name.strip(), now=now)
         row["file"] = ";".join(names)
 
 
@@ -162,8 +162,8 @@ def _mark_repeats(listed: Iterable[ListedFile]) -> None:
                 file.doubts += (Remark.of(Kind.CONTENT_REPEATED, original=original),)
 
 
-def _rows_to_join(listed: Sequence[ListedFile]) -> Iterator[str]:
-    """Yield a sentence for each station of which a component stands in a row of its own: a person may make them one."""
+def _rows_to_join(listed: Sequence[ListedFile]) -> Iterator[Remark]:
+    """Yield a remark on each station of which a component stands in a row of its own: a person may make them one."""
     sizes = Counter(file.record for file in listed)
     single = [
         copy(file) for file in listed if not file.refusal and (not file.record or sizes[file.record] == 1)
@@ -172,7 +172,7 @@ def _rows_to_join(listed: Sequence[ListedFile]) -> Iterator[str]:
         if len(group) > 1 and any(file.record for file in group):
             cell = ";".join(_as_cell(file.file) for file in group)
             rows = " and ".join(file.record for file in group if file.record)
-            yield f"{cell} are components of one station: name them all in the row {rows} to join them."
+            yield Remark.of(Kind.ROWS_TO_JOIN, files=cell, rows=rows)
 
 
 _FILL = "Fill in {}."
@@ -296,8 +296,8 @@ def _of_station(group: Sequence[ListedFile], first: ListedChannel) -> str:
 _LOOKED_AT = 200  # files beside a catalogue that are opened, at most, to see whether they are records
 
 
-def unlisted(catalogue: Path) -> tuple[str, ...]:
-    """Return a sentence when records lie beside `catalogue` that neither it nor another catalogue there names."""
+def unlisted(catalogue: Path) -> tuple[Remark, ...]:
+    """Return a remark when records lie beside `catalogue` that neither it nor another catalogue there names."""
     folder = catalogue.parent
     catalogued: set[Path] = set()
     for path in folder.glob("*.csv"):
@@ -311,5 +311,6 @@ def unlisted(catalogue: Path) -> tuple[str, ...]:
             records += [path.relative_to(folder).as_posix()] if form.name != "StationXML" else []
     if not records:
         return ()
-    files = f"{printable(records[0])} is" if len(records) == 1 else f"{len(records)} files are"
-    return (f"{files} not in the catalogue; rocking catalogue {folder} adds what is new.",)
+    if len(records) == 1:
+        return (Remark.of(Kind.FILE_UNLISTED, printable(records[0]), folder=str(folder)),)
+    return (Remark.of(Kind.FILES_UNLISTED, files=len(records), folder=str(folder)),)

@@ -23,8 +23,8 @@ _LARGEST = 2**27  # bytes: a hundred thousand readings
 class Readings:
     """The readings of the files under `folder`, each made once for its content, its name and what is declared.
 
-    is_kept: whether they are looked for, and kept, in a store in that folder. remark: a sentence where a store lies
-    there that cannot be used, else "".
+    is_kept: whether they are looked for, and kept, in a store in that folder. remark: where a store lies there that
+    cannot be used, else None.
     """
 
     def __init__(self, folder: Path, is_kept: bool = True) -> None:
@@ -33,12 +33,13 @@ class Readings:
         self._before: dict[str, Reading] = {}
         self._now: dict[str, Reading] = {}
         self._beside: dict[Path, str] = {}
-        self.remark = ""
+        self.remark: Remark | None = None
         if is_kept and self._store.exists():
             try:
                 self._before = _stored(self._store)
             except _UnusableStoreError as error:
-                self.remark = f"{self._store}: {str(error).rstrip('.')}; every file is read anew."
+                why = str(error).rstrip(".")
+                self.remark = Remark.of(Kind.READINGS_UNUSABLE, str(self._store), why=why)
 
     def of(self, path: Path, declared: Mapping[str, Any]) -> Reading:
         """Return the reading of the file at `path`; declared: as read_for_listing takes it."""

@@ -17,6 +17,7 @@ from rocking.records.catalogue import CatalogueRecord, load_catalogue, repeated
 from rocking.records.files import fill_hashes, local_files, with_hashes
 from rocking.records.folder import unlisted
 from rocking.records.read import LARGEST_FILE
+from rocking.remarks import Kind, Remark
 from rocking.study.contents import ContentHashes
 from rocking.study.folder import REMEMBERED, check_own, results_folder, stands_inside
 from rocking.study.made_from import records_of, things_of
@@ -29,7 +30,6 @@ T = TypeVar("T")
 
 JOBS = REMEMBERED / "rocking_jobs.lock"
 """Held by every job of a study while it works, in the folder of the study."""
-_OTHER_VERSION = "The results are of another version of rocking; they are computed again."
 _MOST_BATCHES = 8
 _MANY = 200
 _FEW = 24
@@ -50,22 +50,21 @@ class Plan:
     contents: ContentHashes
 
     @property
-    def doubts(self) -> tuple[str, ...]:
-        """The warnings before the run, one sentence each; folders of records that left the catalogue too."""
+    def doubts(self) -> tuple[Remark, ...]:
+        """The warnings before the run; folders of records that left the catalogue too."""
         results = Path(self.settings.results)
         names = {*self.records, "summary", "fragility"}
         folders = (report.parent for report in sorted(results.glob("*/report.pdf")))
-        former = "{} is of a record that is not in the catalogue any more; remove it if you do not need it."
         return (
             *repeated(self.records.values()),
             *unlisted(Path(self.settings.catalogue)),
             *self._outdated,
-            *([_OTHER_VERSION] if any((results / former).exists() for former in FORMER) else []),
-            *(former.format(folder) for folder in folders if folder.name not in names),
+            *([Remark(Kind.OTHER_VERSION)] if any((results / former).exists() for former in FORMER) else []),
+            *(Remark(Kind.RECORD_GONE, str(folder)) for folder in folders if folder.name not in names),
         )
 
     @property
-    def _outdated(self) -> list[str]:
+    def _outdated(self) -> list[Remark]:
         """What was made by hand and does not hold any more; a run leaves it out."""
         by_hand = {
             "fragility": not self.settings.fragility.in_every_run,
@@ -73,9 +72,7 @@ class Plan:
         }
         made = [each for each, alone in by_hand.items() if alone and self.seals.path(each).exists()]
         why = {each: self.seals.why_again(each) for each in made}
-        return [
-            f"{each}: {why[each]}; computed again by: rocking run . {each}." for each in made if why[each]
-        ]
+        return [Remark.of(Kind.OUTDATED, each, why=why[each]) for each in made if why[each]]
 
     def fill_hashes(self) -> None:
         """Write the hashes that the catalogue leaves blank: the files are checked against them from now on.

@@ -69,7 +69,7 @@ def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: flo
     note = "{}: its row stays in the catalogue, but its file is not there; remove the row or add the file."
     lost = [note.format(each["id"]) for each in of_folder if each["id"] not in records]
     count = f"{target}: {counted(len(standing) + len(rows), 'record')}, {len(rows)} of them new"
-    return listing_text(files) + "\n".join(["", *found.remarks, *lost, count])
+    return listing_text(files) + "\n".join(["", *map(str, found.remarks), *lost, count])
 
 
 def read_own(

@@ -350,14 +350,15 @@ def test_a_file_under_two_names_is_told_where_it_comes_again(folder: Path) -> No
 def test_rows_that_are_one_motion_are_told() -> None:
     """Again under another name it is; another component, factor or content of the same name it is not."""
 
-    def sentences(**cells: Any) -> tuple[str, ...]:
+    def told(**cells: Any) -> tuple[Remark, ...]:
         first = CatalogueRecord("one", "a.csv", SHA, component="NS;EW")
         return repeated([first, dataclasses.replace(first, **({"id": "two", "file": "b.csv"} | cells))])
 
-    assert ["two (b.csv)" in s and "one (a.csv)" in s for s in sentences()] == [True]
-    assert len(sentences(component="")) == len(sentences(component="UD;EW")) == 1
+    again = Remark.of(Kind.RECORD_REPEATED, "two", file="b.csv", other="one", other_file="a.csv")
+    assert told() == (again,)
+    assert len(told(component="")) == len(told(component="UD;EW")) == 1
     for other in ({"component": "UD"}, {"scale_factor": 2.0}, {"sha256": "1" * 64}, {"sha256": ""}):
-        assert sentences(**other) == ()
+        assert told(**other) == ()
     for name in ("catalogue.csv", "near_fault.csv", "fema_p695.csv"):
         assert repeated(load_catalogue(SHIPPED / name)) == ()
 

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from rocking.errors import ConfigurationError
 from rocking.records import CatalogueRecord
+from rocking.remarks import Kind, Remark
 from rocking.study import contents as contents_module
 from rocking.study import made_from
 from rocking.study.contents import ContentHashes
@@ -224,7 +225,7 @@ def test_results_whose_record_is_gone_are_told(tmp_path: Path) -> None:
         (tmp_path / "results" / name).mkdir(parents=True)
         (tmp_path / "results" / name / "report.pdf").touch()
     (left,) = make_plan(settings).doubts
-    assert str(tmp_path / "results" / "gone") in left
+    assert left == Remark(Kind.RECORD_GONE, str(tmp_path / "results" / "gone"))
 
 
 def test_an_edit_of_the_reports_is_in_the_hash_of_the_package_and_not_in_that_of_its_numbers(
