@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib.metadata import version
 from itertools import accumulate
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -24,7 +24,6 @@ from rocking.assessment.rows import (
     structure_rows,
 )
 from rocking.assessment.verdict import NEGLIGIBLE, Agreement, agreement
-from rocking.codes.settings import DesignSettings
 from rocking.quantities import GRAVITY, counted, percent
 from rocking.records.dates import day_of
 from rocking.remarks import Remark
@@ -50,6 +49,9 @@ from rocking.reports.supports import SupportPanel, floor_sentences, support_pane
 from rocking.reports.units import displaying
 from rocking.structures import Structure
 
+if TYPE_CHECKING:
+    from rocking.codes.design_spectrum import DesignSpectrum
+
 MOST_DRAWN = 10
 """Structures of page one and of the histories, the worst first; the tables hold all."""
 FEWER_DRAWN = 5
@@ -72,13 +74,14 @@ class RecordReport:
 
     Every number of a table is a cell of `tables`, the rows of `result`, or of the structures table, rounded.
     structures: by name. settings: at least tolerance and acceleration_scale; below "about" what is told of the study,
-    where it is given.
+    where it is given. level: the design level; None where the study has none.
     """
 
     result: RecordResult
     tables: RecordRows
     structures: Mapping[str, Structure]
     settings: Mapping[str, Any]
+    level: "DesignSpectrum | None" = None
 
     def pdf(self) -> bytes:
         """Return the document."""
@@ -442,7 +445,7 @@ def _pictures(report: RecordReport) -> dict[str, object]:
     comparison = f"Closed form beside integration of {counted(len(cases), 'case')}."
     pulses = [motion for motion in motions if motion.pulses]
     verdicts = "the table of verdicts"
-    level = DesignSettings.told(report.settings).spectrum()
+    level = report.level
     beside = "Spectra of the components beside the design spectrum."
     return {
         "design": pictures(design_figure, motions, beside, level) if level else [],

@@ -21,12 +21,10 @@ from rocking.assessment.rows import (
     worst_period_each,
 )
 from rocking.assessment.verdict import Agreement, Method, agreement, within_factor_two
-from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.quantities import GRAVITY, counted
 from rocking.reports import printing
 from rocking.reports.design_figure import design_summary_figure
 from rocking.reports.document import compile_document
-from rocking.reports.fragility import by_place, fragility_table
 from rocking.reports.printing import (
     Column,
     Notice,
@@ -46,6 +44,8 @@ from rocking.tables import rows_of
 
 if TYPE_CHECKING:
     from pandas import DataFrame
+
+    from rocking.codes.design_spectrum import DesignSpectrum
 
 FEWEST_POINTS = 3
 """Cases from which on the closed form is drawn against the integration; fewer are read from the tables."""
@@ -71,7 +71,7 @@ _HEAD = 26
 """Letters of a name above a column of the map; the table of the structures holds it whole."""
 
 
-Design = tuple[DesignSpectrum, Sequence[Sequence[float]]]
+Design = tuple["DesignSpectrum", Sequence[Sequence[float]]]
 """The design level of a study, and the spectra [m/s²] of the components as `component_spectra` gives them."""
 
 
@@ -145,7 +145,7 @@ def _data(
         "agreement": table_of(rows_of(AgreementRow, tables["agreement"]), *AGREEMENT_COLUMNS),
         "unsafe": table_of(rows_of(ComparisonRow, unsafe.head(MOST_LISTED)), *UNSAFE_COLUMNS),
         "unsafe-note": remainder(len(unsafe) - MOST_LISTED, "case", "comparison.csv"),
-        "fragility": [] if summary is None else [fragility_table(by_place(summary), by_place(tables["ida"]))],
+        "fragility": [] if summary is None else _fragility(summary, tables["ida"]),
         "failures": table_of(rows_of(FailureRow, failures.head(MOST_LISTED)), *FAILURE_COLUMNS),
         "failures-note": remainder(len(failures) - MOST_LISTED, "failure", "failures.csv"),
         "records": record_table(list(rows_of(RecordRow, records.head(MOST_RECORDS))), tables["pulses"]),
@@ -153,6 +153,13 @@ def _data(
         "design": _design(design),
         "trade": list(trade),
     }
+
+
+def _fragility(summary: "DataFrame", ida: "DataFrame") -> list[dict[str, object]]:
+    """The table of fragility, of a study that measured one."""
+    from rocking.reports.fragility import by_place, fragility_table
+
+    return [fragility_table(by_place(summary), by_place(ida))]
 
 
 def _design(design: Design | None) -> list[dict[str, object]]:

@@ -219,7 +219,8 @@ def write_report(result: RecordResult, rows: RecordRows, study: Study, folder: P
     from rocking.reports.record import RecordReport, failure_report  # matplotlib takes a second to import
 
     if rows.comparison:
-        report = RecordReport(result, rows, study.structures, study.settings.mapping()).pdf()
+        level = study.settings.design_spectrum.spectrum()
+        report = RecordReport(result, rows, study.structures, study.settings.mapping(), level).pdf()
     else:
         report = failure_report(result.record, " ".join(failure.message for failure in rows.failures))
     write_whole(folder / "report.pdf", report)

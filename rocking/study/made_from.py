@@ -14,12 +14,12 @@ from platform import python_version
 from typing import Protocol
 
 from rocking.assessment.scene import Scene
-from rocking.codes.settings import DesignSettings
 from rocking.errors import RockingError
 from rocking.hashes import sha256_of, sha256_of_sources
 from rocking.records.catalogue import CatalogueRecord, load_catalogue
 from rocking.records.files import with_hashes
 from rocking.study.contents import ContentHashes
+from rocking.study.design_level import DesignSettings
 from rocking.study.seals import Seals
 from rocking.study.settings import Settings
 

@@ -4,12 +4,12 @@ import json
 import shutil
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_type_hints
 
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, TimingRow, TradeRow
 from rocking.assessment.store import decoded, encoded
-from rocking.codes.rows import CodeCheckRow
 from rocking.errors import RockingError
 from rocking.records import CatalogueRecord
 from rocking.study.seals import MADE_FROM
@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 
 _LARGEST = 200_000_000
 """Bytes of what is kept of a product that are read; of a record under ten structures some hundred thousand."""
-_ROWS: tuple[type[Row], ...] = (*RECORD_TABLES, *SUMMARY_TABLES, TradeRow, CodeCheckRow)
-_TABLES = {each.table.name: each for each in _ROWS}
 
 FORMER = ("summary/jobs", "summary/cases")
 """Where former versions kept what now stands in MADE_FROM."""
@@ -124,6 +122,15 @@ def _lines_of(row_class: type[Row], path: Path, record: str) -> Iterator[bytes]:
         yield from (line.encode() for line in stream if line.startswith(f"{record},"))
 
 
+@cache
+def _tables() -> dict[str, type[Row]]:
+    """The rows of the tables that are read back, by the name of the table."""
+    from rocking.codes.rows import CodeCheckRow  # which a study without a design level has no need of
+
+    rows: tuple[type[Row], ...] = (*RECORD_TABLES, *SUMMARY_TABLES, TradeRow, CodeCheckRow)
+    return {each.table.name: each for each in rows}
+
+
 class Results:
     """The folder of a study's results: each table is an attribute, read from its CSV when it is asked for.
 
@@ -138,9 +145,9 @@ class Results:
         """Return the table `name`, or only some of its columns. Raises RockingError where there is none."""
         import pandas as pd  # which takes half a second to import
 
-        if name not in _TABLES:
-            raise RockingError(f"table is {name!r}, but must be one of {', '.join(_TABLES)}.")
-        row_class = _TABLES[name]
+        if name not in _tables():
+            raise RockingError(f"table is {name!r}, but must be one of {', '.join(_tables())}.")
+        row_class = _tables()[name]
         file = row_class.table.file_name
         names = list(row_class.table.column_names if columns is None else columns)
         if (summary := self.folder / "summary" / file).exists():
@@ -171,15 +178,15 @@ class Results:
         return [target / each.table.file_name for each in RECORD_TABLES]
 
     def __getattr__(self, name: str) -> "DataFrame":
-        if name not in _TABLES:
-            raise AttributeError(f"Results has no table {name!r}; there are {', '.join(_TABLES)}.")
+        if name not in _tables():
+            raise AttributeError(f"Results has no table {name!r}; there are {', '.join(_tables())}.")
         return self.table(name)
 
     def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *_TABLES]
+        return [*super().__dir__(), *_tables()]
 
     def __repr__(self) -> str:
-        return f"Results({str(self.folder)!r}): {', '.join(_TABLES)}"
+        return f"Results({str(self.folder)!r}): {', '.join(_tables())}"
 
 
 def open_results(folder: Path | str) -> Results:

@@ -11,7 +11,6 @@ from typing import Any, ClassVar, Literal
 import yaml
 
 from rocking.assessment.settings import AssessmentSettings, Heading
-from rocking.codes.settings import DesignSettings
 from rocking.described import (
     Described,
     check_described,
@@ -21,10 +20,10 @@ from rocking.described import (
     read_described,
 )
 from rocking.errors import ConfigurationError, RecordError
-from rocking.fragility.settings import FragilitySettings
 from rocking.records.processing import Processing
 from rocking.records.scaling import ScalingTarget
 from rocking.structures.structure import CRACKS
+from rocking.study.design_level import DesignSettings
 from rocking.tables.yaml_file import scalar_value
 
 
@@ -40,13 +39,29 @@ class StudyProcessing(Processing):
 
 
 @dataclass(frozen=True)
-class StudyFragility(FragilitySettings):
-    """The intensity measure and levels of fragility, and the studies that compute it."""
+class StudyFragility:
+    """The settings of a study's fragility. Raises ConfigurationError when a value is outside what is allowed."""
 
     heading: ClassVar[Heading] = Heading.FRAGILITY
     changes_numbers: ClassVar[bool] = False
 
+    intensity_measure: Literal["pgv", "pga", "p_pgv", "pulse", "sa1"] = described(
+        "pgv", "measure of the levels: pgv [m/s], pga [g], p_pgv [-], pulse [-], sa1 [g]"
+    )
+    members: bool = described(True, "whether a case counts by the share of its members that overturn")
+    largest_factor: float = described(
+        10.0,
+        "largest factor on a record; what cannot reach a level within it is left out of that level",
+        ge=1,
+        le=1e6,
+    )
+    hazard: str | None = described(
+        None, "CSV of a hazard curve with the columns intensity and annual_rate, ascending, or null"
+    )
     in_every_run: bool = described(False, "whether every run measures the fragility")
+
+    def __post_init__(self) -> None:
+        check_described(ConfigurationError, self)
 
 
 @dataclass(frozen=True)

@@ -297,17 +297,15 @@ def test_the_page_to_sign_carries_the_caveat_of_page_one(study, monkeypatch):
 
 
 def test_the_report_of_a_record_draws_the_design_level_beside_its_spectra(study):
-    from rocking.codes.settings import DesignSettings
     from rocking.reports.design_figure import design_figure
 
     settings, _ = study
-    told = read_settings(settings | {"design_spectrum": DESIGN}).mapping()
-    level = DesignSettings.told(told).spectrum()
+    level = read_settings(settings | {"design_spectrum": DESIGN}).design_spectrum.spectrum()
     record = next(iter(made_pool(1).values()))[0]
     (axes,) = design_figure([SimpleNamespace(accelerogram=record)], level).axes
     target = next(line for line in axes.lines if line.get_label() == "design level")
     assert target.get_ydata() == pytest.approx(level.acceleration(target.get_xdata()))
-    assert DesignSettings.told({}).spectrum() is None
+    assert read_settings(settings).design_spectrum.spectrum() is None
 
 
 def test_a_ratio_of_what_hardly_moves_says_that_it_is_large():

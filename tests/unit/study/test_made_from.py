@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 import yaml
 
-from rocking.codes.settings import DesignSettings
 from rocking.errors import ConfigurationError
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.study import made_from
+from rocking.study.design_level import DesignSettings
 from rocking.study.made_from import TABLE
 from rocking.study.plan import Plan, make_plan, plan_of_job
 from rocking.study.seals import Seals

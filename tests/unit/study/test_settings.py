@@ -3,6 +3,7 @@
 import math
 from dataclasses import fields, replace
 from pathlib import Path
+from typing import get_args
 
 import pytest
 import yaml
@@ -11,14 +12,17 @@ from hypothesis import strategies as st
 from jsonschema import Draft7Validator
 
 from rocking.assessment.settings import AssessmentSettings
+from rocking.codes.design_spectrum import SOILS, TOPOGRAPHIES
 from rocking.described import described_values, parts_of
 from rocking.errors import ConfigurationError
-from rocking.fragility.settings import FragilitySettings
+from rocking.fragility.measures import INTENSITY_MEASURES, MEASURES_IN_WORDS
 from rocking.records.processing import UNPROCESSED_DEFAULT
 from rocking.reports.printing import settings_texts
 from rocking.study.settings import (
     EXAMPLE,
     Settings,
+    StudyDesign,
+    StudyFragility,
     commented_yaml,
     json_schema,
     named_files,
@@ -49,10 +53,19 @@ def test_what_a_part_of_the_package_takes_by_default_is_the_default_of_a_study()
     settings = Settings()
     for of_study, of_part in (
         (settings, AssessmentSettings()),
-        (settings.fragility, FragilitySettings()),
         (settings.processing, UNPROCESSED_DEFAULT),
     ):
         assert {each.name: getattr(of_study, each.name) for each in fields(of_part)} == vars(of_part)
+
+
+def test_the_names_of_settings_are_those_of_the_codes_and_the_measures() -> None:
+    """Settings name them by themselves, so that a study without a design level and fragility needs neither."""
+    said = described_values(StudyDesign)
+    assert get_args(said["soil"].kind) == tuple(SOILS)
+    assert (said["topography"].bounds["ge"], said["topography"].bounds["le"]) == TOPOGRAPHIES
+    measure = described_values(StudyFragility)["intensity_measure"]
+    assert get_args(measure.kind) == tuple(INTENSITY_MEASURES)
+    assert measure.meaning.endswith(MEASURES_IN_WORDS)
 
 
 def test_the_shipped_files_are_those_that_the_tree_writes() -> None:

@@ -1,14 +1,15 @@
-"""The settings of the design level of a study and of the checks at it."""
+"""The settings of the design level of a study and of the checks at it. A study without a level needs no code."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
-from rocking.codes.design_spectrum import SOILS, TOPOGRAPHIES, DesignSpectrum
 from rocking.described import check_described, described
 from rocking.errors import ConfigurationError
 from rocking.quantities import GRAVITY
+
+if TYPE_CHECKING:
+    from rocking.codes.design_spectrum import DesignSpectrum
 
 
 @dataclass(frozen=True)
@@ -26,10 +27,10 @@ class DesignSettings:
     )
     f0: float | None = described(None, "amplification F0 of NTC 2018", gt=0, le=10)
     tc_star: float | None = described(None, "period T_C* of NTC 2018", "s", gt=0, le=3)
-    soil: str = described(
-        "A", "soil of NTC 2018, from A (rock) to B, C, D and E", one_of=lambda: tuple(SOILS)
+    soil: Literal["A", "B", "C", "D", "E"] = described(
+        "A", "soil of NTC 2018, from A (rock) to B, C, D and E"
     )
-    topography: float = described(1.0, "topographic factor S_T", ge=TOPOGRAPHIES[0], le=TOPOGRAPHIES[1])
+    topography: float = described(1.0, "topographic factor S_T", ge=1, le=1.4)
     points: str | None = described(
         None, "instead: CSV of the spectrum, period_s and acceleration_m_s2 or acceleration_g"
     )
@@ -71,19 +72,15 @@ class DesignSettings:
                 f"{self.largest_factor:g}."
             )
 
-    @classmethod
-    def told(cls, mapping: Mapping[str, Any]) -> "DesignSettings":
-        """Return the settings that a mapping of all of a study's tells; without any the default."""
-        own = mapping.get("design_spectrum") or {}
-        names = {each.name for each in fields(cls)}
-        return cls(**{name: value for name, value in own.items() if name in names})
-
-    def spectrum(self) -> DesignSpectrum | None:
+    def spectrum(self) -> "DesignSpectrum | None":
         """Return the spectrum; None where there is no design level. Raises ConfigurationError for its points."""
+        if self.points is None and self.ag is None:
+            return None
+        from rocking.codes.design_spectrum import DesignSpectrum
+
         if self.points is not None:
             return DesignSpectrum.read(Path(self.points), self.damping)
-        if self.ag is None or self.f0 is None or self.tc_star is None:
-            return None
+        assert self.ag is not None and self.f0 is not None and self.tc_star is not None  # checked at birth
         return DesignSpectrum.ntc(
             self.ag * GRAVITY, self.f0, self.tc_star, self.soil, self.topography, self.damping
         )
