@@ -30,7 +30,7 @@ class DesignSettings:
     soil: Literal["A", "B", "C", "D", "E"] = described(
         "A", "soil of NTC 2018, from A (rock) to B, C, D and E"
     )
-    topography: float = described(1.0, "topographic factor S_T", ge=1, le=1.4)
+    topography: float = described(1.0, "topographic factor S_T", ge=1.0, le=1.4)
     points: str | None = described(
         None, "instead: CSV of the spectrum, period_s and acceleration_m_s2 or acceleration_g"
     )

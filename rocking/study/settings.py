@@ -40,7 +40,10 @@ class StudyProcessing(Processing):
 
 @dataclass(frozen=True)
 class StudyFragility:
-    """The settings of a study's fragility. Raises ConfigurationError when a value is outside what is allowed."""
+    """The intensity measure and levels of fragility, and the studies that compute it.
+
+    Raises ConfigurationError when a value is outside what is allowed.
+    """
 
     heading: ClassVar[Heading] = Heading.FRAGILITY
     changes_numbers: ClassVar[bool] = False
