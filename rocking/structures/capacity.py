@@ -21,6 +21,8 @@ from rocking.structures.mechanism import Side, SideTie
 _CUBED_IS_ROUNDING = 1e-6
 """Halley's method cubes the error: after a relative step this small none is left."""
 _MOST_STEPS = 100
+_STILL = 1e-12
+"""Share of the largest virtual displacement below which one is rounding: at what is held."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +50,8 @@ class StaticCapacity:
     """The static capacity of one side of a structure.
 
     control_part, control_corner: the point whose displacement counts, a corner of the drawing as this side sees it.
-    place: where it is at rest, m. displacement_factor: d*/d_k. participating_mass_ratio: as of CapacityCurve.
+    place: where it is at rest, m. displacement_factor: d*/d_k. participating_mass_ratio: as of CapacityCurve, of the
+    weights that move sideways at rest; mass_ratio_of_all: of those too that something else holds sideways.
     """
 
     side: Side
@@ -58,6 +61,7 @@ class StaticCapacity:
     place: tuple[float, float]
     displacement_factor: float
     participating_mass_ratio: float
+    mass_ratio_of_all: float
 
     @classmethod
     def of(
@@ -70,7 +74,7 @@ class StaticCapacity:
         # a mass that something else holds sideways, as that of a load that only rises, has no part
         at_rest = linkage.motion(0.0)
         across = at_rest.velocities.real
-        masses = np.where(across == 0, 0.0, linkage.masses)
+        masses = np.where(np.abs(across) < _STILL * np.abs(across).max(), 0.0, linkage.masses)
         first = masses @ across
         second = masses @ across**2
         speed = float(linkage.point(control_part, control_corner, 0.0).velocity.real)
@@ -82,6 +86,7 @@ class StaticCapacity:
             place=(float(place[0]), float(place[1])),
             displacement_factor=float(second / (speed * first)),
             participating_mass_ratio=float(first**2 / (masses.sum() * second)),
+            mass_ratio_of_all=float(first**2 / (linkage.masses.sum() * second)),
         )
 
     def multiplier(self, rotation: ArrayLike) -> np.ndarray:

@@ -293,9 +293,9 @@ class Facade(Tied):
         return cracked if opening.hinge is None else replace(cracked, opening=opening)
 
     def _part_at(self, height: float) -> int:
-        """The body, from 0, to which what acts at `height` [m] belongs, or STILL."""
+        """The part, from 0, to which what acts at `height` [m] belongs, or STILL."""
         if self.opening is not None:
-            return self.opening.part_at(height)
+            return self.held_wall.part_at(self.opening, height)
         return 0 if height > self.crack_position else STILL
 
     def _linkage(self, mirrored: bool) -> Linkage:

@@ -53,13 +53,8 @@ class Opening:
         bulge = ((self.foot, turn), (self.hinge, -turn * (1 + back)))
         return (*bulge, (self.hold, turn * back)) if self.upright and self.hold else bulge
 
-    @property
-    def bodies(self) -> int:
-        """The number of bodies that move."""
-        return 1 if self.hinge is None else 2 + self.upright
-
-    def part_at(self, height: float) -> int:
-        """The body, from 0, to which what acts at `height` [m] belongs: at a joint the one below; or STILL."""
+    def body_at(self, height: float) -> int:
+        """Return the body, from 0, to which what acts at `height` [m] belongs: at a joint the one below; or STILL."""
         if height <= self.foot:
             return STILL
         tops = [top for top in (self.hinge, self.hold if self.upright else None) if top is not None]
@@ -357,53 +352,50 @@ class HeldWall:
         )
         return min((opening, multiplier), (moved(sought.x), float(sought.fun)), key=itemgetter(1))
 
-    def pieces(self, opening: Opening) -> list[tuple[int, Storey]]:
-        """The masonry cut at the joints of `opening`, each piece with its body, or STILL."""
-        cuts = sorted({0.0, *(height for height, _ in opening.kinks)})
+    def pieces(self, opening: Opening) -> list[Storey]:
+        """Return the masonry cut at the joints of `opening`, from the ground up."""
+        cuts = sorted(height for height, _ in opening.kinks)
         cut = []
         for storey in self.storeys:
             levels = [storey.low, *(each for each in cuts if storey.low < each < storey.high), storey.high]
-            for low, high in pairwise(levels):
-                cut.append((opening.part_at(high), storey._replace(low=low, high=high)))
+            cut += [storey._replace(low=low, high=high) for low, high in pairwise(levels)]
         return cut
 
+    def part_at(self, opening: Opening, height: float) -> int:
+        """Return the part of its linkage to which what acts at `height` [m] belongs, or STILL.
+
+        At a joint it is the piece below.
+        """
+        moving = [each for each in self.pieces(opening) if each.low >= opening.foot]
+        return next((part for part, each in enumerate(moving) if each.low < height <= each.high), STILL)
+
     def outlines(self, opening: Opening) -> list[tuple[int, np.ndarray]]:
-        """The outlines of the pieces for a drawing."""
+        """Return the outlines of the pieces, each with its part of the linkage, or STILL."""
         return [
-            (part, rectangle(each.left, each.right, each.low, each.high))
-            for part, each in self.pieces(opening)
+            (self.part_at(opening, each.high), rectangle(each.left, each.right, each.low, each.high))
+            for each in self.pieces(opening)
         ]
 
     def linkage(
         self, opening: Opening, cut: Opening, hung: Sequence[Hung], *, guided: bool = False
     ) -> Linkage:
-        """Return the bodies of `cut` as they move in `opening`, seen from the side to which that falls.
+        """Return the pieces of `cut` as they move in `opening`, seen from the side to which that falls.
 
         hung: what hangs on it, as seen from there. guided: loads with a mass move up and down only.
         """
-        pieces = self.pieces(cut)
-        weights = np.zeros(cut.bodies)
-        centres = np.zeros(cut.bodies, dtype=complex)
-        inertias = np.zeros(cut.bodies)
-        for body in range(cut.bodies):
-            own = [each for part, each in pieces if part == body]
-            mass = np.array([each.weight * (each.high - each.low) for each in own])
-            at = np.array([complex((each.left + each.right) / 2, (each.low + each.high) / 2) for each in own])
-            turning = mass * [((e.high - e.low) ** 2 + (e.right - e.left) ** 2) / 12 for e in own]
-            weights[body] = mass.sum()
-            centres[body] = mass @ at / weights[body]
-            inertias[body] = turning.sum() + mass @ np.abs(at - centres[body]) ** 2
-        bodies = []
-        for body in range(cut.bodies):
-            top = max(each.high for part, each in pieces if part == body)
-            bodies.append(opening.part_at(top))
-        edges = [self._edge(height, turn) for height, turn in opening.kinks]
+        moving = [each for each in self.pieces(cut) if each.low >= cut.foot]
         sign = 1.0 if opening.outwards else -1.0
+        weights = np.array([each.weight * (each.high - each.low) for each in moving])
+        centres = [complex(sign * (each.left + each.right), each.low + each.high) / 2 for each in moving]
+        inertias = [
+            weight * ((each.high - each.low) ** 2 + (each.right - each.left) ** 2) / 12
+            for weight, each in zip(weights, moving, strict=True)
+        ]
+        edges = [self._edge(height, turn) for height, turn in opening.kinks]
 
         def seen(point: complex) -> complex:
             return complex(sign * point.real, point.imag)
 
-        centres = sign * centres.real + 1j * centres.imag
         if opening.hinge is None:
             return Turning(seen(edges[0]), weights, centres, inertias, hung)
         held = None
@@ -416,7 +408,7 @@ class HeldWall:
             centres,
             inertias,
             hung,
-            bodies=bodies,
+            bodies=[opening.body_at(each.high) for each in moving],
             forwards=opening.forwards,
             guided=guided,
         )

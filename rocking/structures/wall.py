@@ -525,7 +525,7 @@ class LoadedWall(CrackedWall, Tied):
         return hung
 
     def _part_at(self, height: float) -> int:
-        """The body, from 0, to which what acts at `height` [m] belongs."""
+        """The part, from 0, to which what acts at `height` [m] belongs."""
         if self.opening is not None:
-            return self.opening.part_at(height)
+            return self.held_wall.part_at(self.opening, height)
         return 0 if height <= self.lower_height else 1
