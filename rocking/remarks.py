@@ -241,6 +241,12 @@ class Kind(StrEnum):
         "exist, so that neither was made; the force in the ties is not checked."
     )
 
+    TIE_MUST_BEAR = auto(), (
+        "The tie at {height_m:.4g} m has no strength (tie_strength) and is taken for one that holds: as the wall "
+        "{about} it must bear {force_kN_m:.3g} kN/m, and in motion, with the impacts of the wall, some 2.8 times that; "
+        "give it."
+    )
+
     # What was read of a file, and what was not.
     FIRST_IS_COUNT = auto(), "The first of the numbers is the number of samples, and no sample."
     FIRST_ARE_COUNT_AND_STEP = auto(), (

@@ -59,7 +59,8 @@ class LocalMechanism:
     description: what opens, to which side. body: the structure with that crack. sign: of the rotation. elastic_period:
     T_0 of a part free to vibrate, s; 0 of one tied rigidly to the structure. support_loss: horizontal displacement of
     the control point at which what it carries falls, m; inf where nothing does. one_sided: whether it leans on
-    something.
+    something. released: how many ruptures of ties that limit its displacement are passed: its limit states lie on the
+    branch of the curve behind them, where that bears more.
     """
 
     description: str
@@ -70,11 +71,12 @@ class LocalMechanism:
     elastic_period: float = 0.0
     support_loss: float = math.inf
     one_sided: bool = False
+    released: int = 0
 
     @property
     def onset_multiplier(self) -> float:
-        """α_0 (C8.7.1.1)."""
-        return self.static.side.uplift_multiplier
+        """α_0 (C8.7.1.1), with the work L_i of ties at the force at which they yield or break."""
+        return self.static.onset_multiplier
 
     @property
     def participating_mass_ratio(self) -> float:
@@ -111,19 +113,18 @@ class LocalMechanism:
         return float(self.displacement(self.static.collapse_rotation))
 
     @cached_property
-    def _limiting_rupture(self) -> float:
-        """The rotation at which a tie breaks and a falls more than half of its maximum below it; inf without."""
+    def limiting_ruptures(self) -> tuple[float, ...]:
+        """The rotations [rad] at which a tie breaks and a falls more than half of its maximum below it, in order."""
         ruptures = np.array(self.static.ruptures)
         if not ruptures.size:
-            return math.inf
+            return ()
         critical = self.static.side.critical_rotation
         steps = np.linspace(0.0, critical, 41)
         places = np.concatenate([steps, ruptures * _JUST_BEFORE, self.static.side.bends])
         largest = self.acceleration(places[places <= critical]).max()
         beyond = ruptures * (2 - _JUST_BEFORE)
         after = np.where(beyond < critical, self.acceleration(np.minimum(beyond, critical)), 0.0)
-        limiting = ruptures[after < (1 - _MOST_FALL) * largest]
-        return float(limiting[0]) if limiting.size else math.inf
+        return tuple(ruptures[after < (1 - _MOST_FALL) * largest].tolist())
 
     def limit(self, state: LimitState) -> LimitPoint:
         """Return where `state` lies on the capacity curve; the period is nan where there is no displacement.
@@ -132,8 +133,9 @@ class LocalMechanism:
         """
         share = state.displacement_share
         limits = {share * self.ultimate_displacement: f"{share:g} d₀"}
-        if state.ends_with_ties and self._limiting_rupture < math.inf:
-            limits[float(self.displacement(self._limiting_rupture * _JUST_BEFORE))] = "a tie breaks"
+        ruptures = self.limiting_ruptures[self.released :] if state.ends_with_ties else ()
+        if ruptures:
+            limits[float(self.displacement(ruptures[0] * _JUST_BEFORE))] = "a tie breaks"
         if self.support_loss < math.inf:
             limits[self.support_loss * self.static.displacement_factor] = "what it carries falls"
         displacement = min(limits)

@@ -20,6 +20,7 @@ from rocking.errors import ConfigurationError, StructureError
 from rocking.quantities import GRAVITY, kind_of, positive
 from rocking.remarks import Kind, Remark
 from rocking.structures import Structure
+from rocking.structures.tied import Tied
 
 _SAME = 1e-9
 """Relative difference below which two levels are one but for rounding: the mechanism that is named first decides."""
@@ -69,11 +70,14 @@ def kinematic_check(
         damage_level=float(starts.levels(np.array([first]))[0]),
         mechanisms=mechanisms,
         governing=mechanisms[first],
+        remark=_must_bear(mechanisms),
     )
     if terms.limit_state == "SLD":
         return replace(made, linear=_onset_check(made, spectrum))
     if terms.limit_state == "SLV":
         made = replace(made, linear=_linear_check(made, spectrum, terms.behaviour_factor))
+    mechanisms = _on_the_better_branch(mechanisms, floor, LIMIT_STATES[terms.limit_state])
+    made = replace(made, mechanisms=mechanisms)
     collapses = _collapses(mechanisms, floor, LIMIT_STATES[terms.limit_state])
     weakest, level = _weakest(starts, collapses)
     if math.isinf(level):
@@ -114,6 +118,30 @@ def _not_made(mechanism: LocalMechanism) -> Remark:
     return Remark.of(Kind.NO_DISPLACEMENT, why=mechanism.body.mechanism().never_lets_go)
 
 
+def _must_bear(mechanisms: Sequence[LocalMechanism]) -> Remark | None:
+    """The force that a tie without a strength must bear as the weakest bulge that it holds starts; None without."""
+    held = [
+        each
+        for each in mechanisms
+        if isinstance(each.body, Tied) and each.body.opening is not None and each.sign > 0
+    ]
+    for each in sorted(held, key=lambda each: each.onset_multiplier):
+        wall = each.body
+        if (
+            isinstance(wall, Tied)
+            and wall.opening is not None
+            and wall.tie_stiffness
+            and wall.tie_strength is None
+        ):
+            for kind, height, force in wall.reactions():
+                if kind == "tie" and height == wall.opening.hold:
+                    name = wall.held_wall.name(wall.opening)
+                    return Remark.of(
+                        Kind.TIE_MUST_BEAR, name, height_m=height, force_kN_m=float(force[0]) / 1e3
+                    )
+    return None
+
+
 def _local_mechanisms(structure: Structure, terms: CodeTerms) -> tuple[LocalMechanism, ...]:
     """The mechanisms of the structure that may open, with the values of the check in them."""
     return tuple(
@@ -134,7 +162,9 @@ def _local_mechanisms(structure: Structure, terms: CodeTerms) -> tuple[LocalMech
 def _opening(structure: Structure) -> Iterator[tuple[str, int, Structure]]:
     """The mechanisms that may open: crack and side of the fall, sign of that side, and the structure with the crack.
 
-    Of hinges between supports those that limit analysis finds, of other cracks all that may open.
+    Of hinges between supports those that limit analysis finds, of other cracks all that may open; of a wall that is
+    held at several heights its bulges, too. What ties without a strength keep shut is left out where the crack is not
+    given: statics finds what opens instead.
     """
     if not isinstance(structure, Structure):
         raise StructureError(
@@ -142,13 +172,49 @@ def _opening(structure: Structure) -> Iterator[tuple[str, int, Structure]]:
             "geometry, as rocking.Block or rocking.Facade."
         )
     candidates = structure.candidates()
-    for candidate in candidates[:1] if structure.statics_chooses else candidates:
+    if structure.statics_chooses:
+        candidates = candidates[:1]
+    bulges: tuple[Tied, ...] = ()
+    if isinstance(structure, Tied):
+        bulges = _bulges(structure)
+    for candidate in candidates:
         body = candidate.structure
+        if bulges and not structure.crack_is_given and isinstance(body, Tied) and not body.lets_go:
+            continue
         opens = "" if candidate.description == "as given" else f"{candidate.description}, "
-        signs = (1,) if body.symmetric or body.one_sided else (1, -1)
-        for sign, side in zip(signs, body.side_names, strict=False):
+        for sign, side in _sides(body):
             falls = "" if body.symmetric else side
             yield f"{opens}{falls}".removesuffix(", ") or "as given", sign, body
+    for wall in bulges:
+        for sign, _ in _sides(wall):
+            yield wall.way_in_words(sign), sign, wall
+
+
+def _sides(body: Structure) -> Iterator[tuple[int, str]]:
+    """The sides to which a body falls, by sign and in words."""
+    signs = (1,) if body.symmetric or body.one_sided else (1, -1)
+    yield from zip(signs, body.side_names, strict=False)
+
+
+def _bulges(structure: Tied) -> tuple[Tied, ...]:
+    """The wall as it bulges between heights at which it is held; none that cannot be followed.
+
+    One that bulges inwards alone comes last, where the same joints do not open outwards. Where statics chooses between
+    two supports and no tie is between them, its candidate is the only bulge.
+    """
+    if structure.crack == "known" or (structure.statics_chooses and not structure.tie_heights):
+        return ()
+    bulges: list[Tied] = []
+    spans = set()
+    for each in sorted(structure.mechanisms(), key=lambda each: -each.sign):
+        wall = each.structure
+        if not isinstance(wall, Tied) or wall.opening is None or each.refusal:
+            continue
+        span = wall.opening.foot, wall.opening.hold
+        if each.sign > 0 or span not in spans:
+            spans.add(span)
+            bulges.append(wall)
+    return tuple(bulges)
 
 
 def _lowest(levels: np.ndarray, then: np.ndarray | None = None) -> int:
@@ -186,6 +252,25 @@ def _collapses(mechanisms: Sequence[LocalMechanism], floor: FloorDemand, state: 
 
     displacements = np.array([point.displacement for point in points])
     return Crossings.of(asked, displacements, floor.spectrum.level)
+
+
+def _on_the_better_branch(
+    mechanisms: Sequence[LocalMechanism], floor: FloorDemand, state: LimitState
+) -> tuple[LocalMechanism, ...]:
+    """The mechanisms, each with its limit state where a tie breaks or behind that, whichever bears the larger a_g.
+
+    What is left after the break is a chain of its own (C8.7.1.2.1.6), so that a tie takes nothing from it.
+    """
+    better = []
+    for each in mechanisms:
+        ruptures = len(each.limiting_ruptures) if state.ends_with_ties else 0
+        branches = [replace(each, released=passed) for passed in range(ruptures + 1)]
+        best = 0
+        if ruptures:
+            levels = _collapses(branches, floor, state).levels(np.arange(ruptures + 1))
+            best = int(np.argmax(levels))
+        better.append(branches[best])
+    return tuple(better)
 
 
 def _weakest(starts: Crossings, collapses: Crossings) -> tuple[int, float]:

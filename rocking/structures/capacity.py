@@ -94,6 +94,20 @@ class StaticCapacity:
         at = np.asarray(rotation, dtype=float)
         return self.side.gravity(at) / self.side.ground(at)
 
+    @property
+    def onset_multiplier(self) -> float:
+        """α_0 by virtual work at rest: each tie pulls with the force at which it yields (Circolare, C8.7.1.1).
+
+        One without a strength pulls with its pretension, as nobody knows what it bears.
+        """
+        at_rest = np.zeros(())
+        work = 0.0
+        for tie in self.side.ties:
+            if np.isfinite(tie.tie.strength):
+                more = tie.tie.strength - float(tie.tie.tension(tie.stretch(at_rest)))
+                work += more * max(float(tie.stretch_slope(at_rest)), 0.0)
+        return (self.side.at("gravity", 0.0) + work) / self.side.at("ground", 0.0)
+
     def displacement(self, rotation: ArrayLike) -> np.ndarray:
         """Return the horizontal displacement of the control point, m."""
         moved = self.linkage.point(self.control_part, self.control_corner, rotation).moved.real

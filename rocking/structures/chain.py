@@ -120,7 +120,29 @@ class Chain(Linkage):
         return replace(motion, centroids=centroids, velocities=velocities, accelerations=accelerations)
 
     def contacts(self, state: MotionState) -> Contacts:
-        """Return the contact forces at foot and hinge, per mass of all that moves.
+        """Return the contact forces at foot and hinge, per mass of all that moves."""
+        motion, forces, _, above = self._balanced(state)
+        at_hinge = -(forces[1] + above)
+        thrusts = np.stack([at_hinge - forces[0], at_hinge]) / self.unit
+        upper = int(np.argmax(self._bodies == 1))
+        joint = 1j * np.exp(1j * (motion.angles[0] + motion.angles[upper]) / 2)
+        return Contacts.resolved(("foot", "hinge"), thrusts, np.stack([1j + 0 * joint, joint]))
+
+    def holding(self, state: MotionState, stop: float | None = None) -> np.ndarray:
+        """Return the forces that hold it back sideways, (2, k), in the unit of the masses times m/s².
+
+        At the point that is held, and at the height `stop` [m] of the body that stays upright on top, where something
+        keeps it from turning; 0 there without such a body. Against the side of rocking positive.
+        """
+        motion, forces, couple, above = self._balanced(state)
+        turned_back = np.zeros_like(couple)
+        if stop is not None and (self._bodies == 2).any():
+            turned_back = -couple / (stop - motion.hinges[2].imag)
+        return np.stack([forces[2].real - above.real - turned_back, turned_back])
+
+    def _balanced(self, state: MotionState) -> tuple[Motion, list[np.ndarray], np.ndarray, np.ndarray]:
+        """The motion, the forces on the three bodies, the couple on the third about what is held, and the force on the
+        upper body there.
 
         What holds the upper body gives a horizontal force alone, which follows from its balance about the hinge.
         """
@@ -134,17 +156,14 @@ class Chain(Linkage):
                 forces[place] = 1j * forces[place].imag  # the floor holds them sideways
                 places[place] = each.start + self.carried(each.part, each.start, motion).moved
         _, hinge, held = motion.hinges
+        on_body = [forces[self._bodies == body].sum(axis=0) for body in range(3)]
 
-        def of(body: int) -> np.ndarray:
-            result: np.ndarray = forces[self._bodies == body].sum(axis=0)
+        def about(point: np.ndarray, body: int) -> np.ndarray:
+            own = self._bodies == body
+            result: np.ndarray = (cross(places[own] - point, forces[own]) + couples[own]).sum(axis=0)
             return result
 
-        upper = self._bodies == 1
-        moment = (cross(places[upper] - hinge, forces[upper]) + couples[upper]).sum(axis=0)
-        carried = 1j * of(2).imag
-        moment += cross(held - hinge, carried)
-        above = carried + moment / (held - hinge).imag  # with what stops the upper body
-        at_hinge = -(of(1) + above)
-        thrusts = np.stack([at_hinge - of(0), at_hinge]) / self.unit
-        joint = 1j * np.exp(1j * (motion.angles[0] + motion.angles[int(np.argmax(upper))]) / 2)
-        return Contacts.resolved(("foot", "hinge"), thrusts, np.stack([1j + 0 * joint, joint]))
+        carried = 1j * on_body[2].imag
+        moment = about(hinge, 1) + cross(held - hinge, carried)
+        above = carried + moment / (held - hinge).imag
+        return motion, on_body, about(held, 2), above

@@ -231,14 +231,19 @@ class HeldWall:
     def _ways(self, opening: Opening) -> Iterator[Opening]:
         """The opening with its lower part outwards and inwards, each to the side to which the ground pushes it."""
         _, pushed = self.virtual_work(opening.kinks)
-        hold = next((each for each in self.holds if each.height == opening.hold), None)
         for outwards in (True, False):
             way = replace(opening, outwards=outwards, forwards=bool(pushed > 0))
             # What pushes the other way holds a bulge only where a tie that yields pulls on it.
-            holds = hold is not None and (hold.outwards > 0 if outwards else hold.inwards)
-            is_held = opening.hinge is None or holds or self._yields(way.kinks)
+            is_held = self._is_held(way) or self._yields(way.kinks)
             if pushed and is_held and self.admits(way.kinks):
                 yield way
+
+    def _is_held(self, opening: Opening) -> bool:
+        """Whether what holds a bulge stops it to the side to which it falls; so is one body, which nothing holds."""
+        hold = next((each for each in self.holds if each.height == opening.hold), None)
+        if opening.hinge is None or hold is None:
+            return opening.hinge is None
+        return hold.outwards > 0 if opening.outwards else hold.inwards
 
     def _yields(self, kinks: Sequence[tuple[float, float]]) -> bool:
         """Whether a tie is drawn out."""
@@ -302,7 +307,8 @@ class HeldWall:
 
         joints: at which alone it may open beside feet of storeys and holds, m above the ground; without them it may
         open anywhere, and the hinge of each is where λ is least. What a tie without a strength keeps shut is left out,
-        and what has its foot at no foot of a storey and at no hold, unless nothing to that side is weaker.
+        and, unless nothing to that side is weaker, what has its foot at no foot of a storey and at no hold, or bulges
+        below something that only pushes it on.
         """
         stops = self._stops
         heights = sorted({*stops, *joints})
@@ -325,7 +331,11 @@ class HeldWall:
             outwards: min((each[1] for each in found if each[0].outwards == outwards), default=np.inf)
             for outwards in (True, False)
         }
-        listed = [each for each in found if each[0].foot in stops or each[1] <= weakest[each[0].outwards]]
+        listed = [
+            each
+            for each in found
+            if each[1] <= weakest[each[0].outwards] or (each[0].foot in stops and self._is_held(each[0]))
+        ]
         return tuple(sorted(listed, key=lambda each: each[1]))
 
     def _sharpened(

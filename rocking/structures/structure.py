@@ -240,6 +240,29 @@ class Structure(ABC):
         acceleration; the joints of a wall or an arch are statically indeterminate and their forces nan.
         Raises UnknownContacts, in words, where they are not known (a frame's are indeterminate).
         """
+        state, resting = self._motion_state(
+            rotation, angular_velocity, angular_acceleration, ground, vertical, largest
+        )
+        positive = self.linkage.contacts(state)
+        negative = self._linkage_to_negative.contacts(state)
+        is_positive = state.sign > 0
+        unknown = np.where(resting & (len(positive.names) > 1), np.nan, 0.0)
+        return Contacts(
+            positive.names,
+            np.where(is_positive, positive.normal, negative.normal) + unknown,
+            np.where(is_positive, positive.tangential, negative.tangential) + unknown,
+        )
+
+    def _motion_state(
+        self,
+        rotation: ArrayLike,
+        angular_velocity: ArrayLike,
+        angular_acceleration: ArrayLike | None,
+        ground: ArrayLike,
+        vertical: ArrayLike,
+        largest: ArrayLike | None,
+    ) -> tuple[MotionState, np.ndarray]:
+        """The states of `contact_forces` seen from the side to which it rocks, and which of them are at rest."""
         states = np.broadcast_arrays(rotation, angular_velocity, ground, vertical)
         phi, velocity, push, lift = (np.atleast_1d(np.asarray(values, dtype=float)) for values in states)
         so_far = largest_so_far(phi) if largest is None else np.maximum(np.abs(phi), largest)
@@ -251,15 +274,7 @@ class Structure(ABC):
         sign = self.mechanism().side_of(phi, velocity)
         turn = np.broadcast_to(np.asarray(angular_acceleration, dtype=float), phi.shape)
         state = MotionState(sign, phi * sign, velocity * sign, turn * sign, push * sign, lift, so_far)
-        positive = self.linkage.contacts(state)
-        negative = self._linkage_to_negative.contacts(state)
-        is_positive = sign > 0
-        unknown = np.where(resting & (len(positive.names) > 1), np.nan, 0.0)
-        return Contacts(
-            positive.names,
-            np.where(is_positive, positive.normal, negative.normal) + unknown,
-            np.where(is_positive, positive.tangential, negative.tangential) + unknown,
-        )
+        return state, resting
 
     @property
     def courses_are_given(self) -> bool:

@@ -1,13 +1,19 @@
 """Structures that carry loads and a row of ties: how a file describes these, how they must be, what is said of them."""
 
+import math
+import warnings
 from abc import abstractmethod
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Annotated, ClassVar, Literal, Self
+from typing import Annotated, ClassVar, Literal, NamedTuple, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from rocking.errors import DoesNotStandError, StructureError
+from rocking.errors import DoesNotStandError, StructureError, StructureWarning
+from rocking.quantities import GRAVITY
+from rocking.structures.chain import Chain
+from rocking.structures.contacts import MotionState
 from rocking.structures.drawing import Mark, plane
 from rocking.structures.fields import OneSided, Value
 from rocking.structures.held_wall import HeldWall, Opening
@@ -49,6 +55,14 @@ def check_inside(field: str, value: float, height: float) -> None:
         raise StructureError(
             f"{field} is {value!r} m, but must lie on the wall, above 0 and up to {height:.6g} m."
         )
+
+
+class Reaction(NamedTuple):
+    """What holds a wall sideways at a height [m]: a "tie", a "floor" or the "top"; its force, (k,) N per metre."""
+
+    kind: str
+    height: float
+    force: np.ndarray
 
 
 @dataclass(frozen=True, repr=False)
@@ -136,17 +150,100 @@ class Tied(CrackedAtHeight):
                 )
             place = opening.foot if opening.hinge is None else opening.hinge
             what = "crack" if opening.hinge is None else "hinge"
-            family.append(
-                Candidate(
-                    f"{what} at {place:.4g} m",
-                    place,
-                    self.opened(opening),
-                    name=wall.name(opening),
-                    limit=multiplier,
-                    sign=1 if opening.outwards else -1,
-                )
-            )
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", StructureWarning)  # nobody asked for its restitution
+                opened = self.opened(opening)
+            sign = 1 if opening.outwards else -1
+            words = f"{what} at {place:.4g} m"
+            family.append(Candidate(words, place, opened, wall.name(opening), multiplier, sign))
         return tuple(family)
+
+    @property
+    def lets_go(self) -> bool:
+        """Whether no tie without a strength has to stretch for it to move outwards as it opens."""
+        crack = Opening(self.crack_position) if self.opening is None else self.opening
+        return math.isfinite(self.held_wall.multiplier(crack))
+
+    def reactions(
+        self,
+        rotation: ArrayLike = 0.0,
+        angular_velocity: ArrayLike = 0.0,
+        angular_acceleration: ArrayLike | None = None,
+        ground: ArrayLike | None = None,
+        vertical: ArrayLike = 0.0,
+        largest: ArrayLike | None = None,
+    ) -> tuple[Reaction, ...]:
+        """Return the force of everything that holds it sideways, N per metre, over k states as of `contact_forces`.
+
+        ground None: that at which it starts to fall outwards; without arguments they are those at rest under λ
+        (theory: section 12.4). Positive where it holds the wall back. What stretches pulls as its tie does; what the
+        mechanism takes for rigid gives what the balance of the bodies asks for. A floor that rests on the top and is
+        held sideways asks for its own inertia besides.
+        Raises UnknownContacts where the bodies do not tell.
+
+        >>> wall = rocking.LoadedWall.hinged_at(3.6, 2.4, 0.35, 18e3, top_load=40e3, top_slab="flat", restitution=0.5)
+        >>> [(each.kind, each.height, round(float(each.force[0]))) for each in wall.reactions()]
+        [('top', 3.6, 19705)]
+        """
+        side = self.mechanism().positive
+        if ground is None:
+            ground = -side.uplift_multiplier * GRAVITY
+        state, _ = self._motion_state(
+            rotation, angular_velocity, angular_acceleration, ground, vertical, largest
+        )
+        found = [self._held_back(state, mirrored) for mirrored in (False, True)[: len(self.linkages)]]
+        is_positive = state.sign > 0
+        return tuple(
+            Reaction(first.kind, first.height, np.where(is_positive, first.force, other.force))
+            for first, other in zip(found[0], found[-1], strict=True)
+        )
+
+    def _held_back(self, state: MotionState, mirrored: bool) -> list[Reaction]:
+        """What each hold gives on one side, in the order of `held_wall.holds`."""
+        wall = self.held_wall
+        way = self._way(mirrored)
+        linkage: Linkage = self.linkages[-1 if mirrored else 0]
+        if way is None and isinstance(self._described_opening, Opening):
+            way = replace(self._described_opening, outwards=not mirrored)
+            linkage = wall.linkage(
+                way, self._described_opening, self._hung(mirrored), guided=self.loads_rise_only
+            )
+        above = [
+            hold.height for hold in wall.holds if way and way.hold is not None and hold.height > way.hold
+        ]
+        stop = max(above, default=wall.height)
+        gives = np.zeros((2, state.rotation.size))
+        if isinstance(linkage, Chain):
+            gives = linkage.holding(state, stop if way and way.upright else None) / GRAVITY
+        reactions = []
+        ties = iter(linkage.ties)
+        heights = [each.start.imag for each in linkage.hung if each.tie]
+        for hold in wall.holds:
+            force = np.zeros(state.rotation.size)
+            if way and hold.height == way.hold:
+                force = gives[0]
+            elif way and way.upright and hold.height == stop:
+                force = gives[1]
+            if any(abs(height - hold.height) < 1e-9 * wall.height for height in heights):
+                tie = next(ties)
+                force = (
+                    tie.tie.tension(tie.stretch(state.rotation), tie.stretch(state.largest)) * linkage.unit
+                )
+            reactions.append(Reaction(hold.kind, hold.height, force))
+        return reactions
+
+    @property
+    def _described_opening(self) -> Opening | None:
+        """How it opens as it is described, where that is a bulge; None: as one body."""
+        return None
+
+    def way_in_words(self, sign: int) -> str:
+        """Return how it opens to the positive (1) or the negative (−1) side: "bulges between foot and tie, hinge …"."""
+        way = self._way(sign < 0)
+        if way is None:
+            return self.crack_in_words
+        hinge = "" if way.hinge is None else f", hinge at {way.hinge:.4g} m"
+        return self.held_wall.name(way) + hinge
 
     def _way(self, mirrored: bool) -> Opening | None:
         """The way it opens to one side; None: about the crack as it is described."""

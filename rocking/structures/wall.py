@@ -467,6 +467,10 @@ class LoadedWall(CrackedWall, Tied):
         """Distance of the edge on which a slab lies from the middle of the wall, m."""
         return self.thickness / 2 - inset(self.top_load, self.compressive_strength, self.thickness)
 
+    @property
+    def _described_opening(self) -> Opening:
+        return Opening(0.0, self.lower_height, self.height)
+
     def opened(self, opening: Opening) -> Self:
         return replace(self, crack="known", opening=opening)
 
@@ -478,7 +482,7 @@ class LoadedWall(CrackedWall, Tied):
         if opened is not None:
             return opened
         if self.compressive_strength is not None:
-            hinge = Opening(0.0, self.lower_height, self.height, outwards=not mirrored)
+            hinge = replace(self._described_opening, outwards=not mirrored)
             return self.held_wall.linkage(hinge, hinge, self._hung(mirrored), guided=True)
         weight = self.unit_weight * self.height * self.thickness
         return WallLinkage(self.lower_height, self.upper_height, self.thickness, weight, self._hung(mirrored))
