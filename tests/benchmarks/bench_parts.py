@@ -37,15 +37,19 @@ from rocking import (
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.listed import load_scenes
+from rocking.assessment.verdict import Method
 from rocking.codes.static_check import kinematic_check
 from rocking.pulses import extract_pulses
-from rocking.records import read
+from rocking.records import load_catalogue, read
 from rocking.records.synthetic import SyntheticRecord, at2_text
+from rocking.reports.record import RecordReport
 from rocking.sine_pulse import predict_maxima, pulse_spectrum
 from rocking.structures.mechanism import Mechanism
+from rocking.study.job import Study, assess_catalogued, rows_of
 
 RATIOS = np.linspace(0.2, 12, 200)
 STRUCTURES = Path(__file__).parents[2] / "workflow" / "structures.yaml"
+RECORDS = Path(__file__).parents[2] / "records"
 BLOCK = Block(3.0, 0.2, restitution=0.9)
 
 
@@ -139,7 +143,28 @@ def ensembles() -> None:
         print(f"{name}: ensemble of {members} in {whole * 1e3:.2f} ms = {whole / one:.0f} integrations")
 
 
+def stages() -> None:
+    """The share of each stage in the time of the shipped records under the shipped structures, all of it loaded."""
+    study = Study(load_scenes(STRUCTURES))
+    methods = {str(each) for each in Method}
+    for record in load_catalogue(RECORDS / "catalogue.csv"):
+        for _ in range(2):  # the first loads what it needs
+            started = time.process_time()
+            result = assess_catalogued(record, study)
+            assessed_at = time.process_time()
+            rows = rows_of(result, record, study)
+            RecordReport(result, rows, study.structures, study.settings.mapping()).pdf()
+            reported_at = time.process_time()
+        whole = reported_at - started
+        spent = {str(stage): each for stage, each in result.durations.items() if stage not in methods}
+        spent["rest of the assessment"] = assessed_at - started - sum(spent.values())
+        spent["tables and report"] = reported_at - assessed_at
+        shares = ", ".join(f"{stage} {each / whole:.0%}" for stage, each in spent.items())
+        print(f"{record.id}: {whole:.2f} s: {shares}")
+
+
 if __name__ == "__main__":
     print_parts()
     beside_scipy()
     ensembles()
+    stages()

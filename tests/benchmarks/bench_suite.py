@@ -48,7 +48,8 @@ def measure(name: str, folder: Path, *changed: str) -> None:
         for row in csv.DictReader(stream):
             stages[row["stage"]] += float(row["duration_s"])
     print(f"{name}: {wall:.1f} s, CPU {cpu:.1f} s, largest process so far {after.ru_maxrss / 1024:.0f} MB")
-    print("  " + ", ".join(f"{stage} {spent:.2f} s" for stage, spent in stages.items()), flush=True)
+    told = (f"{stage} {spent:.2f} s ({spent / cpu:.0%})" for stage, spent in stages.most_common())
+    print("  " + ", ".join(told), flush=True)
 
 
 def measure_suite(temporary: Path, mirror: str) -> None:
