@@ -9,7 +9,7 @@ import numpy as np
 
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.case import StationResult
-from rocking.assessment.cracks import cracks
+from rocking.assessment.cracks import cracked, cracks
 from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.verdict import Method, ratio_in_words
@@ -39,8 +39,8 @@ class StructureAssessment(StationResult, Drawn):
 
     @property
     def mechanism(self) -> Mechanism:
-        """The mechanism as given."""
-        return self.body.mechanism()
+        """The mechanism with the crack that governs; as given where it is known."""
+        return cracked(self.body, self.worst.crack if self.worst else "").mechanism()
 
     @property
     def static_multiplier(self) -> float:

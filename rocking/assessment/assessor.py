@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cache, cached_property, partial
+from math import isclose
 from typing import Protocol, TypeVar
 
 from rocking.assessment.case import (
@@ -22,7 +23,7 @@ from rocking.assessment.component import (
     component_of,
     horizontal_motions,
 )
-from rocking.assessment.cracks import cracks
+from rocking.assessment.cracks import cracked, cracks
 from rocking.assessment.one_case import (
     assess_case,
     assess_directions,
@@ -225,7 +226,50 @@ class Assessor:
         directions = None
         if shaking.pair is not None and any(case.answer is not None for case in cases.values()):
             directions = self._directions(scene, shaking.pair, cases)
-        return StationResult(scene, cases, directions, shaking.support)
+        station = StationResult(scene, cases, directions, shaking.support)
+        if self.settings.fidelity == "auto":  # which compares no methods
+            return station
+        told = {
+            name: self._of_governing(station, case, shaking.by_name[name]) for name, case in cases.items()
+        }
+        return replace(station, cases=told)
+
+    def _of_governing(self, station: StationResult, case: CaseResult, component: Component) -> CaseResult:
+        """The case with the methods compared on the crack that governs, so that a row of a table speaks of one crack.
+
+        The case itself, which is of the structure's own crack, then stands beside it.
+        """
+        if case.answer is None:
+            return case
+        ensembles = case.ensembles or station.ensembles
+        crack = ensembles.governing.description if ensembles else ""
+        body = cracked(station.body, crack)
+        own, other = station.body.mechanism(), body.mechanism()
+        # The hinge that statics seeks and the candidate at the same height are computed apart.
+        same = isclose(own.uplift_multiplier, other.uplift_multiplier, rel_tol=1e-9)
+        if same and isclose(own.critical_rotation, other.critical_rotation, rel_tol=1e-9):
+            return case
+
+        def followed(clock: Clock) -> CaseResult:
+            with clock.stage("responses"):
+                return assess_case(
+                    station.structure, body, component, self.settings, alone=False, clock=clock
+                )
+
+        fingerprint = sha256_of("governing", case.fingerprint, crack)
+        told = self._remembered(CaseResult, fingerprint, followed, lambda case: case.kept)
+        if told.answer is None:
+            return replace(case, failures=(*case.failures, *told.failures))
+        prediction = told.prediction or prediction_of(other, component, self.settings)
+        return replace(
+            case,
+            prediction=prediction,
+            responses=told.responses,
+            check=told.check,
+            answer=told.answer,
+            crack=crack,
+            statics=case,
+        )
 
     def _case(self, scene: Scene, component: Component, alone: bool) -> CaseResult:
         """The case under one component. alone: whether no ensemble over directions speaks for it."""
@@ -344,7 +388,9 @@ def with_histories(result: RecordResult, tolerance: float) -> RecordResult:
         for station in scene.stations:
             components = result.components_under(station)
             cases = {
-                component: _with_history(case, station.body, components[component], tolerance)
+                component: _with_history(
+                    case, cracked(station.body, case.crack), components[component], tolerance
+                )
                 for component, case in station.cases.items()
             }
             stations.append(replace(station, cases=cases))

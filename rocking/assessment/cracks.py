@@ -117,6 +117,12 @@ def cracks(structure: Structure) -> tuple[Crack, ...]:
     )
 
 
+def cracked(structure: Structure, description: str) -> Structure:
+    """Return the structure with the crack of this description; itself where none of its cracks has it."""
+    forms = (each.structure for each in structure.candidates(CRACKS) if each.description == description)
+    return next(forms, structure) if description else structure
+
+
 def _friction(structure: Structure) -> float:
     """The largest friction that a joint needs as it lifts, to the side to which it does so first.
 

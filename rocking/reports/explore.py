@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rocking.assessment.case import RecordResult, StationResult
+from rocking.assessment.cracks import cracked
 from rocking.assessment.decide import Verdict
 from rocking.assessment.over_periods import placed
 from rocking.assessment.rows import ComparisonRow, RecordRows
@@ -146,7 +147,10 @@ def _case(
         "closed": closed,
     }
     response = responses.get(row.case) if row else None
-    history = rotation_ratios(response, mechanism) if response else None
+    history = None
+    if row and response:
+        crack = station.cases[row.component].crack if row.component in station.cases else ""
+        history = rotation_ratios(response, cracked(station.body, crack).mechanism())
     if response and history and response.rotation_ratio > NEGLIGIBLE:
         times = history[0]
         ratios = np.clip(history[1], -_BEYOND, _BEYOND)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rocking.assessment.case import RecordResult, StationResult
+from rocking.assessment.cracks import cracked
 from rocking.assessment.decide import Verdict
 from rocking.assessment.over_periods import placed
 from rocking.assessment.rows import (
@@ -155,7 +156,9 @@ class RecordReport:
             case = cases.get((station.structure, station.support_period_s))
             response = self.result.responses.get(case.case) if case else None
             if case and response and case.integrated_rotation_ratio > NEGLIGIBLE:
-                history = rotation_ratios(response, self.structures[station.structure].mechanism())
+                crack = station.cases[case.component].crack if case.component in station.cases else ""
+                mechanism = cracked(self.structures[station.structure], crack).mechanism()
+                history = rotation_ratios(response, mechanism)
                 histories += [History(station, case, *history)] if history else []
         return histories
 

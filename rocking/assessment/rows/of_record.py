@@ -534,6 +534,18 @@ class ComparisonRow(DecidedRow[ComparedCase]):
     impacts: int | None = of_case(
         "Number of impacts in the integration", lambda of: of.response.impacts if of.response else None
     )
+    crack: str = of_case(
+        "Crack to which the row belongs, where it is not the structure's own but the one that governs",
+        lambda of: of.case.crack,
+    )
+    statics_predicted_rotation_ratio: float = of_case(
+        "Beside such a row, the closed form with the structure's own crack",
+        lambda of: of.case.statics.predicted_rotation_ratio if of.case.statics else math.nan,
+    )
+    statics_integrated_rotation_ratio: float = of_case(
+        "Likewise the mechanism under the record",
+        lambda of: of.case.statics.integrated_rotation_ratio if of.case.statics else math.nan,
+    )
     peak_side: int | None = of_case(PEAK_SIDE, lambda of: of.response.peak_side if of.response else None)
     peak_time_s: float = of_case(
         "Time of the largest rotation after the first sample",

@@ -6,13 +6,16 @@ import numpy as np
 import pytest
 
 import rocking
+from rocking.assessment.assessor import Assessor
 from rocking.assessment.component import component_of
 from rocking.assessment.cracks import cracks, ensemble_over_cracks
 from rocking.assessment.decide import Verdict
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.ground_motions import GroundMotions, processed
-from rocking.assessment.one_case import assess_case
-from rocking.assessment.settings import AssessmentSettings
+from rocking.assessment.one_case import assess_case, predict
+from rocking.assessment.rows import rows_of_record
+from rocking.assessment.scene import on_the_ground
+from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.variations import candidates, processed_variants
 from rocking.fragility.curves import fragility
 from rocking.motion import integrate
@@ -161,3 +164,33 @@ def test_processing_that_changes_nothing_changes_no_answer():
     ratios = {each.processing: each.integrated_rotation_ratio for each in variations}
     assert ratios["unchanged"] == integrate(block, SINE, 1e-9).rotation_ratio
     assert ratios["high-pass 0.2 Hz"] != ratios["unchanged"]
+
+
+@pytest.mark.parametrize(("several", "amplitude"), [(1, 2.0), (2, 1.5), (2, 3.0)])
+def test_a_row_of_the_comparison_speaks_of_the_crack_that_governs_alone(several, amplitude):
+    """Of one component and of two that make a pair; the numbers are those of the structure that is cracked there."""
+    wall = Wall.of_size(6.0, 0.4)
+    motions = [replace(record(amplitude), component=name) for name in ("EW", "NS")[:several]]
+    assessor = Assessor(AssessmentSettings(ensemble=EnsembleSettings(reserve=0)))
+    result = assessor.assess("r", motions, on_the_ground({"wall": wall}))
+    (station,) = result.stations
+    crack = station.ensembles.governing.description
+    statics, *_ = wall.candidates()
+    assert crack != statics.description, "another crack than that of statics governs"
+    (body,) = (each.structure for each in wall.candidates() if each.description == crack)
+    block = body.mechanism().equivalent_block("rest")
+    rows = rows_of_record(result).comparison
+    assert len(rows) == several
+    for row, motion in zip(rows, motions, strict=True):
+        assert row.crack == crack
+        assert row.integrated_rotation_ratio == integrate(body, motion).rotation_ratio
+        assert row.block_on_record_rotation_ratio == integrate(block, motion, 1e-9).rotation_ratio
+        assert row.block_frequency_parameter_rad_s == block.frequency_parameter
+        assert row.statics_integrated_rotation_ratio == integrate(statics.structure, motion).rotation_ratio
+        pulses = component_of(motion, AssessmentSettings().pulse).candidates
+        for own, told in (
+            (body, row.predicted_rotation_ratio),
+            (statics.structure, row.statics_predicted_rotation_ratio),
+        ):
+            assert told == predict(own.mechanism(), pulses).maximum.rotation_ratio
+    assert station.rotation_ratio == rows[0].integrated_rotation_ratio
