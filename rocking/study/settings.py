@@ -40,10 +40,7 @@ class StudyProcessing(Processing):
 
 @dataclass(frozen=True)
 class StudyFragility:
-    """The intensity measure and levels of fragility, and the studies that compute it.
-
-    Raises ConfigurationError when a value is outside what is allowed.
-    """
+    """The intensity measure and levels of fragility, and the studies that compute it."""
 
     heading: ClassVar[Heading] = Heading.FRAGILITY
     changes_numbers: ClassVar[bool] = False
