@@ -172,6 +172,10 @@ class Kind(StrEnum):
         "The header says that the record is matched to a spectrum: artificial, not a recorded motion."
     )
     SCALE_APPLIED = auto(), "Samples multiplied by the SCALE that the header states, {factor:g}."
+    CALIBRATION_NOT_APPLIED = auto(), (
+        "The header states a calibration of {factor:g}, which in this format leads to a displacement: the samples are "
+        "taken as they stand, in the unit that is declared."
+    )
     FACTOR_NOT_APPLIED = auto(), (
         "The text above the numbers speaks of a factor or of counts ({text}): no factor is applied, and they are read "
         "as they stand."

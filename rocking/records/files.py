@@ -13,7 +13,7 @@ from rocking.errors import RecordError
 from rocking.hashes import sha256_of_bytes
 from rocking.records.archive import archive_of
 from rocking.records.catalogue import CatalogueRecord, RecordFile, catalogue_text, load_catalogue, read_rows
-from rocking.records.formats.binary import may_be_counts
+from rocking.records.formats.by_obspy import may_be_counts
 from rocking.records.read import LARGEST_FILE, bytes_of
 from rocking.records.traces import first_line
 from rocking.tables import read_start, write_whole

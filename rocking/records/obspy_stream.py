@@ -10,7 +10,10 @@ from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.instrument import directed
 from rocking.records.read import checked_channels
 from rocking.records.traces import OBSPY_EXTRAS, calibrated, joined, names, quantity_order, site
+from rocking.remarks import Kind, Remark
 
+_CALIBRATED_TO_DISPLACEMENT = "GSE1", "GSE2", "CSS", "NNSA_KB_CORE"
+"""The formats whose calibration is in nm of displacement a count, at a period that it is stated for."""
 _DIRECTED = ("component", "azimuth", "vertical")
 """The facts that a rotation makes untrue."""
 
@@ -68,7 +71,11 @@ def _from_trace(trace: Any, inventory: Any, unit: str | None, response: str) -> 
     else:
         calibration = float(trace.stats.get("calib", 1.0))
         samples = np.asarray(trace.data, dtype=float) * acceleration_factor(declared)
-        if calibration != 1:
+        if trace.stats.get("_format") in _CALIBRATED_TO_DISPLACEMENT:
+            if calibration not in (0.0, 1.0):
+                unused = Remark.of(Kind.CALIBRATION_NOT_APPLIED, factor=calibration)
+                fields["warnings"] = (*fields.get("warnings", ()), unused)
+        elif calibration != 1:
             samples = samples * calibration
             processing.append(
                 f"Samples multiplied by the calibration that the trace states, {calibration:g}."

@@ -146,18 +146,22 @@ def checked_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
     return checked
 
 
+_BYTES_PER_ZERO = 1000
+"""Bytes to each zero byte below which a content is no text: SEISAN on a PC begins with a kilobyte of characters."""
+
+
 def bare_text(content: bytes) -> bytes:
     """Return a text without a byte order mark and the blanks, zeros and ^Z that pad its end; lines end in \\n.
 
-    UTF-16, as spreadsheets write it, becomes UTF-8. Other content that holds a zero byte among its first is no text and
-    stays as it is.
+    UTF-16, as spreadsheets write it, becomes UTF-8. Other content that holds a zero byte among its first, or many
+    anywhere, is no text and stays as it is.
     """
     if content.startswith((b"\xff\xfe", b"\xfe\xff")):
         with suppress(UnicodeDecodeError):
             content = content.decode("utf-16").encode()
     text = content.removeprefix(b"\xef\xbb\xbf")
     body = text.rstrip(b"\x1a\0 \t\r\n")
-    if b"\0" in body[:512]:
+    if b"\0" in body[:512] or body.count(b"\0") * _BYTES_PER_ZERO > len(body):
         return content
     ended = any(end in text[len(body) :] for end in (b"\r", b"\n"))
     if b"\r" in body:
@@ -165,7 +169,6 @@ def bare_text(content: bytes) -> bytes:
     return body + b"\n" if ended else body
 
 
-_BY_OBSPY = "which is read by way of obspy: rocking.from_obspy(obspy.read(path), unit=...)"
 _TOLD = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence in (
     (rb"PK\x03\x04", "this is a zip archive; call it so, as records.zip, or unpack it."),
     (rb"\x93NUMPY", "this is an array of numpy, which says neither unit nor time step; give it as "
@@ -177,10 +180,11 @@ _TOLD = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence in (
      "this is a COSMOS V0 file of raw counts of a recorder; use the V1 or V2 file of the same record."),
     (rb"\s*(FILE\s+\d+\s+OF\s+)?CORRECTED ACCELEROGRAM\b", "this is a Volume II file of Caltech or USC, whose layout "
      "is not known for certain; use the file of the same record from PEER, from the USGS (SMC), or of Volume I."),
-    (rb"(WID2|WID1|XW01|BEGIN (GSE|IMS)|DATA_TYPE WAVEFORM)", f"this is a GSE file, {_BY_OBSPY}."),
-    (rb"TIMESERIES \w+_", f"this is a SLIST or TSPAIR file, {_BY_OBSPY}."),
+    (rb"BEGIN (GSE|IMS)|DATA_TYPE WAVEFORM", "this is a message of GSE or IMS; cut off what stands above its line "
+     "WID2, and it is read."),
     (rb"(\*.*\n)*\s*(ZEROS|POLES|CONSTANT)\s+-?\d", "this is a SAC file of poles and zeros, which holds a response "
-     "and no motion; use the waveform: rocking.from_obspy(obspy.read(path).remove_response(...), unit='m/s2')."),
+     "and no motion: read the SAC file of the samples, with the StationXML of the station beside it (inventory), or "
+     "rocking.from_obspy(obspy.read(path, format='SAC').simulate(paz_remove=...), unit='m/s2')."),
     (rb"\s*<\?xml|\s*<(FDSNStationXML|q:quakeml)", "this is an XML file, which holds no motion; read the record."),
     (rb"\s*<(!doctype html|html)", "this is a web page, and no record: the download failed; fetch the file again."),
     (rb"%PDF|\x89HDF|7z\xbc\xaf|Rar!", "this is a PDF, an archive or a data base; export the record as text."),

@@ -49,6 +49,8 @@ def joined(result: Any) -> Any:
     except Exception as error:
         raise RecordError(f"the pieces of a channel do not join, {first_line(error)}.") from error
     for trace in result:
+        if trace.data.dtype.kind not in "iuf":
+            raise RecordError(f"channel {trace.id} holds text and no samples; leave it out.")
         if np.ma.is_masked(trace.data):
             at = int(np.flatnonzero(np.ma.getmaskarray(trace.data))[0]) * trace.stats.delta
             raise RecordError(f"channel {trace.id} has a gap at {at:g} s; give a record without gaps.")

@@ -1,8 +1,9 @@
 """A small file of each text format, made here: what its header declares and how its columns stand."""
 
-import io
 import struct
+import tempfile
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import obspy
@@ -315,10 +316,11 @@ def two_headers() -> str:
 def by_obspy(form: str, values: np.ndarray | None = None, **options) -> bytes:
     """The content of a file that obspy writes: of `values`, or of what every sample file holds."""
     header = {"network": "XX", "station": "MADE", "channel": "HNE", "delta": STEP}
-    written = io.BytesIO()
     trace = obspy.Trace(TRUE.astype(np.float32) if values is None else values, header)
-    trace.write(written, format=form, **options)
-    return written.getvalue()
+    with tempfile.TemporaryDirectory() as folder:  # not every format of obspy is written into memory
+        path = Path(folder) / "written"
+        trace.write(str(path), format=form, **options)
+        return path.read_bytes()
 
 
 def evt() -> bytes:
@@ -338,6 +340,28 @@ def evt() -> bytes:
         body = b"".join(int(count).to_bytes(3, "big", signed=True) for count in held)
         parts.append(_tagged(2, frame, body))
     return b"".join(parts)
+
+
+def gse() -> bytes:
+    """Counts of mm/s² in the lines of GSE2."""
+    return by_obspy("GSE2", np.round(1000 * TRUE).astype(np.int32))
+
+
+def win() -> bytes:
+    """One channel in blocks of a second with 32-bit differences, from 1 January 2020 on; the last one is filled up."""
+    rate = 10
+    counts = np.round(1000 * TRUE).astype(int)
+    content = b""
+    for second, part in enumerate(counts.reshape(-1, rate)):
+        samples = struct.pack(f">{rate}i", part[0], *np.diff(part))
+        body = bytes.fromhex(f"2001010000{second:02}") + struct.pack(">HH", 0xA100, 4 << 12 | rate) + samples
+        content += struct.pack(">i", 4 + len(body)) + body
+    return content
+
+
+def of_obspy(path: str) -> bytes:
+    """The content of a file that obspy installs for its own tests, of a format that it does not write."""
+    return (Path(obspy.__file__).parent / "io" / path).read_bytes()
 
 
 def _tagged(kind: int, head: bytes, body: bytes) -> bytes:
@@ -382,15 +406,27 @@ MADE_BINARY: dict[str, tuple[Callable[[], bytes], float, Options]] = {
     "miniSEED": (lambda: by_obspy("MSEED", encoding="FLOAT32"), 1e-7, Options(unit="m/s2")),
     "SAC": (lambda: by_obspy("SAC"), 1e-7, Options(unit="m/s2")),
     "Kinemetrics EVT": (evt, 2e-6, Options()),
+    "GSE": (gse, 5e-4, Options(unit="mm/s2")),
+    "SLIST or TSPAIR": (lambda: by_obspy("SLIST"), 1e-7, Options(unit="m/s2")),
+    "SLIST or TSPAIR: pairs": (lambda: by_obspy("TSPAIR"), 1e-7, Options(unit="m/s2")),
 }
 """The same for formats that are no text."""
 
 MADE_REFUSED: dict[str, tuple[str, str]] = {
     "PEER VT2 or DT2": (peer().replace("ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY IN CM/S"), "velocity"),
     "CSMIP V3 spectra": ("Response and Fourier Amplitude Spectra\n 1 2 3\n", "spectra"),
+    "CSS wfdisc": (of_obspy("css/tests/data/test_css.wfdisc").decode(), "holds no samples"),
     "StationXML": ('<?xml version="1.0"?>\n<FDSNStationXML></FDSNStationXML>\n', "no samples"),
 }  # fmt: skip
 """Format → (a file of what is no acceleration, the word by which it is refused)."""
+
+
+OF_OBSPY = {
+    "SEISAN": "seisan/tests/data/2011-09-06-1311-36S.A1032_001BH_Z",
+    "REFTEK 130": "reftek/tests/data/104800000_000093F8",
+    "WIN": "win/tests/data/10030302.00",
+}
+"""Format → a file that obspy installs, of formats that it does not write: tests/contracts/test_by_obspy.py reads it."""
 
 
 def format_of(label: str) -> str:

@@ -10,7 +10,7 @@ import pytest
 from made_files import MADE, MADE_BINARY, content_of, format_of, read_text
 
 from rocking.errors import RecordError
-from rocking.records.formats import Options, binary
+from rocking.records.formats import Options, by_obspy
 from rocking.records.formats.header import Layout, keyed
 from rocking.records.read import read_content
 from rocking.remarks import Kind, Remark
@@ -49,6 +49,9 @@ SAID: dict[str, list[tuple[Any, ...]]] = {
     "columns of numbers": [("NS", 0.0, "", "", "", None, None), ("EW", 90.0, "", "", "", None, None)],
     "miniSEED": [("HNE", 90.0, "MADE", "XX", "", False, None)],
     "SAC": [("HNE", 90.0, "MADE", "XX", "", False, None)],
+    "GSE": [("HNE", 90.0, "MADE", "XX", "", False, None)],
+    "SLIST or TSPAIR": [("HNE", 90.0, "MADE", "XX", "", False, None)],
+    "SLIST or TSPAIR: pairs": [("HNE", 90.0, "MADE", "XX", "", False, None)],
     "Kinemetrics EVT": [("X", None, "MADE", "", "2011-09-09", False, None)],
 }
 """By hand from the text of each made file; the two of UNAM that differ in their lines of numbers say the same."""
@@ -113,8 +116,8 @@ def test_the_third_of_three_channels_of_a_recorder_is_vertical_by_its_place(monk
     """A second instrument on the same recorder begins again with X."""
     header = {"delta": 0.01, "station": "MADE", "kinemetrics_evt": {}}
     traces = [obspy.Trace(np.arange(9.0), header) for _ in range(6)]
-    monkeypatch.setattr(binary, "_stream", lambda *_, **__: (traces, ()))
-    records = binary.EVT.read(b"", Options())
+    monkeypatch.setattr(by_obspy, "_stream", lambda *_, **__: (traces, ()))
+    records = by_obspy.EVT.read(b"", Options())
     assert [(r.component, r.vertical) for r in records] == 2 * [("X", False), ("Y", False), ("Z", True)]
 
 

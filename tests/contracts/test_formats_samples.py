@@ -9,7 +9,18 @@ from pathlib import Path
 import made_files
 import numpy as np
 import pytest
-from made_files import MADE, MADE_BINARY, MADE_REFUSED, STEP, TRUE, N, content_of, format_of, read_text
+from made_files import (
+    MADE,
+    MADE_BINARY,
+    MADE_REFUSED,
+    OF_OBSPY,
+    STEP,
+    TRUE,
+    N,
+    content_of,
+    format_of,
+    read_text,
+)
 
 import rocking
 from rocking.errors import RecordError
@@ -29,7 +40,7 @@ MEAN_REMOVED = {"BHRC", "K-NET/KiK-net", "SAC", "Kinemetrics EVT"}
 @pytest.mark.parametrize("form", FORMATS, ids=lambda form: form.name)
 def test_every_format_has_a_made_sample(form: Format) -> None:
     """The recipe for a format ends here: without a sample in made_files.py its name fails."""
-    made = {format_of(label) for label in MADE} | set(MADE_BINARY) | set(MADE_REFUSED)
+    made = {format_of(label) for label in MADE | MADE_BINARY} | set(MADE_REFUSED) | set(OF_OBSPY)
     assert form.name in made, f"{form.name}: write a maker of a small file into tests/contracts/made_files.py"
 
 

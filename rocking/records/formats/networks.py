@@ -1,4 +1,4 @@
-"""Formats of single networks: DYNA and AFAD, RESORCE, ESD, CWB, UNAM, K-NET, JMA, CSMNC, GeoNet, USGS SMC."""
+"""Formats of single networks: DYNA and AFAD, RESORCE, ESD, CWB, UNAM, JMA, CSMNC, GeoNet, USGS SMC."""
 
 import re
 from collections.abc import Sequence
@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from rocking.errors import RecordError
-from rocking.quantities import acceleration_factor, positive
+from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.dates import iso_date
 from rocking.records.formats import header, text
-from rocking.records.formats.format import Format, Options, without_offset
+from rocking.records.formats.format import Format, Options
 from rocking.records.formats.header import Layout, key, keyed
 from rocking.records.instrument import azimuth, is_vertical
 from rocking.records.plausibility import agree_with_velocity
@@ -239,49 +239,11 @@ def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tupl
     return table[:declared], (remark,)
 
 
-_JAPAN = 9.0  # h ahead of universal time
-_DELAY = 15 / 3600  # h; of a K-NET recorder, which its record time carries
-_KNET_KEYS = (
-    "Origin Time", "Lat.", "Long.", "Depth. (km)", "Mag.", "Station Code", "Station Lat.", "Station Long.",
-    "Station Height(m)", "Record Time", "Sampling Freq(Hz)", "Duration Time(s)", "Dir.", "Scale Factor",
-    "Max. Acc. (gal)", "Last Correction", "Memo.",
-)  # fmt: skip
-_KNET = Layout("gal", {
-    "rate": r"^Sampling Freq\(Hz\)\s*(.*?)(?:Hz)?$", "duration": r"^Duration Time\(s\)\s*(.*)",
-    "component": r"^Dir\.\s*(.*)", "station": r"^Station Code\s*(.*)", "event_time": r"^Origin Time\s*(.*)",
-    "magnitude": r"^Mag\.\s*(.*)", "latitude": r"^Station Lat\.\s*(.*)", "longitude": r"^Station Long\.\s*(.*)",
-    "elevation": r"^Station Height\(m\)\s*(.*)", "peak": r"^Max\. Acc\. \(gal\)\s*(.*)",
-    "start": r"^Record Time\s*(.*)",
-}, mandatory=("duration", "peak"), duration_steps=0.501, duration_digits=0.0, half_digit=5e-4, ahead=_JAPAN + _DELAY,
-    code="BO")  # fmt: skip
-_KNET_FIRST = re.compile("".join(f"{re.escape(name)}.*\n" for name in _KNET_KEYS[:10]))
-_KIKNET = {"1": "NS", "2": "EW", "3": "UD", "4": "NS", "5": "EW", "6": "UD"}
-_BOREHOLE = {"1", "2", "3"}
-
-
-def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
-    rows = text.lines(content, len(_KNET_KEYS))
-    if missing := [name for name in _KNET_KEYS if not any(row.startswith(name) for row in rows)]:
-        raise RecordError(f"the header has no line {missing[0]!r}; K-NET's has {len(_KNET_KEYS)} lines.")
-    head = "\n".join(rows)
-    scale = r"^Scale Factor\s*([\d.]+)\s*\(gal\)\s*/\s*([\d.]+)\s*$"
-    parts = header.required("a Scale Factor like 3920(gal)/6182761", scale, head)
-    factors = (text.number("Scale Factor", part) for part in parts.groups())
-    full, counts = (positive(RecordError, "Scale Factor", factor) for factor in factors)
-    samples = text.numbers(text.after_lines(content, len(_KNET_KEYS))) * (full / counts)
-    values, offset = without_offset(samples, options.unit_of("gal"))
-    direction = _KNET.text("component", head)
-    facts: dict[str, Any] = {"processing": (offset,), "borehole": direction in _BOREHOLE}
-    facts["component"] = _KIKNET.get(direction, direction)
-    facts["event"] = facts["event_time"] = _in_zone(_KNET.text("event_time", head), "JST")
-    return [_KNET.channel(head, values, options, **facts)]
-
-
 _JMA = Layout("", {
     "rate": r"^\s*SAMPLING RATE\s*=\s*([\d.]+)\s*Hz", "station": r"^SITE CODE=\s*([\x21-\x7e]+)",
     "latitude": r"^\s*LAT\.=\s*(.*)", "longitude": r"^\s*LON\.=\s*(.*)", "unit": r"^\s*UNIT\s*=\s*(\w+)",
     "start": r"^\s*INITIAL TIME\s*=\s*([\d ]+)", "magnitude": r"^SITE CODE=(?:[^,]*,){4}\s*([\d.]+)",
-}, ahead=_JAPAN, code="JMA")  # fmt: skip
+}, ahead=9.0, code="JMA")  # fmt: skip
 _JMA_HEADER = 7
 _JMA_NAMES = "NS,EW,UD"
 _JMA_FIRST = re.compile(rf"SITE CODE=(?:.*\n){{6}}[ \t]*{_JMA_NAMES}[ \t]*(?:\n|\Z)")
@@ -500,13 +462,6 @@ UNAM = Format(
     re.compile(r"(?:.*\n){0,11}ARCHIVO ESTANDAR DE ACELERACI"),
     _read_unam,
     "UNAM",
-)
-KNET = Format(
-    "K-NET/KiK-net",
-    "NIED, Japan",
-    "header that starts with Origin Time, Lat., Long., Depth. (km)",
-    _KNET_FIRST,
-    _read_knet,
 )
 JMA = Format(
     "JMA CSV",

@@ -70,13 +70,20 @@ def numbers(text: bytes | str) -> np.ndarray:
                 at = int(np.argmax(~(np.abs(values) < _LARGEST)))
                 raise RecordError(f"number {at + 1} of the samples is {values[at]:g}, beyond {_LARGEST:g}.")
             return values
+    check_plain(text)
+    raise RecordError("the samples cannot be told apart; every sample must be a plain decimal number.")
+
+
+def check_plain(text: bytes) -> None:
+    """Raise RecordError at the first word of `text` that is no plain decimal number."""
+    if not text.translate(None, b"0123456789 \t\n\r"):
+        return
     # A dash of typography is named before numbers that merely touch, which is how some formats write.
     for line, row in sorted(enumerate(lines(text), 1), key=lambda each: each[1].isascii()):
         for token in row.split():
             if not is_number(token):
                 defect = f"line {line} of the samples holds {token[:40]!r}"
                 raise RecordError(f"{defect}; every sample must be a plain decimal number.")
-    raise RecordError("the samples cannot be told apart; every sample must be a plain decimal number.")
 
 
 def fields(rows: list[str], width: int = 0, margin: int = 0) -> np.ndarray:

@@ -115,11 +115,7 @@ def test_the_disc_of_1999_is_read_as_its_later_files_are(tmp_path):
             "Raw acceleration counts   (Format v01.20 with 13 text lines)\n" * 3,
             "COSMOS V0 file of raw counts",
         ),
-        ("WID2 2010/01/01 00:00:00.000 AAA\n" * 3, "GSE file, which is read by way of obspy"),
-        (
-            "TIMESERIES XX_AAA__HNE_D, 600 samples\n" * 3,
-            "SLIST or TSPAIR file, which is read by way of obspy",
-        ),
+        ("BEGIN GSE2.0\nMSG_TYPE DATA\n" * 3, "message of GSE or IMS; cut off what stands above"),
         ("* **********\n* NETWORK\nZEROS 3\nPOLES 5\n", "poles and zeros, which holds a response"),
         ("<!DOCTYPE html><html><body>Not found\n", "web page, and no record"),
         ("%PDF-1.5\nxx", "PDF, an archive or a data base"),

@@ -1,4 +1,8 @@
-"""The formats that obspy reads, from bytes we have recognised, by the format we name: SAC, EVT, miniSEED."""
+"""The formats that obspy reads, from bytes we have recognised, by the format we name, never by its own guess.
+
+K-NET, Kinemetrics EVT, SAC, and files of counts: miniSEED, GSE, SLIST, TSPAIR, WIN, SEISAN, REFTEK. CSS is refused, for
+its samples lie in other files.
+"""
 
 import io
 import re
@@ -6,17 +10,21 @@ import struct
 import warnings
 from contextlib import suppress
 from dataclasses import replace
+from datetime import datetime
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError
-from rocking.quantities import GRAVITY
+from rocking.quantities import GRAVITY, acceleration_unit, positive
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.formats import header, text
 from rocking.records.formats.format import Format, Options, without_offset
+from rocking.records.formats.header import Layout
 from rocking.records.formats.text import LARGEST_SERIES
-from rocking.records.instrument import azimuth
+from rocking.records.instrument import azimuth, refuse_other_quantity
 from rocking.records.traces import calibrated, first_line, joined, names, site
 from rocking.remarks import Kind, Remark
 from rocking.tables import read_whole
@@ -38,12 +46,16 @@ def _stream(content: bytes, form: str, **options: Any) -> Any:
             raise
         except Exception as error:
             reason, _, _ = first_line(error).partition(": <_io")  # what an address in memory follows
+            reason = re.sub(r" '/[^']*'", "", reason)  # nor a name of our own
             raise RecordError(f"damaged {form} file, {reason}; fetch it again.") from error
     messages = [first_line(each.message) for each in caught]
     if form == "MSEED" and (damage := [text for text in messages if _DAMAGE.search(text)]):
         raise RecordError(f"damaged {form} file, {damage[0]}; fetch it again.")
-    if not any(trace.stats.npts for trace in result):
+    samples = sum(trace.stats.npts for trace in result)
+    if not samples:
         raise RecordError(f"the {form} file holds no samples.")
+    if samples > LARGEST_SERIES:
+        raise RecordError(f"the file unpacks to {samples} samples, more than {LARGEST_SERIES}; cut it first.")
     notes += [Remark.of(Kind.TOLD_BY_OBSPY, text=text) for text in messages]
     for _, station, _, channel, _, begin, length, _ in result.get_gaps():
         if length < 0:
@@ -79,6 +91,44 @@ def _check_blocks(content: bytes) -> list[Remark]:
     before = int(numbers[leaps[0]])
     after = int(numbers[leaps[0] + 1])
     return [Remark.of(Kind.BLOCKS_LEAP, before=before, after=after)]
+
+
+_KNET_KEYS = (
+    "Origin Time", "Lat.", "Long.", "Depth. (km)", "Mag.", "Station Code", "Station Lat.", "Station Long.",
+    "Station Height(m)", "Record Time", "Sampling Freq(Hz)", "Duration Time(s)", "Dir.", "Scale Factor",
+    "Max. Acc. (gal)", "Last Correction", "Memo.",
+)  # fmt: skip
+_KNET = Layout("gal", {
+    "rate": r"^Sampling Freq\(Hz\)\s*(.*?)(?:Hz)?$", "duration": r"^Duration Time\(s\)\s*(.*)",
+    "component": r"^Dir\.\s*(.*)", "station": r"^Station Code\s*(.*)", "event_time": r"^Origin Time\s*(.*)",
+    "magnitude": r"^Mag\.\s*(.*)", "latitude": r"^Station Lat\.\s*(.*)", "longitude": r"^Station Long\.\s*(.*)",
+    "elevation": r"^Station Height\(m\)\s*(.*)", "peak": r"^Max\. Acc\. \(gal\)\s*(.*)",
+}, mandatory=("duration", "peak"), duration_steps=0.501, duration_digits=0.0, half_digit=5e-4, code="BO")  # fmt: skip
+"""What the header states beside the samples, which are held against it."""
+_KNET_FIRST = re.compile("".join(f"{re.escape(name)}.*\n" for name in _KNET_KEYS[:10]))
+_KIKNET = {"1": "NS", "2": "EW", "3": "UD", "4": "NS", "5": "EW", "6": "UD"}
+_BOREHOLE = {"1", "2", "3"}
+
+
+def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
+    rows = text.lines(content, len(_KNET_KEYS))
+    if missing := [name for name in _KNET_KEYS if not any(row.startswith(name) for row in rows)]:
+        raise RecordError(f"the header has no line {missing[0]!r}; K-NET's has {len(_KNET_KEYS)} lines.")
+    head = "\n".join(rows)
+    # Of "3920.5(gal)" obspy would take the whole part, and "1_0" for a number.
+    scale = r"^Scale Factor\s*(\d+)\(gal\)/(\d+)\s*$"
+    parts = header.required("a Scale Factor like 3920(gal)/6182761", scale, head)
+    for part in parts.groups():
+        positive(RecordError, "Scale Factor", text.number("Scale Factor", part))
+    text.check_plain(text.after_lines(content, len(_KNET_KEYS)))
+    ((trace,), notes) = _stream(content.decode("latin-1").encode("ascii", "replace"), "KNET")
+    values, offset = without_offset(trace.data * (100 * trace.stats.calib), options.unit_of("gal"))
+    direction = _KNET.text("component", head)
+    facts: dict[str, Any] = {"processing": (offset,), "borehole": direction in _BOREHOLE, "warnings": notes}
+    facts["component"] = _KIKNET.get(direction, direction)
+    facts["event"] = facts["event_time"] = f"{_KNET.text('event_time', head)} JST".strip()
+    facts["start_time"] = f"{trace.stats.starttime.datetime.isoformat()}Z"
+    return [_KNET.channel(head, values, options, **facts)]
 
 
 def _sac_direction(header: dict[str, float], component: str) -> dict[str, Any]:
@@ -237,17 +287,82 @@ _FIXED_HEADER = re.compile(rb"[0-9 \0]{6}[DRQM][ \0]")
 _LARGEST_XML = 32 * 2**20
 
 
-def _read_miniseed(content: bytes, options: Options) -> list[Accelerogram]:
-    """The samples are counts, turned into acceleration by the StationXML that describes the instrument."""
-    traces, warnings = _stream(content, "MSEED")
-    inventory = _inventory(traces[0].stats, options)
-    unit = options.unit_of(None) if inventory is None else None
+def _read_counts(form: str, content: bytes, options: Options) -> list[Accelerogram]:
+    """The samples are counts, turned into acceleration by the StationXML that describes the instrument.
+
+    form: obspy's name of the format. Of a text that states their unit, they may be acceleration already.
+    """
+    if form in _LISTS:
+        _check_lists(content)
+    seconds = _seconds_of_win(content) if form == "WIN" else 0
+    traces, warnings = _stream(content, form)
+    for trace in traces if seconds else ():
+        if trace.stats.npts != round(seconds * trace.stats.sampling_rate):
+            raise RecordError(
+                f"channel {trace.stats.channel} holds {trace.stats.npts} samples in {seconds} s at "
+                f"{trace.stats.sampling_rate:g} Hz: seconds of it are missing; fetch the file again."
+            )
+    unit = _stated_unit(traces, options)
+    inventory = None if unit else _inventory(traces[0].stats, options)
+    unit = options.unit_of(unit) if inventory is None else None
     records = []
     for record in Accelerogram.from_obspy(traces, inventory, unit, options.response):
         step = options.time_step_of(float(f"{record.time_step:.9g}"))
         doubts = (*warnings, *record.warnings)
+        if form == "WIN":  # whose channels have numbers and no directions
+            doubts += (Remark(Kind.DIRECTION_UNKNOWN, record.component),)
         records.append(replace(record, time_step=step, warnings=doubts, processed=False))
     return records
+
+
+def _read_gse(content: bytes, options: Options) -> list[Accelerogram]:
+    return _read_counts("GSE2" if content.lstrip().startswith(b"WID2") else "GSE1", content, options)
+
+
+def _read_lists(content: bytes, options: Options) -> list[Accelerogram]:
+    return _read_counts(
+        "TSPAIR" if b", TSPAIR," in content.partition(b"\n")[0] else "SLIST", content, options
+    )
+
+
+_LISTS = "SLIST", "TSPAIR"
+_NO_UNIT = "COUNTS", "COUNT", "INTEGER", "FLOAT"
+"""The last words of a head of samples that are counts, or have no unit: there the type of the samples stands last."""
+_LIST_HEAD = re.compile(rb"(?m)^TIMESERIES \S+, *(\d+) samples,.*\n")
+
+
+def _check_lists(content: bytes) -> None:
+    """Refuse lists of samples that hold another number of lines or samples than their heads declare: obspy does not."""
+    heads = [int(match[1]) for match in _LIST_HEAD.finditer(content)]
+    is_of_pairs = b", TSPAIR," in content.partition(b"\n")[0]
+    bodies = _LIST_HEAD.split(content)[2::2]
+    for declared, body in zip(heads, bodies, strict=True):
+        numbers = re.sub(rb"(?m)^[ \t]*\S+", b"", body) if is_of_pairs else body
+        text.check_plain(numbers)
+        held = len(numbers.split())
+        if held != declared:
+            raise RecordError(
+                f"a head declares {declared} samples, but {held} stand below it: the file is cut or damaged; fetch the "
+                "whole file."
+            )
+
+
+def _stated_unit(traces: Any, options: Options) -> str | None:
+    """Return the unit that the heads of a list of samples state, None of counts and of other formats.
+
+    Raises RecordError for velocity or displacement.
+    """
+    heads = (str(trace.stats.ascii.unit) for trace in traces if "ascii" in trace.stats)
+    units = {unit for unit in heads if unit.upper() not in _NO_UNIT}
+    for unit in units:
+        refuse_other_quantity("", unit)
+        if acceleration_unit(unit) is None and options.unit is None:
+            raise UndeclaredError(
+                f"unit is {unit!r} in the file, which is none of acceleration; declare it: the column unit of the "
+                "catalogue, --unit on the command line, unit= in Python.",
+                "unit",
+            )
+    return next((unit for unit in units if acceleration_unit(unit)), None)
 
 
 def _inventory(stats: Any, options: Options) -> Any:
@@ -286,10 +401,76 @@ def _parse(path: Path) -> Any:
 
 def may_be_counts(head: bytes) -> bool:
     """Whether a file that begins with `head`, its first 1024 bytes, may hold counts, which need a StationXML."""
-    if MINISEED.recognise(head):
+    if any(form.recognise(head) for form in (MINISEED, GSE, LISTS_OF_SAMPLES, WIN, SEISAN, REFTEK)):
         return True
     versions = (struct.unpack_from(order + "i", head.ljust(_SAC_HEADER), _VERSION)[0] for order in "<>")
     return any(version in (6, 7) for version in versions)
+
+
+def _is_win(content: bytes) -> bool:
+    """Whether blocks of a second stand one behind another, each with its length and a time in packed decimals."""
+    at = 0
+    for block in range(2):
+        if block and at + _WIN_HEAD > len(content):
+            return at == len(content) or len(content) == 1024  # the start of a file
+        if at + _WIN_HEAD > len(content):
+            return False
+        length = int.from_bytes(content[at : at + 4], "big")
+        time = content[at + 4 : at + _WIN_HEAD].hex()
+        if length <= _WIN_HEAD or not time.isdecimal():
+            return False
+        month, day, hour, minute, second = (int(time[place : place + 2]) for place in range(2, 12, 2))
+        if not (1 <= month <= 12 and 1 <= day <= 31 and hour < 24 and minute < 60 and second < 60):
+            return False
+        at += length
+    return True
+
+
+def _seconds_of_win(content: bytes) -> int:
+    """Return how many seconds a file holds. Raises RecordError where it leaves some out: obspy joins what is left."""
+    at = 0
+    times = []
+    while (
+        at + _WIN_HEAD <= len(content) and (length := int.from_bytes(content[at : at + 4], "big")) > _WIN_HEAD
+    ):
+        year, month, day, hour, minute, second = (
+            int(f"{octet:x}") for octet in content[at + 4 : at + _WIN_HEAD]
+        )
+        times.append(datetime(2000 + year, month, day, hour, minute, second).timestamp())
+        at += length
+    if at > len(content) or content[at:].strip(b"\0") or (np.diff(times) != 1).any():
+        raise RecordError(
+            "the seconds of the file do not follow one another, or the last is cut; fetch it again."
+        )
+    return len(times)
+
+
+_WIN_HEAD = 10
+"""Bytes of the length of a block and of its time."""
+_SEISAN_FIRST = (
+    (0, b"KP", 82, b"P"),
+    (0, b"\0\0\0P", 84, b"\0\0\0P"),
+    (0, b"P\0\0\0", 84, b"P\0\0\0"),
+)
+"""The marks of a first line of 80 characters and of the second, as compilers of Fortran write them (SEISAN manual)."""
+
+
+def _is_seisan(content: bytes) -> bool:
+    return len(content) >= 12 * 80 and any(
+        content.startswith(first, at) and content.startswith(second, then)
+        for at, first, then, second in _SEISAN_FIRST
+    )
+
+
+def _is_reftek(content: bytes) -> bool:
+    return len(content) % 1024 == 0 and content[:2] in (b"EH", b"DT", b"AD") and b"\0" in content[:16]
+
+
+def _refuse_css(content: bytes, options: Options) -> list[Accelerogram]:
+    raise RecordError(
+        "a CSS table (wfdisc) holds no samples, but names the files that do; read them together: "
+        "rocking.from_obspy(obspy.read(path, format='CSS'), inventory=...)."
+    )
 
 
 def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
@@ -315,7 +496,58 @@ MINISEED = Format(
     "FDSN data centres",
     "miniSEED fixed header (six digits, then D, R, Q or M)",
     lambda content: len(content) >= 128 and bool(_FIXED_HEADER.match(content)),
-    _read_miniseed,
+    partial(_read_counts, "MSEED"),
+)
+GSE = Format(
+    "GSE",
+    "CTBTO, ISC and older networks",
+    "line WID2, WID1 or XW01 at the start",
+    re.compile(r"WID2 \d{4}/|WID1 +\d{7} |XW01 *\n"),
+    _read_gse,
+)
+LISTS_OF_SAMPLES = Format(
+    "SLIST or TSPAIR",
+    "FDSN data centres",
+    "first line TIMESERIES with SLIST or TSPAIR",
+    re.compile(r"TIMESERIES \S+,.*, (SLIST|TSPAIR),"),
+    _read_lists,
+)
+WIN = Format(
+    "WIN",
+    "networks of universities, Japan",
+    "two blocks with their length and time in packed decimals",
+    _is_win,
+    partial(_read_counts, "WIN"),
+)
+SEISAN = Format(
+    "SEISAN",
+    "SEISAN, University of Bergen",
+    "marks of two lines of 80 characters as Fortran writes them",
+    _is_seisan,
+    partial(_read_counts, "SEISAN"),
+)
+REFTEK = Format(
+    "REFTEK 130",
+    "Refraction Technology recorders",
+    "packets of 1024 bytes, of which the first is EH, DT or AD",
+    _is_reftek,
+    partial(_read_counts, "REFTEK130"),
+)
+CSS = Format(
+    "CSS wfdisc",
+    "CTBTO and US laboratories",
+    "line of 283 or more characters with station, channel and epoch of a wfdisc",
+    re.compile(
+        r"\S{1,6} +\S{1,8} +\d{9,10}\.\d+ +-?\d+ +-?\d+ +[\d-]+ +\d{9,10}\.\d+ +\d+ +[\d.]+ +[\d.-]+ "
+    ),
+    _refuse_css,
+)
+KNET = Format(
+    "K-NET/KiK-net",
+    "NIED, Japan",
+    "header that starts with Origin Time, Lat., Long., Depth. (km)",
+    _KNET_FIRST,
+    _read_knet,
 )
 STATIONXML = Format(
     "StationXML",
