@@ -273,6 +273,10 @@ class Decision:
     where none can be said. interval: of the share, from the first crack to the worst, with what failed or is not
     known; nan where nothing is known. why: the reason, in words. doubts: what may make it worse than said. tells: what
     would tell more.
+
+    >>> decision = rocking.Decision(rocking.Verdict.UNCERTAIN, 0.5, (0.5, 0.5), "32 of 64 members overturn")
+    >>> print(decision.word, decision.share)
+    uncertain 0.5
     """
 
     word: Verdict

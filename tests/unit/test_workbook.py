@@ -4,12 +4,11 @@ import math
 import re
 import zipfile
 from io import BytesIO
-from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 
-from rocking.tables import Row, column, row, write_rows
+from rocking.tables import Row, column, row
 from rocking.tables.workbook import workbook
 
 SPACE = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
@@ -33,9 +32,8 @@ ROWS = [
 ]
 
 
-def _made(tmp_path: Path, rows: list[CaseRow] = ROWS) -> bytes:
-    write_rows(CaseRow, rows, tmp_path / "cases.csv")
-    return workbook({CaseRow: tmp_path / "cases.csv"}, "A study")
+def _made(rows: list[CaseRow] = ROWS) -> bytes:
+    return workbook({CaseRow: rows}, "A study")
 
 
 def _cells(content: bytes, sheet: int) -> dict[str, tuple[str, str]]:
@@ -46,8 +44,8 @@ def _cells(content: bytes, sheet: int) -> dict[str, tuple[str, str]]:
     return {each.get("r", ""): (each.get("t", "n"), "".join(each.itertext())) for each in cells}
 
 
-def test_every_cell_has_its_type_and_every_head_its_unit(tmp_path: Path) -> None:
-    cells = _cells(_made(tmp_path), 2)
+def test_every_cell_has_its_type_and_every_head_its_unit() -> None:
+    cells = _cells(_made(), 2)
     assert [cells[f"{place}1"][1] for place in "ABCDE"] == [
         "record",
         "rotation [rad]",
@@ -62,24 +60,22 @@ def test_every_cell_has_its_type_and_every_head_its_unit(tmp_path: Path) -> None
     assert cells["E2"][1] == "a; b" and "E3" not in cells
 
 
-def test_the_first_sheet_says_what_each_column_means(tmp_path: Path) -> None:
-    cells = _cells(_made(tmp_path), 1)
+def test_the_first_sheet_says_what_each_column_means() -> None:
+    cells = _cells(_made(), 1)
     assert [cells[f"{place}3"][1] for place in "ABCDE"] == [
         "cases", "rotation [rad]", "rotation_rad", "rad", "How far it turns",
     ]  # fmt: skip
 
 
 @pytest.mark.parametrize(("rows", "filtered"), [(ROWS, "A1:E4"), ([], "A1:E1")])
-def test_the_filter_covers_the_rows_and_no_line_below_them(
-    tmp_path: Path, rows: list[CaseRow], filtered: str
-) -> None:
-    with zipfile.ZipFile(BytesIO(_made(tmp_path, rows))) as book:
+def test_the_filter_covers_the_rows_and_no_line_below_them(rows: list[CaseRow], filtered: str) -> None:
+    with zipfile.ZipFile(BytesIO(_made(rows))) as book:
         root = ElementTree.fromstring(book.read("xl/worksheets/sheet2.xml"))
     assert [each.get("ref") for each in root.iter(f"{SPACE}autoFilter")] == [filtered]
 
 
-def test_the_heads_are_bold_above_a_thin_line(tmp_path: Path) -> None:
-    with zipfile.ZipFile(BytesIO(_made(tmp_path))) as book:
+def test_the_heads_are_bold_above_a_thin_line() -> None:
+    with zipfile.ZipFile(BytesIO(_made())) as book:
         styles = ElementTree.fromstring(book.read("xl/styles.xml"))
         sheet = ElementTree.fromstring(book.read("xl/worksheets/sheet2.xml"))
     forms = styles.findall(f"{SPACE}cellXfs/{SPACE}xf")
@@ -91,19 +87,17 @@ def test_the_heads_are_bold_above_a_thin_line(tmp_path: Path) -> None:
     assert below is not None and below.get("style") == "thin"
 
 
-def test_no_cell_is_a_formula_and_nothing_in_it_changes_between_two_runs(tmp_path: Path) -> None:
-    first = _made(tmp_path)
+def test_no_cell_is_a_formula_and_nothing_in_it_changes_between_two_runs() -> None:
+    first = _made()
     with zipfile.ZipFile(BytesIO(first)) as book:
         texts = [book.read(name).decode() for name in book.namelist()]
     assert not any(re.search("<f>|\x07", text) for text in texts)
-    assert _made(tmp_path) == first
+    assert _made() == first
 
 
-def test_a_table_that_no_sheet_holds_is_left_out_and_named(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_table_that_no_sheet_holds_is_left_out_and_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("rocking.tables.workbook.MOST_ROWS", 2)
-    content = _made(tmp_path)
+    content = _made()
     assert "cases has more rows than a sheet holds; read cases.csv." in _cells(content, 1)["A2"][1]
     with zipfile.ZipFile(BytesIO(content)) as book:
         assert "xl/worksheets/sheet2.xml" not in book.namelist()
