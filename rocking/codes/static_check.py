@@ -133,11 +133,11 @@ def _must_bear(mechanisms: Sequence[LocalMechanism]) -> Remark | None:
             and wall.tie_stiffness
             and wall.tie_strength is None
         ):
-            for kind, height, force in wall.reactions():
-                if kind == "tie" and height == wall.opening.hold:
+            for held in wall.reactions():
+                if held.kind == "tie" and held.height == wall.opening.hold:
                     name = wall.held_wall.name(wall.opening)
                     return Remark.of(
-                        Kind.TIE_MUST_BEAR, name, height_m=height, force_kN_m=float(force[0]) / 1e3
+                        Kind.TIE_MUST_BEAR, name, height_m=held.height, force_kN_m=float(held.force[0]) / 1e3
                     )
     return None
 

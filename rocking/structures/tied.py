@@ -58,11 +58,28 @@ def check_inside(field: str, value: float, height: float) -> None:
 
 
 class Reaction(NamedTuple):
-    """What holds a wall sideways at a height [m]: a "tie", a "floor" or the "top"; its force, (k,) N per metre."""
+    """What holds a wall sideways at a height [m]: a "tie", a "floor" or the "top", with its force, (k,) N per metre.
+
+    pressing: the weight that presses the wall there against what holds it, N per metre, by whose friction it may do so.
+    """
 
     kind: str
     height: float
     force: np.ndarray
+    pressing: float = 0.0
+
+    @property
+    def needed_friction(self) -> np.ndarray:
+        """The friction coefficient at which friction alone gives that force, (k,); inf where nothing presses."""
+        return (
+            np.maximum(self.force, 0.0) / self.pressing
+            if self.pressing
+            else np.where(self.force > 0, np.inf, 0.0)
+        )
+
+    def held_by(self, friction: float) -> float:
+        """Return the force that friction of that coefficient gives, N per metre."""
+        return friction * self.pressing
 
 
 @dataclass(frozen=True, repr=False)
@@ -194,7 +211,7 @@ class Tied(CrackedAtHeight):
         found = [self._held_back(state, mirrored) for mirrored in (False, True)[: len(self.linkages)]]
         is_positive = state.sign > 0
         return tuple(
-            Reaction(first.kind, first.height, np.where(is_positive, first.force, other.force))
+            first._replace(force=np.where(is_positive, first.force, other.force))
             for first, other in zip(found[0], found[-1], strict=True)
         )
 
@@ -229,7 +246,8 @@ class Tied(CrackedAtHeight):
                 force = (
                     tie.tie.tension(tie.stretch(state.rotation), tie.stretch(state.largest)) * linkage.unit
                 )
-            reactions.append(Reaction(hold.kind, hold.height, force))
+            pressing = sum(load.weight for load in wall.loads if hold.kind == "top" and load.z == hold.height)
+            reactions.append(Reaction(hold.kind, hold.height, force, pressing))
         return reactions
 
     @property

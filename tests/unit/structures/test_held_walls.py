@@ -376,3 +376,80 @@ def test_chain_keeps_its_held_point_and_hung_points_on_their_bodies():
     np.testing.assert_allclose(upright.moved, 1j * held.moved.imag, atol=1e-15)
     load = chain.point(1, hung[0].start, at)
     np.testing.assert_allclose(chain.motion(at).centroids[-1] - hung[0].start, load.moved, atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("slab", "strength", "expected"),
+    [
+        ("hinged", None, 11.927222),
+        ("hinged", 1.5e6, 10.604435),
+        ("flat", None, 19.705000),
+        ("flat", 1.5e6, 17.685045),
+    ],
+)
+def test_reaction_at_the_top_at_rest_is_that_of_hand(slab, strength, expected):
+    """Section 12.8, six digits; a top that friction holds needs μ ≥ R/N."""
+    values = {"top_load": 40e3, "top_slab": slab, "restitution": 0.5, "crack": "known"}
+    (top,) = LoadedWall(2.4, 1.2, 0.35, 18e3, **values, compressive_strength=strength).reactions()
+    assert top.force[0] / 1e3 == pytest.approx(expected, abs=5e-7)
+    assert top.needed_friction[0] == pytest.approx(expected / 40.0, rel=1e-6)
+    assert top.held_by(0.6) == pytest.approx(24e3)
+
+
+def test_reaction_of_a_tie_at_rest_is_the_strength_at_which_it_yields_as_it_bulges():
+    """Section 12.7: R = 9.201252 kN/m with the hinge at 2.40 m; R ≤ F where λ of the bulge ≤ λ past the tie."""
+    wall = ONE_STOREY.opened(Opening(0.0, 2.4, 3.6))
+    (tie,) = wall.reactions()
+    assert tie.kind == "tie" and tie.force[0] == pytest.approx(9201.252, abs=5e-4)
+    yields = replace(ONE_STOREY, tie_strength=float(tie.force[0]))
+    assert yields.held_wall.multiplier(Opening(0.0)) == pytest.approx(
+        wall.mechanism().uplift_multiplier, rel=1e-12
+    )
+
+
+def held_forces(wall, opening, state):
+    """What the hold and the foot give together, from how all masses are accelerated: differences of their places.
+
+    The moment of all about the foot, and the sum of the forces sideways.
+    """
+    phi, velocity, acceleration, ground = state
+    linkage = wall.opened(opening).linkage
+    step = 2e-4
+    times = np.array([-2, -1, 0, 1, 2]) * step
+    motion = linkage.motion(phi + velocity * times + acceleration * times**2 / 2)
+    second = np.array([-1, 16, -30, 16, -1]) / (12 * step**2)
+    places, spin = motion.centroids @ second, motion.angles @ second
+    at = motion.centroids[:, 2] - motion.hinges[0, 2]
+    forces = linkage.masses * -(places + ground + 1j * GRAVITY)
+    moment = (at.real * forces.imag - at.imag * forces.real - linkage.inertias * spin).sum()
+    return moment / GRAVITY, forces.real.sum() / GRAVITY
+
+
+@pytest.mark.parametrize("upright", [False, True])
+def test_reaction_in_motion_balances_all_masses_about_the_foot(upright):
+    """Differences of places are right to 1e-7."""
+    wall = replace(THREE, tie_heights=(6.4, 9.0) if upright else (6.4,), loads_held=False)
+    opening = Opening(0.0, 3.9, 6.4, upright=upright)
+    opened = wall.opened(opening)
+    for phi, velocity, ground in ((0.02, 0.3, -1.5), (0.05, -0.4, 2.0), (0.08, 0.1, 0.3)):
+        acceleration = float(opened.mechanism().angular_acceleration(phi, velocity, ground))
+        found = opened.reactions([phi], [velocity], ground=[ground])
+        contacts = opened.contact_forces([phi], [velocity], None, [ground])
+        moment, sideways = held_forces(wall, opening, (phi, velocity, acceleration, ground))
+        held = opened.linkage.motion(phi).hinges[2].imag
+        heights = [held if each.height == 6.4 else each.height for each in found]
+        by_holds = sum(float(each.force[0]) * height for each, height in zip(found, heights, strict=True))
+        assert by_holds == pytest.approx(-moment, rel=1e-6)
+        # tangential forces are those of the wall on its joint
+        at_foot = float(contacts.tangential[0, 0]) * opened.linkage.unit / GRAVITY
+        together = sum(float(each.force[0]) for each in found)
+        assert together == pytest.approx(sideways - at_foot, rel=1e-6)
+
+
+def test_tie_past_which_a_facade_turns_pulls_as_its_law_says():
+    facade = Facade(
+        (6.0,), (0.5,), 18e3, tie_heights=(5.0,), tie_stiffness=4e4, behind="cross_walls", restitution=0.6
+    )
+    (tie,) = facade.reactions([0.02, 0.05], [0.1, 0.0], ground=[0.0, 1.0])
+    np.testing.assert_allclose(tie.force, 4e4 * 5.0 * np.sin([0.02, 0.05]), rtol=1e-12)
+    assert facade.reactions()[0].force[0] == 0
