@@ -133,11 +133,14 @@ def _must_bear(mechanisms: Sequence[LocalMechanism]) -> Remark | None:
             and wall.tie_stiffness
             and wall.tie_strength is None
         ):
-            for held in wall.reactions():
-                if held.kind == "tie" and held.height == wall.opening.hold:
+            for reaction in wall.reactions():
+                if reaction.kind == "tie" and reaction.height == wall.opening.hold:
                     name = wall.held_wall.name(wall.opening)
                     return Remark.of(
-                        Kind.TIE_MUST_BEAR, name, height_m=held.height, force_kN_m=float(held.force[0]) / 1e3
+                        Kind.TIE_MUST_BEAR,
+                        name,
+                        height_m=reaction.height,
+                        force_kN_m=float(reaction.force[0]) / 1e3,
                     )
     return None
 
