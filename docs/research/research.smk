@@ -28,6 +28,11 @@ TARGETS_OF_RESEARCH = {
         REAL_RECORDS,
         ["screening.csv"],
     ),
+    "stability": (
+        "Hold the words of few members against the shares of thousands",
+        REAL_RECORDS,
+        ["stability.csv"],
+    ),
     "floors": (
         "Hold the closed form against integration on supports that ring",
         REAL_RECORDS,

@@ -26,6 +26,7 @@ def targets() -> "dict[str, Callable[[Target], None]]":
         fragilities,
         fronts,
         rates,
+        stability,
         stacks,
         tiers,
     )
@@ -40,6 +41,7 @@ def targets() -> "dict[str, Callable[[Target], None]]":
         "govern": cracks.govern,
         "stand": stacks.stand,
         "screen": ensembles.screen,
+        "stability": stability.stability,
         "floors": floors.floors,
         "fronts": fronts.fronts,
         "code_check": code_checks.code_check,

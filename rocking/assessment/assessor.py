@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cache, cached_property, partial
-from math import isclose
+from math import isclose, isnan
 from typing import Protocol, TypeVar
 
 from rocking.assessment.case import (
@@ -309,11 +309,13 @@ class Assessor:
         """The station with the reserve of the crack that governs the case that decides.
 
         With fidelity: auto, which asks for the verdict alone, no reserve is sought, nor where nothing can overturn the
-        structure. Why there is none is added to the failures.
+        structure, nor where it slides first. Why there is none is added to the failures.
         """
         case = station.decisive
         ensemble = self.settings.ensemble
         if case is None or case.ensembles is None or self.settings.fidelity == "auto" or not ensemble.reserve:
+            return station
+        if not isnan(case.slides_at):  # the factors of a mechanism that slides first would say nothing of it
             return station
         several = cracks(station.body)
         description = case.ensembles.governing.description

@@ -382,6 +382,11 @@ class StationResult:
         """
         both = [*self.cases.values(), *([self.directions] if self.directions else [])]
         doubts = [each.doubt for each in both if each.doubt is not None]
+        doubts += [
+            each
+            for each in self.decision.doubts
+            if each.kind in (Kind.MEMBERS_FAILED, Kind.COMPONENT_MISSING)
+        ]
         if any(each.check.bounces for each in both):
             doubts.append(Remark(Kind.CONTACTS_OPEN))
         if self.body.tapers:

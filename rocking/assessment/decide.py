@@ -9,7 +9,6 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Protocol
 
 from rocking.quantities import percent
 from rocking.remarks import Kind, Remark
@@ -304,34 +303,6 @@ class Decision:
         """Key by which the worst of several comes last: the word, then the share."""
         share = self.interval[0] if math.isnan(self.share) else self.share
         return self.word.badness, -1.0 if math.isnan(share) else share
-
-
-class Decided(Protocol):
-    """A structure with its decision: a result, or the row that it was written into."""
-
-    @property
-    def structure(self) -> str:
-        """Name of the structure."""
-
-    @property
-    def decision(self) -> Decision:
-        """What becomes of it."""
-
-    @property
-    def severity(self) -> tuple[float, ...]:
-        """Key by which the worst of several comes last."""
-
-    @property
-    def rotation_ratio(self) -> float:
-        """Largest rotation over critical rotation as recorded."""
-
-    @property
-    def rotation_ratio_low(self) -> float:
-        """5 % quantile of the rotation ratio of the members."""
-
-    @property
-    def rotation_ratio_high(self) -> float:
-        """95 % quantile of the rotation ratio of the members."""
 
 
 def worst_first(decisions: Iterable[tuple[str, Decision]]) -> list[str]:

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from rocking.assessment.decide import Verdict
 from rocking.assessment.verdict import NEGLIGIBLE, Method, rests
@@ -13,7 +13,7 @@ from rocking.reports.units import unit_of, units_in_words
 from rocking.tables import Row
 
 if TYPE_CHECKING:
-    from rocking.assessment.decide import Decided, Decision
+    from rocking.assessment.decide import Decision
 
 Cell = str | dict[str, object]
 """A text; or a text that is strong, with another below it (layout.typ)."""
@@ -48,6 +48,18 @@ _LARGEST_PLAIN = 1e6
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _CHOSEN = ("scale_factor", "time_step_s", "high_pass_frequency_hz")
 """Fields that somebody chose, which are printed as they were given."""
+
+
+class Banded(Protocol):
+    """A result, or the row that it was written into, with the band of its members."""
+
+    @property
+    def rotation_ratio_low(self) -> float:
+        """5 % quantile of the rotation ratio of the members."""
+
+    @property
+    def rotation_ratio_high(self) -> float:
+        """95 % quantile of the rotation ratio of the members."""
 
 
 @dataclass(frozen=True)
@@ -94,7 +106,7 @@ def ratio(value: float | None, digits: int = 3) -> str:
     return NOTHING if math.isnan(value) else "rests" if rests(value) else "overturns"
 
 
-def to_spread(value: float, result: "Decided") -> str:
+def to_spread(value: float, result: Banded) -> str:
     """Return a rotation ratio of `result` with no more digits, three at most, than the spread of its members has a
     meaning for: to a tenth of it.
     """
@@ -114,7 +126,7 @@ def cell_text(decision: "Decision | None") -> str:
     return f"{sign} {share.replace('at least', '≥')}".strip()
 
 
-def band_text(result: "Decided", to: str) -> str:
+def band_text(result: Banded, to: str) -> str:
     """Return the rotation ratios that 5 and 95 % of the members do not exceed, with `to` between them; one if equal."""
     low = ratio(result.rotation_ratio_low, 2)
     high = ratio(result.rotation_ratio_high, 2)

@@ -1,0 +1,59 @@
+"""Words beside those of many members: what a trial holds, and what its scores count."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from docs.research import stability
+from docs.research.stability import KINDS, StabilityTrial, stability_scores, stability_trials
+from rocking.assessment.decide import Verdict, step
+from rocking.records import Accelerogram
+from rocking.structures import Block, Wall
+
+TIMES = np.arange(0, 4, 0.01)
+PAIR = [
+    Accelerogram(peak * np.sin(2 * np.pi * TIMES / period) * (TIMES < 2), 0.01, component)
+    for component, peak, period in (("EW", 3.0, 0.8), ("NS", 2.0, 0.5))
+]
+
+
+def test_a_trial_holds_the_word_of_its_own_share(monkeypatch):
+    monkeypatch.setattr(stability, "MEMBERS", 256)
+    trials = list(
+        stability_trials("a site", PAIR, {"block": Block(2.0, 0.2), "wall": Wall.of_size(4.0, 0.4)})
+    )
+    assert [each.kind for each in trials] == [kind for kind in KINDS for _ in range(2)]
+    for trial in trials:
+        if trial.structure == "block":
+            assert trial.true_verdict is step(round(256 * trial.true_share), 256, np.inf)
+            assert abs(trial.share - trial.true_share) <= 4 / 64
+            assert trial.members in (16, 64, 256)
+    again = stability_trials("a site", PAIR, {"block": Block(2.0, 0.2), "wall": Wall.of_size(4.0, 0.4)})
+    assert list(again) == trials
+
+
+def test_the_scores_count_what_they_name():
+    base = {"record": "r", "structure": "block", "scale_factor": 1.0, "kind": "pair", "members": 64}
+    first = StabilityTrial(
+        site="a", verdict=Verdict.UNCERTAIN, true_verdict=Verdict.UNCERTAIN, share=0.5, true_share=0.5, **base
+    )
+    unsafe = replace(first, site="b", verdict=Verdict.PROBABLY_STANDS)
+    worse = replace(first, site="c", verdict=Verdict.STANDS, true_share=0.4)
+    safe = replace(first, site="d", verdict=Verdict.OVERTURNS)
+    sure = replace(first, site="e", verdict=Verdict.STANDS, true_verdict=Verdict.STANDS, true_share=0.0)
+    found = {
+        row.measure: row.value
+        for row in stability_scores([first, unsafe, worse, safe, sure])
+        if row.part == "all"
+    }
+    assert found == pytest.approx(
+        {
+            "share in the class of its word (0.95 is asked)": 2 / 5,
+            "the same where members disagree": 1 / 4,
+            "one class off on the unsafe side": 1 / 5,
+            "two classes off on the unsafe side or more (0 is asked)": 1 / 5,
+            "off on the safe side": 1 / 5,
+            "members of all cracks": 64,
+        }
+    )
