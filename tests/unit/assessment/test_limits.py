@@ -93,5 +93,5 @@ def test_the_strict_side_of_a_limit_is_the_true_one(count):
 @of_cases
 def test_a_run_with_another_processing_ends_on_the_strict_side(count):
     for case in map(made_case, range(count)):
-        (other,) = processed_variants({"": case.structure}, {"other": case.motion}, AssessmentSettings())[""]
+        (other,) = processed_variants(case.structure, {"other": case.motion}, AssessmentSettings())
         assert math.isinf(other.integrated_rotation_ratio) is case.strictly
