@@ -366,7 +366,7 @@ class Assessor:
         own = {each.name: getattr(self.settings, each.name) for each in fields(AssessmentSettings)}
         return sha256_of(
             motion.fingerprint,
-            structure.as_config(),
+            structure.described.entry,
             own,
             self.crack_heights,
             self.processing_variants,

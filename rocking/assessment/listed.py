@@ -150,7 +150,7 @@ def _scene(
         )
     place = known[stands_on] or GROUND
 
-    for remark in (*structure.remarks, place.warning(name)):
+    for remark in (*structure.described.remarks, place.warning(name)):
         if remark:
             warnings.warn(f"{where}: {remark}", StructureWarning, stacklevel=3)
     return Scene(name, structure, place, terms)

@@ -89,7 +89,12 @@ def explore_page(records: Iterable[Content], structures: Mapping[str, Structure]
     """
     of_records = list(records)
     of_structures = [
-        {"name": name, "size": structure.size, "type": structure.type_name, "frames": drawings(structure)}
+        {
+            "name": name,
+            "size": structure.described.size,
+            "type": structure.type_name,
+            "frames": drawings(structure),
+        }
         for name, structure in structures.items()
     ]
     both = {"records": of_records, "structures": of_structures}

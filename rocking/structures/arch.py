@@ -61,8 +61,8 @@ class Arch(Crackable):
     hinges_migrate: ClassVar[bool] = True
     crack_name: ClassVar[str] = "hinges"
     statics_chooses: ClassVar[bool] = True
-    usual_restitution: ClassVar[float | str] = 0.9
-    described_as: ClassVar[dict[str, str]] = {
+    _usual_restitution: ClassVar[float | str] = 0.9
+    _described_as: ClassVar[dict[str, str]] = {
         "": "Circular arch with radial joints; radius of the centreline"
     }
 
@@ -265,7 +265,7 @@ class Arch(Crackable):
             stacklevel=4,
         )
         hinges = self._hinge_sections
-        motion = self.linkage.motion(0.0)
+        motion = self.linkages[0].motion(0.0)
         edges = self._split(-hinges)
         parts = self._bars(edges)
         middles = (edges[1:] + edges[:-1]) / 2
@@ -346,7 +346,7 @@ class ArchOnPiers(Arch):
     """
 
     type_name: ClassVar[str] = "arch_on_piers"
-    described_as: ClassVar[dict[str, str]] = {
+    _described_as: ClassVar[dict[str, str]] = {
         "": "Circular arch on equal monolithic piers, flush with the intrados"
     }
 

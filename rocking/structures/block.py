@@ -33,7 +33,7 @@ class Block(Crushable):
     """
 
     type_name: ClassVar[str] = "block"
-    described_as: ClassVar[dict[str, str]] = {
+    _described_as: ClassVar[dict[str, str]] = {
         "of_size": "Rectangular block by its size",
         "": "Rectangular block by half its diagonal and its slenderness",
     }
@@ -68,7 +68,7 @@ class Block(Crushable):
         unit_weight: float | None = None,
     ) -> "Block":
         """Return the block of that breadth and height [m]; the others as for the class."""
-        cls.check_values("of_size", breadth=breadth, height=height)
+        cls._check_values("of_size", breadth=breadth, height=height)
         half = np.hypot(breadth, height) / 2
         slenderness = np.arctan2(breadth, height)
         return cls(
@@ -147,7 +147,7 @@ class RigidBody(Structure):
     """
 
     type_name: ClassVar[str] = "rigid_body"
-    described_as: ClassVar[dict[str, str]] = {
+    _described_as: ClassVar[dict[str, str]] = {
         "": "Any body by its centre of mass and its inertia about it per mass"
     }
 
@@ -243,7 +243,7 @@ class Spire(CrackedAtHeight):
     type_name: ClassVar[str] = "spire"
     crack_name: ClassVar[str] = "crack"
     tapers: ClassVar[bool] = True
-    described_as: ClassVar[dict[str, str]] = {
+    _described_as: ClassVar[dict[str, str]] = {
         "": "Cone or square pyramid, solid or hollow, that rocks above a horizontal crack"
     }
 

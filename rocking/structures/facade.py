@@ -64,7 +64,7 @@ class Facade(Tied):
 
     type_name: ClassVar[str] = "facade"
     crack_name: ClassVar[str] = "crack"
-    described_as: ClassVar[dict[str, str]] = {
+    _described_as: ClassVar[dict[str, str]] = {
         "": "Façade of one storey or several with floor loads, ties and thrust; forces per metre of façade"
     }
 

@@ -226,6 +226,12 @@ def constructor(kind: Any) -> Form:
     return Form.of(kind, "", "")
 
 
+@cache
+def forms(kind: Any) -> tuple[Form, ...]:
+    """Return the ways to describe a structure of a class in a file; the first is that of one made otherwise."""
+    return tuple(Form.of(kind, make, meaning) for make, meaning in kind._described_as.items())
+
+
 def _field(name: str, hint: Any, value: Value, default: Any) -> Field:
     required = default is Parameter.empty
 

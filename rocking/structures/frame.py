@@ -37,7 +37,7 @@ class Frame(Crushable):
     """
 
     type_name: ClassVar[str] = "frame"
-    described_as: ClassVar[dict[str, str]] = {
+    _described_as: ClassVar[dict[str, str]] = {
         "of_columns": "Symmetric frame of equal columns under a rigid beam"
     }
 

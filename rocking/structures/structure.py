@@ -5,8 +5,8 @@ import warnings
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
-from functools import cache, cached_property
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self
+from functools import cached_property
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,8 +17,9 @@ from rocking.remarks import Remark
 from rocking.structures.capacity import CapacityCurve as CapacityCurve
 from rocking.structures.capacity import StaticCapacity
 from rocking.structures.contacts import Contacts, MotionState
+from rocking.structures.description import Description, Given
 from rocking.structures.drawing import Dimension, Mark, Path, plane
-from rocking.structures.fields import CompressiveStrength, Field, Form, Value, constructor
+from rocking.structures.fields import CompressiveStrength, Value, constructor, forms
 from rocking.structures.linkage import STILL, Linkage, Motion, Restitution, momentum_balance
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.stack import Stack
@@ -35,35 +36,27 @@ HIGHEST_SHARE = 0.95
 """Share of the height up to which a hinge or a crack is moved; a wall's hinge also stays that far above its base."""
 
 
-class _Given(NamedTuple):
-    """One value of a description: its field, the value in the unit of a file, and how it would be typed."""
-
-    field: Field
-    value: Any
-    text: str
-
-
 @dataclass(frozen=True, repr=False)
 class Structure(ABC):
     """A geometry that reduces to a Mechanism. Subclasses are frozen dataclasses checked at birth.
 
     restitution_range: its restitution is known to plus or minus this much; None: as the settings say.
 
-    type_name: the `type` in a file. described_as: what each constructor that a file may use describes, by the name of
+    type_name: the `type` in a file. _described_as: what each constructor that a file may use describes, by the name of
     its class method, "" for the class itself. crack_name: what its candidates move ("hinge", "crack"); "" without.
     tapers: whether its courses grow smaller upwards, so that each rocks by itself and throws what stands on it
     (docs/pages/validation.md). hinges_migrate: whether its hinges would move in flight, while the
-    mechanism leaves them. usual_restitution: where none is given. statics_chooses: whether codes check the
+    mechanism leaves them. _usual_restitution: where none is given. statics_chooses: whether codes check the
     mechanism of least λ alone, as between supports limit analysis finds it; otherwise every crack that may open is a
     mechanism of its own.
     """
 
     type_name: ClassVar[str] = ""
-    described_as: ClassVar[dict[str, str]] = {}
+    _described_as: ClassVar[dict[str, str]] = {}
     crack_name: ClassVar[str] = ""
     tapers: ClassVar[bool] = False
     hinges_migrate: ClassVar[bool] = False
-    usual_restitution: ClassVar[float | str] = "momentum"
+    _usual_restitution: ClassVar[float | str] = "momentum"
     statics_chooses: ClassVar[bool] = False
     one_sided = False
 
@@ -92,22 +85,16 @@ class Structure(ABC):
             )
 
     @classmethod
-    @cache
-    def forms(cls) -> tuple[Form, ...]:
-        """Return the ways to describe it in a file, the first one that of a structure made otherwise."""
-        return tuple(Form.of(cls, make, meaning) for make, meaning in cls.described_as.items())
-
-    @classmethod
-    def check_values(cls, make: str, **values: object) -> None:
+    def _check_values(cls, make: str, **values: object) -> None:
         """Hold `values` of the class method `make` against what their types say; raises StructureError."""
-        form = next(each for each in cls.forms() if each.make == make)
+        form = next(each for each in forms(cls) if each.make == make)
         for each in form.fields:
             if each.name in values:
                 each.in_si(values[each.name])
 
     def __repr__(self) -> str:
         """The description, and the first remark on unusual values."""
-        return " ".join([f"{type(self).__name__}({self.description})", *map(str, self.remarks[:1])])
+        return " ".join([f"{type(self).__name__}({self.description})", *map(str, self.described.remarks[:1])])
 
     def mechanism(self) -> Mechanism:
         """Return the structure in standard form; the same object at every call."""
@@ -140,11 +127,6 @@ class Structure(ABC):
         if self.symmetric or self.one_sided:
             return (positive,)
         return positive, self._linkage(mirrored=True)
-
-    @property
-    def linkage(self) -> Linkage:
-        """The moving parts on the side of positive rotation."""
-        return self.linkages[0]
 
     @property
     def _linkage_to_negative(self) -> Linkage:
@@ -243,7 +225,7 @@ class Structure(ABC):
         state, resting = self._motion_state(
             rotation, angular_velocity, angular_acceleration, ground, vertical, largest
         )
-        positive = self.linkage.contacts(state)
+        positive = self.linkages[0].contacts(state)
         negative = self._linkage_to_negative.contacts(state)
         is_positive = state.sign > 0
         unknown = np.where(resting & (len(positive.names) > 1), np.nan, 0.0)
@@ -295,7 +277,7 @@ class Structure(ABC):
         """Return the dimension lines of the sizes it was described by, at rest; of a list, one for each value."""
         lines = []
         paths = self._dimensions()
-        for given in self._values:
+        for given in self.described.values:
             letter = given.field.value.letter
             unit = given.field.suffix
             path = paths.get(given.field.name, [])
@@ -361,67 +343,42 @@ class Structure(ABC):
         return min(each.multiplier for each in (first, *others))
 
     @property
-    def form(self) -> Form:
-        """The form it was described in, or the first one."""
-        values = self.__dict__.get("_typed", {})
-        return max(self.forms(), key=lambda form: len(set(form.required) & values.keys()))
-
-    @property
     def description(self) -> str:
         """The description in words with units: "breadth 0.6 m, height 6.0 m"."""
-        shown = [given for given in self._values if given.value is not False]
-        return ", ".join(given.field.phrased(given.text) for given in shown)
+        return self.described.words
 
     @property
-    def size(self) -> str:
-        """Its sizes in short, as they were typed: "0.6 × 6.0 m", "10 × 1.5 m, 157.5°"."""
-        by_unit: dict[str, list[str]] = {}
-        for given in self._values:
-            if given.field.required and given.field.unit:
-                by_unit.setdefault(given.field.suffix, []).append(given.text)
-        return ", ".join(" × ".join(texts) + unit for unit, texts in by_unit.items())
+    def described(self) -> Description:
+        """What it says of itself in a file: as it was typed, or else in the first of its forms.
 
-    @property
-    def remarks(self) -> tuple[Remark, ...]:
-        """A remark on each size beyond its plausible range."""
-        remarks = (given.field.remark(self.type_name, given.value) for given in self._values)
-        return tuple(remark for remark in remarks if remark)
-
-    def as_config(self) -> dict[str, object]:
-        """Return the mapping of a structure list that describes it, without a name."""
-        values = {given.field.key: given.value for given in self._values}
-        return {"type": self.type_name, **values}
-
-    def typed(self, values: dict[str, object], texts: dict[str, str]) -> None:
-        """Remember the `values` of a file by key, and their `texts` as they were typed; for the loader only."""
-        object.__setattr__(self, "_typed", {key: (values[key], texts[key]) for key in values})
+        Options that were not given are left out.
+        """
+        typed: Mapping[str, tuple[Any, str]] | None = self.__dict__.get("_typed")
+        if typed is not None:
+            form = max(forms(type(self)), key=lambda form: len(set(form.required) & typed.keys()))
+            given = [Given(each, *typed[each.key]) for each in form.fields if each.key in typed]
+            return Description(self.type_name, form, tuple(given))
+        form = forms(type(self))[0]
+        defaults = {each.name: each.default for each in constructor(type(self)).fields}
+        values = []
+        for each in form.fields:
+            value = getattr(self, each.name)
+            is_an_option_given = value is not None and value != defaults.get(each.name)
+            if each.required or is_an_option_given:
+                outside = each.outward(value)
+                values.append(Given(each, outside, typed_text(outside, "{:.6g}")))
+        return Description(self.type_name, form, tuple(values))
 
     @cached_property
     def _mechanism(self) -> Mechanism:
         """I, J, G, B of the moving parts."""
-        positive = self.linkage.side(self._impact(mirrored=False))
+        positive = self.linkages[0].side(self._impact(mirrored=False))
         negative = None
         if len(self.linkages) > 1:
             negative = self._linkage_to_negative.side(self._impact(mirrored=True))
         built = Mechanism(positive, negative, self.one_sided, self.restitution_range)
         object.__setattr__(built, "structure", self)  # what it is built again from after pickling
         return built
-
-    @property
-    def _values(self) -> list[_Given]:
-        """The values of its form in the units of a file and as texts; options that were not given are left out."""
-        typed = self.__dict__.get("_typed")
-        if typed is not None:
-            return [_Given(each, *typed[each.key]) for each in self.form.fields if each.key in typed]
-        defaults = {each.name: each.default for each in constructor(type(self)).fields}
-        values = []
-        for each in self.form.fields:
-            value = getattr(self, each.name)
-            is_an_option_given = value is not None and value != defaults.get(each.name)
-            if each.required or is_an_option_given:
-                outside = each.outward(value)
-                values.append(_Given(each, outside, typed_text(outside, "{:.6g}")))
-        return values
 
     @property
     def _given_restitution(self) -> Restitution:
@@ -436,7 +393,7 @@ class Structure(ABC):
     def _impact(self, mirrored: bool) -> float:
         """η of the impact that ends rocking on one side: the number, or that of a balance where it is a name."""
         own = self._given_restitution
-        chosen = self.usual_restitution if own is None else own
+        chosen = self._usual_restitution if own is None else own
         if not isinstance(chosen, str):
             return float(chosen)
         ratio = self._momentum_balance(mirrored)
@@ -451,7 +408,7 @@ class Structure(ABC):
 
     def _momentum_balance(self, mirrored: bool) -> float:
         """η by the balance of momentum as the structure arrives from one side and leaves to the other."""
-        arriving = self.linkage
+        arriving = self.linkages[0]
         leaving = self._linkage_to_negative
         if mirrored:
             arriving, leaving = leaving, arriving
@@ -704,6 +661,11 @@ def free_to_both_sides(structure: Structure) -> None:
             "a one-sided structure leans on what is no course of it, so that contact dynamics cannot follow it; choose "
             "another fidelity than contact."
         )
+
+
+def remember_as_typed(structure: Structure, values: Mapping[str, object], texts: Mapping[str, str]) -> None:
+    """Let a structure describe itself by the `values` of a file, by key, and by their `texts` as they were typed."""
+    object.__setattr__(structure, "_typed", {key: (values[key], texts[key]) for key in values})
 
 
 def typed_text(value: object, number: str = "{}") -> str:

@@ -11,8 +11,8 @@ from typing import Any
 
 from rocking.errors import ConfigurationError, StructureError
 from rocking.quantities import shown
-from rocking.structures.fields import Form, article
-from rocking.structures.structure import Structure, typed_text
+from rocking.structures.fields import Form, article, forms
+from rocking.structures.structure import Structure, remember_as_typed, typed_text
 
 _CLASSES = (
     "rocking.structures.block.Block",
@@ -62,7 +62,9 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
         structure = make(**arguments)
     except StructureError as error:
         raise type(error)(_by_key(str(error), form, values, arguments)) from None
-    structure.typed(values, {key: typed_text(value) for key, value in values.items()} | dict(texts or {}))
+    remember_as_typed(
+        structure, values, {key: typed_text(value) for key, value in values.items()} | dict(texts or {})
+    )
     return structure
 
 
@@ -81,8 +83,8 @@ def _form(kind: str, values: Mapping[str, object], keys_typed: Iterable[str]) ->
 
     keys_typed: those of `values`, and those whose value was left blank.
     """
-    forms = TYPES[kind].forms()
-    allowed = {key for form in forms for key in form.keys}
+    of_kind = forms(TYPES[kind])
+    allowed = {key for form in of_kind for key in form.keys}
     for key in keys_typed:
         if key not in allowed:
             keys = ", ".join(sorted(allowed))
@@ -95,7 +97,7 @@ def _form(kind: str, values: Mapping[str, object], keys_typed: Iterable[str]) ->
             raise ConfigurationError(
                 f"{name} is not a key of {article(kind)}{nearest(key, allowed)}; use {keys}."
             )
-    form = max(forms, key=lambda form: len(set(form.required) & values.keys()))
+    form = max(of_kind, key=lambda form: len(set(form.required) & values.keys()))
     missing = [key for key in form.required if key not in values]
     if missing:
         raise ConfigurationError(f"{article(kind)} needs {' and '.join(missing)}; give it.")
@@ -127,9 +129,9 @@ NAME = {
 def definitions(more: Mapping[str, object]) -> dict[str, dict[str, object]]:
     """Return the JSON schema (draft 7) of an entry in each form of each type, by name. more: keys that all may have."""
     return {
-        kind if len(each.forms()) == 1 else f"{kind}_{number}": _definition(kind, form, more)
+        kind if len(forms(each)) == 1 else f"{kind}_{number}": _definition(kind, form, more)
         for kind, each in TYPES.items()
-        for number, form in enumerate(each.forms(), start=1)
+        for number, form in enumerate(forms(each), start=1)
     }
 
 

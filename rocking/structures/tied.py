@@ -299,8 +299,8 @@ class Tied(CrackedAtHeight):
     def tie_events(self, rotation: float) -> str:
         tie = self._tie
         events = []
-        heights = [each.start.imag for each in self.linkage.hung if each.tie]
-        for height, side_tie in zip(heights, self.linkage.ties, strict=True):
+        heights = [each.start.imag for each in self.linkages[0].hung if each.tie]
+        for height, side_tie in zip(heights, self.linkages[0].ties, strict=True):
             stretch = float(side_tie.stretch(np.asarray(max(rotation, 0.0))))
             if (
                 stretch >= (1 - 1e-9) * tie.rupture_stretch

@@ -184,7 +184,7 @@ class CrackedWall(CrackedAtHeight):
 
         Raises StructureError for a hinge outside the wall, or a crack that is said to be there, but not where.
         """
-        cls.check_values("of_size", height=height)
+        cls._check_values("of_size", height=height)
         if hinge_height is None:
             if crack in ("known", "given"):
                 raise StructureError(
@@ -286,7 +286,7 @@ class Wall(CrackedWall):
     """
 
     type_name: ClassVar[str] = "wall"
-    described_as: ClassVar[dict[str, str]] = {
+    _described_as: ClassVar[dict[str, str]] = {
         "of_size": "Wall by its height, and that of its hinge where it is known",
         "": "Wall by the heights below and above its hinge",
     }
@@ -386,7 +386,7 @@ class LoadedWall(CrackedWall, Tied):
 
     type_name: ClassVar[str] = "loaded_wall"
     loads_rise_only: ClassVar[bool] = True
-    described_as: ClassVar[dict[str, str]] = {
+    _described_as: ClassVar[dict[str, str]] = {
         "of_size": "Wall between supports with a load on top and ties; forces per metre of wall"
     }
 

@@ -168,7 +168,7 @@ def _pool(catalogue: Path, plan: Inputs) -> Things:
 
 def structure_hashes(scenes: Mapping[str, Scene]) -> dict[str, str]:
     """Return one hash for what each structure says of itself and its support, by its name."""
-    return {name: sha256_of(each.structure.as_config(), each.place) for name, each in scenes.items()}
+    return {name: sha256_of(each.structure.described.entry, each.place) for name, each in scenes.items()}
 
 
 def settings_sha256(settings: Settings, scenes: Mapping[str, Scene]) -> str:

@@ -19,6 +19,7 @@ from rocking.motion import integrate
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.structures.contacts import UnknownContacts
+from rocking.structures.fields import forms
 from rocking.structures.structure_list import TYPES, structure_from_config
 
 UNCHECKED = [HealthCheck.too_slow, HealthCheck.filter_too_much]
@@ -31,7 +32,7 @@ FEW = settings(
 REGISTERED = [
     pytest.param(kind, form, id=f"{kind} {number}")
     for kind, each in TYPES.items()
-    for number, form in enumerate(each.forms(), start=1)
+    for number, form in enumerate(forms(each), start=1)
 ]
 
 
@@ -106,7 +107,7 @@ def test_the_standard_form_is_that_of_its_moving_masses(structure):
     step = 3e-3 * last  # with three times as much, the flat block above a high hinge shows truncation of 2e-9
     at = smooth(side, last * np.linspace(0.05, 0.95, 9), 4 * step)
     assume(at.size)
-    linkage = structure.linkage
+    linkage = structure.linkages[0]
     masses, inertias = linkage.masses, linkage.inertias
     velocity = differentiated(lambda phi: linkage.motion(phi).centroids, at, step)
     spin = differentiated(lambda phi: linkage.motion(phi).angles, at, step)
@@ -204,8 +205,8 @@ def test_a_drawing_is_finite_closed_and_measured(structure):
 @registered
 def test_a_structure_comes_back_from_its_description_a_file_and_another_process(structure):
     """And its description says every value with its unit, its repr what a person can read."""
-    mapping = structure.as_config()
-    assert all(len(form.keys) == len(form.fields) for form in structure.forms())  # no key twice
+    mapping = structure.described.entry
+    assert all(len(form.keys) == len(form.fields) for form in forms(type(structure)))  # no key twice
     entry = {"name": "one", **mapping}
     jsonschema.validate([entry], scenes_schema())
     with tempfile.TemporaryDirectory() as folder:
@@ -217,7 +218,7 @@ def test_a_structure_comes_back_from_its_description_a_file_and_another_process(
         assert again == structure and again.description == structure.description
         assert again.mechanism().uplift_multiplier == mechanism.uplift_multiplier
     assert pickle.loads(pickle.dumps(mechanism)).uplift_multiplier == mechanism.uplift_multiplier
-    for field in structure.form.fields:
+    for field in structure.described.form.fields:
         value = mapping.get(field.key)
         if value is not None and not isinstance(value, bool):
             said = ", ".join(map(str, value)) if isinstance(value, list) else value

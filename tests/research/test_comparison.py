@@ -117,7 +117,7 @@ def test_the_voussoirs_are_the_bars_of_the_arch():
     areas, centroids, _ = zip(*map(properties, bodies.polygons[1:-1]), strict=True)
     assert areas == pytest.approx([areas[0]] * 7)
     for bar, (first, end) in enumerate(((0, 3), (3, 5), (5, 7))):
-        assert np.mean(centroids[first:end]) == pytest.approx(arch.linkage.rest[bar], abs=1e-12)
+        assert np.mean(centroids[first:end]) == pytest.approx(arch.linkages[0].rest[bar], abs=1e-12)
     left, *voussoirs, right = (polygon @ [1, 1j] for polygon in bodies.polygons)
     for one, other in pairwise(voussoirs):
         shared = one[np.abs(one[:, None] - other).min(axis=1) < 1e-12]

@@ -176,7 +176,7 @@ def test_a_body_that_slides_is_slowed_by_friction_alone():
 def test_the_mass_of_a_spire_is_in_its_courses():
     spire = Spire(width=3.0, height=15.0, wall_thickness=0.25, crack_height=4.0, crack="known")
     body = joined(spire.stack(7).courses)
-    linkage = spire.linkage
+    linkage = spire.linkages[0]
     assert body.centre[1] == pytest.approx(linkage.rest[0].imag, rel=1e-12)
     assert body.inertia / body.mass == pytest.approx(linkage.inertias[0] / linkage.masses[0], rel=1e-12)
 

@@ -58,7 +58,7 @@ def test_momentum_balance_against_a_sum_over_many_small_masses():
     points = radius * np.exp(1j * (np.pi / 2 - middle))
 
     def field(section, point):
-        motion = arch.linkage.motion(0.0)
+        motion = arch.linkages[0].motion(0.0)
         pivots = ring.contact_points(hinges, np.array([1, -1, 1, -1]))
         velocity = np.zeros_like(point)
         at_hinge = [0, 1j * motion.spins[0] * (pivots[1] - pivots[0]), 0]

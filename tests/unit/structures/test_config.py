@@ -183,8 +183,8 @@ def test_sizes_are_said_as_they_were_typed(load):
     )
     facade, arch = structures.values()
     assert facade.description == "breadth 0.60 m, height 6.0 m, restitution 0.5, one-sided"
-    assert facade.size == "0.60 × 6.0 m"
-    assert arch.size == "10.00 × 1.50 m, 157.5°"
+    assert facade.described.size == "0.60 × 6.0 m"
+    assert arch.described.size == "10.00 × 1.50 m, 157.5°"
     assert [f"{d.letter} {d.text}" for d in arch.dimensions()] == ["r 10.00 m", "t 1.50 m", "β 157.5°"]
     moved = dataclasses.replace(facade, slenderness=0.2)
     assert moved.description.startswith("breadth 1.19"), "a copy with other sizes is described anew"

@@ -49,7 +49,7 @@ def test_a_very_stiff_tie_is_taken_with_the_same_remark_by_facade_and_wall():
     assert not wall.mechanism().can_overturn
     assert facade.mechanism().critical_rotation == pytest.approx(np.pi / 2, abs=1e-3)
     for structure in (facade, wall):
-        unusual = structure.remarks[0]
+        unusual = structure.described.remarks[0]
         assert (unusual.kind, unusual.about) == (Kind.SIZE_UNUSUAL, "tie_stiffness_kN_m2")
         assert (unusual["value"], unusual["unit"]) == (pytest.approx(1e6), " kN/m²")
 

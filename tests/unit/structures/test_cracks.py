@@ -21,7 +21,7 @@ def test_statics_puts_the_hinge_where_the_multiplier_is_least(options):
     """Against 90 hinges: λ is no larger than theirs, and as small as a parabola between them allows."""
     wall = LoadedWall.of_size(3.2, 0.25, 20e3, restitution=0.8, **options)
     heights = np.linspace(1.2, 2.7, 90)
-    scanned = [wall.cracked_at(float(height)).linkage for height in heights]
+    scanned = [wall.cracked_at(float(height)).linkages[0] for height in heights]
     multipliers = np.array([float(each.gravity(0.0) / each.ground(0.0)) for each in scanned])
     assert wall.static_multiplier == wall.mechanism().uplift_multiplier
     assert multipliers.min() * (1 - 1e-3) < wall.static_multiplier < multipliers.min() * (1 + 1e-6)

@@ -260,7 +260,7 @@ def test_acceleration_of_a_chain_is_that_of_positions_and_energy(case):
     """I, J, G and B together, from φ'' in a state in which each counts; derivatives of 30 digits."""
     wall, opening = OPENINGS[case]
     opened = wall.opened(opening)
-    side = opened.linkage.side(0.5)
+    side = opened.linkages[0].side(0.5)
     phi, velocity, ground = 0.6 * min(side.critical_rotation, 0.15), -0.8, -2.5
     expected = opened_lagrangian(wall, opening).acceleration(phi, velocity, ground, GRAVITY)
     pull = side.at("inertia_slope", phi) / 2 * velocity**2 + side.at("gravity", phi) * GRAVITY

@@ -118,9 +118,9 @@ def test_the_toe_carries_mass_times_acceleration_and_what_hangs_on_it(name):
 
     speed, turn = 0.06 * np.cos(0.9), -0.18 * np.sin(0.9)
     seen = RigidBody(0.3, 0.5, 2.0, 1.4) if sign < 0 else body
-    masses = seen.linkage.masses
+    masses = seen.linkages[0].masses
     pushed = masses @ (
-        second_derivative(lambda time: seen.linkage.motion(rotation(time)).centroids)
+        second_derivative(lambda time: seen.linkages[0].motion(rotation(time)).centroids)
         + ground
         + 1j * (vertical + GRAVITY)
     )
@@ -142,7 +142,7 @@ def test_the_lower_block_is_in_balance_under_the_force_at_the_hinge(case):
     rotation, speed, ground = 0.04, 0.25, 1.3
     turn = float(wall.mechanism().angular_acceleration(rotation, speed, ground))
     found = wall.contact_forces(rotation, speed, turn, ground)
-    motion = wall.linkage.motion(rotation)
+    motion = wall.linkages[0].motion(rotation)
     thrust = complex(found.normal[1, 0], found.tangential[1, 0]) * 1j * np.exp(0.5j * motion.angles[:2].sum())
     base, hinge = motion.hinges[:2]
     mass, radius = wall.lower_height / wall.height, np.hypot(wall.lower_height, wall.thickness) / 2
@@ -160,5 +160,5 @@ def test_the_lower_block_is_in_balance_under_the_force_at_the_hinge(case):
         if height <= wall.lower_height:
             point = base + 1j * height * np.exp(-1j * rotation)
             force = wall.tie_pretension + wall.tie_stiffness * (point.real - wall.thickness / 2)
-            total += moment(point, complex(-force * GRAVITY / wall.linkage.unit))
+            total += moment(point, complex(-force * GRAVITY / wall.linkages[0].unit))
     assert abs(total) < 1e-10 * GRAVITY * radius

@@ -67,7 +67,7 @@ def test_motion_is_that_of_free_bars_with_constraints(case):
     assert motion.y[0].min() >= 0, "the mechanism of one side is followed"
     np.testing.assert_allclose(-angles[:, 0], motion.y[0], rtol=0, atol=1e-8 * np.abs(motion.y[0]).max())
     np.testing.assert_allclose(-spins[:, 0], motion.y[1], rtol=0, atol=1e-8 * np.abs(motion.y[1]).max())
-    np.testing.assert_allclose(structure.linkage.motion(motion.y[0]).angles.T, angles, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(structure.linkages[0].motion(motion.y[0]).angles.T, angles, rtol=0, atol=1e-8)
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -83,7 +83,7 @@ def test_hinge_thrusts_are_the_constraint_forces(case):
     for phi, velocity in ((0.0, 0.0), (0.05, speed), (0.6 * mechanism.critical_rotation, -speed)):
         acceleration = mechanism.angular_acceleration(phi, velocity, 1.3, -2.0)
         contacts = structure.contact_forces(phi, velocity, acceleration, 1.3, -2.0)
-        motion = structure.linkage.motion(phi)
+        motion = structure.linkages[0].motion(phi)
         _, forces = system.solve(motion.angles, motion.spins * velocity, 1.3, -2.0)
         for hinge in range(len(contacts.names)):
             size = np.hypot(*forces[2 * hinge : 2 * hinge + 2]) / mass
