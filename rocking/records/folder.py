@@ -15,11 +15,11 @@ from rocking.quantities import acceleration_unit
 from rocking.records.archive import is_archive, members
 from rocking.records.catalogue import is_safe_id, read_rows
 from rocking.records.dates import day_of
+from rocking.records.direction import angle_between, names_no_direction, pair_doubt, without_ending
 from rocking.records.formats.format import plain
 from rocking.records.formats.text import is_number
 from rocking.records.grouping import named_channel, rsn_of, stations, without_direction
-from rocking.records.instrument import without_ending
-from rocking.records.joining import SQUARE, angle_between, direction_doubt, names_no_direction
+from rocking.records.joining import SQUARE
 from rocking.records.listing import CELLS, ListedChannel, ListedFile, doubts_of, listed_file
 from rocking.records.read import bare_text, bytes_of, printable, recognise, unpack
 from rocking.records.readings import Readings
@@ -263,7 +263,7 @@ def _remarks(group: Sequence[ListedFile], level: Sequence[ListedChannel]) -> Ite
     if angle is not None and abs(angle - 90) > SQUARE:
         first, second = (each.component for each in level)
         yield Remark.of(Kind.NOT_SQUARE, first=first, second=second, angle_deg=min(angle, 180 - angle))
-    if doubt := direction_doubt(level):
+    if doubt := pair_doubt(level):
         yield doubt
 
 

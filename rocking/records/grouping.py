@@ -9,8 +9,14 @@ from itertools import combinations
 import numpy as np
 
 from rocking.records.dates import day_of
-from rocking.records.instrument import directed, direction_in_name, without_ending
-from rocking.records.joining import SQUARE, angle_between, names_no_direction, why_apart
+from rocking.records.direction import (
+    Direction,
+    angle_between,
+    direction_in_name,
+    names_no_direction,
+    without_ending,
+)
+from rocking.records.joining import SQUARE, why_apart
 from rocking.records.listing import ListedChannel, ListedFile
 from rocking.remarks import Kind, Remark
 
@@ -117,8 +123,8 @@ def named_channel(file: ListedFile) -> ListedChannel:
     """Return the one channel of a file, called as the file's name says where its header does not."""
     (channel,) = file.channels
     if direction := _direction(file):
-        named = directed({"component": direction})
-        return replace(channel, component=direction, azimuth=named["azimuth"], vertical=named["vertical"])
+        pointing = Direction.of_channel(channel).refined(Direction.of(direction))
+        return replace(channel, component=direction, azimuth=pointing.azimuth, vertical=pointing.vertical)
     return channel
 
 

@@ -1,6 +1,5 @@
 """Joining: when the files of one station are one motion, and what they hold on one span of time."""
 
-import re
 from collections import Counter
 from collections.abc import Collection, Sequence
 from datetime import datetime
@@ -10,8 +9,7 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.instrument import names_acceleration
-from rocking.records.read import is_unnamed
+from rocking.records.direction import Channel
 from rocking.remarks import Kind, Remark
 
 SAME_STEP = 1e-6
@@ -25,19 +23,13 @@ stations. What differs by more is another record, or lacks its beginning.
 _OFF_GRID = 0.1  # share of a time step by which the samples of two files may lie between one another
 
 
-class Component(Protocol):
+class Component(Channel, Protocol):
     """The facts that joining asks of a channel, with its samples or without."""
 
-    @property
-    def component(self) -> str: ...
     @property
     def time_step(self) -> float: ...
     @property
     def start_time(self) -> str: ...
-    @property
-    def azimuth(self) -> float | None: ...
-    @property
-    def vertical(self) -> bool: ...
     @property
     def borehole(self) -> bool: ...
 
@@ -104,60 +96,5 @@ def _to_the_shortest(channels: Sequence[Accelerogram]) -> list[Accelerogram]:
     return cut
 
 
-def names_no_direction(component: str) -> bool:
-    """Whether a component's name is but the place of its column, or a word for acceleration."""
-    return is_unnamed(component) or names_acceleration(component)
-
-
 SQUARE = 5.0
 """Degrees by which two components may be off a right angle without a word."""
-
-
-def angle_between(first: Component, second: Component) -> float | None:
-    """Return the angle between two horizontal components, degrees in [0, 180), None where it is unknown."""
-    if first.azimuth is None or second.azimuth is None:
-        return None
-    return (second.azimuth - first.azimuth) % 180
-
-
-_LETTERS = {
-    "LN": "L",
-    "LON": "L",
-    "LONG": "L",
-    "LONGITUDINAL": "L",
-    "TR": "T",
-    "TRAN": "T",
-    "TRANS": "T",
-    "TRANSVERSE": "T",
-    "RADIAL": "R",
-    "RAD": "R",
-    "TRANSVERSAL": "T",
-}
-_ACROSS = ({"L", "T"}, {"R", "T"}, {"FN", "FP"}, {"SN", "SP"}, {"X", "Y"}, {"H1", "H2"}, {"1", "2"})
-"""Names of two components that are at right angles by what they mean."""
-_CODE = re.compile(r"([A-Z][HNGL])([RT12XY])")
-
-
-def direction_doubt(horizontal: Sequence[Component]) -> Remark | None:
-    """Return a remark where the angle of two horizontal components is neither known nor said by their names."""
-    if len(horizontal) != 2 or any(each.vertical for each in horizontal):
-        return None
-    if angle_between(*horizontal) is not None:
-        return None
-    names = [each.component for each in horizontal]
-    if all(map(names_no_direction, names)) or _are_across(names):
-        return None
-    first, second = names
-    return Remark.of(Kind.ANGLE_UNKNOWN, first=first, second=second)
-
-
-def _are_across(names: Sequence[str]) -> bool:
-    """Whether two names are those of a pair at right angles, such as L and T, FN and FP, HN1 and HN2."""
-    bare = [name.strip(" .").upper() for name in names]
-    letters = [_LETTERS.get(name, name) for name in bare]
-    codes = [_CODE.fullmatch(name) for name in letters]
-    match codes:
-        case [re.Match() as one, re.Match() as other] if one[1] == other[1]:
-            # Of one instrument, as HN1 and HN2: the last letter is the direction.
-            letters = [one[2], other[2]]
-    return set(letters) in _ACROSS

@@ -7,7 +7,7 @@ import numpy as np
 from rocking.errors import RecordError, about
 from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram, Source
-from rocking.records.instrument import directed
+from rocking.records.direction import directed
 from rocking.records.read import checked_channels
 from rocking.records.traces import OBSPY_EXTRAS, calibrated, joined, names, quantity_order, site
 from rocking.remarks import Kind, Remark

@@ -18,18 +18,17 @@ from rocking.quantities import shown
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.archive import archive_of, is_archive, member_bytes, members
 from rocking.records.damage import damage_warnings, repeated_rows
-from rocking.records.formats import FORMATS, Format, Options
-from rocking.records.formats.format import Response, plain
-from rocking.records.formats.text import is_number, lines, numbers_per_line
-from rocking.records.instrument import (
-    channel_warnings,
+from rocking.records.direction import (
     contradiction,
-    direction_warnings,
-    names_acceleration,
-    site_warnings,
+    doubts_of_channel,
+    names_no_direction,
     vertical_doubt,
     vertical_in_name,
 )
+from rocking.records.formats import FORMATS, Format, Options
+from rocking.records.formats.format import Response, plain
+from rocking.records.formats.text import is_number, lines, numbers_per_line
+from rocking.records.instrument import channel_warnings, site_warnings
 from rocking.records.plausibility import pass_limits
 from rocking.remarks import Kind, Remark
 from rocking.tables import read_whole
@@ -287,7 +286,7 @@ def _named_by_file(records: list[Accelerogram], name: str) -> list[Accelerogram]
         return records
     (record,) = records
     is_open = record.azimuth is None and not record.vertical and not record.borehole
-    if not is_open or (record.component and not names_acceleration(record.component)):
+    if not is_open or not names_no_direction(record.component):
         return records
     return [replace(record, vertical=True).warned(Remark.of(Kind.VERTICAL_BY_NAME, word=word))]
 
@@ -304,27 +303,23 @@ def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
             name = f"channel {k} ({a.component or 'not named'})"
             raise RecordError(f"{name} repeats channel {i}: the file is appended to itself; fetch it again.")
     shared = Counter(record.component for record in records if record.component)
-    names = [record.component or f"channel {place}" for place, record in enumerate(records, 1)]
-    directions = [record.azimuth for record in records]
-    upwards = vertical_doubt(names, directions, [record.vertical for record in records])
+    named = [
+        record if record.component else replace(record, component=f"channel {place}")
+        for place, record in enumerate(records, 1)
+    ]
+    upwards = vertical_doubt(named)
     channels = []
     for place, record in enumerate(records, 1):
         name = record.component or f"channel {place}"
         name += f" (channel {place})" if shared[record.component] > 1 else ""
-        pointing = record.component, record.azimuth, record.vertical
-        contradicted = contradiction(*pointing)
+        contradicted = contradiction(record)
         doubts = (
             *record.warnings,
             *channel_warnings(record.component),
             *([contradicted] if contradicted else []),
             *site_warnings(record.station),
             *site_warnings(record.component),
-            *([upwards] if upwards else direction_warnings(*pointing)),
+            *([upwards] if upwards else doubts_of_channel(record)),
         )
         channels.append(replace(record, component=name, warnings=tuple(dict.fromkeys(doubts))))
     return channels
-
-
-def is_unnamed(component: str) -> bool:
-    """Whether a component's name is no more than the place of the channel in its file."""
-    return not component or (component.startswith("channel ") and component[8:].isdecimal())

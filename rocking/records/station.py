@@ -9,10 +9,16 @@ from rocking.errors import RecordError, about
 from rocking.hashes import sha256_of_bytes
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue import CatalogueRecord, RecordFile
+from rocking.records.direction import (
+    directed,
+    doubts_of_channel,
+    names_no_direction,
+    pair_doubt,
+    vertical_doubt,
+)
 from rocking.records.files import beside_catalogue, path_of
 from rocking.records.formats import Options
-from rocking.records.instrument import directed, direction_warnings, vertical_doubt
-from rocking.records.joining import direction_doubt, joined, names_no_direction
+from rocking.records.joining import joined
 from rocking.records.plausibility import scaled
 from rocking.records.read import bytes_of, read_raw
 from rocking.records.scaling import ScalingTarget, scaled_to
@@ -85,7 +91,7 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
             horizontal = _without_doubt(horizontal)
         else:
             _check_upright([*horizontal, *filter(None, [vertical])])
-        if doubt := direction_doubt(horizontal):
+        if doubt := pair_doubt(horizontal):
             horizontal = [channel.warned(doubt) for channel in horizontal]
         declared = [_as_declared(channel, record) for channel in horizontal]
         upwards = None if vertical is None else _as_declared(vertical, record)
@@ -106,7 +112,7 @@ def _called_now(channel: Accelerogram, name: str) -> Accelerogram:
     """Return a channel with another name, and with what is in doubt of the direction that this one says."""
     kept = tuple(each for each in channel.warnings if each.kind is not Kind.DIRECTION_UNKNOWN)
     named = replace(channel, **directed({"component": name}), warnings=kept)
-    return named.warned(*direction_warnings(name, named.azimuth, named.vertical))
+    return named.warned(*doubts_of_channel(named))
 
 
 def _check_names(channels: Sequence[Accelerogram], record: CatalogueRecord) -> None:
@@ -119,7 +125,7 @@ def _check_names(channels: Sequence[Accelerogram], record: CatalogueRecord) -> N
 
 def _check_upright(channels: Sequence[Accelerogram]) -> None:
     """Raise RecordError where one of the channels may be the vertical one of a station, and nothing says which."""
-    if doubt := _doubt(channels):
+    if doubt := vertical_doubt(channels):
         raise RecordError(str(doubt))
 
 
@@ -133,12 +139,6 @@ def _without_doubt(horizontal: Sequence[Accelerogram]) -> list[Accelerogram]:
 
 _ANSWERED = (Kind.SOME_MAY_BE_VERTICAL, Kind.LONE_MAY_BE_VERTICAL)
 """What is no longer in doubt once a row names the horizontal components."""
-
-
-def _doubt(channels: Sequence[Accelerogram]) -> Remark | None:
-    names = [channel.component for channel in channels]
-    directions = [channel.azimuth for channel in channels]
-    return vertical_doubt(names, directions, [channel.vertical for channel in channels])
 
 
 def _vertical(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Accelerogram | None:

@@ -20,11 +20,12 @@ import numpy as np
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import GRAVITY, acceleration_unit, positive
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.direction import Direction
 from rocking.records.formats import header, text
 from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.header import Layout
 from rocking.records.formats.text import LARGEST_SERIES
-from rocking.records.instrument import azimuth, refuse_other_quantity
+from rocking.records.instrument import refuse_other_quantity
 from rocking.records.traces import calibrated, first_line, joined, names, site
 from rocking.remarks import Kind, Remark
 from rocking.tables import read_whole
@@ -137,7 +138,7 @@ def _sac_direction(header: dict[str, float], component: str) -> dict[str, Any]:
     Zeros for both, in a channel called north or east, are those of a program that sets neither: they say nothing.
     """
     angle, inclination = (header.get(key, _UNDEFINED) for key in ("cmpaz", "cmpinc"))
-    if angle == 0 == inclination and azimuth(component) in (0.0, 90.0):
+    if angle == 0 == inclination and Direction.of(component).azimuth in (0.0, 90.0):
         return {}
     facts: dict[str, Any] = {"azimuth": angle % 360} if abs(angle) <= 360 else {}
     if inclination != _UNDEFINED:  # degrees from upwards: 0 and 180 are vertical, 90 is horizontal

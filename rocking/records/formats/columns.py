@@ -9,6 +9,7 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.direction import directed, names_acceleration
 from rocking.records.formats import text
 from rocking.records.formats.dialect import Dialect
 from rocking.records.formats.format import Format, Options
@@ -16,7 +17,7 @@ from rocking.records.formats.labels import ColumnLabel
 from rocking.records.formats.remarks import Declarations, factor_warnings, speaks_of_factor
 from rocking.records.formats.stamps import in_seconds
 from rocking.records.formats.titled import LONGEST_STEP, heading_of
-from rocking.records.instrument import directed, names_acceleration, refuse_by_name, refuse_other_quantity
+from rocking.records.instrument import refuse_by_name, refuse_other_quantity
 from rocking.remarks import Kind, Remark
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")

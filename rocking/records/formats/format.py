@@ -12,7 +12,7 @@ from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_factor, acceleration_unit, positive
 from rocking.records.accelerogram import LARGEST_PEAK, Accelerogram, Source
 from rocking.records.dates import iso_date
-from rocking.records.instrument import directed
+from rocking.records.direction import directed
 
 Response = Literal["sensitivity", "full"]
 

@@ -6,7 +6,8 @@ from functools import cached_property
 
 from rocking.errors import RecordError
 from rocking.quantities import acceleration_unit
-from rocking.records.instrument import azimuth, is_vertical, other_quantity
+from rocking.records.direction import Direction
+from rocking.records.instrument import other_quantity
 
 _TIME = re.compile(
     r"(?i)t\d?|(time|zeit|tiempo|temp[os]|zaman|seconds?|secs?)(?![a-z]).*|"
@@ -149,7 +150,7 @@ class ColumnLabel:
     @property
     def is_direction(self) -> bool:
         """Whether it says where the component points."""
-        return azimuth(self.component) is not None or is_vertical(self.component)
+        return Direction.of(self.component).is_known
 
     @property
     def component(self) -> str:
@@ -164,7 +165,7 @@ class ColumnLabel:
         name = _ACCELERATION.sub("", name.strip())
         name = _OF_DIRECTION.sub(r"\1", name)
         directed = _GROUND.sub("", _AND_WHAT.sub("", name))
-        if directed != name and (azimuth(directed) is not None or is_vertical(directed)):
+        if directed != name and Direction.of(directed).is_known:
             name = directed
         if code := _SEED_ID.fullmatch(name.strip()):
             name = code[2]
@@ -178,7 +179,7 @@ class ColumnLabel:
         is_named = any(not _BESIDE_DIRECTION.fullmatch(word) for word in words)
         if is_letter and before and not ColumnLabel(before.rstrip(".")).is_plain_acceleration:
             return False
-        return not is_named and (azimuth(brackets[1]) is not None or is_vertical(brackets[1]))
+        return not is_named and Direction.of(brackets[1]).is_known
 
 
 _AXES = {"x", "y", "z"}
@@ -196,4 +197,4 @@ def _points(word: str) -> bool:
     """Whether a word is a direction or an axis, and no mere number nor "u", which is a displacement too."""
     if word.isdigit() or word.lower() == "u":
         return False
-    return word.lower() in _AXES or azimuth(word) is not None or is_vertical(word)
+    return word.lower() in _AXES or Direction.of(word).is_known

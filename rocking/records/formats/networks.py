@@ -10,10 +10,10 @@ from rocking.errors import RecordError
 from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.dates import iso_date
+from rocking.records.direction import Direction
 from rocking.records.formats import header, text
 from rocking.records.formats.format import Format, Options
 from rocking.records.formats.header import Layout, key, keyed
-from rocking.records.instrument import azimuth, is_vertical
 from rocking.records.plausibility import agree_with_velocity
 from rocking.remarks import Kind, Remark
 
@@ -66,7 +66,7 @@ _AFAD = Layout("gal", keyed(
 def _directions(line: str) -> list[str]:
     """Return the names of the columns that `line` heads, all of them directions, or none."""
     labels = line.split()
-    return labels if len(labels) > 1 and all(azimuth(x) is not None or is_vertical(x) for x in labels) else []
+    return labels if len(labels) > 1 and all(Direction.of(label).is_known for label in labels) else []
 
 
 def _read_afad(content: bytes, options: Options) -> list[Accelerogram]:
@@ -202,7 +202,7 @@ def _unam_channel(head: str, values: np.ndarray, options: Options, notes: tuple[
     if rate is not None:
         header.check_equal("the interval", step, (decimation or 1.0) / max(1e-9, rate))
     parts = [part.strip() for part in _UNAM.text("orientation", head).split(";") if part.strip()]
-    directions = (part for part in parts if azimuth(part) is not None or is_vertical(part))
+    directions = (part for part in parts if Direction.of(part).is_known)
     facts: dict[str, Any] = {"warnings": notes, "peak_time": None if place is None else (place - 1) * step}
     # Of bearing and sense, "N90E;" or "V;+", one may be blank.
     facts["component"] = next(directions, parts[-1])

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from rocking.quantities import acceleration_unit
-from rocking.records.instrument import azimuth, is_vertical
+from rocking.records.direction import Direction
 from rocking.remarks import Kind, Remark
 
 
@@ -150,8 +150,8 @@ def _components(remark: str) -> list[str]:
 def _is_direction(name: str) -> bool:
     """Whether a name in a text is a direction: a bare number is one if it is written as three digits, else a count."""
     if name.isdigit():
-        return len(name) == _DIGITS_OF_AN_ANGLE and azimuth(name) is not None
-    return bool(name) and (azimuth(name) is not None or is_vertical(name))
+        return len(name) == _DIGITS_OF_AN_ANGLE and Direction.of(name).azimuth is not None
+    return Direction.of(name).is_known
 
 
 _DIGITS_OF_AN_ANGLE = 3

@@ -12,10 +12,10 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.direction import Direction
 from rocking.records.formats import header, text
 from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.header import Layout
-from rocking.records.instrument import is_vertical
 from rocking.records.plausibility import agree_with_mean_square, agree_with_velocity
 from rocking.remarks import Kind, Remark
 
@@ -191,7 +191,7 @@ def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
         notes = (Remark.of(Kind.RATE_UNLIKE_STEP, rate_hz=rate, time_step_s=step),)
     letter = _BHRC.text("component", head)[:1].upper()
     facts: dict[str, Any] = {"processing": (offset,), "warnings": notes}
-    facts["vertical"] = is_vertical(letter)
+    facts["vertical"] = Direction.of(letter).vertical
     if letter in ("L", "T"):
         facts["azimuth"] = header.optional_number(rf"Azimuth\b.*\b{letter}\s+(\d+)", head)
     return _BHRC.channel(head, values, options, step=step, **facts)

@@ -14,9 +14,9 @@ from obspy.core.util.base import get_example_file
 
 from rocking.errors import RecordError, RockingError
 from rocking.records import Accelerogram, load_catalogue, read
+from rocking.records.direction import Direction
 from rocking.records.folder import list_folder
 from rocking.records.formats import FORMATS
-from rocking.records.instrument import azimuth, is_vertical
 from rocking.records.obspy_plugin import PLUGINS
 from rocking.remarks import Kind, Remark
 
@@ -155,7 +155,7 @@ def test_obspys_own_records() -> None:
     ("400", None, True), ("401", None, False), ("HN1", None, False),
 ])  # fmt: skip
 def test_directions(name: str, degrees: float | None, vertical: bool) -> None:
-    assert (azimuth(name), is_vertical(name)) == (degrees, vertical)
+    assert (Direction.of(name).azimuth, Direction.of(name).vertical) == (degrees, vertical)
 
 
 def test_every_plug_in_is_declared_and_refuses_quietly(tmp_path: Path) -> None:
@@ -331,15 +331,15 @@ def test_a_response_that_is_none_is_refused(changed: dict[str, str], word: str) 
     ["BHZ00", "HNZ.00", "HNZ--", "Z--", "VRT", "V1", "UPP", "UPWD", "DWN1", "Vertical Up", "hnz 10", "V"],
 )
 def test_names_of_verticals(name: str) -> None:
-    assert is_vertical(name) and azimuth(name) is None
+    assert Direction.of(name).vertical and Direction.of(name).azimuth is None
 
 
 @pytest.mark.parametrize(
     ("name", "along"), [("BH210", None), ("HNE.00", 90.0), ("BHN00", 0.0), ("V90", None), ("HNR", None)]
 )
 def test_names_that_are_no_verticals(name: str, along: float | None) -> None:
-    assert azimuth(name) == along
-    assert not is_vertical(name)
+    assert Direction.of(name).azimuth == along
+    assert not Direction.of(name).vertical
 
 
 def test_a_direction_that_nobody_states_is_told() -> None:

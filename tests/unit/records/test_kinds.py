@@ -9,8 +9,8 @@ from obspy.io.sac import SACTrace
 
 from rocking.errors import RecordError
 from rocking.records import Accelerogram, read
+from rocking.records.direction import Direction
 from rocking.records.formats.header import coordinates
-from rocking.records.instrument import azimuth, is_vertical
 from rocking.remarks import Kind, Remark
 from tests.contracts.made_files import TRUE, columns, cwb, smc
 
@@ -151,12 +151,12 @@ def test_a_unit_that_is_given_wins_where_obspy_differentiated_what_nobody_named(
     "name", ["Vert up", "VERT1", "-Z", "UP 1", "Vertical (up)", "UD2", "Upwards", "HNZ_20"]
 )
 def test_more_names_of_verticals(name):
-    assert is_vertical(name)
+    assert Direction.of(name).vertical
 
 
 @pytest.mark.parametrize(("name", "along"), [("WE", 90.0), ("HNE.00", 90.0), ("UPLAND", None), ("X", None)])
 def test_names_of_horizontals(name, along):
-    assert not is_vertical(name) and azimuth(name) == along
+    assert not Direction.of(name).vertical and Direction.of(name).azimuth == along
 
 
 @pytest.mark.parametrize("text", ["31.86 LAT. N\n 116.60 LONG. W", "31.86 N / 116.60 O", "31.86 N; 116.60 W"])

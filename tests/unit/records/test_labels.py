@@ -8,8 +8,8 @@ import pytest
 from rocking.errors import RecordError
 from rocking.quantities import acceleration_factor
 from rocking.records import Accelerogram, read
+from rocking.records.direction import Direction
 from rocking.records.formats.labels import ColumnLabel
-from rocking.records.instrument import azimuth, is_vertical
 from rocking.remarks import Kind, Remark
 
 TIMES = np.arange(600) * 0.01
@@ -329,7 +329,7 @@ def test_a_title_declares_a_unit_only_of_the_numbers(tmp_path, title, unit):
     ],
 )
 def test_names_of_directions(name, along, vertical):
-    assert (azimuth(name), is_vertical(name)) == (along, vertical)
+    assert (Direction.of(name).azimuth, Direction.of(name).vertical) == (along, vertical)
 
 
 @pytest.mark.parametrize("head", ["s,m/s2\n", "sec,(m/s2)\n", "[s],[m/s²]\n"])

@@ -1,0 +1,337 @@
+"""Direction: where a component points, decided once from what its reader, its name, its file and its row say."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any, Literal, Protocol
+
+from rocking.remarks import Kind, Remark
+
+SaidBy = Literal["", "header", "name", "file"]
+"""Who says where a component points: nobody, the header of its record, its own name, or the name of its file."""
+
+_VERTICAL = {
+    "UP", "DOWN", "DN", "DWN", "V", "Z", "UD", "U-D", "U", "VER", "VERT", "VERTICAL", "UPDO", "U/D", "UPWARD",
+    "UP-DOWN", "UP/DOWN", "VERT.", "VER.", "VRT", "VRTL", "UPP", "UPWD", "DWNW", "VERTICAL UP", "VERTICAL DOWN", "V-UP",
+    "DÜŞEY", "上下", "鉛直",
+    "400", "500", "600",  # codes of vertical, up and down in the headers of USC, SMC and COSMOS
+}  # fmt: skip
+_NAMED = {
+    "N": 0.0, "NS": 0.0, "N-S": 0.0, "S-N": 180.0, "NORTH": 0.0, "E": 90.0, "EW": 90.0, "E-W": 90.0, "W-E": 90.0,
+    "N/S": 0.0, "E/W": 90.0, "WE": 90.0, "EAST": 90.0, "S": 180.0, "SOUTH": 180.0, "W": 270.0, "WEST": 270.0,
+    "NORTH-SOUTH": 0.0, "NORTH SOUTH": 0.0, "EAST-WEST": 90.0, "EAST WEST": 90.0,
+    "NORTE": 0.0, "NORTE-SUR": 0.0, "SUR": 180.0, "ESTE": 90.0, "OESTE": 270.0, "E-O": 90.0, "EO": 90.0, "E/O": 90.0,
+    "ESTE-OESTE": 90.0, "NORD": 0.0, "NORD-SUD": 0.0, "SUD": 180.0, "EST": 90.0, "EST-OUEST": 90.0, "EST-OVEST": 90.0,
+    "OUEST": 270.0, "OVEST": 270.0, "OST": 90.0, "KUZEY-GÜNEY": 0.0, "DOĞU-BATI": 90.0, "南北": 0.0, "東西": 90.0,
+}  # fmt: skip
+_RELATIVE = {
+    **{word: word for word in ("L", "T", "R", "X", "Y", "1", "2", "3", "H1", "H2", "FN", "FP", "SN", "SP")},
+    "HX": "X", "HY": "Y", "HL": "L", "HT": "T", "HR": "R", "H3": "3",
+    "LN": "L", "LON": "L", "LONG": "L", "LONGITUDINAL": "L", "TR": "T", "TRAN": "T", "TRANS": "T", "TRANSVERSE": "T",
+    "TRANSVERSAL": "T", "RAD": "R", "RADIAL": "R",
+}  # fmt: skip
+"""Which of two axes a name says, whose azimuth it does not."""
+_ACROSS = ({"L", "T"}, {"R", "T"}, {"FN", "FP"}, {"SN", "SP"}, {"X", "Y"}, {"H1", "H2"}, {"1", "2"})
+"""Axes that are at right angles by what they mean."""
+_QUADRANT = re.compile(r"([NS])\s*(\d{1,2})\s*°?\s*([EWO])")
+"""A bearing; O is oeste, ouest and ovest."""
+_DEGREES = re.compile(
+    r"(?:AZ(?:IMUTH)?\.?[ =:]*|N(?=\d{3}))?(\d{1,3}(?:\.\d*)?)(?:[ _]?(?:DEG(?:REES?)?\.?|°))?"
+)
+_BAND = re.compile(r"([A-Z][HNGL][ENZ123])(?:[._ -]?(?:\d\d|--))?")
+"""A channel code of three letters, and what may follow it of a code of location."""
+_OF_ONE_INSTRUMENT = re.compile(r"([A-Z][HNGL])([RT12XY])")
+_BAND_AND_AXIS = re.compile(r"[A-Z][ _]+([ENZ])")
+"""Band and axis with a blank in the place of the instrument, as SEISAN writes them."""
+_NUMBERED_VERTICAL = re.compile(r"(V|Z|UP|DN|DWN|DOWN|VERT|VERTICAL)[ _.-]?(\d|00|-{1,2})")
+"""A vertical with a number of its own, as V1 or DWN1, or dashes in place of a code, as Z--."""
+_VERTICAL_WORD = re.compile(r"VERT\w*|VRT\w*|UPW\w*|DOWNW\w*|DWNW?|UPP?|DOWN|DN|Z|UD|UPDOWN")
+"""Words of which a name of a vertical consists, beside numbers and signs: "Vertical (up)", "UP 1", "-Z"."""
+_SURELY_VERTICAL = re.compile(r"\b(VERT(ICAL(E|LY)?)?|VERTIKAL|[BCEHS]NZ)\b")
+"""A word that makes a vertical of any name in which it stands: "Roof vertical", "Ch. 3 - HNZ"."""
+_SAYS_WHICH = re.compile(
+    r"H?[123XYLTR]\d?|[A-Z][HNGL][RT]|L?N|TR|LN|FN|FP|(LONG|TRAN|RAD)\w*|(COMP|CHAN)\w*[ _-]?\d+", re.I
+)
+"""Names of components that say which of two it is, and not where it points."""
+_OFF_AXIS = 45.0
+"""Degrees by which a channel called north or east may be off that direction: beyond, it is nearer the other one."""
+_OF_A_STATION = 3
+"""Channels of a station that recorded every direction."""
+_SEED = re.compile(r"[A-Z]{2}[A-Z0-9]")
+"""A channel code as stations give it: band, instrument, and the direction last."""
+
+
+class Channel(Protocol):
+    """What a direction is asked of: a channel with its samples, or as it is listed without."""
+
+    @property
+    def component(self) -> str: ...
+    @property
+    def azimuth(self) -> float | None: ...
+    @property
+    def vertical(self) -> bool: ...
+
+
+@dataclass(frozen=True)
+class Direction:
+    """Where a component points, and who says so.
+
+    azimuth: degrees clockwise from north in [0, 360), None where it is not known. relative: which of two axes at right
+    angles it is where their azimuths are not known: "L", "T", "FN", "1", ...; "" where not even that is said.
+    """
+
+    azimuth: float | None = None
+    vertical: bool = False
+    relative: str = ""
+    said_by: SaidBy = ""
+
+    @classmethod
+    def of(cls, name: str) -> "Direction":
+        """Return what the name of a component says, in plain degrees ("228"), bearings ("N26W"), words and codes.
+
+        >>> from rocking.records.direction import Direction
+        >>> Direction.of("N26W").azimuth, Direction.of("+V").vertical, Direction.of("--L").relative
+        (334.0, True, 'L')
+        """
+        return _of_name(name)
+
+    @classmethod
+    def of_channel(cls, channel: Channel) -> "Direction":
+        """Return the direction of a channel whose facts stand, with the axis that its name says."""
+        by_name = _of_name(channel.component)
+        same = (by_name.azimuth, by_name.vertical) == (channel.azimuth, channel.vertical)
+        is_said = channel.vertical or channel.azimuth is not None
+        said_by: SaidBy = "" if not (is_said or by_name.relative) else "name" if same else "header"
+        return cls(channel.azimuth, channel.vertical, by_name.relative, said_by)
+
+    @property
+    def is_known(self) -> bool:
+        """Whether it is upwards, or an azimuth."""
+        return self.vertical or self.azimuth is not None
+
+    def refined(self, by: "Direction") -> "Direction":
+        """Return this direction where it is known, else what `by` says, which comes later: a file's name, a row."""
+        return self if self.is_known or not (by.is_known or by.relative) else by
+
+    def angle_to(self, other: "Direction") -> float | None:
+        """Return the angle to another horizontal one, degrees in [0, 180), None where it is not known."""
+        if self.azimuth is None or other.azimuth is None:
+            return None
+        return (other.azimuth - self.azimuth) % 180
+
+    def is_across(self, other: "Direction") -> bool:
+        """Whether the two are axes at right angles by what they mean, such as L and T, FN and FP."""
+        return {self.relative, other.relative} in _ACROSS
+
+
+def directed(fields: Mapping[str, Any]) -> dict[str, Any]:
+    """Return fields of an Accelerogram, `vertical` and `azimuth` by its component's name where they are blank."""
+    stated = fields.get("azimuth")
+    vertical = fields.get("vertical")
+    by_name = _of_name(fields.get("component", ""))
+    if vertical is None:
+        vertical = by_name.vertical
+    header = Direction(None if vertical else stated, vertical, said_by="header")
+    found = header.refined(replace(by_name, vertical=False))
+    return {**fields, "vertical": found.vertical, "azimuth": found.azimuth}
+
+
+@cache
+def _of_name(name: str) -> Direction:
+    word = name.strip().upper().replace("–", "-")
+    if _is_vertical(word):
+        return Direction(vertical=True, said_by="name")
+    along = _azimuth(word)
+    bare = word.strip(" .+-")
+    axis = _RELATIVE.get(bare) or _RELATIVE.get(bare.rstrip("0123456789"), "")
+    if code := _OF_ONE_INSTRUMENT.fullmatch(bare):
+        axis = code[2]
+    return Direction(along, relative=axis, said_by="name" if along is not None or axis else "")
+
+
+def _is_vertical(word: str) -> bool:
+    """Whether a word in capitals says that a component is vertical: UP, +V, UD, or a channel code that ends in Z."""
+    band = _BAND.fullmatch(word) or _BAND_AND_AXIS.fullmatch(word)
+    if band:
+        return band[1].endswith("Z")
+    if word.strip("+-") in _VERTICAL or _NUMBERED_VERTICAL.fullmatch(word):
+        return True
+    if _SURELY_VERTICAL.search(word.replace("_", " ")) and "HORIZ" not in word:
+        return True
+    parts = [part for part in re.split(r"[^A-Z]+", word) if part]
+    return bool(parts) and all(_VERTICAL_WORD.fullmatch(part) for part in parts)
+
+
+def _azimuth(word: str) -> float | None:
+    """Return the azimuth that a word in capitals says, degrees, or None."""
+    if angle := _DEGREES.fullmatch(word):
+        return float(angle[1]) % 360 if float(angle[1]) <= 360 else None
+    if band := _BAND.fullmatch(word):
+        word = band[1][2]
+    elif axis := _BAND_AND_AXIS.fullmatch(word):
+        word = axis[1]
+    if quadrant := _QUADRANT.fullmatch(word):
+        pole, degrees, side = quadrant.groups()
+        turn = int(degrees) if (pole == "N") == (side == "E") else -int(degrees)
+        return float(((0 if pole == "N" else 180) + turn) % 360)
+    return _NAMED.get(word)
+
+
+def is_unnamed(component: str) -> bool:
+    """Whether a component's name is no more than the place of the channel in its file."""
+    return not component or (component.startswith("channel ") and component[8:].isdecimal())
+
+
+def names_acceleration(component: str) -> bool:
+    """Whether a component's name is but a word for acceleration."""
+    return bool(_ONLY_ACCELERATION.fullmatch(component.strip()))
+
+
+def names_no_direction(component: str) -> bool:
+    """Whether a component's name is but the place of its column, or a word for acceleration."""
+    return is_unnamed(component) or names_acceleration(component)
+
+
+_ONLY_ACCELERATION = re.compile(r"a|ag|a_g|acc\w*|ground[ _]?acc\w*|amplitude|values?|data", re.I)
+
+
+def doubts_of_channel(channel: Channel) -> tuple[Remark, ...]:
+    """Return a remark where nothing says where a channel points: neither its header, nor its name."""
+    if not _is_unknown(channel):
+        return ()
+    return (Remark(Kind.DIRECTION_UNKNOWN, channel.component.strip()),)
+
+
+def _is_unknown(channel: Channel) -> bool:
+    """Whether a channel has a name, and neither it nor the header says where the channel points."""
+    name = channel.component.strip()
+    if channel.vertical or channel.azimuth is not None or not name:
+        return False
+    if _SAYS_WHICH.fullmatch(name.strip("+-")) or _BAND.fullmatch(name.upper()):
+        return False
+    is_beyond = name.isdigit() and int(name) > 360
+    is_combined = re.match(r"(?i)rot|srss|gm|geo", name) is not None
+    is_longer_angle = re.search(r"\d\d", name) is not None  # an angle to which a program has written more
+    return is_beyond or is_combined or not is_longer_angle
+
+
+def contradiction(channel: Channel) -> Remark | None:
+    """Return a remark where a channel code (HNE) points elsewhere than the header of its record.
+
+    A code is taken at its word where N and E are near their axes, whichever way they point.
+    """
+    code = _BAND.fullmatch(channel.component.strip().upper())
+    axis = {"N": 0.0, "E": 90.0}.get(code[1][2]) if code else None
+    if code is None or (axis is None and code[1][2] != "Z"):
+        return None
+    along = channel.azimuth
+    is_same = channel.vertical == code[1].endswith("Z")
+    off_axis = (
+        0.0 if along is None or axis is None or channel.vertical else abs((along - axis + 90) % 180 - 90)
+    )
+    if is_same and off_axis <= _OFF_AXIS:
+        return None
+    direction = (
+        "upwards" if channel.vertical else "to no known azimuth" if along is None else f"to {along:g}°"
+    )
+    return Remark.of(Kind.DIRECTION_CONTRADICTED, channel.component.strip(), direction=direction)
+
+
+def vertical_doubt(channels: Sequence[Channel]) -> Remark | None:
+    """Return a remark where one of the channels may be vertical, and nothing says whether it is.
+
+    That is so of three channels or more without directions, and of a lone one with a code of unknown direction.
+    """
+    if any(channel.vertical for channel in channels):
+        return None
+    if len(channels) == 1:
+        return _lone_doubt(channels[0])
+    of_unknown = [channel.component for channel in channels if channel.azimuth is None]
+    if len(channels) < _OF_A_STATION or not of_unknown:
+        return None
+    names = ", ".join(of_unknown[:_OF_A_STATION])
+    return Remark.of(Kind.SOME_MAY_BE_VERTICAL, channels=len(channels), names=names)
+
+
+def _lone_doubt(channel: Channel) -> Remark | None:
+    """A remark on a lone channel with a code. A heading of a table is prose, and no less horizontal for that."""
+    code = channel.component.strip()
+    if not _SEED.fullmatch(code) or names_acceleration(code) or not _is_unknown(channel):
+        return None
+    return Remark(Kind.LONE_MAY_BE_VERTICAL, code)
+
+
+def pair_doubt(horizontal: Sequence[Channel]) -> Remark | None:
+    """Return a remark where the angle of two horizontal components is neither known nor said by their names."""
+    if len(horizontal) != 2 or any(each.vertical for each in horizontal):
+        return None
+    one, other = map(Direction.of_channel, horizontal)
+    first, second = (each.component for each in horizontal)
+    if one.angle_to(other) is not None or one.is_across(other):
+        return None
+    if names_no_direction(first) and names_no_direction(second):
+        return None
+    return Remark.of(Kind.ANGLE_UNKNOWN, first=first, second=second)
+
+
+def angle_between(first: Channel, second: Channel) -> float | None:
+    """Return the angle between two horizontal channels, degrees in [0, 180), None where it is unknown."""
+    return Direction.of_channel(first).angle_to(Direction.of_channel(second))
+
+
+_ENDING = re.compile(r"\.(at2|txt|csv|asc|dat|acc|prn|out|th|tcl|gz|time_\w+|g3)$", re.I)
+_WORDS = (
+    r"NS|EW|SN|WE|EO|N-S|E-W|S-N|W-E|E-O|N|E|S|W|NORTH|EAST|SOUTH|WEST|UD|UP|DN|DWN|DOWN|V|Z|VER|VERT|VERTICAL|"
+    r"[A-Z][HNGL][NEZ]"
+)
+_IN_NAME = (
+    re.compile(rf"^(.*?)[-_. ]({_WORDS})$", re.I),
+    re.compile(r"^(.*?)[-_. ]?([NS]\d{1,2}[EWO])$", re.I),
+    re.compile(r"^(.*\D)(\d{3})$"),
+    re.compile(r"^(.*[A-Za-z]\d{2})(\d{3})$"),
+    re.compile(r"^(.+)[-_. ](\d{1,3})(?:deg)?$", re.I),
+    re.compile(r"^(.*[a-z\d])(NS|EW|UD|UP)$"),
+)
+"""A direction at the end of a file's name: a word, a bearing or three digits, or one to three after a sign.
+
+Three digits may stand behind the two of a station, as in "H-E12140"; a longer number is a date or counts files.
+"""
+
+
+def without_ending(name: str) -> str:
+    """Return the name of a file without the endings that say what kind of file it is."""
+    while (shorter := _ENDING.sub("", name)) not in (name, ""):
+        name = shorter
+    return name
+
+
+def direction_in_name(name: str) -> tuple[str, str]:
+    """Return the name of a file before the direction at its end, and that direction; ("", "") where it ends in none.
+
+    >>> from rocking.records.direction import direction_in_name
+    >>> direction_in_name("RSN779_LOMAP_LGP090.time_g.csv")
+    ('RSN779_LOMAP_LGP', '090')
+    """
+    stem = without_ending(name)
+    for pattern in _IN_NAME:
+        match = pattern.match(stem)
+        if match and _of_name(match[2]).is_known:
+            return match[1], match[2]
+    return "", ""
+
+
+def vertical_in_name(name: str) -> str:
+    """Return the word for a vertical with which the name of a file ends, "" where it ends in none."""
+    stem = without_ending(name.rpartition("/")[2])
+    is_word = len(stem) > 1 and stem.isalpha() and _of_name(stem).vertical
+    if not is_word and _NO_DIRECTION.search(stem):
+        return ""
+    word = stem if is_word else direction_in_name(name.rpartition("/")[2])[1]
+    return word if _of_name(word).vertical and not word.isdigit() else ""
+
+
+_NO_DIRECTION = re.compile(
+    r"(?i)(scaled?|clean(ed)?|rounded|filled|sped|speed|back|set|sized?)[-_. ](up|down)$"
+)
+"""The end of a name in which "up" says what was done, as in "scaled_up"."""
