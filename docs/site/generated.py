@@ -93,11 +93,11 @@ def regimes() -> str:
 
 TOPICS = {
     "records": ("records",),
-    "structures": ("structures",),
+    "structures": ("structures", "floors"),
     "pulses": ("pulses", "sine_pulse"),
-    "motion": ("motion",),
-    "assessment": ("assessment",),
-    "studies": ("study", "reports", "errors"),
+    "motion": ("motion", "contacts"),
+    "assessment": ("assessment", "codes", "fragility"),
+    "studies": ("study", "reports", "remarks", "errors"),
 }
 """Page of the Python names: the parts of the package from which they come."""
 
