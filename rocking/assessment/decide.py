@@ -30,7 +30,7 @@ section on ties)."""
 class Verdict(StrEnum):
     """The verdict on a structure under a ground motion, with all uncertain inputs considered.
 
-    >>> [str(verdict) for verdict in rocking.assessment.decide.Verdict][:3]
+    >>> [str(verdict) for verdict in rocking.Verdict][:3]
     ['stands', 'probably stands', 'uncertain']
     """
 

@@ -152,7 +152,7 @@ class DynamicCheck(Check):
 
     @property
     def sentence(self) -> str:
-        """The share of the sets that meet it, with its interval and the cases that are undecided."""
+        """The share of the sets that meet it, with its interval and the cases that are open."""
         low, high = self.interval
         return (
             f"of {self.sets} sets drawn {100 * self.share:.0f} % meet it ({100 * low:.0f} to {100 * high:.0f} % "
