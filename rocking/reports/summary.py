@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from rocking.assessment.decide import ORDER, Verdict, worst_first
+from rocking.assessment.over_periods import placed
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
     AgreementRow,
@@ -313,7 +314,7 @@ def structure_table(verdicts: Sequence[VerdictRow]) -> dict[str, object]:
         [(name, *[counts[name][verdict] for verdict in kinds], worst[name]) for name in counts],
         ("Structure", "1.6", "l", lambda row: strong(row[0])),
         *((head, "auto", "r", lambda row, at=at: str(row[at])) for at, head in enumerate(heads, start=1)),
-        ("Worst record", "1.6", "l", lambda row: row[-1].record),
+        ("Worst record", "1.6", "l", lambda row: placed(row[-1].record, row[-1].support_period_s)),
         ("Overturns there in", "0.8", "l", lambda row: words(row[-1].decision.share_in_words)),
         ("As given", "0.7", "r", lambda row: ratio(row[-1].rotation_ratio, 2)),
         ("5–95 % of the members", "1.3", "r", lambda row: printing.band_text(row[-1], " – ")),
