@@ -4,6 +4,7 @@ x = 0 is the outer face, x < 0 the building; the positive side rocks outwards ab
 """
 
 import math
+from collections import Counter
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
@@ -260,7 +261,10 @@ class Facade(Tied):
         floors = [level for level, load in zip(levels[1:], bears, strict=True) if load]
         if self.behind != "floors":
             floors = []
-        holds = [Hold(height, "tie", self._yield_force, height in floors) for height in self._tie_levels]
+        holds = [
+            Hold(height, "tie", ties * self._yield_force, height in floors)
+            for height, ties in Counter(self._tie_levels).items()
+        ]
         holds += [Hold(each, "floor", 0.0, inwards=True) for each in floors if each not in self._tie_levels]
         thrust_height = self.height if self.thrust_height is None else self.thrust_height
         return HeldWall(
@@ -282,11 +286,10 @@ class Facade(Tied):
         """The heights of the ties, each at a level of the storeys where it is one but for rounding, m."""
         near = 1e-9 * self.height
         levels = self.levels.tolist()
-        heights = {
+        return tuple(
             next((level for level in levels if abs(level - height) < near), height)
             for height in self.tie_heights
-        }
-        return tuple(sorted(heights))
+        )
 
     def opened(self, opening: Opening) -> "Facade":
         cracked = self._cracked_there_only.cracked_at(opening.foot)

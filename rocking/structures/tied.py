@@ -233,7 +233,6 @@ class Tied(CrackedAtHeight):
         if isinstance(linkage, Chain):
             gives = linkage.holding(state, stop if way and way.upright else None) / GRAVITY
         reactions = []
-        ties = iter(linkage.ties)
         heights = [each.start.imag for each in linkage.hung if each.tie]
         for hold in wall.holds:
             force = np.zeros(state.rotation.size)
@@ -241,11 +240,10 @@ class Tied(CrackedAtHeight):
                 force = gives[0]
             elif way and way.upright and hold.height == stop:
                 force = gives[1]
-            if any(abs(height - hold.height) < 1e-9 * wall.height for height in heights):
-                tie = next(ties)
-                force = (
-                    tie.tie.tension(tie.stretch(state.rotation), tie.stretch(state.largest)) * linkage.unit
-                )
+            for tie, height in zip(linkage.ties, heights, strict=True):
+                if abs(height - hold.height) < 1e-9 * wall.height:
+                    pull = tie.tie.tension(tie.stretch(state.rotation), tie.stretch(state.largest))
+                    force = force + pull * linkage.unit
             pressing = sum(load.weight for load in wall.loads if hold.kind == "top" and load.z == hold.height)
             reactions.append(Reaction(hold.kind, hold.height, force, pressing))
         return reactions

@@ -3,6 +3,7 @@
 x is measured from the middle of the wall, outwards (to the right) positive; the positive side bends outwards.
 """
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -449,8 +450,11 @@ class LoadedWall(CrackedWall, Tied):
     def held_wall(self) -> HeldWall:
         half = self.thickness / 2
         top = self.height
-        ties = {height for height in self.tie_heights if height < top}
-        holds = [Hold(height, "tie", self._yield_force, inwards=False) for height in sorted(ties)]
+        ties = Counter(height for height in self.tie_heights if height < top)
+        holds = [
+            Hold(height, "tie", number * self._yield_force, inwards=False)
+            for height, number in sorted(ties.items())
+        ]
         slab = self.top_slab == "flat"
         across = 0.0 if slab else -self.eccentricity
         load = Load(across, top, self.top_load, rides=False, slab=self._slab_edge * slab)

@@ -1,5 +1,6 @@
 """Walls held at several heights: limit analysis without a mechanism, worked examples, positions and energy."""
 
+import pickle
 from dataclasses import replace
 from itertools import pairwise
 
@@ -413,7 +414,7 @@ def held_forces(wall, opening, state):
     The moment of all about the foot, and the sum of the forces sideways.
     """
     phi, velocity, acceleration, ground = state
-    linkage = wall.opened(opening).linkage
+    linkage = wall.opened(opening).linkages[0]
     step = 2e-4
     times = np.array([-2, -1, 0, 1, 2]) * step
     motion = linkage.motion(phi + velocity * times + acceleration * times**2 / 2)
@@ -436,12 +437,12 @@ def test_reaction_in_motion_balances_all_masses_about_the_foot(upright):
         found = opened.reactions([phi], [velocity], ground=[ground])
         contacts = opened.contact_forces([phi], [velocity], None, [ground])
         moment, sideways = held_forces(wall, opening, (phi, velocity, acceleration, ground))
-        held = opened.linkage.motion(phi).hinges[2].imag
+        held = opened.linkages[0].motion(phi).hinges[2].imag
         heights = [held if each.height == 6.4 else each.height for each in found]
         by_holds = sum(float(each.force[0]) * height for each, height in zip(found, heights, strict=True))
         assert by_holds == pytest.approx(-moment, rel=1e-6)
         # tangential forces are those of the wall on its joint
-        at_foot = float(contacts.tangential[0, 0]) * opened.linkage.unit / GRAVITY
+        at_foot = float(contacts.tangential[0, 0]) * opened.linkages[0].unit / GRAVITY
         together = sum(float(each.force[0]) for each in found)
         assert together == pytest.approx(sideways - at_foot, rel=1e-6)
 
@@ -453,3 +454,37 @@ def test_tie_past_which_a_facade_turns_pulls_as_its_law_says():
     (tie,) = facade.reactions([0.02, 0.05], [0.1, 0.0], ground=[0.0, 1.0])
     np.testing.assert_allclose(tie.force, 4e4 * 5.0 * np.sin([0.02, 0.05]), rtol=1e-12)
     assert facade.reactions()[0].force[0] == 0
+    # two at one height are two
+    twice = replace(facade, tie_heights=(5.0, 5.0))
+    assert twice.mechanism().positive.at("gravity", 0.02) > facade.mechanism().positive.at("gravity", 0.02)
+    np.testing.assert_allclose(
+        twice.reactions([0.02, 0.05], [0.1, 0.0], ground=[0.0, 1.0])[0].force, 2 * tie.force
+    )
+    foot = Opening(0.0)
+    both, one = (replace(each, tie_strength=3e3).held_wall.multiplier(foot) for each in (twice, facade))
+    assert both - one == pytest.approx(one - facade.mechanism().uplift_multiplier, rel=1e-9)
+
+
+def test_facade_that_a_tie_holds_at_the_top_falls_as_it_bulges():
+    """Under 8 sin 6t m/s² of 3 s it stands as one body about its toe, and falls as a wall between foot and tie."""
+    facade = Facade(
+        (3.2, 3.2),
+        (0.4, 0.4),
+        19e3,
+        floor_loads=(1e4, 1e4),
+        one_sided=True,
+        restitution=0.7,
+        tie_heights=(6.4,),
+        tie_stiffness=2e7,
+        crack="given",
+    )
+    time = np.arange(0, 3.0, 0.005)
+    motion = rocking.Accelerogram(8 * np.sin(6 * time), 0.005)
+    whole = rocking.integrate(facade, motion)
+    bulge = facade.mechanisms()[0]
+    assert bulge.name == "bulges between foot and tie"
+    # in another process it is the same wall
+    copied = pickle.loads(pickle.dumps(bulge.structure))
+    for wall in (bulge.structure, copied):
+        assert rocking.integrate(wall, motion).outcome is rocking.Outcome.OVERTURNS
+    assert whole.outcome is rocking.Outcome.ROCKS
