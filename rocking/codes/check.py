@@ -10,7 +10,8 @@ from rocking.quantities import finite, kind_of, positive
 from rocking.remarks import Kind, Remark
 
 CONFIDENCE_FACTOR = 1.35
-"""The factor of the level of knowledge LC1, which C8.7.1.2.1 asks for unless crushing enters α; here it does not."""
+"""The factor of the level of knowledge LC1, which C8.7.1.2.1 asks for unless crushing enters α, as with a
+compressive_strength of the structure."""
 
 BEHAVIOUR_FACTOR = 2.0
 """q of the linear check where no better one is known (C8.7.1.2.1.7)."""
