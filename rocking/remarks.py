@@ -262,6 +262,9 @@ class Kind(StrEnum):
     FIRST_ARE_STEP_AND_COUNT = auto(), (
         "The first of the numbers is the time step and the number of samples, and no sample."
     )
+    FIRST_ARE_SERIES_AND_STEP = auto(), (
+        "The first of the numbers is the number of series, 1, and the time step, and no sample."
+    )
     FIRST_IS_STEP = auto(), "The first of the numbers is the time step, and no sample."
     ROW_FILLED_UP = auto(), "The last row is filled up with NaN, which are left out."
     INTEGRAL_LEFT_OUT = auto(), (

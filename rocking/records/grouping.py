@@ -72,6 +72,7 @@ def _station_key(file: ListedFile) -> object:
         day_of(first.event_time),
         base,
         band[1] if band else "",
+        first.processed,  # raw and corrected motion are no pair, nor are two kinds of sensor
         file.blanks,
     )
 

@@ -62,6 +62,7 @@ class ListedChannel:
     azimuth: float | None
     vertical: bool
     borehole: bool
+    processed: bool | None
 
     @property
     def is_horizontal(self) -> bool:
@@ -173,6 +174,7 @@ def _without_samples(record: Accelerogram, is_known: bool) -> ListedChannel:
         azimuth=record.azimuth,
         vertical=record.vertical,
         borehole=record.borehole,
+        processed=record.processed,
     )
 
 

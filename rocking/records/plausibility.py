@@ -125,7 +125,7 @@ def pass_limits(record: Accelerogram, form: str = "") -> tuple[Remark, ...]:
     )
 
 
-OF_COUNTS = ("SAC", "miniSEED", "obspy")
+OF_COUNTS = ("SAC", "miniSEED", "GSE", "SLIST or TSPAIR", "WIN", "SEISAN", "REFTEK 130", "obspy")
 """Kinds of file whose samples are mostly counts."""
 
 

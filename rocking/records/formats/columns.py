@@ -204,6 +204,37 @@ def _refuse_spectrum(labels: tuple[ColumnLabel, ...]) -> None:
         raise RecordError(f"this is a spectrum ({heads}); use the record of acceleration against time.")
 
 
+_OTHER_TITLE = re.compile(
+    r"(?i)(?<![a-z])((?:shear |axial )?strains?|(?:shear |normal )?stress(?:es)?|forces?|moments?|fourier|"
+    r"(?:response |spectral |power )spectr\w*|psa|fas)(?![a-z])"
+)
+_SPEAKS_OF_MOTION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|match)")
+
+
+def _refuse_other_title(remarks: Sequence[str]) -> None:
+    """Refuse a table below a text that speaks of another quantity, and of no acceleration."""
+    above = "\n".join(remarks)
+    if (word := _OTHER_TITLE.search(above)) and not _SPEAKS_OF_MOTION.search(above):
+        raise RecordError(f"this is a file of {word[1].lower()}; use the acceleration of the same record.")
+
+
+def _refuse_matrix(rows: np.ndarray) -> None:
+    """Refuse columns without names that no motion makes: none has a number below zero, or they rise unevenly from one.
+
+    rows: (n, columns) of a table, or one series as its rows hold it.
+    """
+    if rows.shape[1] < 2 or len(rows) < _FEWEST_ROWS or rows[:, 1:].min() < 0:
+        return
+    steps = np.diff(rows[:, 0])
+    is_uneven_abscissa = steps.min() > 0 and steps.max() > 2 * steps.min()
+    is_matrix = rows.shape[1] > 2 and rows.min() >= 0 and rows.size >= _FEWEST_OF_BOTH_SIGNS
+    if is_uneven_abscissa or is_matrix:
+        raise RecordError(
+            "no number of its columns is below zero: these are spectra or peaks; use the record of acceleration "
+            "against time, or name the columns if they are that."
+        )
+
+
 _FEWEST_ROWS = 8
 """Rows from which on it can be told whether numbers run along rows or along columns."""
 _OF_CHANNELS = (3, 4, 6, 9)
@@ -214,10 +245,10 @@ def _runs_along_rows(values: np.ndarray, width: int, parted: bool) -> bool:
     """Whether numbers in `width` columns without names are one series, wrapped, and not channels side by side.
 
     Along a series the next number is nearer than the one a row further on; of channels it is that of another channel.
-    parted: whether commas or semicolons part them, as no series that is wrapped has.
+    parted: whether commas or semicolons part them, which decides where the rows are too few to tell.
     """
     rows = values.size // width
-    if parted or rows < _FEWEST_ROWS:
+    if rows < _FEWEST_ROWS:
         return not parted
     whole = values[: rows * width]
     along = float(np.abs(np.diff(whole)).mean())
@@ -246,6 +277,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     table = _table(pointed) or _Table((), 1, 0)  # it was recognised by that
     _refuse_spectrum(table.labels)
     refuse_other_quantity(options.file, "\n".join(table.remarks))
+    _refuse_other_title(table.remarks)
     if not any(label.unit for label in table.labels):
         refuse_by_name(options.file)
     below = text.after_lines(pointed, table.start)
@@ -259,6 +291,8 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     width = 2 if _are_wrapped_pairs(values, table) else table.width
     wrapped = _is_wrapped(values, table, body)
     _check_rows(spaced, table.width, wrapped or width != table.width)
+    if not table.labels:
+        _refuse_matrix(values[: values.size - values.size % width].reshape(-1, width))
     if wrapped:
         _check_first_row(spaced)
     if width == 1 or wrapped:
@@ -376,7 +410,8 @@ def _without_count(
 ) -> tuple[np.ndarray, float | None, tuple[Remark, ...]]:
     """Return the samples without what stands above them as first numbers, and the time step [s] among that.
 
-    That is their number, their number and the time step or the rate, or the time step that the caller declares.
+    That is their number, their number and the time step or the rate, the number of series (1) and the time step, or
+    the time step that the caller declares.
     """
     for above in (1, 2):
         if values.size > above + 2 and values[0] == values.size - above:
@@ -387,6 +422,10 @@ def _without_count(
                 return values[2:], second, (Remark(Kind.FIRST_ARE_COUNT_AND_STEP),)
             if _RATES[0] <= second <= _RATES[1] and second == round(second):
                 return values[2:], 1 / second, (Remark(Kind.FIRST_ARE_COUNT_AND_RATE),)
+    # No motion falls so from its first sample to the next ones.
+    falls = values.size > _FEWEST_ROWS and values[0] == 1 and np.abs(values[2:_FEWEST_ROWS]).max() < 0.5
+    if falls and _SHORT_STEPS[0] <= values[1] <= _SHORT_STEPS[1]:
+        return values[2:], float(values[1]), (Remark(Kind.FIRST_ARE_SERIES_AND_STEP),)
     if values.size > 4 and values[1] == values.size - 2 and 0 < values[0] <= LONGEST_STEP:
         return values[2:], float(values[0]), (Remark(Kind.FIRST_ARE_STEP_AND_COUNT),)
     if declared is not None and values.size > _FEWEST_ROWS and values[0] == declared:
@@ -394,6 +433,8 @@ def _without_count(
     return values, None, ()
 
 
+_SHORT_STEPS = 0.0005, 0.05
+"""s; of recorders."""
 _RATES = 20.0, 2000.0
 """Hz; of recorders."""
 

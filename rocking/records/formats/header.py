@@ -106,6 +106,7 @@ class Layout:
         step: float | None = None,
         peak: float | None = None,
         peak_time: float | None = None,
+        peak_digit: float | None = None,
         file_samples: np.ndarray | None = None,
         file_times: np.ndarray | None = None,
         total: int = 10**9,
@@ -115,8 +116,8 @@ class Layout:
 
         unit, step [s], peak and its time where they follow from something else than the patterns; fields: more of an
         Accelerogram, before what the header says. file_samples: (n,) m/s² and file_times: (n,) s as agree_with_header
-        takes them. total: number of channels in the file. Raises RecordError when something is missing or contradicts
-        the samples.
+        takes them. peak_digit: by which the stated peak may be off, by default the layout's. total: number of channels
+        in the file. Raises RecordError when something is missing or contradicts the samples.
         """
         unit = unit or self._unit(head)
         for name in self.mandatory:
@@ -146,7 +147,13 @@ class Layout:
         peak = self.number("peak", head) if peak is None else peak
         at = self.number("peak_time", head) if peak_time is None else peak_time
         return agree_with_header(
-            record, peak, in_unit, self.half_digit, at=at, samples=file_samples, times=file_times
+            record,
+            peak,
+            in_unit,
+            self.half_digit if peak_digit is None else peak_digit,
+            at=at,
+            samples=file_samples,
+            times=file_times,
         )
 
     def channels(

@@ -187,10 +187,16 @@ _AXES = {"x", "y", "z"}
 
 def _only_direction(name: str) -> str:
     """Return the only word of a name that says where it points, "" where it has another that says something else."""
+    if _NUMBERED.search(name):
+        return ""
     words = [word.strip("-") for word in _PARTS.split(name)]
     words = [part for word in words for part in ([word] if _points(word) else word.split("-"))]
     told = [word for word in words if word and not _BESIDE_DIRECTION.fullmatch(word)]
     return told[0] if len(told) == 1 and _points(told[0]) else ""
+
+
+_NUMBERED = re.compile(r"(?i)[nsew]-\d+")
+"""A letter with a number behind a dash, as "S-1", which counts soils or sites."""
 
 
 def _points(word: str) -> bool:

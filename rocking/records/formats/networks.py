@@ -203,7 +203,12 @@ def _unam_channel(head: str, values: np.ndarray, options: Options, notes: tuple[
         header.check_equal("the interval", step, (decimation or 1.0) / max(1e-9, rate))
     parts = [part.strip() for part in _UNAM.text("orientation", head).split(";") if part.strip()]
     directions = (part for part in parts if Direction.of(part).is_known)
-    facts: dict[str, Any] = {"warnings": notes, "peak_time": None if place is None else (place - 1) * step}
+    facts: dict[str, Any] = {"warnings": notes}
+    if place is not None:  # the number of a sample; what is not whole is a time
+        facts["peak_time"] = (place - 1) * step if place == int(place) else place
+    # Some of the network's members cut the peak off instead of rounding it.
+    printed = _UNAM.text("peak", head).split()
+    facts["peak_digit"] = 10.0 ** -len(printed[0].partition(".")[2]) if printed else 0.0
     # Of bearing and sense, "N90E;" or "V;+", one may be blank.
     facts["component"] = next(directions, parts[-1])
     origin = _in_zone(header.optional(key("HORA EPICENTRO (GMT)"), head), "GMT")

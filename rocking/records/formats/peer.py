@@ -40,6 +40,8 @@ _FILTER_POINTS = re.compile(r"HP\s*=\s*([0-9.]+)\s*HZ", re.I)
 _POLES = re.compile(r"(-?\d+)\s+POLE\s+@\s*([0-9.]+)", re.I)
 _DATE_AT_END = re.compile(r"\s*\b\d{1,2}/\d{1,2}/\d{2,4}(?:,? +\d{1,2}:?\d\d)?$")
 """In a title like "DUZCE 11/12/99": the date stands in a fact of its own."""
+_IN_BRACKETS = re.compile(r"\([^()]*\)")
+"""The sense of a direction, or a network of its own part, as in "CHI-CHI 09/20/99, CHY101, E, (CWB)"."""
 _HEADER_LINES = 8
 _LONGEST_COMPONENT = 16
 
@@ -79,8 +81,10 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     unit = next((unit for pattern, unit in _UNITS if pattern.search(text)), "")
     declared = count("NPTS", size["npts"])
     values, warnings = whole(numbers(after_lines(content, len(head))), declared, per_line=8)
-    title = head[1] if len(head) > 1 else ""
-    parts = [part.strip() for part in title.split(",")]
+    parts = [part.strip() for part in head[1].split(",")] if len(head) > 1 else [""]
+    while len(parts) > 1 and _IN_BRACKETS.fullmatch(parts[-1]):
+        del parts[-1]
+    title = ",".join(parts)
     poles = _POLES.findall(text)
     points = _FILTER_POINTS.search(text)
     corner = points[1] if points else poles[1][1] if len(poles) > 1 and poles[1][0] != "0" else "0"
@@ -96,7 +100,7 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
 
 
 def _component(title: str) -> str:
-    title = re.sub(r"\([^()]*\)", "", title).strip()
+    title = _IN_BRACKETS.sub("", title).strip()
     if spelled := re.search(r"(LONGITUDINAL|TRANSVERSE|VERTICAL)\s+COMP", title):
         return spelled[1].title()
     last = title.rsplit(",", 1)[-1].strip() if "," in title else ""

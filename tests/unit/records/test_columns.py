@@ -43,12 +43,6 @@ def test_a_series_that_is_wrapped_is_one_series(tmp_path, width):
     assert np.allclose(record.acceleration, WAVES[0][: record.acceleration.size], atol=1e-6)
 
 
-@pytest.mark.parametrize("parted", [",", "; "])
-def test_rows_that_commas_part_are_never_one_series(tmp_path, parted):
-    rows = WAVES[0].reshape(-1, 4)
-    assert len(opened(written(tmp_path, rows, parted=parted))) == 4
-
-
 def test_names_and_units_in_a_comment_are_read(tmp_path):
     head = "# made by a program\n# time(sec) N-S(cm/s/s) E-W(cm/s/s) U-D(cm/s/s)\n"
     records = read(written(tmp_path, np.transpose([TIMES, *WAVES]), head))
