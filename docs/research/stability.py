@@ -26,7 +26,7 @@ from rocking.assessment.ensemble import drawn
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.floors.place import place_from_config
-from rocking.records import Accelerogram
+from rocking.records import Accelerogram, aligned
 from rocking.structures import Structure
 from rocking.tables import column, row
 
@@ -91,7 +91,7 @@ def stability_trials(
             multiplier = cracks(structure)[0].mechanism.uplift_multiplier
             factor = sites.lifting_factor(first, multiplier, sites.UPLIFTS, draw)
             one, other = first.scaled(factor), second.scaled(factor)
-            vertical = other.scaled(VERTICAL) if kind == "with vertical motion" else None
+            vertical = aligned(other.scaled(VERTICAL), one) if kind == "with vertical motion" else None
             motions = GroundMotions.of(one, *([other] if kind == "pair" else []), vertical=vertical)
             motions = motions.on(roof if kind == "on a support" else None)
             in_study, true = words(structure, motions)
