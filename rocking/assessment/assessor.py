@@ -10,6 +10,7 @@ from rocking.assessment.case import (
     CaseResult,
     Failure,
     Motion,
+    Prediction,
     RecordResult,
     SceneResult,
     StationResult,
@@ -46,6 +47,9 @@ from rocking.structures import Structure
 
 T = TypeVar("T")
 
+Predictions = Mapping[tuple[str, str], Prediction | None]
+"""The closed forms by the names of scene and component; None without a pulse, and of what cannot overturn."""
+
 
 class Store(Protocol):
     """A place that keeps results by their fingerprint."""
@@ -81,7 +85,7 @@ class _Shaking:
 
 @dataclass(frozen=True, eq=False)
 class Assessor:
-    """Follows scenes under one record: `assess` does.
+    """Follows scenes under one record, step by step: pulses, predict, integrate, compare; `assess` takes all four.
 
     crack_heights: number of heights tried for a hinge or a crack. processing_variants: whether other processings are
     tried. motion_measures: whether the velocity pulse of the components and their peaks over all directions are
@@ -106,11 +110,49 @@ class Assessor:
     ) -> RecordResult:
         """Return what comes of every scene under a record; one that fails costs no other.
 
-        horizontal: its components. An ensemble over the directions of a pair speaks for both components, which then get
-        none of their own. A structure on a support meets the motion there, for each period of the support, and for
-        comparison that of the ground. The reserve is sought on the ground and at the worst period, which reports print.
+        horizontal: its components. See the four steps, in their order.
         """
-        grounds = self._components(horizontal, vertical, measured=self.motion_measures)
+        components = self.pulses(horizontal, vertical)
+        predictions = self.predict(components, scenes)
+        return self.compare(self.integrate(record, components, scenes, predictions, vertical))
+
+    def pulses(
+        self, horizontal: Sequence[Accelerogram], vertical: Accelerogram | None = None
+    ) -> tuple[Component, ...]:
+        """Return the components of a record with the pulses of each. vertical: acts with them."""
+        return self._components(horizontal, vertical, measured=self.motion_measures)
+
+    def predict(self, components: Sequence[Component], scenes: Mapping[str, Scene]) -> Predictions:
+        """Return the closed form of each scene's equivalent block under the pulse of each component."""
+        names = component_names([each.accelerogram for each in components])
+        of_all: dict[tuple[str, str], Prediction | None] = {}
+        for scene in scenes.values():
+            try:
+                mechanism = scene.structure.mechanism()
+                mechanism.equivalent_block(self.settings.acceleration_scale)  # no part of what is timed
+                for name, component in zip(names, components, strict=True):
+                    with self.clock.stage(Method.CLOSED_FORM):
+                        of_all[scene.name, name] = prediction_of(mechanism, component, self.settings)
+            except RockingError:
+                continue  # why it cannot be followed, the integration tells
+        return of_all
+
+    def integrate(
+        self,
+        record: str,
+        components: tuple[Component, ...],
+        scenes: Mapping[str, Scene],
+        predictions: Predictions,
+        vertical: Accelerogram | None = None,
+    ) -> RecordResult:
+        """Return the motion of every scene under the whole record, its members and its reserve.
+
+        An ensemble over the directions of a pair speaks for both components, which then get none of their own. A
+        structure on a support meets the motion there, for each period of the support, and for comparison that of the
+        ground. The reserve is sought on the ground and at the worst period, which reports print.
+        """
+        grounds = components
+        horizontal = [each.accelerogram for each in components]
         failures: list[tuple[str, Failure]] = []
         shakings: dict[Support | None, _Shaking] = {}
         stations: dict[tuple[str, Support | None], StationResult] = {}
@@ -125,8 +167,10 @@ class Assessor:
                 stations |= {(each.name, support): _lost(each, support, names, error) for each in carried}
                 continue
             shaking = shakings[support] = self._shaking(components, vertical, support, failures)
+            if support is not None:
+                predictions = self.predict(components, {each.name: each for each in carried})
             for scene in carried if components else ():
-                station = self._station(scene, shaking)
+                station = self._station(scene, shaking, predictions)
                 if support is None:
                     station = self._with_reserve(station, shaking, failures)
                 stations[scene.name, support] = station
@@ -150,6 +194,26 @@ class Assessor:
             durations=dict(self.clock.durations),
             floors={support: each.components for support, each in shakings.items() if support is not None},
         )
+
+    def compare(self, result: RecordResult) -> RecordResult:
+        """Return the result with the methods compared on the crack that governs each case.
+
+        So a row of a table speaks of one crack. With fidelity: auto nothing is compared.
+        """
+        if self.settings.fidelity == "auto":
+            return result
+        scenes = {}
+        for name, of_scene in result.scenes.items():
+            stations = []
+            for station in of_scene.stations:
+                components = result.components_under(station)
+                cases = {
+                    component: self._of_governing(station, case, components[component])
+                    for component, case in station.cases.items()
+                }
+                stations.append(replace(station, cases=cases))
+            scenes[name] = replace(of_scene, stations=tuple(stations))
+        return replace(result, scenes=scenes, durations=dict(self.clock.durations))
 
     # The motion -----------------------------------------------------------------------------------------
 
@@ -217,22 +281,17 @@ class Assessor:
 
     # One scene ------------------------------------------------------------------------------------------
 
-    def _station(self, scene: Scene, shaking: _Shaking) -> StationResult:
+    def _station(self, scene: Scene, shaking: _Shaking, predictions: Predictions) -> StationResult:
         """The result of one scene at one place."""
         cases = {}
         for name, component in shaking.by_name.items():
-            case = self._case(scene, component, alone=shaking.pair is None)
+            prediction = predictions.get((scene.name, name))
+            case = self._case(scene, component, prediction, alone=shaking.pair is None)
             cases[name] = replace(case, component=name)
         directions = None
         if shaking.pair is not None and any(case.answer is not None for case in cases.values()):
             directions = self._directions(scene, shaking.pair, cases)
-        station = StationResult(scene, cases, directions, shaking.support)
-        if self.settings.fidelity == "auto":  # which compares no methods
-            return station
-        told = {
-            name: self._of_governing(station, case, shaking.by_name[name]) for name, case in cases.items()
-        }
-        return replace(station, cases=told)
+        return StationResult(scene, cases, directions, shaking.support)
 
     def _of_governing(self, station: StationResult, case: CaseResult, component: Component) -> CaseResult:
         """The case with the methods compared on the crack that governs, so that a row of a table speaks of one crack.
@@ -250,17 +309,18 @@ class Assessor:
         if same and isclose(own.critical_rotation, other.critical_rotation, rel_tol=1e-9):
             return case
 
+        prediction = prediction_of(other, component, self.settings)
+
         def followed(clock: Clock) -> CaseResult:
             with clock.stage("responses"):
                 return assess_case(
-                    station.structure, body, component, self.settings, alone=False, clock=clock
+                    station.structure, body, component, self.settings, False, clock, prediction
                 )
 
         fingerprint = sha256_of("governing", case.fingerprint, crack)
         told = self._remembered(CaseResult, fingerprint, followed, lambda case: case.kept)
         if told.answer is None:
             return replace(case, failures=(*case.failures, *told.failures))
-        prediction = told.prediction or prediction_of(other, component, self.settings)
         return replace(
             case,
             prediction=prediction,
@@ -271,13 +331,15 @@ class Assessor:
             statics=case,
         )
 
-    def _case(self, scene: Scene, component: Component, alone: bool) -> CaseResult:
+    def _case(
+        self, scene: Scene, component: Component, prediction: Prediction | None, alone: bool
+    ) -> CaseResult:
         """The case under one component. alone: whether no ensemble over directions speaks for it."""
         structure = scene.structure
 
         def followed(clock: Clock) -> CaseResult:
             with clock.stage("responses"):
-                case = assess_case(scene.name, structure, component, self.settings, alone, clock)
+                case = assess_case(scene.name, structure, component, self.settings, alone, clock, prediction)
             with clock.stage("variations"):
                 return with_variations(
                     case, structure, component, self.settings, self.crack_heights, self.processing_variants
@@ -285,11 +347,9 @@ class Assessor:
 
         fingerprint = self._fingerprint(motion_of(component), structure, alone)
         case = self._remembered(CaseResult, fingerprint, followed, lambda case: case.kept)
-        if (
-            case.prediction is None and case.answer is not None
-        ):  # a pulse gives it at once, so no store keeps it
-            case = replace(case, prediction=prediction_of(structure.mechanism(), component, self.settings))
-        return replace(case, structure=scene.name, fingerprint=fingerprint)
+        # A pulse gives it at once, so that no store keeps it.
+        predicted = prediction if case.answer is not None else None
+        return replace(case, structure=scene.name, fingerprint=fingerprint, prediction=predicted)
 
     def _directions(self, scene: Scene, pair: Motion, cases: Mapping[str, CaseResult]) -> CaseResult:
         """The ensemble over all directions of a pair. cases: of its components."""

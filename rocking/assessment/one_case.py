@@ -52,15 +52,17 @@ def assess_case(
     settings: AssessmentSettings | None = None,
     alone: bool = True,
     clock: Clock | None = None,
+    prediction: Prediction | None = None,
 ) -> CaseResult:
     """Return what comes of one structure under one component; where it cannot be followed, why.
 
+    prediction: the closed form, under whose pulse the mechanism is integrated as well; None without one.
     alone: False where an ensemble over the directions of the record speaks for its components, which then get neither
     an ensemble nor an estimate of their own. clock: takes the time of each method that is compared.
     """
     settings = settings or AssessmentSettings()
     try:
-        return _case(name, structure, component, settings, alone, clock or Clock())
+        return _case(name, structure, component, prediction, settings, alone, clock or Clock())
     except RockingError as error:
         return CaseResult(
             structure=name, component=component.name, failures=(Failure("responses", str(error)),)
@@ -72,6 +74,7 @@ def _case(
     name: str,
     structure: Structure,
     component: Component,
+    prediction: Prediction | None,
     settings: AssessmentSettings,
     alone: bool,
     clock: Clock,
@@ -79,7 +82,7 @@ def _case(
     record = component.accelerogram
     vertical = component.vertical
     mechanism = structure.mechanism()
-    prediction, responses = _compared_methods(mechanism, component, settings, clock)
+    responses = _integrated(mechanism, component, prediction, settings, clock)
     members = settings.ensemble.members if alone else 0
     auto = settings.fidelity == "auto"
     if auto:
@@ -157,17 +160,18 @@ def prediction_of(
     return predict(mechanism, component.candidates, settings)
 
 
-def _compared_methods(
-    mechanism: Mechanism, component: Component, settings: AssessmentSettings, clock: Clock
-) -> tuple[Prediction | None, dict[Method, Response]]:
-    """The closed form and, with fidelity: full, every integration."""
-    # The block is made before the clock of the closed form starts, which does not count it.
-    block = mechanism.equivalent_block(settings.acceleration_scale)
-    with clock.stage(Method.CLOSED_FORM):
-        prediction = prediction_of(mechanism, component, settings)
+def _integrated(
+    mechanism: Mechanism,
+    component: Component,
+    prediction: Prediction | None,
+    settings: AssessmentSettings,
+    clock: Clock,
+) -> dict[Method, Response]:
+    """Every integration beside the closed form; with fidelity: auto none."""
     responses: dict[Method, Response] = {}
     if settings.fidelity == "auto":
-        return prediction, responses
+        return responses
+    block = mechanism.equivalent_block(settings.acceleration_scale)
     record = component.accelerogram
     vertical = component.vertical
     follow_as_given = partial(
@@ -188,7 +192,7 @@ def _compared_methods(
     for method, run in runs.items():
         with clock.stage(method):
             responses[method] = run()
-    return prediction, responses
+    return responses
 
 
 def motion_of(component: Component) -> Motion:

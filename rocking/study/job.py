@@ -4,16 +4,17 @@ import contextlib
 import fcntl
 import signal
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
-from rocking.assessment.assessor import Assessor, Store, with_histories
+from rocking.assessment.assessor import Assessor, Predictions, Store, with_histories
 from rocking.assessment.case import Failure, RecordResult
 from rocking.assessment.clock import Clock
 from rocking.assessment.compilation import compile_all
+from rocking.assessment.component import Component
 from rocking.assessment.rows import HistoryRow, RecordRows, history_rows, rows_of_record
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings
@@ -156,36 +157,79 @@ def begin_job(config: Mapping[str, Any], params: Any, log: str) -> Job:
     return Job(params.product, params.key, study, records, plan.seals, Path(log), tell_line)
 
 
-def work_on(record: CatalogueRecord, job: Job) -> None:
-    """Assess one record of a job and keep its outcome; of a record with a folder of its own write the files there.
+class Steps:
+    """The five steps of one record of a job, each on what the one before it gave."""
 
-    Whatever goes wrong with a record costs no other: its outcome is a row that says why.
+    def __init__(self, record: CatalogueRecord, job: Job) -> None:
+        self._record = record
+        self._job = job
+        timings = case_timings_of(job.results, record.id)
+        self._store = RecordStore(cases_of(job.results, record.id), job.tell, timings)
+        self.clock = Clock()
+        self._assessor = job.study.assessor(self._store, self.clock)
+        self.is_read = False
+
+    def read(self) -> Opened:
+        """Return the components of the record, processed and scaled. Raises RockingError."""
+        with self.clock.stage("read"):
+            opened = self._job.study.open(self._record)
+        self.is_read = True
+        return opened
+
+    def pulses(self, opened: Opened) -> tuple[Component, ...]:
+        """Return the components with the sine pulses that dominate each."""
+        return self._assessor.pulses(*opened)
+
+    def predict(self, components: tuple[Component, ...]) -> Predictions:
+        """Return the closed form of each equivalent block under the pulse of each component."""
+        return self._assessor.predict(components, self._job.study.scenes)
+
+    def integrate(
+        self, opened: Opened, components: tuple[Component, ...], predictions: Predictions
+    ) -> RecordResult:
+        """Return the motion of each structure, and of its members, under the whole record."""
+        _, vertical = opened
+        scenes = self._job.study.scenes
+        return self._assessor.integrate(self._record.id, components, scenes, predictions, vertical)
+
+    def compare(self, result: RecordResult) -> None:
+        """Compare prediction and integration, decide on each structure, and write tables, report and outcome."""
+        settings = self._job.study.settings
+        result = self._assessor.compare(result)
+        self._store.save()
+        if settings.reports or settings.histories:
+            result = with_histories(result, settings.tolerance)
+        _write(result, self._record, self._job)
+
+
+@contextlib.contextmanager
+def steps_of(record: CatalogueRecord, job: Job) -> Iterator[Steps]:
+    """Yield the five steps of a record. Whatever goes wrong with it costs no other: its outcome is a row that says why.
+
+    What goes wrong with the machine, a full disk or too little memory, ends the job.
     """
+    steps = Steps(record, job)
     try:
-        _assess_and_write(record, job)
-    except (RockingError, OSError, MemoryError):  # of the machine or of the study, not of this record
+        yield steps
+    except RockingError as error:
+        if steps.is_read:
+            raise
+        failure = Failure("read", error.beside(record.id))
+    except (OSError, MemoryError):
         raise
     except Exception as fault:
         log_error(fault)
         failure = Failure("fault", fault_in_words(fault, job.log))
-        _write(RecordResult(record=record.id, failures=(("", failure),)), record, job)
+    else:
+        return
+    durations = dict(steps.clock.durations)
+    _write(RecordResult(record=record.id, failures=(("", failure),), durations=durations), record, job)
 
 
 def fault_in_words(fault: Exception, log: Path) -> str:
     """Return the sentence on an error that no input may cause."""
     said = " ".join(f"{type(fault).__name__}: {fault}".split())
     return f"a fault of rocking in this file ({said}); please report it, with {log}."
-
-
-def _assess_and_write(record: CatalogueRecord, job: Job) -> None:
-    study = job.study
-    timings = case_timings_of(job.results, record.id)
-    store = RecordStore(cases_of(job.results, record.id), job.tell, timings)
-    result = assess_catalogued(record, study, store=store)
-    store.save()
-    if study.settings.reports or study.settings.histories:
-        result = with_histories(result, study.settings.tolerance)
-    _write(result, record, job)
 
 
 def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:

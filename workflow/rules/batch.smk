@@ -16,4 +16,4 @@ rule batch:
     message:
         "Batch {wildcards.batch}"
     script:
-        "../scripts/batch.py"
+        "../scripts/record.py"

@@ -6,6 +6,7 @@ And a structure that cannot be described.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from types import SimpleNamespace
 from typing import Any, TypeVar
 
 import numpy as np
@@ -35,6 +36,10 @@ R = TypeVar("R", bound=Row)
 
 @dataclass(frozen=True)
 class Impossible:
+    """What a structure says of itself, but not how it moves."""
+
+    described = SimpleNamespace(entry={"type": "impossible"})
+
     def mechanism(self) -> None:
         raise StructureError("it cannot stand.")
 

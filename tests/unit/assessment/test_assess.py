@@ -12,7 +12,7 @@ from scipy.constants import g
 from rocking.assessment.assessor import Assessor, with_histories
 from rocking.assessment.case import CaseResult, StationResult
 from rocking.assessment.component import Component, HorizontalMotion, component_of, horizontal_motions
-from rocking.assessment.one_case import assess_case, predict
+from rocking.assessment.one_case import assess_case, predict, prediction_of
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
     ComparedCase,
@@ -44,7 +44,9 @@ MOTION = Pulse(3.0, math.pi, 10.0).acceleration(np.arange(3000) * STEP)
 
 def assessed(record: Accelerogram, settings: AssessmentSettings = SETTINGS, vertical=None) -> CaseResult:
     """The block under one component."""
-    return assess_case("block", BLOCK, component_of(record, settings.pulse, vertical), settings)
+    component = component_of(record, settings.pulse, vertical)
+    prediction = prediction_of(BLOCK.mechanism(), component, settings)
+    return assess_case("block", BLOCK, component, settings, prediction=prediction)
 
 
 def compared(case: CaseResult) -> ComparisonRow:
@@ -145,6 +147,7 @@ def test_what_is_timed_adds_up_to_no_more_than_was_spent(case):
     stages = [durations.pop(name) for name in ("pulses", "responses", "variations", "reserve")]
     assert min(stages) > 0 and sum(stages) <= spent
     assert set(durations) == {*case.responses, Method.CLOSED_FORM}
+    assert 0 < durations.pop(Method.CLOSED_FORM) <= spent
     assert 0 < sum(durations.values()) <= stages[1]
     assert case.prediction.pulse == extract_pulses(RECORD).dominant, "which predicts by default"
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from rocking.records import CatalogueRecord
-from rocking.study.job import Job, Study, work_on
+from rocking.study.job import Job, Study, steps_of
 from rocking.study.seals import Seals
 
 
@@ -23,6 +23,14 @@ def made_job(
     return Job(product, seals.key(product), study, list(records), seals, results / "made.log", lines.append)
 
 
+def take_steps(record: CatalogueRecord, job: Job) -> None:
+    """What `workflow/scripts/record.py` does with a record."""
+    with steps_of(record, job) as step:
+        motion = step.read()
+        components = step.pulses(motion)
+        step.compare(step.integrate(motion, components, step.predict(components)))
+
+
 def worked(
     records: Sequence[CatalogueRecord],
     study: Study,
@@ -34,5 +42,5 @@ def worked(
     job = made_job(records, study, results, told=told)
     for record in records:
         job = made_job([record], study, results, f"records/{record.id}" if own else job.product, told)
-        work_on(record, job)
+        take_steps(record, job)
     return made_job(records, study, results, "summary", told)

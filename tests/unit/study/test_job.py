@@ -29,14 +29,14 @@ from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SHIPPED, SyntheticRecord, at2_text
 from rocking.structures import Block
-from rocking.study.job import Study, assess_catalogued, rows_of, work_on
+from rocking.study.job import Study, assess_catalogued, rows_of
 from rocking.study.results import Results, outcome_of, outcomes_of, read_outcome
 from rocking.study.settings import Settings, StudyTrade
 from rocking.study.summary import summarise, write_summary
 from rocking.study.terminal import line_writer
 from rocking.tables import csv_lines, frame, read_rows, write_tables
 from tests.unit.assessment.made_rows import Impossible, filled
-from tests.unit.study.made_jobs import made_job, worked
+from tests.unit.study.made_jobs import made_job, take_steps, worked
 
 ROOT = Path(__file__).parents[3]
 CONTENT = at2_text(SyntheticRecord("made", 1, 4.0, 0.6, 1.0, 1.0, 6.0, 0.01)).encode()
@@ -196,8 +196,8 @@ def test_a_fault_of_this_package_costs_no_other_record_and_asks_to_be_reported(t
     records = [_record(tmp_path, "first"), _record(tmp_path, "second")]
     line_writer(results / "made.log", "batches")
     job = made_job(records, _study(faulty=Faulty(1.0, 0.2)), results)
-    work_on(records[0], job)
-    work_on(records[1], replace(job, study=replace(job.study, scenes=_study().scenes)))
+    take_steps(records[0], job)
+    take_steps(records[1], replace(job, study=replace(job.study, scenes=_study().scenes)))
     first, second = (outcome.rows for outcome in outcomes_of(results, records))
     (failure,) = first[FailureRow]
     assert failure.stage == "fault"
