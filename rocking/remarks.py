@@ -157,6 +157,10 @@ class Kind(StrEnum):
     LINES_SURPLUS = auto(), (
         "The header declares {declared} samples; the {lines} surplus lines repeat the end and are left out."
     )
+    SEAM_CUT = auto(), (
+        "The header declares {declared} numbers or points: those behind a seam of the file, of another trace, are left "
+        "out."
+    )
     CHANNELS_UNLIKE_HEADER = auto(), "The header speaks of {announced:g} channels, but the file holds {held}."
     CHANNELS_OF_GEONET = auto(), "A GeoNet file holds 3 components, but this one holds {held}."
     LENGTH_UNLIKE_HEADER = auto(), (
@@ -179,6 +183,10 @@ class Kind(StrEnum):
     FACTOR_NOT_APPLIED = auto(), (
         "The text above the numbers speaks of a factor or of counts ({text}): no factor is applied, and they are read "
         "as they stand."
+    )
+    SENSITIVITY_ELSEWHERE = auto(), (
+        "The overall sensitivity of {about} is stated at {at_hz:g} Hz and differs by {off:.0%} from the product of its "
+        "stages at other frequencies: the sensitivity was used."
     )
     SENSITIVITY_UNLIKE_STAGES = auto(), (
         "The overall sensitivity of {about} is more than 5 % off what the stages of its response give at the frequency "

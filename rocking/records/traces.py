@@ -6,7 +6,7 @@ import tempfile
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -63,6 +63,7 @@ _ORDERS = {"M": 2, "M/S": 1, "M/S**2": 0, "M/S^2": 0, "M/S2": 0, "M/S/S": 0}
 """The number of differentiations that turn the unit of an instrument into an acceleration."""
 LARGEST_GAIN = 1e20
 """Counts per m/s² beyond which a sensitivity is damaged; the most sensitive seismometers have 1e10."""
+_SAME_FREQUENCY = 0.01
 _STAGES_AGREE = 0.05
 """Difference of the overall sensitivity from the product of its stages up to which the two are the same."""
 
@@ -107,10 +108,10 @@ def calibrated(trace: Any, inventory: Any, response: str) -> Calibrated:
         factor, order = measured_as(units)
     except ValueError as error:
         raise RecordError(f"{error}; use a channel of acceleration or velocity.") from None
-    _check_gain(gain, of)
+    doubts = _check_gain(gain, of, trace.id, response)
     staged = bool(getattr(of, "response_stages", None))
     if response == "sensitivity" and (order == 0 or (order == 1 and not staged)):
-        return _by_sensitivity(trace, gain / factor, order)
+        return replace(_by_sensitivity(trace, gain / factor, order), warnings=doubts)
     if factor != 1:
         raise RecordError(
             f"the response of {trace.id} is in {units}, which its full removal does not convert; give a StationXML in "
@@ -169,20 +170,31 @@ def _printed() -> Iterator[list[str]]:
             lines += kept.read().decode("utf-8", "replace").splitlines()
 
 
-def _check_gain(gain: float, response: Any) -> None:
-    """Refuse a sensitivity that no instrument has, or that its own stages contradict."""
+def _check_gain(gain: float, response: Any, name: str, removal: str) -> tuple[Remark, ...]:
+    """Refuse a sensitivity that no instrument has, or that its own stages contradict at the frequency it is stated for.
+
+    At another frequency than theirs it may differ, which a remark tells; the full removal uses the stages alone.
+    """
     if not 0 < abs(gain) < LARGEST_GAIN:
         raise RecordError(
             f"the overall sensitivity is {gain:g}, but must be above 0 and below {LARGEST_GAIN:g}; the StationXML is "
             "damaged: fetch it again."
         )
-    gains = [float(each.stage_gain) for each in response.response_stages or () if each.stage_gain]
-    product = float(np.prod(gains)) if gains else gain
-    if abs(product / gain - 1) > _STAGES_AGREE:
+    staged = [each for each in response.response_stages or () if each.stage_gain]
+    product = float(np.prod([float(each.stage_gain) for each in staged])) if staged else gain
+    off = abs(product / gain - 1)
+    if removal == "full" or off <= _STAGES_AGREE:
+        return ()
+    at = response.instrument_sensitivity.frequency
+    others = [each.stage_gain_frequency for each in staged if each.stage_gain_frequency is not None]
+    if at is not None and any(other > 0 and abs(other / at - 1) > _SAME_FREQUENCY for other in others if at):
+        return (Remark.of(Kind.SENSITIVITY_ELSEWHERE, name, at_hz=float(at), off=off),)
+    if staged:
         raise RecordError(
             f"the overall sensitivity is {gain:g}, but the gains of its stages multiply to {product:g}, more than 5 % "
             "off: the StationXML contradicts itself; ask the network which one holds."
         )
+    return ()
 
 
 _STEEP = 45.0

@@ -21,6 +21,8 @@ from rocking.records.instrument import refuse_by_name, refuse_other_quantity
 from rocking.remarks import Kind, Remark
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
+_EMPTY_END = re.compile(rb"(?m)(?:[ \t]*[,;])+[ \t]*$")
+"""Empty cells at the end of rows, and whole rows of them below a table, as spreadsheets write them."""
 _EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
 _DECIMALS = re.compile(r"[.]?(\d*)(?:[eE][+-]?\d+)?\s*$")
 _HEAD = 12
@@ -109,13 +111,13 @@ def _below_text(above: list[str], remarks: Sequence[str], width: int, start: int
     return _Table(labels, width, start, (*remarks, *rest))
 
 
-_TIME_SUFFIX = re.compile(r"(?i)(t|time|tiempo|zeit)_s(ec)?")
+_TIME_SUFFIX = re.compile(r"(?i)(t|time|tiempo|zeit)(_s(ec)?)?")
 _G_SUFFIX = re.compile(r"(?i)(.*(?<![a-z])acc(el(eration)?)?(_\w+)?)_g")
 
 
 def _without_suffixes(names: tuple[str, ...]) -> tuple[str, ...]:
-    """Return names like "acc_g" with the unit in brackets where "time_s" shows that it is one: elsewhere "_g" may be
-    of the ground."""
+    """Return names like "acc_g" with the unit in brackets where times stand beside them: elsewhere "_g" may be of the
+    ground."""
     if not _TIME_SUFFIX.fullmatch(names[0]):
         return names
     return tuple(_G_SUFFIX.sub(r"\1 (g)", name) if _G_SUFFIX.fullmatch(name) else name for name in names)
@@ -151,7 +153,7 @@ def _labels(line: str) -> tuple[str, ...]:
     """The names in a line, parted by tabs, semicolons or commas, else by blanks; a unit in brackets stays with its."""
     if '"' in line:
         return tuple(re.findall(r'"([^"]*)"', line))
-    line = re.sub(r"[,;]\s*$", "", line)
+    line = re.sub(r"[,;\s]+$", "", line)
     separator = next((mark for mark in "\t;," if mark in line), "")
     if separator:
         parts = line.split(separator)
@@ -283,6 +285,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     below = text.after_lines(pointed, table.start)
     unended = below[:-_TAIL] + _END.sub(b"\n", below[-_TAIL:])
     body, filled = _without_filling(unended, table)
+    body = _EMPTY_END.sub(b"", body)
     if _EMPTY_CELL.search(body):
         raise RecordError("a cell is empty; every column needs a number on every line.")
     spaced = body.replace(b",", b" ").replace(b";", b" ")
@@ -307,7 +310,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
 
 
 _END = re.compile(
-    rb"(?i)(?:\n[ \t]*(?:(?:[#%$!]|//)[^\n]*|end(?:[ \t]+of[ \t]+\w+)?|eof|[}\])]+;?)[ \t]*)+\s*\Z"
+    rb"(?i)(?:\n[ \t]*(?:(?:[#%$!]|//)[^\n]*|[a-z]\w*[ \t]*\$|end(?:[ \t]+of[ \t]+\w+)?|eof|[}\])]+;?)[ \t]*)+\s*\Z"
 )
 """Remarks, or a word for the end, below the numbers."""
 _FILLING = re.compile(rb"(?i)(?:[ \t]+nan)+\s*\Z")
@@ -553,19 +556,27 @@ def _refuse_others(labels: Sequence[ColumnLabel], others: dict[int, str]) -> Non
 
 
 def _kind(label: ColumnLabel, column: np.ndarray) -> str:
-    """Return "time", "count" or "channel" of a column: by its name, else by numbers that rise evenly all the way."""
+    """Return "time", "count" or "channel" of a column: by its name, else by numbers that rise all the way."""
     if label.is_time:
         return "time"
     steps = np.diff(column)
-    if (
-        label.unit
-        or label.other
-        or column.size < _FEWEST_ROWS
-        or steps.min() <= 0
-        or float(np.ptp(steps)) > 0.01 * float(steps[0])
-    ):
+    if label.unit or label.other or column.size < _FEWEST_ROWS:
         return "channel"
+    if steps.min() <= 0 or float(np.ptp(steps)) > 0.01 * float(steps[0]):
+        return "time" if not label.text and _is_clock(column) else "channel"
     return "count" if steps[0] == 1 or label.is_count else "time"
+
+
+_ONE_WAY = 0.999
+"""Correlation of a column with its place from which on it is a clock: no motion rises so, all the way."""
+
+
+def _is_clock(column: np.ndarray) -> bool:
+    """Whether numbers rise from zero or above and never fall, as printed times do that are uneven or rounded."""
+    if column.size < _FEWEST_OF_BOTH_SIGNS or column[0] < 0 or np.diff(column).min() < 0:
+        return False
+    along = np.corrcoef(column, np.arange(column.size))[0, 1] if column[-1] > column[0] else 0.0
+    return bool(along > _ONE_WAY)
 
 
 def _column(

@@ -177,7 +177,7 @@ _REPEATED = 2  # surplus lines that some files of the network end in
 
 
 def _read_unam(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = header.parted(content, re.compile(_DATA).match, f"begins with {_DATA}", _UNAM_HEADER)
+    head, rows = header.parted(content, re.compile(_DATA, re.I).match, f"begins with {_DATA}", _UNAM_HEADER)
     rules = [i for i, line in enumerate(rows[:10]) if _RULE.match(line)]
     if len(rules) < 2:
         raise RecordError(f"no heading {_DATA} above two rules; the file is cut.")
@@ -359,12 +359,15 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
     counts = (f"{integers[at]:.0f}" for at in (_COMMENTS, _SAMPLES))
     remarks, samples = (text.count("a count in the header", size) for size in counts)
     first = _SMC_REALS + remarks
-    if any(row.startswith("|") != (at < first) for at, row in enumerate(rows[_SMC_REALS:], _SMC_REALS)):
-        raise RecordError(f"the header declares {remarks} lines of comment, but others begin with |.")
     body = [row for row in rows[first:] if row.strip()]
-    width = text.column_width(body[0]) if body else 10
-    numbers = text.fields(body, width)
-    if kind[:1] == "1" and (points := _smc_points(numbers, samples)) is not None:
+    is_film = kind[:1] == "1"
+    seam = next((at for at, row in enumerate(body) if row.startswith("|")), None) if is_film else None
+    own = body if seam is None else body[:seam]
+    if any(not row.startswith("|") for row in rows[_SMC_REALS:first]) or any(row[0] == "|" for row in own):
+        raise RecordError(f"the header declares {remarks} lines of comment, but others begin with |.")
+    width = text.column_width(own[0]) if own else 10
+    numbers = text.fields(own, width)
+    if is_film and (points := _smc_points(numbers, samples, is_cut=seam is not None)) is not None:
         return [_smc_digitised(head, *points, options, **_smc_facts(head, reals))]
     rate = float(reals[_RATE])
     if not 0 < rate < 1e6:
@@ -393,29 +396,47 @@ def _smc_facts(head: str, reals: np.ndarray) -> dict[str, Any]:
     return facts
 
 
-def _smc_points(numbers: np.ndarray, samples: int) -> tuple[np.ndarray, np.ndarray] | None:
-    """Return (times s, accelerations) of an uncorrected file that holds points of film, None of one of even samples.
+_SMC_TAIL = 8
+"""Numbers of a line of four points that stands behind the last one in most files of film, of another trace."""
+
+
+def _smc_points(
+    numbers: np.ndarray, samples: int, is_cut: bool
+) -> tuple[np.ndarray, np.ndarray, tuple[Remark, ...]] | None:
+    """Return (times s, accelerations, remarks) of points of film, None of an uncorrected file of even samples.
 
     Every other number of such a file is a time: they rise from first to last, as no acceleration does. The header
-    counts points or numbers.
+    counts points or numbers, without the last line where that is of another trace. is_cut: whether a line of comment
+    parted the numbers from more of them. Times are printed so coarsely that some points share one.
     """
-    if numbers.size % 2 or numbers.size < 8 or samples not in (numbers.size, numbers.size // 2):
+    notes: tuple[Remark, ...] = (Remark.of(Kind.SEAM_CUT, declared=samples),) if is_cut else ()
+    if numbers.size == samples + _SMC_TAIL or numbers.size == 2 * samples + _SMC_TAIL:
+        numbers = numbers[:-_SMC_TAIL]
+        notes = (Remark.of(Kind.SEAM_CUT, declared=samples),)
+    is_counted = is_cut or samples in (numbers.size, numbers.size // 2)
+    if numbers.size % 2 or numbers.size < 8 or not is_counted:
         return None
     times, values = numbers.reshape(-1, 2).T
     if times[0] < 0 or np.diff(times).min() < 0:
         return None
-    return times, values
+    instants, place, points = np.unique(times, return_inverse=True, return_counts=True)
+    return instants, np.bincount(place, weights=values) / points, notes
 
 
 def _smc_digitised(
-    head: str, times: np.ndarray, values: np.ndarray, options: Options, **facts: Any
+    head: str,
+    times: np.ndarray,
+    values: np.ndarray,
+    notes: tuple[Remark, ...],
+    options: Options,
+    **facts: Any,
 ) -> Accelerogram:
     """Return the channel through digitised points, at even steps."""
     step = text.even_step(times)
     if step is not None:
-        return _SMC.channel(head, values, options, step=step, **facts)
+        return _SMC.channel(head, values, options, step=step, warnings=notes, **facts)
     step, even, remark = text.through_points(times)
-    facts |= {"processing": (str(remark),), "warnings": (remark,)}
+    facts |= {"processing": (str(remark),), "warnings": (*notes, remark)}
     facts["file_samples"] = values * acceleration_factor(_SMC.unit)
     facts["file_times"] = times
     return _SMC.channel(head, np.interp(even, times, values), options, step=step, **facts)
@@ -464,7 +485,7 @@ UNAM = Format(
     "UNAM/CICESE",
     "Instituto de Ingeniería UNAM and CICESE, Mexico",
     "line ARCHIVO ESTANDAR DE ACELERACION in the first 12",
-    re.compile(r"(?:.*\n){0,11}ARCHIVO ESTANDAR DE ACELERACI"),
+    re.compile(r"(?i)(?:.*\n){0,11}ARCHIVO ESTANDAR DE ACELERACI"),
     _read_unam,
     "UNAM",
 )

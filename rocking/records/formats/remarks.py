@@ -62,11 +62,12 @@ _OF_PEAK = re.compile(r"(?i)\b(pga|peak|max\w*|scale\w*|factor|picco|pico)\b")
 """The subjects of a remark whose unit need not be that of the numbers."""
 _UNIT = re.compile(
     r"\b(?:units?|unidad(?:es)?|unit[aà])\b[^:=]*[:=]\s*[(\[]?\s*([^\s,;()\[\]]+)|"
+    r"\b(?:acc|accel|acceleration|acel|aceleraci[oó]n)\s*[:=]\s*([a-z][\w/^*²]*)|"
     r"\bunits?(?: of| are| is)?\s+[(\[]?([A-Za-z][\w/^*²]*)|(?:\bin\s+|[(\[]\s*)([A-Za-z][\w/^*²]*)",
     re.I,
 )
 _SECONDS = r"(?:s|seg|sec|segundos?|seconds?)"
-_END = r"\s*(?:\.?\s*$|[,;)\]])"
+_END = r"\s*(?:\.?\s*$|[,;)\]]|\s/\s)"
 _STEP = re.compile(
     r"\b(?:dt|delta|time[ _-]?(?:step|interval|increment)|(?:sampling|sample)[ _-]?(?:interval|period|step)|"
     r"(?:equal )?spacing|intervals|intervalo(?: de muestreo)?)\b"
@@ -126,7 +127,10 @@ def factor_warnings(remarks: Sequence[str]) -> tuple[Remark, ...]:
 def _units(remark: str) -> set[str]:
     """The units of acceleration that a remark declares for the numbers."""
     is_of_numbers = bool(OF_ACCELERATION.search(remark))
-    words = [match[1] or match[2] or (match[3] if is_of_numbers else "") for match in _UNIT.finditer(remark)]
+    words = [
+        match[1] or match[2] or match[3] or (match[4] if is_of_numbers else "")
+        for match in _UNIT.finditer(remark)
+    ]
     return {unit for word in words if word and (unit := acceleration_unit(word))}
 
 

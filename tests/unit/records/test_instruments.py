@@ -326,6 +326,23 @@ def test_a_response_that_is_none_is_refused(changed: dict[str, str], word: str) 
         Accelerogram.from_obspy(trace(), inventory_of(**changed))
 
 
+def test_a_sensitivity_at_another_frequency_than_its_stages_is_told() -> None:
+    """A seismometer's falls off between the two; at the same frequency the two contradict each other."""
+    text = XML.format(units="M/S**2").replace("<Value>200000</Value><Frequency>1</Frequency><Input",
+                                              "<Value>230000</Value><Frequency>5</Frequency><Input")  # fmt: skip
+    inventory = read_inventory(io.BytesIO(text.encode()), format="STATIONXML")
+    (record,) = Accelerogram.from_obspy(trace(), inventory)
+    assert np.allclose(record.acceleration, (COUNTS - COUNTS.mean()) / 230000, atol=1e-12)
+    assert [remark.kind for remark in record.warnings] == [Kind.SENSITIVITY_ELSEWHERE]
+
+
+def test_the_full_removal_asks_the_stages_alone() -> None:
+    """The stated sensitivity, 15 % off, takes no part in it."""
+    (record,) = Accelerogram.from_obspy(trace(), inventory_of(gain="230000"), response="full")
+    (right,) = Accelerogram.from_obspy(trace(), inventory_of(), response="full")
+    assert np.allclose(record.acceleration, right.acceleration, atol=1e-9)
+
+
 @pytest.mark.parametrize(
     "name",
     ["BHZ00", "HNZ.00", "HNZ--", "Z--", "VRT", "V1", "UPP", "UPWD", "DWN1", "Vertical Up", "hnz 10", "V"],

@@ -338,11 +338,12 @@ def test_a_head_of_units_alone_is_one(tmp_path, head):
     assert record.acceleration == pytest.approx(FIRST, abs=1e-6)
 
 
-def test_a_suffix_is_a_unit_where_that_of_the_times_is_one(tmp_path):
-    (record,) = opened(tmp_path, table("time_s,acc_g\n", TIMES, FIRST))
-    assert record.acceleration == pytest.approx(FIRST * 9.80665, abs=1e-5)
+def test_a_suffix_is_a_unit_beside_times(tmp_path):
+    for head in ("time_s,acc_g\n", "t,acc_g\n", "time,acc_g\n"):
+        (record,) = opened(tmp_path, table(head, TIMES, FIRST))
+        assert record.acceleration == pytest.approx(FIRST * 9.80665, abs=1e-5)
     with pytest.raises(RecordError, match="unit is not declared"):
-        opened(tmp_path, table("t,acc_g\n", TIMES, FIRST))
+        opened(tmp_path, table("acc_g\n", FIRST), time_step=0.01)
 
 
 def test_numbers_of_columns_are_no_azimuths(tmp_path):

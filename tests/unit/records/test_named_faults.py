@@ -107,3 +107,74 @@ def test_a_peak_that_a_header_cuts_off_damages_nothing(tmp_path: Path) -> None:
     )
     assert stated != text
     assert [record.warnings for record in opened(tmp_path, stated)] == [(), ()]
+
+
+FILM = np.sort(np.concatenate([np.arange(0, 2, 0.0031), np.arange(1, 2, 0.0173)]))
+"""s; where a trace on film bends."""
+
+
+def film(tail: str, counted: int) -> str:
+    """An uncorrected file of the USGS: pairs of times and cm/s², counted without the last line in most of them."""
+    pairs = np.column_stack([FILM, 100 * np.interp(FILM, TIMES, MOTION)])
+    text = (
+        made_files.smc()
+        .replace("2 CORRECTED", "1 UNCORRECTED")
+        .replace(f"{made_files.N:10d}", f"{counted:10d}")
+    )
+    head = text[: text.index("| one\n") + 6]
+    for extreme in (100 * made_files.TRUE.max(), 100 * made_files.TRUE.min()):
+        head = head.replace(f"{extreme:15.7E}", f"{1.7e38:15.7E}")
+    return head + made_files.columns(pairs.ravel(), 8, "10.3E") + tail
+
+
+@pytest.mark.parametrize(("tail", "is_cut"), [
+    ("", False), (" 2.010E+00 9.999E+02 2.011E+00 9.999E+02 2.012E+00 9.999E+02 2.013E+00 9.999E+02\n", True),
+    ("|second trace\n 0.000E+00 9.999E+02 1.000E-01 9.999E+02\n", True),
+])  # fmt: skip
+def test_points_of_film_end_at_a_seam(tmp_path: Path, tail: str, is_cut: bool) -> None:
+    """Sixteen of seventeen files of the kind end in a line of another trace, which their count leaves out."""
+    (record,) = opened(tmp_path, film(tail, 2 * FILM.size), "made.smc")
+    expected = [Kind.SEAM_CUT, Kind.UNEVEN_FILM] if is_cut else [Kind.UNEVEN_FILM]
+    assert [remark.kind for remark in record.warnings] == expected
+    times = 0.005 * np.arange(record.acceleration.size)
+    # The times are printed with four digits, by which a slope of 9 m/s³ moves the numbers.
+    assert np.abs(record.acceleration - np.interp(times, TIMES, MOTION)).max() < 0.03
+    assert times[-1] == pytest.approx(FILM[-1], abs=0.005)
+
+
+@pytest.mark.parametrize("first", [TIMES + 1e-3 * np.sin(9 * np.arange(600)), np.round(0.5 * TIMES, 2)])
+def test_a_column_of_times_for_each_channel_repeats_nothing(tmp_path: Path, first: np.ndarray) -> None:
+    """Times that are uneven, or printed too coarsely, were taken for a motion that stands in the file twice."""
+    text = rows(first, MOTION, first, np.roll(MOTION, 50))
+    if np.diff(first).min() > 0:
+        assert len(opened(tmp_path, text, unit="m/s2")) == 2
+    else:
+        with pytest.raises(RecordError, match="times must increase"):
+            opened(tmp_path, text, unit="m/s2")
+
+
+@pytest.mark.parametrize("text", [
+    "time (s),acc (m/s2)\n" + rows(TIMES, MOTION) + ",\n,,\n ; \n",
+    "time (s),acc (m/s2),,\n" + rows(TIMES, MOTION).replace("\n", ",,\n"),
+    "dt=0.01\nacc: m/s2\n" + rows(MOTION),
+    "dt=0.01 / acc: m/s2\n" + rows(MOTION),
+    "t,acc_g\n" + rows(TIMES, MOTION / 9.80665),
+    "time,acc_g\n" + rows(TIMES, MOTION / 9.80665),
+    "time (s),acc (m/s2)\n" + rows(TIMES, MOTION) + "VLEE $\n",
+])  # fmt: skip
+def test_what_offices_write_around_a_table(tmp_path: Path, text: str) -> None:
+    (record,) = opened(tmp_path, text, "made.csv")
+    assert record.time_step == 0.01 and np.allclose(record.acceleration, MOTION, atol=1e-5)
+
+
+def test_a_row_whose_last_cell_is_empty_is_refused(tmp_path: Path) -> None:
+    text = "time (s),N (m/s2),E (m/s2)\n" + rows(TIMES, MOTION, MOTION)
+    lines = text.split("\n")
+    lines[50] = lines[50].rpartition(",")[0] + ","
+    with pytest.raises(RecordError, match="row 50 of the samples has 2 columns"):
+        opened(tmp_path, "\n".join(lines), "made.csv")
+
+
+def test_small_letters_in_the_titles_of_the_mexican_standard(tmp_path: Path) -> None:
+    text = made_files.unam().replace("ESTANDAR DE ACEL", "ESTANDAR De ACEL").replace("DATOS DE", "DATOS De")
+    assert len(opened(tmp_path, text)) == 2
