@@ -30,7 +30,7 @@ _EVERY = 5.0
 
 
 def compile_all(say: Callable[[str], None] = print) -> None:
-    """Compile the search for pulses, the closed form and the integration, where that is not done already.
+    """Compile the search for pulses, the closed form, the integration and spectra, where that is not done already.
 
     Beside what numba keeps, a file for each processor names what was compiled; who finds it locked waits for the other
     process. say: is told what is done, and every few seconds how long it has taken. Raises RockingError when it fails.
@@ -59,6 +59,7 @@ def _source() -> str:
     """One hash for numba and for what all files beside the kernels say."""
     package = Path(__file__).parents[1]
     files = [path for part in ("motion", "pulses", "sine_pulse") for path in (package / part).glob("*.py")]
+    files.append(package / "records" / "oscillator.py")
     return sha256_of_sources(package, files, version("numba"))
 
 
@@ -85,12 +86,13 @@ def _compile(say: Callable[[str], None]) -> None:
 
 
 def compile_mechanisms() -> None:
-    """Compile the search for pulses and the integration of mechanisms."""
+    """Compile the search for pulses, the integration of mechanisms, and spectra."""
     record = _record()
     block = Block(2.0, 0.2)
     integrate(block, record)
     integrate_members(block, record, Members([1.0]))
     extract_pulses(record)
+    record.spectrum()
 
 
 def compile_blocks() -> None:

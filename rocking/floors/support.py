@@ -190,7 +190,7 @@ class _Ringing:
 
     @classmethod
     def under(cls, mode: Mode, record: Accelerogram) -> "_Ringing":
-        from scipy import signal  # which takes half a second to import
+        from rocking.records.oscillator import accumulate  # numba takes long to import
 
         step = record.time_step
         pole = mode.circular_frequency * complex(-mode.damping_ratio, math.sqrt(1 - mode.damping_ratio**2))
@@ -199,8 +199,8 @@ class _Ringing:
         gained = np.empty(slope.size + 1, dtype=complex)
         gained[0] = -record.acceleration[0]
         np.multiply(slope, -np.expm1(pole * step) / pole, out=gained[1:])
-        excess = signal.lfilter([1.0], [1.0, -np.exp(pole * step)], gained)
-        excess *= pole
+        accumulate(gained, np.exp(pole * step))
+        excess = gained * pole
         excess[:-1] -= slope
         excess *= mode.participation / pole.imag
         return cls(mode, step, pole, excess)

@@ -118,17 +118,13 @@ def _largest_displacement(accelerogram: Accelerogram, period: float, damping: fl
     Over a step in which a is linear, q is exactly e^z q + φ₁ a₀ + φ₂ (a₁ − a₀) but for its sign, with z = λ dt,
     φ₁ = (e^z − 1)/λ and φ₂ = (φ₁ − dt)/z (Nigam & Jennings 1969 in complex form).
     """
-    from scipy import signal  # which takes half a second to import
+    from rocking.records.oscillator import largest_imaginary  # numba takes long to import
 
     finer = max(1, math.ceil(STEPS_PER_PERIOD * accelerogram.time_step / period))
     step = accelerogram.time_step / finer
     pole = 2 * math.pi / period * complex(-damping, math.sqrt(1 - damping**2))
     first = np.expm1(pole * step) / pole
     second = (first - step) / (pole * step)
-    after = np.zeros(math.ceil(0.5 * period / step))
+    after = math.ceil(0.5 * period / step)
     samples = accelerogram.acceleration
-    places = np.arange((samples.size - 1) * finer + 1) / finer
-    refined = samples if finer == 1 else np.interp(places, np.arange(samples.size), samples)
-    motion = np.concatenate((refined, after))
-    response = signal.lfilter([second, first - second], [1.0, -np.exp(pole * step)], motion)
-    return float(np.abs(response.imag).max()) / pole.imag
+    return largest_imaginary(samples, finer, after, np.exp(pole * step), first - second, second) / pole.imag

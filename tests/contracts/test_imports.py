@@ -34,7 +34,7 @@ FLOORS = [
 ONLY_IN = {
     "pydantic": ("described.py",),
     "obspy": ("records/",),
-    "numba": ("motion/", "pulses/", "sine_pulse/", "contacts/"),
+    "numba": ("motion/", "pulses/", "sine_pulse/", "contacts/", "records/oscillator.py"),
     "matplotlib": ("reports/",),
     "typst": ("reports/",),
     "snakemake": ("study/",),
