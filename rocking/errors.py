@@ -3,8 +3,10 @@
 A message is one sentence: what (file, field), the value, what is allowed, what to do.
 """
 
+import traceback
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from pathlib import Path
 
 
 class RockingError(Exception):
@@ -85,3 +87,15 @@ def about(what: str) -> Iterator[None]:
     except RockingError as error:
         error.places = (what, *error.places)
         raise
+
+
+def fault_in_words(fault: Exception, log: Path) -> str:
+    """Return the sentence on an error that no input may cause; log: the file that holds its traceback."""
+    said = " ".join(f"{type(fault).__name__}: {fault}".split())
+    return f"a fault of rocking in this file ({said}); please report it, with {log}."
+
+
+def log_fault(fault: BaseException, log: Path) -> None:
+    """Add the traceback of an error to a log, where that can be written."""
+    with suppress(OSError), log.open("a", encoding="utf-8") as stream:
+        traceback.print_exception(fault, file=stream)

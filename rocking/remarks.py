@@ -334,6 +334,18 @@ class Kind(StrEnum):
         "it, or name it in the column inventory."
     )
     VERTICAL_IN_NAME = auto(), "The file's name says {word}, but {about} is taken as horizontal."
+    STATIONS_UNLIKE = auto(), (
+        "The stream holds channels of {number} stations ({stations}): they are no record of one place; take each by "
+        "itself."
+    )
+    STEPS_OF_STREAM_UNLIKE = auto(), (
+        "The channels of the stream have time steps from {least_s:g} to {most_s:g} s: resample them before they act "
+        "together."
+    )
+    TILTED = auto(), (
+        "The sensor {about} dips {dip_deg:g}°, neither level nor upright: its motion is taken along the nearer of the "
+        "two."
+    )
     CONTENT_REPEATED = auto(), "Its content is that of {original}: as two records it would count twice."
     NOT_SQUARE = auto(), "Components {first} and {second} are {angle_deg:g}° apart, not at right angles."
     COMPONENT_TWICE = auto(), "component {about} comes {times} times"

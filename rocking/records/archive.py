@@ -41,7 +41,7 @@ def members(archive: Path) -> tuple[str, ...]:
     opened = _opened(archive)
     names = [each.filename for each in opened.infolist() if not each.is_dir()]
     if "[Content_Types].xml" in names:
-        raise RecordError("this is a workbook or a document; export the sheet as CSV.")
+        raise RecordError("this is a workbook or a document; save the sheet as CSV.")
     if len(names) > _MOST_MEMBERS:
         raise RecordError(
             f"the archive holds {len(names)} files, more than {_MOST_MEMBERS}; unpack it, or part it."

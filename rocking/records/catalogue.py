@@ -16,7 +16,7 @@ from rocking.records.formats.format import plain
 from rocking.records.formats.text import is_number
 from rocking.records.scaling import ScalingTarget
 from rocking.remarks import Kind, Remark
-from rocking.tables import read_whole
+from rocking.tables import read_start, read_whole
 
 _OBSPY = "obspy:"
 _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,79}")
@@ -234,12 +234,13 @@ def load_catalogue(path: str | Path) -> tuple[CatalogueRecord, ...]:
     path = Path(path)
     rows = read_rows(path)
     records = []
-    defects = []
+    told: dict[str, list[str]] = {}
     for line, row in rows:
         try:
             records.append(_record(row, path.parent))
         except RockingError as error:
-            defects.append(f"line {line} ({row.get('id') or 'no id'}): {error}")
+            told.setdefault(str(error), []).append(f"line {line} ({row.get('id') or 'no id'})")
+    defects = [f"{few(places)}: {defect}" for defect, places in told.items()]
     counts = Counter(row["id"].strip().lower() for _, row in rows if row["id"].strip())
     twice = [(name, n) for name, n in counts.items() if n > 1]
     defects += [f"id {shown(name)} stands {n} times (upper and lower case count as one)" for name, n in twice]
@@ -251,12 +252,23 @@ def load_catalogue(path: str | Path) -> tuple[CatalogueRecord, ...]:
     return tuple(records)
 
 
+def few(names: Sequence[str]) -> str:
+    """Return the first names of many, and how many more there are."""
+    more = len(names) - _NAMED
+    return ", ".join(names) if more <= 1 else f"{', '.join(names[:_NAMED])} and {more} more"
+
+
+_NAMED = 3
+"""Names that are told of those that share a sentence."""
+
+
 def read_rows(path: Path) -> list[tuple[int, dict[str, str]]]:
     """Return line and cells of each row of the catalogue at `path`. Raises CatalogueError for what is no catalogue."""
     content = read_whole(path, _LARGEST, CatalogueError)
+    separator = _separator(content)
     try:
-        text = StringIO(content.decode("utf-8-sig"), newline="")
-        reader = csv.DictReader(text, restkey="", restval="", strict=True)
+        text = StringIO(_decoded(content, separator), newline="")
+        reader = csv.DictReader(text, restkey="", restval="", strict=True, delimiter=separator)
         rows = [(reader.line_num, row) for row in reader]
         names = list(reader.fieldnames or ())
     except (ValueError, csv.Error) as error:
@@ -269,7 +281,33 @@ def read_rows(path: Path) -> list[tuple[int, dict[str, str]]]:
         raise CatalogueError(f"{path.name}: {'; '.join(defects)}; the columns are {', '.join(COLUMNS)}.")
     if not rows:
         raise CatalogueError(f"{path.name}: the catalogue has no rows; give at least one record.")
+    if separator == ";":
+        for _, row in rows:
+            row |= {name: row[name].replace(",", ".") for name in _NUMBERS if row.get(name)}
     return rows
+
+
+_NUMBERS = (
+    *(each.key for each in described_values(CatalogueRecord).values() if each.kind is not str),
+    "scale_to",
+)
+"""Columns in which a comma can only be a decimal sign."""
+
+
+def _separator(content: bytes) -> str:
+    """Return what parts the cells: a comma, or the semicolon of a spreadsheet in a country of decimal commas."""
+    head = content.partition(b"\n")[0]
+    return ";" if head.count(b";") > head.count(b",") else ","
+
+
+def _decoded(content: bytes, separator: str) -> str:
+    """Return the text: UTF-8, or where semicolons part it Windows' own characters. Raises ValueError for another."""
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        if separator == ",":
+            raise
+        return content.decode("cp1252")
 
 
 def _record(row: Mapping[str, str], folder: Path) -> CatalogueRecord:
@@ -282,12 +320,17 @@ def _record(row: Mapping[str, str], folder: Path) -> CatalogueRecord:
     return CatalogueRecord(**values)
 
 
-def catalogue_text(rows: Iterable[Mapping[str, str]], columns: Sequence[str] = COLUMNS) -> str:
-    """Return `rows` as the text of a catalogue."""
+def catalogue_text(
+    rows: Iterable[Mapping[str, str]], columns: Sequence[str] = COLUMNS, like: Path | None = None
+) -> str:
+    """Return `rows` as the text of a catalogue, parted as the one at `like` is, if that stands there."""
+    separator = _separator(read_start(like, 4096)) if like is not None and like.exists() else ","
     text = StringIO(newline="")
-    writer = csv.DictWriter(text, columns, restval="", lineterminator="\n")
+    writer = csv.DictWriter(text, columns, restval="", lineterminator="\n", delimiter=separator)
     writer.writeheader()
-    writer.writerows(rows)
+    for row in rows:
+        decimal = {name: row[name].replace(".", ",") for name in _NUMBERS if row.get(name)}
+        writer.writerow({**row, **decimal} if separator == ";" else row)
     return text.getvalue()
 
 

@@ -168,7 +168,7 @@ def fill_hashes(path: str | Path, mirror: str | Path | None = None) -> tuple[str
     if cells:
         rows = [row for _, row in read_rows(path)]
         columns = list(dict.fromkeys([*rows[0], "sha256"]))
-        text = catalogue_text((row | cells.get(row["id"].strip(), {}) for row in rows), columns)
+        text = catalogue_text((row | cells.get(row["id"].strip(), {}) for row in rows), columns, like=path)
         write_whole(path, text.encode())
     return tuple(cells)
 

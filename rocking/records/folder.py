@@ -88,6 +88,11 @@ def catalogue_of_folder(
     renamed = tuple(_follow_renamed(rows, rows_of, listed))
     for file in listed:
         if file.file in rows_of:
+            for (
+                cell,
+                declared_now,
+            ) in file.declarations.items():  # what the caller declares for the whole folder
+                rows_of[file.file][cell] = rows_of[file.file].get(cell) or declared_now
             file.record = rows_of[file.file]["id"]
             file.direction = _direction_in(rows_of[file.file], file)
     _mark_repeats(listed)
@@ -225,7 +230,7 @@ def _files(folder: Path) -> Iterator[Path]:
             yield from _in_archive(path)
             continue
         head = read_start(path, 11).removeprefix(b"\xef\xbb\xbf")
-        is_catalogue = path.suffix.lower() == ".csv" and head.startswith(b"id,file")
+        is_catalogue = path.suffix.lower() == ".csv" and head.startswith((b"id,file", b"id;file"))
         if not (path.name.startswith(".") or is_catalogue):
             yield path
 

@@ -11,7 +11,7 @@ from typing import Any
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.catalogue import stays_inside
+from rocking.records.catalogue import few, stays_inside
 from rocking.records.formats import Options
 from rocking.records.plausibility import OF_COUNTS
 from rocking.records.processing import process, velocity
@@ -282,7 +282,10 @@ def _sentences(listed: Sequence[ListedFile]) -> Iterator[str]:
     }
     for heading, lines in sections.items():
         if lines:
-            yield from ("", heading, *(f"  {name}: {text}" for name, text in lines))
+            alike: dict[str, list[str]] = {}
+            for name, text in lines:
+                alike.setdefault(text, []).append(name)
+            yield from ("", heading, *(f"  {few(names)}: {text}" for text, names in alike.items()))
 
 
 def _doubts(file: ListedFile) -> str:

@@ -1,5 +1,6 @@
 """Streams of obspy as accelerograms, through the same checks as files."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -8,8 +9,9 @@ from rocking.errors import RecordError, about
 from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.direction import directed
+from rocking.records.joining import SAME_STEP
 from rocking.records.read import checked_channels
-from rocking.records.traces import OBSPY_EXTRAS, calibrated, joined, names, quantity_order, site
+from rocking.records.traces import OBSPY_EXTRAS, calibrated, joined, names, quantity_order, site, unit_left_by
 from rocking.remarks import Kind, Remark
 
 _CALIBRATED_TO_DISPLACEMENT = "GSE1", "GSE2", "CSS", "NNSA_KB_CORE"
@@ -42,7 +44,18 @@ def from_obspy(
     for trace in joined(stream):
         with about(trace.id):
             records.append(_from_trace(trace, inventory, unit, response))
-    return checked_channels(records)
+    told = tuple(_unlike(records))
+    return checked_channels([record.warned(*told) for record in records])
+
+
+def _unlike(records: list[Accelerogram]) -> Iterator[Remark]:
+    """Yield what lets the channels of a stream be none of one record: several stations, or several time steps."""
+    stations = sorted({f"{record.network}.{record.station}" for record in records})
+    if len(stations) > 1:
+        yield Remark.of(Kind.STATIONS_UNLIKE, stations=", ".join(stations[:3]), number=len(stations))
+    steps = [record.time_step for record in records]
+    if max(steps) > min(steps) * (1 + SAME_STEP):
+        yield Remark.of(Kind.STEPS_OF_STREAM_UNLIKE, least_s=min(steps), most_s=max(steps))
 
 
 def _from_trace(trace: Any, inventory: Any, unit: str | None, response: str) -> Accelerogram:
@@ -58,7 +71,9 @@ def _from_trace(trace: Any, inventory: Any, unit: str | None, response: str) -> 
     is_motion = bool(own) or "output=" in " ".join(steps)  # what was integrated or differentiated is known
     declared = _unit_of(trace, unit, own, is_motion, has_response=inventory is not None)
     fields: dict[str, Any] = {"processed": False if declared is None else None, **names(trace)}
-    fields |= {name: own[name] for name in OBSPY_EXTRAS if name in own} | site(trace, inventory)
+    fields |= {name: own[name] for name in OBSPY_EXTRAS if name in own}
+    place = site(trace, inventory)
+    fields |= place | {"warnings": (*fields.get("warnings", ()), *place.get("warnings", ()))}
     if str(trace.stats.channel).isdigit() and len(str(trace.stats.channel)) == 1:
         fields.setdefault("azimuth", None)
         fields["component"] = f"channel {trace.stats.channel}"
@@ -107,6 +122,8 @@ def _unit_of(
     if not removed and (has_response or "response" in trace.stats):
         return None
     declared = "m/s2" if removed and order == 0 else own.get("unit")
+    if declared is None and removed:
+        declared = unit_left_by(trace)
     if declared is None:
         state = "its sensitivity removed" if removed else "neither a unit nor a response"
         raise RecordError(f"it has {state}; give unit= of its samples, or the inventory= of counts.")

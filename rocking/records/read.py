@@ -30,6 +30,7 @@ from rocking.records.formats.format import Response, plain
 from rocking.records.formats.text import is_number, lines, numbers_per_line
 from rocking.records.instrument import channel_warnings, site_warnings
 from rocking.records.plausibility import pass_limits
+from rocking.records.sheet import is_workbook, table_of_workbook
 from rocking.remarks import Kind, Remark
 from rocking.tables import read_whole
 
@@ -169,11 +170,11 @@ def bare_text(content: bytes) -> bytes:
 
 
 _TOLD = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence in (
-    (rb"PK\x03\x04", "this is a zip archive; call it so, as records.zip, or unpack it."),
+    (rb"PK\x03\x04", "this is a zip archive; unpack it."),
     (rb"\x93NUMPY", "this is an array of numpy, which says neither unit nor time step; give it as "
      "rocking.Accelerogram(numpy.load(path), time_step)."),
     (rb"MATLAB 5\.0", "this is a file of MATLAB; export time and acceleration as text, with their units as names."),
-    (rb"\xd0\xcf\x11\xe0", "this is a workbook of a spreadsheet; export the sheet as CSV."),
+    (rb"\xd0\xcf\x11\xe0", "this is a workbook of a spreadsheet of before 2007; save the sheet as CSV."),
     (rb"\s*[{\[]\s*[\"{\[]", "this is JSON; export time and acceleration as text, with their units as names."),
     (rb"\s*(raw|uncorrected)\s+(acceleration\s+)?(counts|data)\b.*format v|\s*raw acceleration",
      "this is a COSMOS V0 file of raw counts of a recorder; use the V1 or V2 file of the same record."),
@@ -235,7 +236,13 @@ def _advice(content: bytes) -> str:
 
 
 def unpack(raw: bytes, name: str) -> bytes:
-    """Return `raw`, all of it unpacked if it is gzip. Raises RecordError when it is damaged or unpacks to too much."""
+    """Return `raw`, all of it unpacked if it is gzip, and the table of a workbook as text.
+
+    Raises RecordError when it is damaged or unpacks to too much.
+    """
+    if is_workbook(raw):
+        with about(name):
+            return table_of_workbook(raw)
     if not raw.startswith(b"\x1f\x8b"):
         return raw
     content = b""

@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
-from rocking.errors import RecordError, RockingError
+from rocking.errors import RecordError, RockingError, fault_in_words, log_fault
 from rocking.hashes import sha256_of_bytes, sha256_of_sources
 from rocking.records.listing import CELLS, ListedChannel, Reading, read_for_listing
 from rocking.records.read import bytes_of, printable
@@ -17,6 +17,8 @@ from rocking.tables import read_whole, write_whole
 
 STORE = ".rocking_readings.json"
 """In the folder of the records; it may be removed at any time."""
+FAULTS = ".rocking_faults.log"
+"""In that folder as well: the tracebacks of errors that no file may cause."""
 _LARGEST = 2**27  # bytes: a hundred thousand readings
 
 
@@ -29,6 +31,7 @@ class Readings:
 
     def __init__(self, folder: Path, is_kept: bool = True) -> None:
         self._store = folder / STORE
+        self._log = folder / FAULTS
         self._is_kept = is_kept
         self._before: dict[str, Reading] = {}
         self._now: dict[str, Reading] = {}
@@ -53,7 +56,13 @@ class Readings:
         key = json.dumps([sha256, printable(path.name), unit, time_step, self._metadata_beside(path.parent)])
         reading = self._before.get(key)
         if reading is None or reading.sha256 != sha256:
-            reading = read_for_listing(raw, sha256, path, declared)
+            try:
+                reading = read_for_listing(raw, sha256, path, declared)
+            except MemoryError:
+                raise
+            except Exception as fault:  # a file must cost no other file its row, whatever it holds
+                log_fault(fault, self._log)
+                return Reading(sha256, refusal=printable(fault_in_words(fault, self._log)))
         self._now[key] = reading
         return reading
 

@@ -112,6 +112,11 @@ def calibrated(trace: Any, inventory: Any, response: str) -> Calibrated:
     staged = bool(getattr(of, "response_stages", None))
     if response == "sensitivity" and (order == 0 or (order == 1 and not staged)):
         return replace(_by_sensitivity(trace, gain / factor, order), warnings=doubts)
+    if not staged:
+        raise RecordError(
+            f"the response of {trace.id} has no stages, of which its full removal consists; give a StationXML that has "
+            "them, or take response: sensitivity."
+        )
     if factor != 1:
         raise RecordError(
             f"the response of {trace.id} is in {units}, which its full removal does not convert; give a StationXML in "
@@ -199,6 +204,8 @@ def _check_gain(gain: float, response: Any, name: str, removal: str) -> tuple[Re
 
 _STEEP = 45.0
 """Degrees of dip from which on a sensor is vertical."""
+_TILTED = 5.0
+"""Degrees out of the horizontal or the vertical from which on a sensor is told to be tilted."""
 _BURIED = 5.0
 """m below the surface from which on a sensor stands in a borehole; vaults are shallower."""
 
@@ -206,7 +213,8 @@ _BURIED = 5.0
 def site(trace: Any, inventory: Any) -> dict[str, Any]:
     """Return where a trace was recorded, as far as the inventory says it, as fields of an Accelerogram.
 
-    Azimuth, latitude and longitude [degrees], elevation [m], whether it is vertical (by its dip) and down-hole.
+    Azimuth, latitude and longitude [degrees], elevation [m], whether it is vertical (by its dip) and down-hole; as its
+    warnings whether it is tilted.
     """
     facts: dict[str, Any] = {}
     with suppress(Exception):  # obspy raises what it likes for what is not there
@@ -214,7 +222,10 @@ def site(trace: Any, inventory: Any) -> dict[str, Any]:
         if orientation.get("azimuth") is not None:
             facts["azimuth"] = float(orientation["azimuth"]) % 360
         if orientation.get("dip") is not None:
-            facts["vertical"] = abs(float(orientation["dip"])) > _STEEP
+            dip = float(orientation["dip"])
+            facts["vertical"] = abs(dip) > _STEEP
+            if min(abs(dip), abs(90 - abs(dip))) > _TILTED:
+                facts["warnings"] = (Remark.of(Kind.TILTED, trace.id, dip_deg=dip),)
     with suppress(Exception):
         place = inventory.get_coordinates(trace.id, trace.stats.starttime)
         facts |= {name: float(place[name]) for name in ("latitude", "longitude", "elevation")}
@@ -245,6 +256,23 @@ def quantity_order(trace: Any) -> tuple[int | None, bool]:
         elif "differentiate(" in step:
             order = (order or 0) - 1
     return order, removed
+
+
+def unit_left_by(trace: Any) -> str | None:
+    """Return the unit of samples over their sensitivity alone, by the response that is attached to the trace.
+
+    None where none is attached, or it says nothing. Raises RecordError for velocity and displacement.
+    """
+    try:
+        units = str(trace.stats.response.instrument_sensitivity.input_units)
+        factor, order = measured_as(units)
+    except (AttributeError, ValueError):
+        return None
+    if order:
+        raise RecordError(
+            f"its sensitivity was removed, which leaves {units}; give acceleration: remove_response(output='ACC')."
+        )
+    return {1.0: "m/s2", 1e-2: "cm/s2", 1e-3: "mm/s2", 1e-9: "nm/s2", GRAVITY: "g"}.get(factor)
 
 
 def first_line(error: object) -> str:

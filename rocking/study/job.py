@@ -19,7 +19,7 @@ from rocking.assessment.rows import HistoryRow, RecordRows, history_rows, rows_o
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.store import RecordStore, computation_version
-from rocking.errors import ConfigurationError, RockingError, about
+from rocking.errors import ConfigurationError, RockingError, about, fault_in_words
 from rocking.records import Accelerogram, CatalogueRecord, aligned, open_station
 from rocking.records.processing import process
 from rocking.records.scaling import ScalingTarget, scaled_to
@@ -224,12 +224,6 @@ def steps_of(record: CatalogueRecord, job: Job) -> Iterator[Steps]:
         return
     durations = dict(steps.clock.durations)
     _write(RecordResult(record=record.id, failures=(("", failure),), durations=durations), record, job)
-
-
-def fault_in_words(fault: Exception, log: Path) -> str:
-    """Return the sentence on an error that no input may cause."""
-    said = " ".join(f"{type(fault).__name__}: {fault}".split())
-    return f"a fault of rocking in this file ({said}); please report it, with {log}."
 
 
 def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:

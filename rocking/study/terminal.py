@@ -5,10 +5,9 @@ import os
 import sys
 import tempfile
 import time
-import traceback
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from threading import Thread
 from types import TracebackType
@@ -18,7 +17,7 @@ from rocking.assessment.case import SceneResult
 from rocking.assessment.decide import ORDER, worst_first
 from rocking.assessment.rows import FailureRow, VerdictRow, worst_period_each
 from rocking.assessment.verdict import rocks
-from rocking.errors import RecordError, RockingError
+from rocking.errors import RecordError, RockingError, log_fault
 from rocking.quantities import counted, escaped
 from rocking.study.folder import new_log
 from rocking.tables import read_table
@@ -219,8 +218,7 @@ def tell_error(kind: type[BaseException], error: BaseException, trace: Traceback
 def log_error(error: BaseException) -> None:
     """Add the traceback of an error to the log that this process has begun, if any."""
     for log in _LOGS:
-        with suppress(OSError), log.open("a", encoding="utf-8") as stream:
-            traceback.print_exception(error, file=stream)
+        log_fault(error, log)
 
 
 def fitting(line: str, stream: TextIO) -> str:

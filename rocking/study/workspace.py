@@ -61,7 +61,7 @@ def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: flo
         raise RecordError(f"{folder}: no accelerogram was read ({reasons}).")
     if rows or found.standing != standing:
         columns = dict.fromkeys(chain(standing[0] if standing else COLUMNS, *rows))
-        write_whole(target, catalogue_text([*found.standing, *rows], list(columns)).encode())
+        write_whole(target, catalogue_text([*found.standing, *rows], list(columns), target).encode())
     records = {file.record for file in files}
     of_folder = (
         each for each in found.standing if not (each.get("source_repository") or "obspy:" in each["file"])

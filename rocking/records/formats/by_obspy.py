@@ -207,8 +207,10 @@ def _sac_motion(trace: Any, options: Options) -> tuple[str, np.ndarray, dict[str
             raise UndeclaredError(_SAC_SILENT.format(error), "unit") from None
         if inventory is not None:
             motion = calibrated(trace, inventory, options.response)
-            facts = {"processing": (motion.sentence,), "warnings": motion.warnings, "processed": False}
-            return "m/s2", motion.acceleration, facts | site(trace, inventory)
+            place = site(trace, inventory)
+            told = (*motion.warnings, *place.pop("warnings", ()))
+            facts = {"processing": (motion.sentence,), "warnings": told, "processed": False}
+            return "m/s2", motion.acceleration, facts | place
     unit = options.unit_of(None)
     values, offset = without_offset(trace.data.astype(float) * trace.stats.calib, unit)
     scale = float(trace.stats.calib)

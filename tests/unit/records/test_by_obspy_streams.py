@@ -1,0 +1,78 @@
+"""Streams of obspy: what lets their channels be none of one record, and what their responses leave open."""
+
+import io
+
+import numpy as np
+import pytest
+from obspy import Stream, Trace, read_inventory
+
+from rocking.errors import RecordError
+from rocking.records import Accelerogram
+from rocking.remarks import Kind
+
+COUNTS = np.round(1e5 * np.sin(np.arange(3000) / 30) * np.hanning(3000))
+
+
+def trace(channel: str = "HNE", station: str = "MADE", delta: float = 0.01) -> Trace:
+    return Trace(COUNTS.copy(), {"network": "XX", "station": station, "channel": channel, "delta": delta})
+
+
+def inventory(units: str = "M/S**2", dip: float = 0.0):
+    """A StationXML whose response is a sensitivity of 200 000 without stages."""
+    text = f"""<?xml version="1.0" encoding="UTF-8"?>
+<FDSNStationXML xmlns="http://www.fdsn.org/xml/station/1" schemaVersion="1.1"><Source>made</Source>
+<Created>2020-01-01T00:00:00</Created><Network code="XX"><Station code="MADE">
+<Latitude>1</Latitude><Longitude>2</Longitude><Elevation>0</Elevation><Site><Name>Made</Name></Site>
+<Channel code="HNE" locationCode="" startDate="1960-01-01T00:00:00"><Latitude>1</Latitude><Longitude>2</Longitude>
+<Elevation>0</Elevation><Depth>0</Depth><Azimuth>90</Azimuth><Dip>{dip}</Dip><SampleRate>100</SampleRate>
+<Response><InstrumentSensitivity><Value>200000</Value><Frequency>1</Frequency><InputUnits><Name>{units}</Name></InputUnits>
+<OutputUnits><Name>COUNTS</Name></OutputUnits></InstrumentSensitivity></Response></Channel></Station></Network>
+</FDSNStationXML>"""
+    return read_inventory(io.BytesIO(text.encode()), format="STATIONXML")
+
+
+@pytest.mark.parametrize(("other", "kind"), [
+    (trace("HNN", "ELSE"), Kind.STATIONS_UNLIKE), (trace("HNN", delta=0.02), Kind.STEPS_OF_STREAM_UNLIKE),
+    (trace("HNN"), None),
+])  # fmt: skip
+def test_channels_of_unlike_stations_or_steps_are_told(other: Trace, kind: Kind | None) -> None:
+    records = Accelerogram.from_obspy(Stream([trace(), other]), unit="nm/s2")
+    unlike = {Kind.STATIONS_UNLIKE, Kind.STEPS_OF_STREAM_UNLIKE}
+    told = [{remark.kind for remark in record.warnings} & unlike for record in records]
+    assert told == [{kind} if kind else set()] * 2
+
+
+def test_pieces_of_a_channel_with_unlike_rates_are_refused() -> None:
+    later = trace(delta=0.02)
+    later.stats.starttime += 30
+    with pytest.raises(RecordError, match="pieces of a channel do not join"):
+        Accelerogram.from_obspy(Stream([trace(), later]), unit="nm/s2")
+
+
+@pytest.mark.parametrize(("units", "says"), [("M/S**2", ""), ("M/S", "leaves M/S"), ("V", "neither|removed")])
+def test_removing_the_sensitivity_leaves_the_unit_that_the_response_states(units: str, says: str) -> None:
+    """As remove_sensitivity leaves a trace: its samples divided, and its response attached."""
+    done = trace()
+    done.stats.response = inventory(units).get_response(done.id, done.stats.starttime)
+    done.stats.processing = ["ObsPy 1.5.1: remove_sensitivity()"]
+    done.data = done.data / 200000
+    if says:
+        with pytest.raises(RecordError, match=says):
+            Accelerogram.from_obspy(done)
+    else:
+        (record,) = Accelerogram.from_obspy(done)
+        assert np.allclose(record.acceleration, COUNTS / 200000)
+
+
+@pytest.mark.parametrize(("dip", "is_told", "vertical"), [
+    (0.0, False, False), (-4.0, False, False), (12.0, True, False), (-80.0, True, True), (-88.0, False, True),
+])  # fmt: skip
+def test_a_tilted_sensor_is_told(dip: float, is_told: bool, vertical: bool) -> None:
+    (record,) = Accelerogram.from_obspy(trace(), inventory(dip=dip))
+    assert record.vertical == vertical
+    assert (Kind.TILTED in {remark.kind for remark in record.warnings}) == is_told
+
+
+def test_a_response_without_stages_is_not_removed_in_full() -> None:
+    with pytest.raises(RecordError, match="has no stages"):
+        Accelerogram.from_obspy(trace(), inventory(), response="full")
