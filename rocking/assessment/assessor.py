@@ -148,32 +148,43 @@ class Assessor:
         """Return the motion of every scene under the whole record, its members and its reserve.
 
         An ensemble over the directions of a pair speaks for both components, which then get none of their own. A
-        structure on a support meets the motion there, for each period of the support, and for comparison that of the
-        ground. The reserve is sought on the ground and at the worst period, which reports print.
+        structure on a support meets the motion there, for as many periods as its verdicts ask for, and for comparison
+        that of the ground. The reserve is sought on the ground and at the worst period, which reports print.
         """
         grounds = components
         horizontal = [each.accelerogram for each in components]
         failures: list[tuple[str, Failure]] = []
         shakings: dict[Support | None, _Shaking] = {}
         stations: dict[tuple[str, Support | None], StationResult] = {}
-        for support in dict.fromkeys(
-            [None, *(each for scene in scenes.values() for each in scene.place.axis)]
-        ):
-            carried = [scene for scene in scenes.values() if support in scene.place.axis]
-            try:
-                components = grounds if support is None else self._on_support(support, grounds)
-            except RockingError as error:
-                names = component_names(horizontal)
-                stations |= {(each.name, support): _lost(each, support, names, error) for each in carried}
-                continue
-            shaking = shakings[support] = self._shaking(components, vertical, support, failures)
-            if support is not None:
-                predictions = self.predict(components, {each.name: each for each in carried})
-            for scene in carried if components else ():
-                station = self._station(scene, shaking, predictions)
-                if support is None:
-                    station = self._with_reserve(station, shaking, failures)
-                stations[scene.name, support] = station
+        wanted: dict[Support | None, list[Scene]] = {None: list(scenes.values())}
+        while wanted and grounds:
+            # By support, so that what its motion stands for is made once for all that it carries.
+            for support, carried in wanted.items():
+                try:
+                    if support not in shakings:
+                        components = grounds if support is None else self._on_support(support, grounds)
+                        shakings[support] = self._shaking(components, vertical, support, failures)
+                except RockingError as error:
+                    names = component_names(horizontal)
+                    stations |= {(each.name, support): _lost(each, support, names, error) for each in carried}
+                    continue
+                shaking = shakings[support]
+                if support is not None:
+                    predictions = self.predict(shaking.components, {each.name: each for each in carried})
+                for scene in carried:
+                    station = self._station(scene, shaking, predictions)
+                    if support is None:
+                        station = self._with_reserve(station, shaking, failures)
+                    stations[scene.name, support] = station
+            wanted = {}
+            for scene in scenes.values():
+                told = {
+                    support: stations[scene.name, support].decision.word
+                    for support in scene.place.supports
+                    if (scene.name, support) in stations
+                }
+                for support in scene.place.to_follow(told):
+                    wanted.setdefault(support, []).append(scene)
 
         results = {}
         for scene in scenes.values():

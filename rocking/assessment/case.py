@@ -553,7 +553,7 @@ class StationResult:
 
 @dataclass(frozen=True, eq=False)
 class SceneResult:
-    """The results of one scene under one record, along the axis of its place: the ground, then by period.
+    """The results of one scene under one record, along the axis of its place: the ground, then the periods followed.
 
     The verdicts over the periods of a support stand side by side and are not mixed: a share of periods would be no
     probability. Where one of them has to stand for all, it is the worst.
@@ -578,9 +578,19 @@ class SceneResult:
 
     @property
     def sentence(self) -> str:
-        """The verdicts over the periods of a support: "parapet on roof stands on the ground, overturns …"."""
+        """The verdicts over the periods of a support: "parapet on roof stands on the ground, overturns …".
+
+        Where not all of them were followed it says how many were.
+        """
         verdicts = dict(zip(self.periods, (station.decision.word for station in self.stations), strict=True))
-        return f"{self.scene.name} on {self.scene.place.name} {periods_in_words(verdicts)}"
+        sentence = f"{self.scene.name} on {self.scene.place.name} {periods_in_words(verdicts)}"
+        followed = sum(station.support is not None for station in self.stations)
+        of_all = len(self.scene.place.supports)
+        if followed < of_all:
+            sentence += (
+                f" ({followed} of {of_all} periods followed; between two of one verdict it may be worse)"
+            )
+        return sentence
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

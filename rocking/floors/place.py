@@ -8,6 +8,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -20,7 +21,7 @@ from rocking.remarks import Kind, Remark
 TYPE_NAME = "support"
 """The `type` of an entry of a structure list that is a support."""
 PERIODS = 9
-"""Periods into which a range is divided, at equal steps of the logarithm."""
+"""Periods into which a range is divided, at equal steps of the logarithm; a record need not follow all."""
 ELASTIC_DAMPING = 0.05
 """Damping ratio of a building that stays elastic, where none is given."""
 YIELDING_DAMPING = 0.10
@@ -52,8 +53,29 @@ class Place:
 
     @property
     def axis(self) -> tuple[Support | None, ...]:
-        """The supports along which a structure is followed; None, the ground, comes first as what to compare with."""
+        """The supports along which a structure may be followed; first None, the ground, as what to compare with."""
         return (None, *self.supports)
+
+    def to_follow(self, told: Mapping[Support, object]) -> tuple[Support, ...]:
+        """Return the supports along which a structure is to be followed next; none where nothing is left to ask.
+
+        First both ends and the middle, then the middle between any two whose words differ. told: the word of each that
+        was followed.
+
+        >>> place = place_from_config({"name": "roof", "period_s": [0.1, 0.9], "participation": 1.3})
+        >>> [support.modes[0].period for support in place.to_follow({})]
+        [0.1, 0.3, 0.9]
+        """
+        last = len(self.supports) - 1
+        first = [self.supports[place] for place in sorted({0, last // 2, last})] if self.supports else []
+        if missing := [support for support in first if support not in told]:
+            return tuple(missing)
+        followed = [place for place, support in enumerate(self.supports) if support in told]
+        return tuple(
+            self.supports[(low + high) // 2]
+            for low, high in pairwise(followed)
+            if high - low > 1 and told[self.supports[low]] != told[self.supports[high]]
+        )
 
     def period_of(self, support: Support | None) -> float | None:
         """Return the place on the axis of a result: the first period, s; 0 of the ground below a support.
@@ -245,7 +267,7 @@ def _mode_schema() -> dict[str, object]:
     """The keys of a mode."""
     period = {
         "oneOf": [_POSITIVE, {"type": "array", "items": _POSITIVE, "minItems": 2, "maxItems": 2}],
-        "description": f"Period of the support, s, or a range of it, of which {PERIODS} are followed",
+        "description": f"Period of the support, s, or a range of it, of which 3 to {PERIODS} are followed",
     }
     damping = {
         "type": "number",

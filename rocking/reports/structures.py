@@ -48,8 +48,9 @@ class CheckedStructure:
     checked: None where it could not be checked, and `refusal` then says why. overturning_share: mean over the stations
     of the study, of each the mean over its records, nan without any; records, stations: how many there are, but for
     those of which it cannot be told. verdicts: stations by the worst verdict on it there, and doubts: what may make
-    one worse than said. reserves: under each record of the study under which one was sought; reserve_doubts: the kinds
-    of doubt for which they may be too high.
+    one worse than said. followed_beside: records under which this period of the support was not followed, so that they
+    count as at the worse one beside it. reserves: under each record of the study under which one was sought;
+    reserve_doubts: the kinds of doubt for which they may be too high.
     """
 
     name: str
@@ -63,6 +64,7 @@ class CheckedStructure:
     stations: int = 0
     verdicts: Mapping[Verdict, int] = field(default_factory=dict)
     doubts: Sequence[Kind] = ()
+    followed_beside: int = 0
     reserves: Sequence[Reserve] = ()
     reserve_doubts: Sequence[Kind] = ()
 
@@ -282,6 +284,11 @@ def _share(each: CheckedStructure) -> str:
         f"inputs considered, it overturns with a share of {percent(each.overturning_share)} % (90 % interval over "
         f"stations: {percent(low)} to {percent(high)} %). By the worst record of each it {counts}{reasons}."
     )
+    if each.followed_beside:
+        share += (
+            f" Under {counted(each.followed_beside, 'record')} this period was not followed, as the periods beside it "
+            "have one verdict: the worse of these counts."
+        )
     return f"{share} {_reserve(each)}"
 
 

@@ -1,5 +1,6 @@
 """The structures on a support in a report: share against the period of the support, and the spectra of its motion."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -155,16 +156,27 @@ def _draw_spectra(axes: Axes, panel: SupportPanel) -> None:
 
 @styled
 def shares_by_period_figure(rows: Sequence[SupportRow]) -> Figure:
-    """Draw for each structure on a support the mean over the records of the share that overturns, by period."""
-    shares: dict[tuple[str, str], dict[float, dict[str, float]]] = {}
+    """Draw for each structure on a support the mean over the records of the share that overturns, by period.
+
+    Where the period was not followed under a record, its share lies on the line between the two beside it.
+    """
+    shares: dict[tuple[str, str], dict[str, dict[float, float]]] = {}
     for row in rows:
-        periods = shares.setdefault((row.structure, row.support), {})
-        periods.setdefault(row.support_period_s or 0.0, {})[row.record] = row.overturning_share
+        of_records = shares.setdefault((row.structure, row.support), {})
+        of_records.setdefault(row.record, {})[row.support_period_s or 0.0] = row.overturning_share
     figure = new_figure(62.0, margins=(14, 52, 11, 3))
     axes = figure.subplots()
-    for number, ((structure, support), periods) in enumerate(list(shares.items())[:_MOST_LINES]):
-        ordered = sorted(periods)
-        means = [float(np.nanmean(list(periods[period].values()))) for period in ordered]
+    for number, ((structure, support), of_records) in enumerate(list(shares.items())[:_MOST_LINES]):
+        ordered = sorted({period for own in of_records.values() for period in own})
+        lines = []
+        for own in of_records.values():
+            # Nothing lies between the ground and the first period, nor beyond those that the record could be taken to.
+            carried = sorted(own.keys() - {0.0}) or [math.nan]
+            line = np.interp(
+                ordered, carried, [own.get(each, math.nan) for each in carried], math.nan, math.nan
+            )
+            lines.append([own.get(each, value) for each, value in zip(ordered, line, strict=True)])
+        means = np.nanmean(lines, axis=0)
         style = f"{_MARKS[number % len(_MARKS)]}{_LINES[number % len(_LINES)]}"
         label = wrapped(f"{structure} on {support}", 27, 3)
         axes.plot(ordered, means, style, linewidth=0.9, markersize=4, clip_on=False, label=label)

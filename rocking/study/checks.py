@@ -7,7 +7,7 @@ from pathlib import Path
 
 from rocking.assessment.decide import Verdict, worse
 from rocking.assessment.over_periods import placed
-from rocking.assessment.rows import RecordRow, VerdictRow
+from rocking.assessment.rows import RecordRow, VerdictRow, verdicts_at
 from rocking.assessment.scene import Scene
 from rocking.codes.check import StructureCheck
 from rocking.codes.design_spectrum import DesignSpectrum
@@ -47,10 +47,11 @@ def write_checks(
     station_of = {each.record: _station(each) for each in records}
     pages = []
     for name, scene in study.scenes.items():
+        own = [each for each in verdicts if each.structure == name]
         for support in scene.place.axis:
             period = scene.place.period_of(support)
-            own = [each for each in verdicts if (each.structure, each.support_period_s) == (name, period)]
-            page = _checked(scene, support, design, spectrum, selection, own, station_of)
+            there = verdicts_at(own, period)
+            page = _checked(scene, support, design, spectrum, selection, there, station_of)
             pages.append(page)
             tell(f"{placed(name, period)}: {page.refusal or _told(page.checked)}")
     rows: Iterable[CodeCheckRow] = (
@@ -107,6 +108,7 @@ def _checked(
         stations=len(shares),
         verdicts=verdicts_by_station(verdicts, station_of),
         doubts=sorted({kind for each in verdicts for kind in each.doubts}),
+        followed_beside=sum(each.support_period_s != scene.place.period_of(support) for each in known),
         reserves=[each.reserve for each in verdicts if each.reserve is not None],
         reserve_doubts=sorted({kind for each in verdicts for kind in each.reserve_doubts}),
     )

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,11 +10,11 @@ import pytest
 
 from rocking.assessment.assessor import Assessor, with_histories
 from rocking.assessment.case import SceneResult
-from rocking.assessment.rows import rows_of_record, worst_period_each
+from rocking.assessment.rows import rows_of_record, verdicts_at, worst_period_each
 from rocking.assessment.scene import Scene, on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.store import RecordStore
-from rocking.floors.place import place_from_config
+from rocking.floors.place import Place, place_from_config
 from rocking.fragility.curves import fragility
 from rocking.motion.integration import integrate
 from rocking.records import Accelerogram
@@ -73,7 +74,7 @@ def test_on_the_ground_it_is_what_it_is_without_a_support():
 def test_a_pair_and_its_vertical_component_go_through_the_support():
     first, second, up = motion(), motion("HNN", 9), motion("HNZ", 10, vertical=True)
     result = FULL.assess("r", [first, second], on_roof([0.2, 0.6]), up)
-    assert len(result.stations) == 10
+    assert len(result.stations) > 3
     for station in result.stations:
         assert station.directions is not None
         assert station.directions.ensemble is not None
@@ -107,7 +108,7 @@ def test_a_stored_case_of_one_support_is_not_taken_for_another(tmp_path):
     again = replace(FULL, store=store).assess("r", [record], on_roof([0.2, 0.6]))
     alone = FULL.assess("r", [record], on_roof([0.2, 0.6]))
     assert len({station.overturning_share for station in first.stations}) > 1
-    assert len(first.stations) == 10
+    assert len(first.stations) > 3
     for other in (again, alone):
         for station, same in zip(first.stations, other.stations, strict=True):
             assert same.overturning_share == station.overturning_share
@@ -128,6 +129,71 @@ def test_the_ground_sets_no_word_of_what_stands_on_a_floor():
             SimpleNamespace(support_period_s=each.support_period_s, severity=each.severity) for each in rows
         ]
         assert SceneResult(ground.scene, tuple(along)).worst.support_period_s == 0.25
+
+
+@pytest.mark.parametrize(
+    ("words", "periods"),
+    [
+        ("sssssssss", "0 4 8"),
+        # between 0 and 4 the word changes at 3, between 4 and 8 nowhere
+        ("sssuuuuuu", "0 2 3 4 8"),
+        # as far as two neighbours, where each differs from the next; 4 and 6 are of one word, 5 is not asked
+        ("suosusuos", "0 1 2 3 4 6 7 8"),
+        # what lies between two of one word is passed over
+        ("soossssss", "0 4 8"),
+        ("s", "0"),
+    ],
+)
+def test_periods_are_followed_where_the_verdict_changes_between_them(words, periods):
+    """The words that a structure has at each period are known beforehand here: which of them are asked for?"""
+    span = 0.3 if len(words) == 1 else [0.1, 0.9]
+    place = place_from_config(ROOF | {"period_s": span})
+    told = {}
+    while asked := place.to_follow(told):
+        assert not told.keys() & set(asked)
+        told |= {support: words[place.supports.index(support)] for support in asked}
+    assert sorted(map(place.supports.index, told)) == [int(each) for each in periods.split()]
+
+
+def test_what_is_followed_is_as_if_all_periods_were(monkeypatch):
+    """Rows at the periods followed equal those of all nine, and the sentence says how many were."""
+    record, scenes = motion(), on_roof([0.2, 0.6])
+    some = FULL.assess("r", [record], scenes)
+    monkeypatch.setattr(Place, "to_follow", lambda self, told: tuple(self.supports) if not told else ())
+    every = FULL.assess("r", [record], scenes)
+    rows = {row.support_period_s: row for row in rows_of_record(some).verdicts}
+    of_all = {row.support_period_s: row for row in rows_of_record(every).verdicts}
+    assert len(of_all) == 10 and 4 <= len(rows) < 10
+    assert [replace(of_all[period], reserve_doubts=()) for period in rows] == list(rows.values())
+    assert some.scenes["parapet"].sentence.endswith(
+        f" ({len(rows) - 1} of 9 periods followed; between two of one verdict it may be worse)"
+    )
+    assert "followed" not in every.scenes["parapet"].sentence
+    for low, high in pairwise(sorted(period for period in rows if period)):
+        between = [each for each in of_all if low < each < high]
+        assert not between or rows[low].verdict is rows[high].verdict
+
+
+def test_the_verdict_at_a_period_that_was_not_followed_is_the_worse_one_beside_it():
+    falls, stands = (
+        replace(row, support_period_s=period, reserve_limit=3.0)
+        for row, period in zip(
+            verdicts(
+                [
+                    made_rows.station(case("EW", math.inf, falls=30)),
+                    made_rows.station(case("EW", 0.9, falls=25)),
+                ]
+            ),
+            (0.2, 0.4),
+            strict=True,
+        )
+    )
+    ground = replace(stands, support_period_s=0.0)
+    rows = [ground, falls, stands]
+    (between,) = verdicts_at(rows, 0.3)
+    assert between.overturning_share == falls.overturning_share and between.reserve is None
+    assert verdicts_at(rows, 0.4) == [stands] and verdicts_at(rows, 0.0) == [ground]
+    assert verdicts_at(rows, 0.1) == verdicts_at(rows, 0.5) == []  # no support was followed beyond
 
 
 def test_fragility_is_against_the_intensity_of_the_ground():
