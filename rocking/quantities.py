@@ -155,7 +155,7 @@ def four_digits(value: float, unit: str = "") -> str:
 def percent(share: float) -> str:
     """Return a share in percent: one digit below 10, whole from there on, 0 where it is rounding."""
     value = 100 * share
-    return f"{value:.0f}" if value >= 10 or value < 1e-6 else f"{value:.1g}"
+    return f"{value:.0f}" if value >= 9.5 or value < 1e-6 else f"{value:.1g}"
 
 
 def counted(number: int, name: str) -> str:

@@ -20,18 +20,21 @@ class Kind(StrEnum):
     """
 
     sentence: str
+    brief: str
+    """The same in as few words as a line of a table has room for; the sentence where it is short itself."""
     value_names: tuple[str, ...]
     """The values that the sentence names, in order of the alphabet."""
     names_subject: bool
     """Whether it also names what the remark is about."""
 
-    def __new__(cls, code: str, sentence: str = "") -> "Kind":
+    def __new__(cls, code: str, sentence: str = "", brief: str = "") -> "Kind":
         """Make a kind of its code, with the sentence beside it. Raises ValueError for one without a sentence."""
         if not sentence:
             raise ValueError(f"remark {code} has no sentence.")
         kind = str.__new__(cls, code)
         kind._value_ = code
         kind.sentence = sentence
+        kind.brief = brief or sentence
         named = {name for _, name, _, _ in Formatter().parse(sentence) if name}
         kind.value_names = tuple(sorted(named - {"about"}))
         kind.names_subject = "about" in named
@@ -40,25 +43,38 @@ class Kind(StrEnum):
     # fmt: off
     # What one degree of freedom does not follow.
     CONTACTS_OPEN = auto(), "contacts open"
-    COURSES_THROWN = auto(), "courses above a rocking body may be thrown"
+    COURSES_THROWN = auto(), "courses above a rocking body may be thrown", "courses may be thrown"
 
     # What else makes a decision doubtful.
     COMPONENT_MISSING = auto(), "a component gave no result"
-    OTHER_CRACK_WORSE = auto(), "another crack than the one given is worse"
-    MEMBERS_FAILED = auto(), "members could not be followed"
-    HELD_BEYOND = auto(), "a held wall turns so far that its mechanism may say too little"
+    OTHER_CRACK_WORSE = auto(), "another crack than the one given is worse", "another crack is worse"
+    MEMBERS_FAILED = auto(), "members could not be followed", "some members failed"
+    HELD_BEYOND = auto(), "a held wall turns so far that its mechanism may say too little", "turns far"
 
     # What would tell more of a decision.
-    TIE_STRENGTH = auto(), "give the strength at which its ties let go"
-    FRICTION = auto(), "measure the friction of its joints, and give it (friction_coefficient)"
-    INPUT = auto(), "give a record and settings under which it can be followed"
-    ENSEMBLE = auto(), "follow an ensemble of members (ensemble: members)"
-    TOLERANCE = auto(), "give a restitution below 1, or another tolerance"
-    CRACK = auto(), "find out where it cracks, and give it (crack: known)"
-    RESTITUTION = auto(), "measure the restitution, or take it from tests of such masonry"
-    PROCESSING = auto(), "take a processed record of the network instead of the raw one"
-    CONTACT_DYNAMICS = auto(), "follow it by contact dynamics (fidelity: contact)"
-    COMPONENT = auto(), "find the component that gave no result"
+    TIE_STRENGTH = auto(), "give the strength at which its ties let go", "give the ties' strength"
+    FRICTION = auto(), "measure the friction of its joints, and give it (friction_coefficient)", "measure friction"
+    INPUT = auto(), "give a record and settings under which it can be followed", "not followed"
+    ENSEMBLE = auto(), "follow an ensemble of members (ensemble: members)", "follow an ensemble"
+    TOLERANCE = auto(), "give a restitution below 1, or another tolerance", "give restitution below 1"
+    CRACK = auto(), "find out where it cracks, and give it (crack: known)", "find where it cracks"
+    RESTITUTION = auto(), (
+        "measure the restitution, or take it from tests of such masonry"
+    ), "measure its restitution"
+    PROCESSING = auto(), (
+        "take a processed record of the network instead of the raw one"
+    ), "take a processed record"
+    CONTACT_DYNAMICS = auto(), "follow it by contact dynamics (fidelity: contact)", "contact dynamics"
+    COMPONENT = auto(), "find the component that gave no result", "find missing component"
+
+    # What explains a decision of which nothing more would tell.
+    OTHER_PERIODS = auto(), "at other periods {share} overturn", "other T_b: {share}"
+    CONTACT_SLIDES = auto(), "a contact slides if μ < {friction:.2g}", "slides if μ < {friction:.2g}"
+    FALLS_AS_RECORDED = auto(), "as recorded it falls"
+    STANDS_AS_RECORDED = auto(), "as recorded it stands"
+    STRENGTHEN = auto(), "strengthen or tie it", "strengthen"
+    NOTHING_DECIDES = auto(), "no input decides by itself", "no input decides"
+    NOTHING_TO_DO = auto(), "nothing needs to be done", "nothing"
 
     # The samples of a record.
     STEP_UNUSUAL = auto(), (
@@ -420,3 +436,8 @@ class Remark:
         """The remark in words; what it is about stands before a sentence that does not name it."""
         words = self.kind.sentence.format(about=self.about, **dict(self.values))
         return f"{self.about}: {words}" if self.about and not self.kind.names_subject else words
+
+    @property
+    def brief(self) -> str:
+        """The remark in as few words as a line of a table has room for."""
+        return self.kind.brief.format(about=self.about, **dict(self.values))

@@ -360,8 +360,15 @@ class StationResult:
 
     @property
     def reserve(self) -> Reserve | None:
-        """The factors on the record at which 5, 50 and 95 % of the members overturn; None where it was not sought."""
-        return self.decisive.reserve if self.decisive else None
+        """The factors on the record at which 5, 50 and 95 % of the members overturn; None where it was not sought.
+
+        They do not contradict the share that overturns under the record itself.
+        """
+        case = self.decisive
+        if case is None or case.reserve is None or case.ensemble is None:
+            return None
+        share = self.decision.share
+        return case.reserve.held_to(case.ensemble.overturning_share if math.isnan(share) else share)
 
     def with_reserve(self, reserve: Reserve | None) -> "StationResult":
         """Return the result with the reserve of the case that decides."""

@@ -9,6 +9,9 @@ on the ground and at the worst of its periods.
 import math
 from dataclasses import dataclass
 
+SHARES = (0.05, 0.5, 0.95)
+"""Shares of the members that overturn at the low, the median and the high factor."""
+
 
 @dataclass(frozen=True)
 class Reserve:
@@ -26,6 +29,21 @@ class Reserve:
     median: float
     high: float
     limit: float
+
+    def held_to(self, share: float) -> "Reserve":
+        """Return the reserve that does not contradict the `share` of members that overturn under the record itself.
+
+        A share that is reached there has a factor of 1 at most, another one of 1 at least: the factors come of a curve
+        through members of many records, which need not pass through that share.
+        """
+        factors = []
+        for reached, factor in zip(SHARES, (self.low, self.median, self.high), strict=True):
+            if share >= reached:
+                factors.append(1.0 if math.isnan(factor) else min(factor, 1.0))
+            else:
+                factors.append(factor if math.isnan(factor) else max(factor, 1.0))
+        low, median, high = factors
+        return Reserve(low, median, high, self.limit)
 
     def __str__(self) -> str:
         if math.isnan(self.low):

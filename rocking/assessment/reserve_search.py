@@ -19,7 +19,7 @@ import numpy as np
 from rocking.assessment.causes import CAUSES, Situation, draw
 from rocking.assessment.ensemble import followed_at
 from rocking.assessment.ground_motions import GroundMotions
-from rocking.assessment.reserve import Reserve
+from rocking.assessment.reserve import SHARES, Reserve
 from rocking.assessment.settings import EnsembleSettings
 from rocking.motion.forcing import forcing_of
 from rocking.structures import Mechanism
@@ -30,8 +30,6 @@ LATTICE = 1024
 """Points of the lattice that the rungs take their other causes from, one after the other and again from the first."""
 COARSE = 16
 """Every so many rungs are followed first, over the whole ladder: a structure may stand again where it fell before."""
-SHARES = (0.05, 0.5, 0.95)
-"""Shares of the members that overturn at the low, the median and the high factor."""
 LEAST_WIDTH = 0.03
 """The amplitudes that tell of a factor reach at least so far to both sides, as a share of it, also where the ensemble
 has but one amplitude."""

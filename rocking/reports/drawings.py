@@ -1,6 +1,5 @@
 """Drawings of structures: at rest, turned, fallen; with dimension lines, loads, thrusts and ties."""
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -132,9 +131,3 @@ def fallen_rotation(structure: Structure, sign: int) -> float:
     if len(structure.outline()) > 1:
         farthest = min(farthest, _FALLEN * side.critical_rotation)
     return (-1 if back else 1) * min(farthest, _FARTHEST)
-
-
-def round_length(length: float) -> float:
-    """Return the largest of 1, 2 and 5 times a power of ten that does not exceed `length`."""
-    power = 10.0 ** math.floor(math.log10(length))
-    return power * max(step for step in (1, 2, 5) if step * power <= length * (1 + 1e-12))

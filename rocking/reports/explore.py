@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rocking.assessment.case import RecordResult, StationResult
+from rocking.assessment.conclusion import worst_cases
 from rocking.assessment.cracks import cracked
 from rocking.assessment.decide import Verdict
 from rocking.assessment.over_periods import placed
@@ -25,7 +26,7 @@ from rocking.records.processing import displacement
 from rocking.reports.drawings import fallen_rotation
 from rocking.reports.panels import moving_span, rotation_ratios
 from rocking.reports.printing import LOOKS, band_text, cell_text, ratio
-from rocking.reports.record import warnings_of, worst_cases
+from rocking.reports.record import warnings_of
 from rocking.structures import Mechanism, Structure
 
 Content = dict[str, Any]
@@ -59,7 +60,7 @@ def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[s
     cases = {
         station.structure: _case(
             station,
-            worst.get((station.structure, station.support_period_s)),
+            worst.get((result.record, station.structure, station.support_period_s)),
             structures[station.structure].mechanism(),
             result.responses,
         )

@@ -23,15 +23,19 @@ Column = tuple[str, str, str, Callable[[Any], Cell]]
 NOTHING = "–"
 """Printed where a cell is empty."""
 LOOKS: dict[Verdict, tuple[str, str, str, str]] = {
-    Verdict.OVERTURNS: ("▲", "#7a2400", "#ffffff", "xxxx"),
-    Verdict.PROBABLY_OVERTURNS: ("△", "#e2793a", "#000000", "\\\\\\"),
-    Verdict.CANNOT_BE_TOLD: (NOTHING, "#ffffff", "#000000", ""),
-    Verdict.UNCERTAIN: ("?", "#f7bd5c", "#000000", "///"),
-    Verdict.PROBABLY_STANDS: ("○", "#f6ecd2", "#000000", "..."),
-    Verdict.STANDS: ("●", "#dceaf7", "#000000", ""),
-    Verdict.CANNOT_OVERTURN: ("■", "#c5d9ec", "#000000", ""),
+    Verdict.OVERTURNS: ("▲", "#470F05", "#ffffff", ""),
+    Verdict.PROBABLY_OVERTURNS: ("△", "#A44517", "#ffffff", ""),
+    Verdict.CANNOT_BE_TOLD: ("?", "#ffffff", "#000000", "////"),
+    Verdict.UNCERTAIN: ("≈", "#DD8830", "#000000", ""),
+    Verdict.PROBABLY_STANDS: ("○", "#F4CC6E", "#000000", ""),
+    Verdict.STANDS: ("●", "#EEF4FA", "#000000", ""),
+    Verdict.CANNOT_OVERTURN: ("■", "#fffffe", "#000000", ""),
 }
-"""Sign, colour, colour of letters on it, and pattern of each verdict: in print without colour the others tell it."""
+"""Sign, colour, colour of letters on it, and hatch of each verdict.
+
+The worse, the darker (L* 14, 42, 64, 84, 96), also in print without colour and to eyes that tell few of them apart;
+what cannot be told stands apart, hatched.
+"""
 LEGEND = ", ".join(f"{sign} {verdict}" for verdict, (sign, *_) in LOOKS.items())
 """The signs of a map."""
 METHODS = {

@@ -1,18 +1,15 @@
-"""The report of one record: what an engineer hands to a client. Page one is looked at, the tables stand at the end."""
+"""The report of one record: two pages for a client; with details: true every figure and table behind them."""
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib.metadata import version
-from itertools import accumulate
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from rocking.assessment.case import RecordResult, StationResult
+from rocking.assessment.conclusion import Conclusion, conclusion_in_words, conclusions, worst_cases
 from rocking.assessment.cracks import cracked
-from rocking.assessment.decide import Verdict
 from rocking.assessment.over_periods import placed
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
@@ -32,6 +29,8 @@ from rocking.reports import printing
 from rocking.reports import record_figures as figures
 from rocking.reports.design_figure import design_figure
 from rocking.reports.document import compile_document
+from rocking.reports.measured import MEASURED
+from rocking.reports.page_one import page_one
 from rocking.reports.panels import rotation_ratios
 from rocking.reports.printing import (
     Column,
@@ -54,15 +53,9 @@ if TYPE_CHECKING:
     from rocking.codes.design_spectrum import DesignSpectrum
 
 MOST_DRAWN = 10
-"""Structures of page one and of the histories, the worst first; the tables hold all."""
-FEWER_DRAWN = 5
-"""Structures of page one where many lines stand above them, so that it stays one page."""
-MOST_LINES = 4
-"""Lines above which they are many."""
-MOST_NAMED = 12
-"""Structures that the first lines name with one verdict."""
-MOST_LETTERS = 300
-"""Letters of those names together."""
+"""Structures of the histories and of the reserve, the worst first; the tables hold all."""
+MOST_NOTICED = 3
+"""Failures that stand above everything; failures.csv holds all."""
 MOST_PULSES = 3
 """Ranks of pulses that are printed."""
 MOST_COMPARED = 24
@@ -94,24 +87,18 @@ class RecordReport:
             return self._data()
 
     def _data(self) -> dict[str, object]:
+        details = bool(self.settings.get("details", False))
         return {
-            "title": f"Rocking assessment: {self.record}",
+            **_head(self),
             "running": f"{self.record}.{self.scale_note}" if self.scale_note else self.record,
             "scale-note": self.scale_note,
             **printing.settings_texts(self.settings),
-            "subtitle": _subtitle(self.tables.record),
-            "key": [_key_numbers(row) for row in self.tables.record],
-            "headlines": headlines(self.result),
+            "notices": [notice.data for notice in _notices(self)],
+            **page_one(self.conclusions, self.structures, self.motion, self.dominant),
             "advice": _advice(self),
             "sentences": _sentences(self),
-            "notices": [notice.data for notice in _notices(self)],
-            "pulse-sentences": [
-                _pulse_sentence(self.tables, motion) for motion in self.motions if motion.pulses
-            ],
-            "support-sentences": floor_sentences(self.support_panels),
-            "doubts": _doubts(self.tables.comparison, several=len(self.motions) > 1),
-            **_pictures(self),
-            **_tables(self),
+            **_assumptions(self),
+            "details": [_details(self)] if details else [],
         }
 
     @property
@@ -123,6 +110,11 @@ class RecordReport:
     def stations(self) -> list[StationResult]:
         """The results of all structures, the worst first."""
         return self.result.worst_first
+
+    @cached_property
+    def conclusions(self) -> list[Conclusion]:
+        """The conclusion on each structure, the worst first."""
+        return conclusions(self.tables.verdicts, self.tables.comparison)
 
     @cached_property
     def numbers(self) -> dict[str, str]:
@@ -147,13 +139,25 @@ class RecordReport:
             if each.component in assessed
         ]
 
+    @property
+    def motion(self) -> Trace | None:
+        """The component that stands for the record, the one of the largest peak; None without one."""
+        return max(self.motions, key=lambda each: each.accelerogram.peak_acceleration, default=None)
+
+    @property
+    def dominant(self) -> PulseRow | None:
+        """The dominant pulse of that component; None without one."""
+        component = self.motion.accelerogram.component if self.motion else ""
+        ranked = (row for row in self.tables.pulses if row.component == component and row.ranked)
+        return min(ranked, key=lambda row: row.rank, default=None)
+
     @cached_property
     def histories(self) -> list[History]:
         """The rotation of each structure that rocks and whose history was kept, the worst first."""
         cases = worst_cases(self.tables.comparison)
         histories = []
         for station in self.result.worst_periods:
-            case = cases.get((station.structure, station.support_period_s))
+            case = cases.get((self.record, station.structure, station.support_period_s))
             response = self.result.responses.get(case.case) if case else None
             if case and response and case.integrated_rotation_ratio > NEGLIGIBLE:
                 crack = station.cases[case.component].crack if case.component in station.cases else ""
@@ -178,27 +182,10 @@ class RecordReport:
         """Number and name of each structure, by name."""
         return {name: f"{number} {name}" for name, number in self.numbers.items()}
 
-    @property
-    def peak_acceleration(self) -> float:
-        """The largest acceleration of the ground in any component, g; nan without one."""
-        peaks = (row.peak_acceleration_m_s2 for row in self.tables.record)
-        return max(peaks, default=math.nan) / GRAVITY
-
 
 def _unique(texts: Iterable[str]) -> str:
     """Return each of the texts once, in a row."""
     return ", ".join(dict.fromkeys(filter(None, texts)))
-
-
-def worst_cases(rows: Iterable[ComparisonRow]) -> dict[tuple[str, float | None], ComparisonRow]:
-    """Return the row of the component that turns a structure farthest, the first of several that overturn it.
-
-    By name of the structure and period of its support.
-    """
-    farthest = sorted(
-        rows, key=lambda row: np.nan_to_num(row.integrated_rotation_ratio, nan=-1), reverse=True
-    )
-    return {(row.structure, row.support_period_s): row for row in reversed(farthest)}
 
 
 def failure_report(record: str, message: str) -> bytes:
@@ -218,31 +205,34 @@ def failure_report(record: str, message: str) -> bytes:
 # Sentences -----------------------------------------------------------------------------------------------
 
 
-def headlines(result: RecordResult) -> list[dict[str, str]]:
-    """Return the first lines of a report: each verdict with the structures that it is of, the worst first.
-
-    A structure on a support has a line of its own, which says what becomes of it over the periods of the support.
-    """
-    groups: dict[str, list[str]] = {}
-    for station in result.worst_first:
-        if station.scene.place.supports:
-            continue
-        decision = station.decision
-        said = decision.word in (Verdict.UNCERTAIN, Verdict.CANNOT_BE_TOLD, Verdict.CANNOT_OVERTURN)
-        parts = [decision.share_in_words, decision.why if said else ""]
-        remark = ": ".join(filter(None, parts))
-        groups.setdefault(decision.word, []).append(station.structure + (f" ({remark})" if remark else ""))
-    lines = []
-    for verdict, names in groups.items():
-        room = sum(end <= MOST_LETTERS for end in accumulate(map(len, names)))
-        listed = printing.listed(names, max(1, min(MOST_NAMED, room)))
-        lines.append({"verdict": printing.sentence(verdict), "names": listed})
-    carried = sorted(result.carried, key=lambda scene: scene.worst.severity, reverse=True)
-    lines += [{"verdict": "On a support", "names": scene.sentence} for scene in carried[:MOST_NAMED]]
-    if len(carried) > MOST_NAMED:
-        more = f"{counted(len(carried) - MOST_NAMED, 'more structure')}, in supports.csv"
-        lines.append({"verdict": "On a support", "names": more})
-    return lines
+def _head(report: RecordReport) -> dict[str, object]:
+    """Return title, the answer as a sentence, and the peaks of the component that stands for the record."""
+    rows = report.tables.record
+    drawn = report.motion.accelerogram.component if report.motion else ""
+    names = [_unique(getattr(row, which) for row in rows) for which in ("event", "station")]
+    title = ": ".join(filter(None, names)) or report.record
+    distances = [row.epicentral_distance_m / 1000 for row in rows if row.epicentral_distance_m]
+    parts = {
+        "{}": (day_of(row.event_time) for row in rows if day_of(row.event_time) not in row.event),
+        "magnitude {}": (_magnitude(row) for row in rows if row.magnitude),
+        "epicentre at {} km": map(plain, distances),
+    }
+    texts = [text.format(each) for text, many in parts.items() if (each := _unique(many))]
+    shown = f"{report.record}, {drawn}" if drawn else report.record
+    of_drawn = next((row for row in rows if row.component == drawn), None)
+    return {
+        "title": title,
+        "subtitle": " · ".join([*texts, shown]),
+        "conclusion": conclusion_in_words(
+            {each.structure: each.decision.word for each in report.conclusions}
+        ),
+        "peaks": []
+        if of_drawn is None
+        else [
+            {"value": f"{number(of_drawn.peak_acceleration_m_s2 / GRAVITY, 2)} g", "name": "PGA"},
+            {"value": printing.quantity(of_drawn.peak_velocity_m_s, "m/s"), "name": "PGV"},
+        ],
+    }
 
 
 def _sentences(report: RecordReport) -> list[str]:
@@ -262,8 +252,21 @@ def _sentences(report: RecordReport) -> list[str]:
     scenes = (each.scene for each in report.result.carried)
     warnings = (scene.place.warning(scene.name) for scene in scenes)
     heavy = dict.fromkeys(str(each) for each in warnings if each)
-    notes = [*_cautions(report), *([remark] if depends else []), *heavy]
-    return [*notes, *warnings_of(report.tables)]
+    carried = sorted(report.result.carried, key=lambda scene: scene.worst.severity, reverse=True)
+    failing = list(_contact_failures(report))
+    contacts = f"The model does not hold, because a contact fails, for {printing.listed(failing)}."
+    return [
+        *(_key_numbers(row) for row in report.tables.record),
+        *(_pulse_sentence(report.tables, motion) for motion in report.motions if motion.pulses),
+        *_doubts(report.tables.comparison, several=len(report.motions) > 1),
+        *(f"{scene.sentence}." for scene in carried[:MOST_DRAWN]),
+        *floor_sentences(report.support_panels),
+        *([contacts] if failing else []),
+        *_cautions(report),
+        *([remark] if depends else []),
+        *heavy,
+        *warnings_of(report.tables),
+    ]
 
 
 def _cautions(report: RecordReport) -> list[str]:
@@ -300,7 +303,7 @@ def warnings_of(tables: RecordRows) -> list[str]:
 
 
 def _notices(report: RecordReport) -> list[Notice]:
-    """Return the warnings that stand above everything: nothing moves, scale factor, contacts, what failed."""
+    """Return the warnings that stand above everything: nothing moves, scale factor, what failed."""
     tables = report.tables
     notices = []
     if tables.comparison and all(station.rotation_ratio == 0 for station in report.stations):
@@ -315,15 +318,16 @@ def _notices(report: RecordReport) -> list[Notice]:
         notices.append(Notice(text))
     if not tables.comparison:
         notices.append(Notice("No structure could be assessed under this record."))
-    failing = list(_contact_failures(report))
-    if failing:
-        names = printing.listed(failing)
-        notices.append(Notice(f"The model does not hold, because a contact fails, for {names}."))
     if not tables.pulses:
         text = "No pulse could be sought in this record, so there is no closed-form prediction."
         notices.append(Notice(text))
     of_failures = [f"{row.structure or row.component}: {row.message}" for row in tables.failures]
-    return [*notices, *map(Notice, dict.fromkeys(of_failures))]
+    told = list(dict.fromkeys(of_failures))
+    if len(told) > MOST_NOTICED:
+        told[MOST_NOTICED - 1 :] = [
+            f"Another {counted(len(told) - MOST_NOTICED + 1, 'failure')} in failures.csv."
+        ]
+    return [*notices, *map(Notice, told)]
 
 
 def _contact_failures(report: RecordReport) -> Iterator[str]:
@@ -338,19 +342,6 @@ def _contact_failures(report: RecordReport) -> Iterator[str]:
     for name, kinds in of_structure.items():
         if kinds:
             yield f"{name} ({' and '.join(sorted(kinds, reverse=True))})"
-
-
-def _subtitle(rows: Sequence[RecordRow]) -> str:
-    distances = [row.epicentral_distance_m / 1000 for row in rows if row.epicentral_distance_m]
-    parts = {
-        "{}": (row.event for row in rows),
-        "on {}": (day_of(row.event_time) for row in rows if day_of(row.event_time) not in row.event),
-        "station {}": (row.station for row in rows),
-        "magnitude {}": (_magnitude(row) for row in rows if row.magnitude),
-        "{} km from the epicentre": map(plain, distances),
-    }
-    texts = [text.format(each) for text, many in parts.items() if (each := _unique(many))]
-    return " · ".join(texts) or "The file names no event and no station."
 
 
 def _magnitude(row: RecordRow) -> str:
@@ -426,18 +417,13 @@ _BLAME: dict[tuple[bool, ...], str] = {
 # Pictures and tables ---------------------------------------------------------------------------------------
 
 
-# Whole on purpose: the pictures of a report by the names of its template, and what each leaves out.
-def _pictures(report: RecordReport) -> dict[str, object]:
-    """Return the pictures of the worst cases, and the sentences that say where the others stand."""
+# Whole on purpose: the figures and tables of the details by the names of their template, and what each leaves out.
+def _details(report: RecordReport) -> dict[str, object]:
+    """Return the pictures of the worst cases with the sentences that say where the others stand, and the tables."""
     motions = report.motions
     labels = report.labels
     drawable = [each for each in report.result.worst_periods if each.structure in report.structures]
     reserves = [each for each in drawable if each.reserve is not None][:MOST_DRAWN]
-    crowded = len(headlines(report.result)) > MOST_LINES or reserves
-    most = FEWER_DRAWN if crowded else MOST_DRAWN
-    stations = drawable[:most]
-    names = printing.listed([station.structure for station in stations])
-    strip = (f"Drawings of the structures in their state: {names}.", report.structures, labels)
     histories = report.histories[:MOST_DRAWN]
     rotations = (
         f"Rotation histories of {counted(len(histories), 'structure')} above the acceleration of the ground."
@@ -453,10 +439,6 @@ def _pictures(report: RecordReport) -> dict[str, object]:
     return {
         "design": pictures(design_figure, motions, beside, level) if level else [],
         "design-words": level.words if level else "",
-        "ground": pictures(
-            figures.ground_figure, motions, "Acceleration of the ground and its dominant pulse."
-        ),
-        "strip": pictures(figures.strip_figure, stations, *strip, report.peak_acceleration),
         "reserve": pictures(
             figures.reserve_figure,
             reserves,
@@ -464,7 +446,6 @@ def _pictures(report: RecordReport) -> dict[str, object]:
             labels,
         ),
         "reserve-note": _reserve_note(reserves),
-        "strip-note": remainder(len(report.result.scenes) - len(stations), "structure", verdicts),
         "histories": pictures(figures.histories_figure, histories, rotations, labels, motions),
         "histories-note": remainder(
             len(report.result.scenes) - len(histories), "structure", f"{verdicts}, at rest or less demanding"
@@ -477,6 +458,7 @@ def _pictures(report: RecordReport) -> dict[str, object]:
         "pulse-figures": pictures(figures.pulses_figure, pulses, "The dominant pulse and its evidence."),
         "comparison": pictures(figures.comparison_figure, cases, comparison, labels, len(motions) > 1),
         "comparison-note": remainder(len(rows) - len(cases), "case", "the table of every method"),
+        **_tables(report),
     }
 
 
@@ -508,6 +490,13 @@ def _tables(report: RecordReport) -> dict[str, object]:
             *_period_column(bool(tables.supports)),
             *_method_columns(tables.comparison),
         ),
+    }
+
+
+def _assumptions(report: RecordReport) -> dict[str, object]:
+    """Return what the sentences on what was assumed, and on files and versions, ask for."""
+    record = report.tables.record
+    return {
         "friction": plain(report.settings.get("friction_coefficient")),
         "vertical": _unique(row.vertical_component for row in record),
         "arch": any(each.hinges_migrate for each in report.structures.values()),
@@ -517,6 +506,8 @@ def _tables(report: RecordReport) -> dict[str, object]:
         "files": _unique(f"{words(row.file)}, SHA-256 {row.record_sha256}" for row in record),
         "settings": _unique(f"{row.settings_sha256[:16]}…" for row in record),
         "version": version("rocking"),
+        "supported": bool(report.result.carried),
+        "measured": {name: each.figure for name, each in MEASURED.items()},
     }
 
 

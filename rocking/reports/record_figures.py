@@ -1,50 +1,34 @@
-"""The figures of a record's report: the ground, the structures in their state, their motion, and the closed form."""
+"""The figures of the details of a record's report: the pulses, the reserve, the motion, and the closed form."""
 
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from textwrap import wrap
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
 from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator
-from matplotlib.transforms import Affine2D
 
 from rocking.assessment.case import StationResult
-from rocking.assessment.decide import Verdict
 from rocking.assessment.over_periods import placed
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import RATIO_COLUMNS, ComparisonRow
-from rocking.assessment.verdict import NEGLIGIBLE, Agreement, Method, rests
+from rocking.assessment.verdict import Agreement, Method
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.measures import record_measures
-from rocking.reports.drawings import draw_structure, fallen_rotation, round_length
 from rocking.reports.panels import draw_energy_map, draw_motion, draw_rotation, moving_span
-from rocking.reports.printing import LOOKS, number, ratio, to_spread
+from rocking.reports.printing import LOOKS, number, ratio
 from rocking.reports.style import PREDICTED, PULSE, TEXT_WIDTH, elided, new_figure, panel_at, styled, wrapped
 from rocking.reports.units import unit_of
-from rocking.structures import Structure
 
 _POINTS = 1200
 """Points of a trace: no printer shows more on the width of a page."""
 _MARGIN = 0.15
 """Share of the strong shaking that is drawn before and after it."""
-_COLUMNS = 5
-"""Structures of a row of page one."""
-_DRAWN = (30.0, 27.0)
-"""Width and height of each drawing, mm."""
-_LINE = 3.2
-"""Height of a line below a drawing, mm."""
-_LETTERS = 26
-"""Letters of such a line."""
-_NO_BREAK = "\u00a0"
-"""A space at which no line ends: between a number and its unit."""
 _HISTORIES = 160.0
 """Height of all histories together, mm."""
 _HIGHEST_ROW = 30.0
@@ -104,18 +88,6 @@ def _component(name: str) -> str:
 # The ground ------------------------------------------------------------------------------------------------
 
 
-@styled
-def ground_figure(motions: Sequence[Trace]) -> Figure:
-    """Draw the acceleration of each component with its dominant pulse, one below the other."""
-    height = 19.0 if len(motions) == 1 else 15.0  # a page holds the verdicts and the reserve as well
-    figure = new_figure(height * len(motions) + 8)
-    begins, ends = zip(*(motion.span for motion in motions), strict=True)
-    for place, motion in enumerate(motions):
-        panel = panel_at(figure, 14, 1 + place * height, TEXT_WIDTH - 16, height - 3)
-        _draw_ground(panel, motion, (min(begins), max(ends)), motion is motions[-1])
-    return figure
-
-
 def _draw_ground(panel: Axes, motion: Trace, span: tuple[float, float], last: bool) -> None:
     """Draw the acceleration of a component within `span` [s], its dominant pulse and PGA; the last one names time."""
     accelerogram = motion.accelerogram
@@ -165,37 +137,6 @@ def pulses_figure(motions: Sequence[Trace]) -> Figure:
 
 
 # The structures --------------------------------------------------------------------------------------------
-
-
-@styled
-def strip_figure(
-    stations: Sequence[StationResult],
-    structures: Mapping[str, Structure],
-    labels: Mapping[str, str],
-    peak_acceleration: float,
-) -> Figure:
-    """Draw each structure in its state, to one scale each: standing, rocking to its largest rotation, or fallen.
-
-    labels: what each structure is called. peak_acceleration: of the ground, g.
-    """
-    lines = [_lines(structures[station.structure], station, peak_acceleration) for station in stations]
-    # On one line: the names stand in full above, and a second one would push the reserve off the first page.
-    names = [elided(placed(labels[station.structure], station.support_period_s), 20) for station in stations]
-    rows = [range(first, min(first + _COLUMNS, len(stations))) for first in range(0, len(stations), _COLUMNS)]
-    heights = [_DRAWN[1] + 19 + _LINE * max(len(lines[place]) for place in row) for row in rows]
-    figure = new_figure(sum(heights), margins=(0, 0, 0, 0))
-    axes = figure.add_axes((0, 0, 1, 1), xlim=(0, TEXT_WIDTH), ylim=(-sum(heights), 0))
-    axes.set_axis_off()
-    for number_of_row, row in enumerate(rows):
-        top = -sum(heights[:number_of_row])
-        for column, place in enumerate(row):
-            middle = (column + 0.5) * TEXT_WIDTH / _COLUMNS
-            station = stations[place]
-            axes.text(middle, top - 1, names[place], ha="center", va="top", fontsize=7, fontweight="bold")
-            _draw_state(axes, structures[station.structure], station, middle, top)
-            below = middle, top - _DRAWN[1] - 16.5, "\n".join(lines[place])
-            axes.text(*below, ha="center", va="top", fontsize=7, linespacing=1.25)
-    return figure
 
 
 # Whole on purpose: one panel, bar by bar, and its axis.
@@ -256,73 +197,6 @@ def _reserve_in_numbers(reserve: Reserve) -> str:
     if math.isnan(reserve.median):
         return f"5 %: {number(reserve.low, 2)} ×"
     return f"5 %: {number(reserve.low, 2)} ×, half: {number(reserve.median, 2)} ×"
-
-
-def _draw_state(axes: Axes, structure: Structure, station: StationResult, middle: float, top: float) -> None:
-    """Draw a structure with the crack of its verdict in a column of the strip, at its `middle` and `top` [mm]."""
-    sign, colour, ink, hatch = LOOKS[station.decision.word]
-    cracked = (each.structure for each in structure.candidates() if each.description == station.crack)
-    structure = next(cracked, structure)
-    rotation = drawn_rotation(structure, station)
-    marks = [mark.line for mark in structure.marks(rotation)]
-    points = np.vstack([*structure.outline(), *structure.outline(rotation), *marks])
-    low = points.min(axis=0)
-    high = points.max(axis=0)
-    scale = float(min(np.array(_DRAWN) / (high - low)))
-    foot = top - 7 - _DRAWN[1]
-    origin = np.array([(low[0] + high[0]) / 2, min(low[1], 0.0)])
-    place = Affine2D().translate(*-origin).scale(scale).translate(middle, foot)
-    look = {"facecolor": colour, "hatch": hatch, "edgecolor": "0.25", "linewidth": 0.6}
-    draw_structure(axes, structure, rotation, look=look, place=place)
-    axes.plot([middle - 15, middle + 15], [foot, foot], color="0.5", linewidth=0.6, zorder=0)
-    bar = round_length(0.5 * _DRAWN[0] / scale)
-    axes.plot([middle - bar * scale / 2, middle + bar * scale / 2], [foot - 2.0] * 2, "k", linewidth=1.5)
-    axes.text(middle + bar * scale / 2 + 1, foot - 2.0, f"{bar:g} m", va="center", fontsize=7)
-    frame = Rectangle((middle - 16, foot - 8.5), 32, 4.5, facecolor=colour, edgecolor="0.25", linewidth=0.5)
-    axes.add_patch(frame)
-    word = f"{sign} {station.decision.word}"
-    axes.text(middle, foot - 6.3, word, ha="center", va="center", color=ink, fontweight="bold")
-
-
-def drawn_rotation(structure: Structure, station: StationResult) -> float:
-    """Return the signed rotation of a structure on page one, rad: fallen, at its largest rotation or at rest."""
-    side = -1 if station.peak_side == -1 else 1
-    if math.isinf(station.rotation_ratio) or station.decision.word is Verdict.OVERTURNS:
-        return fallen_rotation(structure, side)
-    if not station.rotation_ratio > NEGLIGIBLE:
-        return 0.0
-    sides = structure.mechanism().sides
-    return side * station.rotation_ratio * sides[0 if side > 0 else -1].critical_rotation
-
-
-def _lines(structure: Structure, station: StationResult, peak_acceleration: float) -> list[str]:
-    """Return what stands below a drawing: members, rotation, statics, and what opens."""
-    static = structure.static_multiplier
-    two_sides = not (rests(station.rotation_ratio) or structure.symmetric)
-    side = f" {structure.side_names[station.peak_side < 0]}" if two_sides and station.peak_side else ""
-    share = station.decision.share_in_words
-    members = f"{share} of members overturn" if station.members and share else share
-    lines = [
-        *([members] if members else []),
-        f"as given {to_spread(station.rotation_ratio, station)}{side}",
-    ]
-    if station.members and not rests(station.rotation_ratio_high) and station.rotation_ratio_low < math.inf:
-        low, high = (
-            to_spread(each, station) for each in (station.rotation_ratio_low, station.rotation_ratio_high)
-        )
-        lines.append(f"5–95 %: {low} to {'falling' if high == 'overturns' else high}")
-    lines.append(f"static {number(static, 2)} g, PGA {number(peak_acceleration / static, 2)} ×")
-    lines.append(_short(station.crack))
-    if station.statics_members:
-        count = f"{station.statics_overturning_members} of {station.statics_members}"
-        whose = "else" if station.body_crack_is_given else "by statics"
-        lines.append(f"{whose} {_short(station.statics_crack)}: {count.replace(' ', _NO_BREAK)}")
-    return [part for line in lines for part in wrap(line.replace(" m", _NO_BREAK + "m"), _LETTERS)]
-
-
-def _short(crack: str) -> str:
-    """The description of a crack in the fewest words."""
-    return crack.replace("hinges at", "hinges").replace("°,", ",")
 
 
 # Their motion ----------------------------------------------------------------------------------------------

@@ -77,7 +77,7 @@ class Line:
 
 TABLE: Mapping[str, Line] = {
     "records": Line(
-        (*_NUMBERS, *_TOLD, "reports", "histories", *_LEVEL),
+        (*_NUMBERS, *_TOLD, "reports", "details", "histories", *_LEVEL),
         files=("design_spectrum.points",),
         documents=False,
     ),

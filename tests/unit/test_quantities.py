@@ -4,7 +4,7 @@ import pytest
 from scipy.constants import g
 
 from rocking.errors import RecordError
-from rocking.quantities import GRAVITY, acceleration_factor
+from rocking.quantities import GRAVITY, acceleration_factor, percent
 
 
 def test_gravity_is_the_standard_one():
@@ -22,3 +22,20 @@ def test_spellings(unit, factor):
 def test_an_unknown_unit_is_refused_with_the_known_ones():
     with pytest.raises(RecordError, match=r"furlong.*gal"):
         acceleration_factor("furlong")
+
+
+@pytest.mark.parametrize(
+    ("share", "printed"),
+    [
+        (0.0, "0"),
+        (1e-9, "0"),
+        (0.004, "0.4"),
+        (0.06, "6"),
+        (0.094, "9"),
+        (0.096, "10"),
+        (0.1, "10"),
+        (1.0, "100"),
+    ],
+)
+def test_a_share_in_percent_has_one_digit_below_ten_and_is_whole_from_there_on(share, printed):
+    assert percent(share) == printed

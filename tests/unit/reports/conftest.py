@@ -128,6 +128,11 @@ def example() -> RecordReport:
     return assessed("one", [shaken(station="STA", event="An event")], structures)
 
 
+def detailed(report: RecordReport) -> RecordReport:
+    """The report of a study that asks for the details."""
+    return replace(report, settings={**report.settings, "details": True})
+
+
 @pytest.fixture(scope="package")
 def hostile() -> RecordReport:
     """Hostile names everywhere, two components, a declared scale factor."""
@@ -141,3 +146,4 @@ def hostile() -> RecordReport:
 def undrawn(monkeypatch):
     """A report without figures, for a test that asks what it says: to draw takes most of its time."""
     monkeypatch.setattr("rocking.reports.record.pictures", lambda *_: [])
+    monkeypatch.setattr("rocking.reports.page_one.picture", lambda *_: {"svg": "<svg/>", "alt": "none"})

@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,15 +15,13 @@ from rocking.records import Accelerogram
 from rocking.records.measures import record_measures
 from rocking.reports.drawings import draw_structure, fallen_rotation
 from rocking.reports.explore import drawings
+from rocking.reports.page_one import structure_figure, trace_figure
 from rocking.reports.record_figures import (
     History,
     Trace,
     comparison_figure,
-    drawn_rotation,
-    ground_figure,
     histories_figure,
     pulses_figure,
-    strip_figure,
 )
 from rocking.reports.style import MOST_POINTS, TEXT_WIDTH, thinned
 from rocking.structures import Arch, Block, Facade, LoadedWall, Wall
@@ -50,12 +49,19 @@ def test_a_structure_is_drawn_as_its_outline():
         assert np.array_equal(points, outline)
 
 
-def test_page_one_draws_a_structure_as_it_fell_rocked_or_stands():
-    block, critical = STRUCTURES[0], STRUCTURES[0].mechanism().critical_rotation
-    assert drawn_rotation(block, judged(Verdict.STANDS, 0.0)) == 0
-    assert drawn_rotation(block, judged(Verdict.STANDS, 0.4, peak_side=-1)) == pytest.approx(-0.4 * critical)
-    assert drawn_rotation(block, judged(Verdict.OVERTURNS, math.inf)) > critical
-    assert drawn_rotation(block, judged(Verdict.UNCERTAIN, math.inf, peak_side=-1)) < -critical
+def test_page_one_draws_the_mechanism_at_four_fifths_of_the_critical_rotation_on_its_side(example):
+    """The dashed outline at rest is drawn after the turned one."""
+    name = "block 4 m"
+    (conclusion,) = (each for each in example.conclusions if each.structure == name)
+    block = example.structures[name]
+    critical = block.mechanism().critical_rotation
+    for side in (1, -1):
+        turned = replace(conclusion, verdict=replace(conclusion.verdict, peak_side=side))
+        (axes,) = structure_figure(block, turned, low=False).axes
+        drawn, at_rest = (patch.get_xy()[:-1] for patch in axes.patches)
+        for points, rotation in ((drawn, 0.8 * side * critical), (at_rest, 0.0)):
+            assert np.array_equal(points, block.outline(rotation)[0])
+        assert all(axes.bbox.contains(*corner) for corner in axes.patches[0].get_window_extent().get_points())
 
 
 def test_a_thinned_trace_keeps_its_peaks_and_few_points():
@@ -73,10 +79,6 @@ def test_a_wall_is_drawn_as_fallen_by_the_rotation_of_the_side_it_falls_to():
     assert away.critical_rotation != pytest.approx(back.critical_rotation, rel=0.1)
     share = fallen_rotation(wall, 1) / away.critical_rotation
     assert fallen_rotation(wall, -1) == pytest.approx(-share * back.critical_rotation, rel=1e-12)
-    inwards = judged(Verdict.STANDS, 0.4, peak_side=-1, structure="wall")
-    assert drawn_rotation(wall, inwards) == pytest.approx(-0.4 * back.critical_rotation, rel=1e-12)
-    (axes,) = strip_figure([inwards], {"wall": wall}, {"wall": "wall"}, 0.3).axes
-    assert any("inwards" in text.get_text() for text in axes.texts)
 
 
 def test_the_map_of_energy_is_darkest_where_the_pulse_begins_and_marks_it_there():
@@ -126,16 +128,14 @@ def test_a_prediction_that_misses_the_overturning_is_bold_and_overturning_in_the
 
 
 def test_every_panel_stands_in_its_figure_and_shows_all_of_what_it_draws(example):
-    """No panel on another or over the edge; no point of a trace and no name of a strip beyond its limits."""
+    """No panel on another or over the edge; no point of a trace beyond its limits."""
     (motion,) = example.motions
     measured = record_measures(motion.accelerogram).significant_times
     begin, end = min(measured[0], motion.pulses[0].start_time), max(measured[1], motion.pulses[0].end_time)
     margin = 0.15 * (end - begin)
     assert motion.span == pytest.approx((max(0.0, begin - margin), end + margin))
-    several = [motion, motion]
-    strip = strip_figure(example.stations, example.structures, example.labels, example.peak_acceleration)
-    for figure in (ground_figure(several), pulses_figure(several), strip):
-        assert figure.get_figwidth() * 25.4 == pytest.approx(TEXT_WIDTH)
+    for figure, width in ((pulses_figure([motion, motion]), TEXT_WIDTH), (trace_figure(motion), 118.0)):
+        assert figure.get_figwidth() * 25.4 == pytest.approx(width)
         boxes = [axes.get_position() for axes in figure.axes]
         assert all(0 <= box.xmin < box.xmax <= 1 and 0 <= box.ymin < box.ymax <= 1 for box in boxes)
         assert not any(one.overlaps(other) for one, other in itertools.combinations(boxes, 2))
@@ -147,16 +147,6 @@ def test_every_panel_stands_in_its_figure_and_shows_all_of_what_it_draws(example
             assert low <= heights.min() and heights.max() <= high
             places = [text.get_position()[0] for text in axes.texts if text.get_transform() == axes.transData]
             assert all(left <= place <= right for place in places)
-    (axes,) = strip.axes
-    for each in axes.patches:
-        box = each.get_window_extent()
-        assert axes.bbox.contains(*box.min) and axes.bbox.contains(*box.max)
-    texts = {text.get_text() for text in axes.texts}
-    assert texts.issuperset(example.labels.values())
-    peak = motion.accelerogram.peak_acceleration / 9.80665
-    # of the block of 1 m by 4 m
-    assert any(f"static 0.25 g, PGA {peak / 0.25:.2g} ×" in text for text in texts)
-    assert f": PGA {peak:.2g} g" in ground_figure([motion]).axes[0].texts[0].get_text()
 
 
 def test_a_front_is_drawn_on_its_way_down_to_three_times_the_critical_rotation_of_each_side():

@@ -8,7 +8,7 @@ from rocking.assessment.rows import RecordRows
 from rocking.reports.document import compile_document
 from rocking.reports.summary import summary_report
 
-from .conftest import SETTINGS, SUMMARISED, Word, of_structures, pages, summarised
+from .conftest import SETTINGS, SUMMARISED, Word, detailed, of_structures, pages, summarised
 
 TEMPLATE = """
 #import "layout.typ": data, document-page, ruled
@@ -19,6 +19,8 @@ TEMPLATE = """
 FOOTER = 780.0
 """Of 842 points: below stands the number of the page."""
 COUNTS = (1, 3, 10)
+WALLS = ("wall", "pier", "arch", "tower", "nave")
+WORDS = [f"{side}{noun}" for side in ("North", "South", "East", "West") for noun in WALLS]
 
 
 def covered(page: list[Word]) -> list[tuple[str, str]]:
@@ -73,10 +75,28 @@ def test_no_table_goes_on_over_a_page_after_one_row(count, tmp_path):
 def test_the_report_of_a_record_is_well_laid(example, count):
     """With names of 60 characters too."""
     names = sixty("structure", count)
-    document = of_structures(example, dict.fromkeys(names, "wall 3 m")).pdf()
-    words = [word[4] for page in assert_well_laid(document) for word in page]
+    report = of_structures(example, dict.fromkeys(names, "wall 3 m"))
+    assert len(assert_well_laid(report.pdf())) == 2
+    words = [word[4] for page in assert_well_laid(detailed(report).pdf()) for word in page]
     numbers = {after for word, after in itertools.pairwise(words) if word == "Table" and after.endswith(".")}
     assert numbers == {f"{number}." for number in range(1, 6)}, "each table has a number of its own"
+
+
+@pytest.mark.process
+@pytest.mark.parametrize("count", [1, 12, 20])
+def test_page_one_holds_every_structure_with_its_whole_name(example, count):
+    """Up to twenty, with names of 60 characters, whose words stand in lines below each other."""
+    kinds = list(example.structures)
+    names = {
+        name: kinds[place % len(kinds)]
+        for place, name in enumerate(
+            f"{word}, the north transept's upper gallery, west" for word in WORDS[:count]
+        )
+    }
+    page = assert_well_laid(of_structures(example, names).pdf())[0]
+    text = "".join(word[4] for word in page)
+    assert all(name.partition(",")[0] in text for name in names)
+    assert sum(word[4].startswith("gallery") for word in page) >= count
 
 
 @pytest.mark.process

@@ -13,7 +13,6 @@ from rocking.assessment.decide import Verdict
 from rocking.assessment.rows import VerdictRow, rows_of_record
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.remarks import Kind, Remark
-from rocking.reports import record_figures
 from rocking.reports.explore import record_content
 from rocking.reports.printing import LOOKS, cell_text
 from rocking.reports.record import RecordReport
@@ -26,7 +25,7 @@ from rocking.study.workspace import _told
 from rocking.tables import read_table, write_rows
 from rocking.tables.workbook import workbook
 from tests.unit.assessment.made_rows import members
-from tests.unit.reports.conftest import SETTINGS, summarised
+from tests.unit.reports.conftest import SETTINGS, detailed, summarised
 
 NO_BREAK = "\u00a0"
 SPECTRUM = DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
@@ -121,18 +120,16 @@ def test_the_terminal_says_it(report, decisions):
 
 
 def test_page_one_says_it(report, decisions):
-    data = report.data()
-    lines = {line["verdict"].lower(): line["names"] for line in data["headlines"]}
-    table = {row[1]: row[2:4] for row in data["verdicts"]["rows"]}
-    for station in report.result.stations:
-        decision = decisions[station.structure]
-        assert station.structure in lines[decision.word]
-        assert decision.share_in_words in lines[decision.word]
-        assert table[station.structure][0]["text"] == decision.word
-        assert table[station.structure][1] == decision.share_in_words
-        below = record_figures._lines(report.structures[station.structure], station, 0.5)
-        assert decision.share_in_words in " ".join(below)
-    assert "contacts open" in lines["cannot be told"]
+    data = detailed(report).data()
+    rows = {row["name"]: row for row in data["rows"]}
+    table = {row[1]: row[2:4] for row in data["details"][0]["verdicts"]["rows"]}
+    for name, decision in decisions.items():
+        assert rows[name]["word"].removeprefix("? ") == decision.word
+        assert rows[name]["share"] == decision.share_in_words
+        assert rows[name]["fill"] == LOOKS[decision.word][1]
+        assert table[name][0]["text"] == decision.word
+        assert table[name][1] == decision.share_in_words
+    assert rows["arch 20 m"]["hatched"], "whose contacts open, so that it cannot be told"
 
 
 def test_the_summary_says_it(report, decisions):

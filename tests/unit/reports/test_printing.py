@@ -67,10 +67,10 @@ def crack(falls: int) -> CrackFacts:
     [
         (Facts(cracks=(crack(62),)), "△ 97 %"),
         (Facts(cracks=(crack(64),)), "▲ 100 %"),
-        (Facts(cracks=(crack(0), crack(30))), "? 0–47 %"),
-        (Facts(cracks=(crack(8),), doubts=(Remark(Kind.CONTACTS_OPEN),)), "– ≥ 12 %"),
+        (Facts(cracks=(crack(0), crack(30))), "≈ 0–47 %"),
+        (Facts(cracks=(crack(8),), doubts=(Remark(Kind.CONTACTS_OPEN),)), "? ≥ 12 %"),
         (Facts(cracks=(crack(0),), stacks=(20, 24)), "△ 0–83 %"),
-        (Facts(failures=("No.",)), "–"),
+        (Facts(failures=("No.",)), "?"),
         (Facts(cracks=(crack(0),), never_lets_go="stays tied"), "■"),
         (Facts(run_ratio=0.2), "○ one run"),
     ],

@@ -39,13 +39,15 @@ def report():
     return RecordReport(result, rows_of_record(result), structures, settings)
 
 
-def test_the_first_lines_say_it_once_for_all_periods(report):
-    lines = report.data()["headlines"]
-    on_supports = [line["names"] for line in lines if line["verdict"] == "On a support"]
-    (sentence,) = on_supports
-    assert sentence == report.result.scenes["parapet"].sentence
+def test_the_page_after_the_first_says_it_once_for_all_periods_and_page_one_names_the_worst(report):
+    data = report.data()
+    sentence = report.result.scenes["parapet"].sentence
     assert sentence.startswith("parapet on roof ")
-    assert all("parapet" not in line["names"] for line in lines if line["verdict"] != "On a support")
+    assert [each for each in data["sentences"] if each.startswith("parapet on roof")] == [f"{sentence}."]
+    (row,) = (each for each in data["rows"] if each["name"] == "parapet")
+    carried = [each for each in report.tables.verdicts if each.support_period_s]
+    worst = max(carried, key=lambda each: each.severity)
+    assert row["below"] == f"T_b {worst.support_period_s:.3g} s"
 
 
 def test_the_reserve_stands_on_a_scale_of_its_own_for_each_period(report):
@@ -57,6 +59,7 @@ def test_the_reserve_stands_on_a_scale_of_its_own_for_each_period(report):
         each.with_reserve(Reserve(0.3, factor, math.nan, 3.0))
         for each, factor in zip(structure.stations, factors, strict=True)
     ]
+    factors = [each.reserve.median for each in stations]  # held to the share at the record itself
     figure = supports_figure([replace(panel, structures=[replace(structure, stations=tuple(stations))])])
     (line,) = [line for axes in figure.axes for line in axes.get_lines() if line.get_marker() == "x"]
     assert list(line.get_xdata()) == list(structure.periods)
@@ -111,8 +114,14 @@ def test_a_support_without_damping_has_no_spectrum_of_the_code():
     rows = rows_of_record(result)
     assert np.isnan(rows.supports[-1].code_spectral_acceleration_m_s2)
     assert rows.supports[-1].floor_spectral_acceleration_m_s2 > 0
-    settings = {"tolerance": 1e-6, "acceleration_scale": "linearised", "friction_coefficient": 0.6}
-    assert RecordReport(result, rows, structures, settings).data()["supports"]
+    settings = {
+        "tolerance": 1e-6,
+        "acceleration_scale": "linearised",
+        "friction_coefficient": 0.6,
+        "details": True,
+    }
+    (rest,) = RecordReport(result, rows, structures, settings).data()["details"]
+    assert rest["supports"]
 
 
 def test_the_mean_share_over_the_records_stands_over_the_period_from_zero_on(report):

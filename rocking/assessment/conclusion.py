@@ -1,0 +1,145 @@
+"""The conclusion on each structure: made once of the rows of the tables, and the same wherever a person reads it."""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from rocking.assessment.decide import Decision, Verdict
+from rocking.assessment.rows import ComparisonRow, VerdictRow, worst_period_each
+from rocking.quantities import percent
+from rocking.remarks import Kind, Remark
+
+FALLING = (Verdict.OVERTURNS, Verdict.PROBABLY_OVERTURNS)
+
+
+@dataclass(frozen=True)
+class Conclusion:
+    """What becomes of a structure under a record; of one on a support, at the period that is worst.
+
+    verdict: its row of that period. case: the row of the component that turns it farthest there; None where no
+    component gave a result. elsewhere: its rows at the other periods of the support, without the ground below it.
+    """
+
+    verdict: VerdictRow
+    case: ComparisonRow | None
+    elsewhere: Sequence[VerdictRow] = ()
+
+    @property
+    def structure(self) -> str:
+        """Name of the structure."""
+        return self.verdict.structure
+
+    @property
+    def decision(self) -> Decision:
+        """What becomes of it."""
+        return self.verdict.decision
+
+    @property
+    def closed_form(self) -> float:
+        """Rotation ratio of the closed form; nan without one."""
+        return self.case.predicted_rotation_ratio if self.case else math.nan
+
+    @property
+    def block(self) -> float:
+        """Rotation ratio of the equivalent block under the record; nan without one."""
+        return self.case.block_on_record_rotation_ratio if self.case else math.nan
+
+    @property
+    def integrated(self) -> float:
+        """Rotation ratio of the mechanism under the record; nan without one."""
+        return self.case.integrated_rotation_ratio if self.case else math.nan
+
+    @property
+    def severity(self) -> tuple[float, ...]:
+        """Key by which the worst comes last: the word, the share, then the reserve and the rotation."""
+        reserve = self.verdict.reserve
+        factor = reserve.low if reserve and not math.isnan(reserve.low) else math.inf
+        rotation = -1.0 if math.isnan(self.integrated) else self.integrated
+        return *self.decision.severity, -factor, rotation
+
+    # Whole on purpose: what comes first, one line after another.
+    @property
+    def remark(self) -> Remark:
+        """What to do about it; where there is nothing to do, what explains the word."""
+        word = self.decision.word
+        if self.decision.tells and not word.is_sure:
+            return self.decision.tells[0]
+        if self.decision.doubts:
+            return self.decision.doubts[0]
+        shares = [each.overturning_share for each in self.elsewhere if each.overturning_share >= 0]
+        if shares and (low := percent(min(shares))) != (high := percent(max(shares))):
+            return Remark.of(Kind.OTHER_PERIODS, share=f"{low}–{high}\u00a0%")
+        if self.case is not None and self.case.slides:
+            return Remark.of(Kind.CONTACT_SLIDES, friction=self.case.required_friction)
+        falls = self.integrated == math.inf
+        if word is Verdict.PROBABLY_OVERTURNS and not falls:
+            return Remark(Kind.STANDS_AS_RECORDED)
+        if word in FALLING:
+            return Remark(Kind.STRENGTHEN)
+        if word.stays_up:
+            return Remark(Kind.NOTHING_TO_DO)
+        return Remark(Kind.FALLS_AS_RECORDED if falls else Kind.NOTHING_DECIDES)
+
+
+def worst_cases(comparison: Iterable[ComparisonRow]) -> dict[tuple[str, str, float | None], ComparisonRow]:
+    """Return the row of the component that turns a structure farthest, the first of several that overturn it.
+
+    By record, structure and period of its support.
+    """
+    cases: dict[tuple[str, str, float | None], ComparisonRow] = {}
+    for row in sorted(comparison, key=lambda row: _or_least(row.integrated_rotation_ratio), reverse=True):
+        cases.setdefault((row.record, row.structure, row.support_period_s), row)
+    return cases
+
+
+def conclusions(verdicts: Iterable[VerdictRow], comparison: Iterable[ComparisonRow]) -> list[Conclusion]:
+    """Return the conclusion on each structure under each record, the worst first."""
+    rows = list(verdicts)
+    farthest = worst_cases(comparison)
+    others: dict[tuple[str, str], list[VerdictRow]] = {}
+    for row in rows:
+        others.setdefault((row.record, row.structure), []).append(row)
+    made = [
+        Conclusion(
+            worst,
+            farthest.get((worst.record, worst.structure, worst.support_period_s)),
+            [
+                each
+                for each in others[worst.record, worst.structure]
+                if each is not worst and each.support_period_s
+            ],
+        )
+        for worst in worst_period_each(rows)
+    ]
+    return sorted(made, key=lambda each: each.severity, reverse=True)
+
+
+def conclusion_in_words(words: Mapping[str, Verdict]) -> str:
+    """Return the sentence on all structures, by name the word of each: "4 of 12 structures overturn or probably do."
+
+    >>> from rocking.assessment.conclusion import conclusion_in_words
+    >>> from rocking.assessment.decide import Verdict
+    >>> conclusion_in_words({"pier": Verdict.OVERTURNS, "wall": Verdict.STANDS, "spire": Verdict.CANNOT_BE_TOLD})
+    '1 of 3 structures overturns or probably does; 1 cannot be told.'
+    >>> conclusion_in_words({"pier": Verdict.STANDS, "wall": Verdict.STANDS})
+    'All 2 structures stand.'
+    >>> conclusion_in_words({"pier": Verdict.UNCERTAIN})
+    'pier is uncertain.'
+    """
+    every = len(words)
+    if every <= 1:
+        return (
+            "".join(f"{name} {word.predicate}." for name, word in words.items())
+            or "No structure was assessed."
+        )
+    if all(word.stays_up for word in words.values()):
+        return f"All {every} structures stand."
+    falling = sum(word in FALLING for word in words.values())
+    untold = sum(word is Verdict.CANNOT_BE_TOLD for word in words.values())
+    of_them = f"All {every}" if falling == every else f"{falling or 'None'} of {every}"
+    does = "overturns or probably does" if falling <= 1 else "overturn or probably do"
+    return f"{of_them} structures {does}" + (f"; {untold} cannot be told." if untold else ".")
+
+
+def _or_least(value: float) -> float:
+    return -1.0 if math.isnan(value) else value

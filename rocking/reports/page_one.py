@@ -1,0 +1,160 @@
+"""Page one of a record's report: one row for each structure, all of them, with closed form, block and integration."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.transforms import Affine2D
+
+from rocking.assessment.conclusion import Conclusion
+from rocking.assessment.cracks import cracked
+from rocking.assessment.decide import Verdict
+from rocking.assessment.reserve import Reserve
+from rocking.assessment.rows import PulseRow
+from rocking.quantities import percent
+from rocking.reports.drawings import draw_structure
+from rocking.reports.panels import draw_motion
+from rocking.reports.printing import LOOKS, number
+from rocking.reports.record_figures import Trace
+from rocking.reports.style import new_figure, picture, styled
+from rocking.structures import Structure
+
+DOMINATES = 0.5
+"""Share of the energy of a record from which on one sine is said to dominate it. What the closed form is worth rises
+with that share without a step (`rocking.pulses.analysis.WORTH`), so that the edge is a choice."""
+MOST_ROWS = 60
+"""Structures of the page and of those that continue it; verdicts.csv holds all."""
+_UNIT = 27.0
+"""Length of a rotation ratio of 1 on the scale, mm."""
+_FARTHEST = 1.2
+"""Rotation ratio at the end of the scale; what came back from beyond it stands there."""
+_FALLEN = {"form": 36.5, "block": 41.5, "whole": 46.5, "line": 48.5}
+"""Where on the scale stands what falls, mm: within its grey zone, a place for each mark."""
+_DRAWN = 0.8
+"""Rotation ratio at which a structure is drawn."""
+_POINTS = 1200
+
+
+def page_one(
+    conclusions: Sequence[Conclusion],
+    structures: Mapping[str, Structure],
+    motion: Trace | None,
+    pulse: PulseRow | None,
+) -> dict[str, object]:
+    """Return what the template of page one is given below its title.
+
+    conclusions: of all structures, the worst first. motion: the component that stands for the record, None without one;
+    pulse: its dominant pulse.
+    """
+    drawn = conclusions[:MOST_ROWS]
+    words = [each.decision.word for each in conclusions]
+    return {
+        "trace": [_trace(motion)] if motion else [],
+        "sine": _sine(pulse),
+        "rows": [_row(each, structures.get(each.structure), low=len(drawn) > 12) for each in drawn],
+        "left-out": len(conclusions) - len(drawn),
+        "untold": Verdict.CANNOT_BE_TOLD in words,
+    }
+
+
+def _sine(pulse: PulseRow | None) -> dict[str, object]:
+    """The share of the energy in one sine, and whom to trust where closed form and integration differ."""
+    if pulse is None:
+        return {"share": "", "clause": "No sine was found: there are no rings."}
+    dominates = pulse.explained_energy >= DOMINATES
+    return {
+        "share": f"{percent(pulse.explained_energy)}\u00a0%",
+        "clause": "One sine dominates: rings and dots mostly agree."
+        if dominates
+        else "No sine dominates: trust the dots, not the rings.",
+    }
+
+
+def _row(conclusion: Conclusion, structure: Structure | None, low: bool) -> dict[str, object]:
+    decision = conclusion.decision
+    _, fill, ink, hatch = LOOKS[decision.word]
+    verdict = conclusion.verdict
+    band = [_place(each, "line") for each in (verdict.rotation_ratio_low, verdict.rotation_ratio_high)]
+    period = verdict.support_period_s
+    below = "" if period is None else f"T_b {period:.3g} s" if period else "on the ground"
+    return {
+        "drawing": [_drawing(structure, conclusion, low)] if structure else [],
+        "name": conclusion.structure,
+        "below": below,
+        "word": f"? {decision.word}" if hatch else str(decision.word),
+        "fill": fill,
+        "ink": ink,
+        "hatched": bool(hatch),
+        "share": decision.share_in_words,
+        "marks": {
+            "form": _place(conclusion.closed_form, "form"),
+            "block": _place(conclusion.block, "block"),
+            "whole": _place(conclusion.integrated, "whole"),
+            "line": band if None not in band else [],
+        },
+        "reserve": reserve_in_figures(verdict.reserve),
+        "alone": bool(verdict.reserve_doubts),
+        "remark": conclusion.remark.brief,
+    }
+
+
+def _place(ratio: float, mark: str) -> float | None:
+    """The place of a rotation ratio on the scale, mm; None where there is none."""
+    if math.isnan(ratio):
+        return None
+    return _FALLEN[mark] if ratio == math.inf else _UNIT * min(ratio, _FARTHEST)
+
+
+def reserve_in_figures(reserve: Reserve | None) -> str:
+    """Return the factors at which 5 % and half of the members overturn: "0.28–0.54", "2.5–3+" or "3+"; "" without."""
+    if reserve is None:
+        return ""
+    beyond = f"{reserve.limit:g}+"
+    low, median = (beyond if math.isnan(each) else number(each, 2) for each in (reserve.low, reserve.median))
+    return low if low == median else f"{low}–{median}"
+
+
+@styled
+def trace_figure(motion: Trace) -> Figure:
+    """Draw the acceleration of a component while it shakes, and its dominant pulse, without axes."""
+    figure = new_figure(20, 118, margins=(0, 0, 0, 0))
+    axes = figure.add_axes((0, 0, 1, 1))
+    axes.set_axis_off()
+    draw_motion(axes, motion.accelerogram, next(iter(motion.pulses), None), motion.span, _POINTS)
+    reach = 1.05 * max(np.abs(motion.accelerogram.acceleration).max(), 1e-9)
+    axes.set(xlim=motion.span, ylim=(-reach, reach))
+    return figure
+
+
+def _trace(motion: Trace) -> dict[str, str]:
+    return picture(
+        trace_figure(motion), "Acceleration of the ground and the sine that explains most of its energy."
+    )
+
+
+@styled
+def structure_figure(structure: Structure, conclusion: Conclusion, low: bool) -> Figure:
+    """Draw the mechanism that governs at _DRAWN of its critical rotation, and dashed at rest."""
+    broken = cracked(structure, conclusion.verdict.crack)
+    side = -1 if conclusion.verdict.peak_side == -1 else 1
+    sides = broken.mechanism().sides
+    rotation = side * _DRAWN * sides[0 if side > 0 else -1].critical_rotation
+    height = 8.2 if low else 14.0
+    figure = new_figure(height, 12, margins=(0, 0, 0, 0))
+    axes = figure.add_axes((0, 0, 1, 1), xlim=(0, 12), ylim=(0, height))
+    axes.set_axis_off()
+    points = np.vstack([*broken.outline(), *broken.outline(rotation)])
+    bottom, top = points.min(axis=0), points.max(axis=0)
+    scale = float(min(np.array([11.4, height - 0.6]) / (top - bottom)))
+    middle = (bottom + top) / 2
+    place = Affine2D().translate(*-middle).scale(scale).translate(6, height / 2)
+    look: dict[str, Any] = {"facecolor": "0.78", "edgecolor": "0.35", "linewidth": 0.5}
+    draw_structure(axes, broken, rotation, look=look, place=place)
+    return figure
+
+
+def _drawing(structure: Structure, conclusion: Conclusion, low: bool) -> dict[str, str]:
+    alt = f"{conclusion.structure}, turned, and at rest."
+    return picture(structure_figure(structure, conclusion, low), alt)

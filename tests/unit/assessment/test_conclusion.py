@@ -1,0 +1,111 @@
+"""The conclusion on a structure: its order, its remark, and the sentence on all of them."""
+
+import math
+
+import pytest
+
+from rocking.assessment.conclusion import Conclusion, conclusion_in_words, conclusions
+from rocking.assessment.decide import Verdict
+from rocking.assessment.reserve import Reserve
+from rocking.assessment.rows import VerdictRow
+from rocking.remarks import Kind
+from tests.unit.assessment.made_rows import compared, filled
+
+
+def of(word: Verdict, integrated: float = 0.5, **changed) -> Conclusion:
+    """The conclusion on a structure of that word that rotates so far as recorded."""
+    verdict = filled(VerdictRow, record="a", structure="pier", verdict=word, **changed)
+    return Conclusion(verdict, compared("EW", integrated))
+
+
+@pytest.mark.parametrize(
+    ("conclusion", "kind"),
+    [
+        (of(Verdict.UNCERTAIN, tells=(Kind.RESTITUTION,)), Kind.RESTITUTION),
+        (of(Verdict.OVERTURNS, math.inf, tells=(Kind.RESTITUTION,)), Kind.STRENGTHEN),
+        (of(Verdict.STANDS, doubts=(Kind.OTHER_CRACK_WORSE,)), Kind.OTHER_CRACK_WORSE),
+        (of(Verdict.PROBABLY_OVERTURNS), Kind.STANDS_AS_RECORDED),
+        (of(Verdict.PROBABLY_STANDS, math.inf), Kind.FALLS_AS_RECORDED),
+        (of(Verdict.UNCERTAIN), Kind.NOTHING_DECIDES),
+        (of(Verdict.STANDS), Kind.NOTHING_TO_DO),
+    ],
+)
+def test_what_to_do_comes_before_what_explains_the_word(conclusion, kind):
+    assert conclusion.remark.kind is kind
+
+
+def test_the_worst_period_stands_for_a_support_and_the_others_are_its_remark():
+    """The ground below it stands for comparison only."""
+    shares = {0.0: 1.0, 0.2: 0.25, 0.3: 0.75, 0.4: 0.5}
+    rows = [
+        filled(
+            VerdictRow,
+            record="a",
+            structure="pier",
+            support_period_s=period,
+            overturning_share=share,
+            share_low=share,
+            share_high=share,
+            verdict=Verdict.UNCERTAIN,
+        )
+        for period, share in shares.items()
+    ]
+    (conclusion,) = conclusions(rows, [])
+    assert conclusion.verdict.support_period_s == 0.3
+    assert conclusion.remark["share"] == "25–50\u00a0%"
+
+
+def test_of_equal_shares_the_one_of_less_reserve_is_worse():
+    rows = [
+        filled(
+            VerdictRow,
+            record="a",
+            structure=name,
+            verdict=Verdict.STANDS,
+            overturning_share=0.0,
+            share_low=0.0,
+            share_high=0.0,
+            reserve_low=low,
+            reserve_median=math.nan,
+            reserve_high=math.nan,
+            reserve_limit=3.0,
+        )
+        for name, low in (("none", math.nan), ("more", 2.0), ("less", 1.5))
+    ]
+    assert [each.structure for each in conclusions(rows, [])] == ["less", "more", "none"]
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ((), "No structure was assessed."),
+        (("overturns", "overturns"), "All 2 structures overturn or probably do."),
+        (("uncertain", "stands"), "None of 2 structures overturns or probably does."),
+        (("cannot be told", "stands"), "None of 2 structures overturns or probably does; 1 cannot be told."),
+        (
+            ("overturns", "probably overturns", "cannot be told", "cannot be told", "stands"),
+            "2 of 5 structures overturn or probably do; 2 cannot be told.",
+        ),
+    ],
+)
+def test_one_sentence_says_it_of_all(words, sentence):
+    assert conclusion_in_words({str(n): Verdict(word) for n, word in enumerate(words)}) == sentence
+
+
+@pytest.mark.parametrize("share", [0.0, 0.04, 0.05, 0.3, 0.5, 0.94, 0.95, 1.0])
+def test_a_reserve_never_contradicts_the_share_at_the_record_itself(share):
+    """What overturns there has a factor of 1 at most, what does not one of 1 at least, or none."""
+    for found in (
+        Reserve(0.8, 1.1, 2.6, 3.0),
+        Reserve(1.2, math.nan, math.nan, 3.0),
+        Reserve(0.2, 0.3, 0.4, 3.0),
+    ):
+        held = found.held_to(share)
+        for reached, factor, before in zip(
+            (0.05, 0.5, 0.95),
+            (held.low, held.median, held.high),
+            (found.low, found.median, found.high),
+            strict=True,
+        ):
+            assert factor <= 1 if share >= reached else not factor < 1
+            assert factor in (1.0, before) or math.isnan(before)
