@@ -25,7 +25,7 @@ from rocking.assessment.settings import EnsembleSettings
 from rocking.drawn import Drawn
 from rocking.errors import ConfigurationError, StructureError
 from rocking.floors.support import Support
-from rocking.fragility.measures import IntensityMeasure
+from rocking.fragility.measures import IntensityMeasure, check_name
 from rocking.fragility.measures import intensity_measure as measure_named
 from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import Rocking, reduce
@@ -323,6 +323,11 @@ class IncrementalDynamicAnalysis:
         shape = f"{records} records at {levels} levels of {self.measure.name}, {members} members each"
         return f"<IncrementalDynamicAnalysis: {shape}>"
 
+    @property
+    def factors(self) -> np.ndarray:
+        """The factors (r, k) on the records that take them to the levels."""
+        return factors_to(self.levels, self.intensities, self.measure.power)
+
     def fragility(self, threshold: float = np.inf, *, governing: bool = False) -> Fragility:
         """Return the curve of exceeding a rotation ratio; inf: of overturning. governing: with the worst crack."""
         worst = self.governing_ratios if governing else None
@@ -354,9 +359,10 @@ def fragility(
     """Return the fragility of `structure` under `records`: of what governs, the worst of the cracks that may form,
     member by member; without over_cracks of the one that statics chooses. Its `analysis` holds the responses.
 
-    threshold: rotation ratio that is exceeded; inf: overturning. intensity_measure: a name of INTENSITY_MEASURES.
-    levels: ascending, in the unit of the measure; by default 40 that lie where the probability of overturning moves.
-    stations: what counts as one independent record, by default event and station. method: scaling takes every record to
+    threshold: rotation ratio that is exceeded; inf: overturning. intensity_measure: a name that
+    `rocking.intensity_measure` knows, AvgSA and FIV3 also without periods. levels: ascending, in the unit of the
+    measure; by default 40 that lie where the probability of overturning moves. stations: what counts as one independent
+    record, by default event and station. method: scaling takes every record to
     every level; cloud leaves it as recorded, and the levels are then those of the records. ensemble: ranges of the
     uncertain inputs; each case then has MEMBERS members. largest_factor: on a record; one that would need more to reach
     a level is left out of that level. support: on which the structure stands and whose motion it meets; the intensity
@@ -373,7 +379,7 @@ def fragility(
     if method == "cloud" and levels is not None:
         raise ConfigurationError("levels are given, but a cloud has those of its records; leave them out.")
     reduced = reduce(structure)
-    measure = measure_named(intensity_measure)
+    check_name(intensity_measure)
     if isinstance(reduced, EquivalentBlock):
         raise ConfigurationError("structure is an equivalent block, but must be a structure or a mechanism.")
     names = _checked_stations(records, stations)
@@ -386,6 +392,7 @@ def fragility(
         raise StructureError(
             f"the structure cannot overturn, and has no fragility: it {mechanism.never_lets_go}."
         )
+    measure = measure_named(intensity_measure, mechanism)
     intensities = np.array([measure.of(record, mechanism) for record in records])
     carried = records if support is None else [support.motion(record) for record in records]
     follow = partial(_rotation_ratios, carried, ensemble, tolerance)
@@ -398,7 +405,7 @@ def fragility(
         factors[order, places] = 1.0
         ratios = follow(mechanism, factors)
     else:
-        scaling = _Scaling(intensities, names, largest_factor)
+        scaling = _Scaling(intensities, names, largest_factor, measure.power)
         chosen, ratios = _at_levels(partial(follow, mechanism), mechanism, carried, scaling, levels)
         factors = scaling.factors(chosen)
     worst = ratios if over_cracks and others else None
@@ -460,17 +467,27 @@ def _rotation_ratios(
         return np.array(list(pool.map(follow, records, factors, least)))
 
 
+def factors_to(levels: np.ndarray, intensities: np.ndarray, power: int) -> np.ndarray:
+    """Return the factors (r, k) on records that take them from their intensities (r,) to the levels (k,)."""
+    factors: np.ndarray = (levels / intensities[:, None]) ** (1 / power)
+    return factors
+
+
 @dataclass(frozen=True, eq=False)
 class _Scaling:
-    """The scaling that takes records to levels. intensities: (r,) of the records as they are. stations: (r,)."""
+    """The scaling that takes records to levels. intensities: (r,) of the records as they are. stations: (r,).
+
+    power: with which the intensity grows.
+    """
 
     intensities: np.ndarray
     stations: tuple[str, ...]
     largest_factor: float
+    power: int = 1
 
     def factors(self, levels: np.ndarray) -> np.ndarray:
         """Return the factors (r, k) that take every record to each level; nan beyond the largest."""
-        factors = levels / self.intensities[:, None]
+        factors = factors_to(levels, self.intensities, self.power)
         return np.where(factors <= self.largest_factor * (1 + 1e-9), factors, np.nan)
 
     @property
@@ -478,7 +495,7 @@ class _Scaling:
         """The highest level that records of two stations reach."""
         reach: dict[str, float] = {}
         for name, intensity in zip(self.stations, self.intensities.tolist(), strict=True):
-            reach[name] = max(reach.get(name, 0.0), intensity * self.largest_factor)
+            reach[name] = max(reach.get(name, 0.0), intensity * self.largest_factor**self.power)
         return sorted(reach.values())[-2]
 
 
@@ -510,7 +527,7 @@ def _at_levels(
     chosen = _spread_levels(mechanism, records, scaling)
     ratios = at(chosen)
     while _share_that_overturns(ratios)[-1] < NEARLY_ALL and chosen.size < MOST_SPREAD:
-        more = chosen[-1] * np.array([1.5, 2.25])
+        more = chosen[-1] * np.array([1.5, 2.25]) ** scaling.power
         more = more[more <= scaling.highest]
         if not more.size:
             break
@@ -529,11 +546,11 @@ def _spread_levels(mechanism: Mechanism, records: Sequence[Accelerogram], scalin
     uplifts = mechanism.uplift_multiplier * GRAVITY / peaks
     within_reach = uplifts <= scaling.largest_factor
     reach = scaling.highest
-    lowest = float((scaling.intensities * uplifts)[within_reach].min(initial=reach / 2))
+    lowest = float((scaling.intensities * uplifts**scaling.power)[within_reach].min(initial=reach / 2))
     severities = per_velocity(mechanism.equivalent_block("rest")) * np.array(
         list(map(peak_velocity, records))
     )
-    highest = min(float((scaling.intensities * SEVERE / severities).max()), reach)
+    highest = min(float((scaling.intensities * (SEVERE / severities) ** scaling.power).max()), reach)
     levels: np.ndarray = np.geomspace(
         lowest, min(max(highest, 2 * lowest), max(reach, 1.01 * lowest)), COARSE
     )

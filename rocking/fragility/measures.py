@@ -1,5 +1,11 @@
-"""Intensity measures: one number for a record, or for a record and a structure. The registry names them all."""
+"""Intensity measures: one number for a record, or for a record and a structure. One registry names them all.
 
+A measure is plain (`pgv`), has periods (`SA(0.5)`, `AvgSA(0.2,2.0)`), or takes them from a structure (`AvgSA`, `FIV3`).
+OpenQuake's names and units of them are understood, and written where files go there.
+"""
+
+import math
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from weakref import WeakKeyDictionary
@@ -7,15 +13,35 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from rocking.assessment.fidelity import peak_velocity, per_velocity
-from rocking.errors import ConfigurationError, RockingError
-from rocking.pulses import extract_pulses
+from rocking.errors import ConfigurationError, RecordError, RockingError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.records.measures import response_spectrum
-from rocking.structures import Mechanism
+from rocking.records.measures import record_measures, response_spectrum
+from rocking.records.processing import integral
+from rocking.structures import Mechanism, Structure
 
-SPECTRAL_PERIOD = 1.0
-"""Period of the spectral acceleration, s."""
+LONGEST_PERIOD = 20.0
+"""s; beyond it no accelerograph says what the ground did."""
+CORNER_MARGIN = 1.25
+"""Least usable frequency over the corner of the high-pass, as in the flat files of PEER."""
+AVERAGED = 20
+"""Periods, equal in ratio, whose spectral accelerations AvgSA(T1,T2) averages."""
+AVERAGED_BY_OPENQUAKE = 10
+"""Periods, equally far apart, whose spectral accelerations Sa_avg2 and Sa_avg3 average (Aristeidou et al. 2024)."""
+WINDOW = 0.7
+"""α of Dávalos and Miranda (2019): over so many periods the filtered acceleration is integrated."""
+CORNER = 0.85
+"""β of Dávalos and Miranda (2019): corner of the low-pass times the period."""
+RANGE_BY_PERIOD = (0.18, 1.30)
+"""Range of AvgSA over 2π/p."""
+RANGE_OF_ONE_SWING = (0.2, 2.0)
+"""s; range of AvgSA for a structure that one swing decides."""
+ONE_SWING = (0.15, 0.7)
+"""Largest λ and η of a structure that one swing decides. What lifts early and loses half of its speed or more at an
+impact starts every swing nearly from rest: no motion builds up at the long periods of 2π/p, and the velocity of the
+strongest single pulse of the ground decides, which lies within RANGE_OF_ONE_SWING whatever the size."""
+FIV3_BY_PERIOD = 0.30
+"""Period of FIV3 over 2π/p."""
 
 
 @dataclass(frozen=True)
@@ -23,7 +49,12 @@ class IntensityMeasure:
     """A measure of how strong a motion is for a structure: a figure of the record over one of the mechanism.
 
     name: as settings and tables have it. unit: "" for a ratio. meaning: for axes. of_record: the figure of the record,
-    which grows in proportion to the accelerations. per: the figure of the mechanism.
+    which grows as the accelerations to `power`. per: the figure of the mechanism. openquake: name there, "" where it
+    has none; openquake_scale: a value in OpenQuake's unit over the same in `unit`. periods: s, the range that it needs.
+
+    >>> record = rocking.Accelerogram(np.sin(np.arange(500) * 0.05), 0.01)
+    >>> round(rocking.intensity_measure("PGA").of(record, rocking.Block(2.0, 0.2).mechanism()), 3)
+    0.102
     """
 
     name: str
@@ -31,11 +62,16 @@ class IntensityMeasure:
     meaning: str
     of_record: Callable[[Accelerogram], float]
     per: Callable[[Mechanism], float] = lambda mechanism: 1.0
+    power: int = 1
+    openquake: str = ""
+    openquake_scale: float = 1.0
+    periods: tuple[float, float] | None = None
 
     def of(self, record: Accelerogram, mechanism: Mechanism) -> float:
         """Return the measure of `record`. Raises ConfigurationError where the record has none."""
         name = record.source.path or record.station or "a record"
         try:
+            self._check_band(record)
             value = self.remembered(record)
         except RockingError as error:
             raise ConfigurationError(f"{name} has no {self.name}: {error}") from None
@@ -44,6 +80,21 @@ class IntensityMeasure:
                 f"{name} has a {self.name} of {value!r}, but must have one greater than 0; leave the record out."
             )
         return value / self.per(mechanism)
+
+    def _check_band(self, record: Accelerogram) -> None:
+        """Raise RecordError where a period lies outside of what the record can tell."""
+        if self.periods is None:
+            return
+        shortest = 2 * record.time_step
+        corner = record.high_pass_frequency
+        longest = 1 / (CORNER_MARGIN * corner) if corner else math.inf
+        for period in self.periods:
+            if not shortest <= period <= longest * (1 + 1e-9):
+                raise RecordError(
+                    f"it needs a period of {period:.3g} s, but the record can be used from {shortest:.3g} to "
+                    f"{longest:.3g} s (two time steps; 1/{CORNER_MARGIN:g} of the period of its high-pass); choose "
+                    "another period, or leave the record out."
+                )
 
     def remembered(self, record: Accelerogram) -> float:
         """Return the figure of the record, measured once as long as the record lives: many structures ask for it."""
@@ -56,40 +107,223 @@ class IntensityMeasure:
 _REMEMBERED: WeakKeyDictionary[Accelerogram, dict[str, float]] = WeakKeyDictionary()
 
 
-def _spectral(record: Accelerogram) -> float:
-    spectrum = response_spectrum(record, np.array([SPECTRAL_PERIOD]))
-    return float(spectrum.pseudo_acceleration[0]) / GRAVITY
+def _average(record: Accelerogram, periods: np.ndarray) -> float:
+    """The geometric mean of the spectral accelerations at `periods`, g."""
+    accelerations = response_spectrum(record, periods).pseudo_acceleration / GRAVITY
+    if not accelerations.all():
+        return 0.0
+    return float(np.exp(np.log(accelerations).mean()))
+
+
+def _incremental_velocity(record: Accelerogram, period: float) -> float:
+    """FIV3, m/s: of the three largest maxima or minima of the integral of the filtered acceleration over a window
+    (Dávalos and Miranda 2019, EESD 48, 1384-1405, Eqs 2 and 3), the greater sum. Fewer count where there are fewer.
+    """
+    from scipy import signal  # which takes half a second to import
+
+    step = record.time_step
+    times = np.arange(record.acceleration.size) * step
+    starts = times[times <= times[-1] - WINDOW * period]
+    if starts.size < 3:
+        raise RecordError(f"it lasts {times[-1]:.3g} s, but must last longer than {WINDOW * period:.3g} s.")
+    corner = min(CORNER / period, 0.49 / step)  # a corner beyond that of the samples filters nothing
+    low_pass = signal.butter(2, corner, fs=1 / step)
+    velocity = integral(signal.lfilter(*low_pass, record.acceleration), step)
+    gained = np.interp(starts + WINDOW * period, times, velocity) - velocity[: starts.size]
+    sums = []
+    for way in (gained, -gained):
+        peaks = way[signal.find_peaks(way)[0]]
+        sums.append(abs(float(np.sort(peaks)[-3:].sum())))
+    return max(sums)
+
+
+def _spectral(period: float) -> IntensityMeasure:
+    name = f"SA({period})"
+    return IntensityMeasure(
+        name,
+        "g",
+        f"spectral acceleration at {period:g} s, 5 % damping",
+        lambda record: _average(record, np.array([period])),
+        openquake=name,
+        periods=(period, period),
+    )
+
+
+def _averaged(first: float, last: float) -> IntensityMeasure:
+    return IntensityMeasure(
+        f"AvgSA({first},{last})",
+        "g",
+        f"geometric mean of the spectral accelerations from {first:g} to {last:g} s, 5 % damping",
+        lambda record: _average(record, np.geomspace(first, last, AVERAGED)),
+        openquake="AvgSA",
+        periods=(first, last),
+    )
+
+
+def _averaged_up_to(times: int) -> Callable[[float], IntensityMeasure]:
+    def averaged(period: float) -> IntensityMeasure:
+        name = f"Sa_avg{times}({period})"
+        ends = 0.2 * period, times * period
+        return IntensityMeasure(
+            name,
+            "g",
+            f"geometric mean of the spectral accelerations from {ends[0]:g} to {ends[1]:g} s, 5 % damping",
+            lambda record: _average(record, np.linspace(*ends, AVERAGED_BY_OPENQUAKE)),
+            openquake=name,
+            periods=ends,
+        )
+
+    return averaged
+
+
+def _filtered(period: float) -> IntensityMeasure:
+    name = f"FIV3({period})"
+    return IntensityMeasure(
+        name,
+        "m/s",
+        f"filtered incremental velocity at {period:g} s",
+        lambda record: _incremental_velocity(record, period),
+        openquake=name,
+        openquake_scale=100.0,
+        periods=(period, period),
+    )
 
 
 INTENSITY_MEASURES: dict[str, IntensityMeasure] = {
     each.name: each
     for each in (
-        IntensityMeasure("pgv", "m/s", "peak ground velocity", peak_velocity),
         IntensityMeasure(
-            "pga", "g", "peak ground acceleration", lambda record: record.peak_acceleration / GRAVITY
+            "pgv", "m/s", "peak ground velocity", peak_velocity, openquake="PGV", openquake_scale=100.0
+        ),
+        IntensityMeasure(
+            "pga",
+            "g",
+            "peak ground acceleration",
+            lambda record: record.peak_acceleration / GRAVITY,
+            openquake="PGA",
         ),
         IntensityMeasure(
             "p_pgv", "", "p·PGV/(gλ)", peak_velocity, lambda m: 1 / per_velocity(m.equivalent_block("rest"))
         ),
         IntensityMeasure(
-            "pulse",
-            "",
-            "amplitude of the dominant sine pulse over gλ",
-            lambda record: abs(extract_pulses(record).dominant.amplitude),
-            lambda mechanism: GRAVITY * mechanism.uplift_multiplier,
+            "arias",
+            "m/s",
+            "Arias intensity",
+            lambda record: record_measures(record).arias_intensity,
+            power=2,
+            openquake="IA",
         ),
-        IntensityMeasure("sa1", "g", "spectral acceleration at 1 s, 5 % damping", _spectral),
+        IntensityMeasure(
+            "cav",
+            "m/s",
+            "cumulative absolute velocity",
+            lambda record: float(integral(np.abs(record.acceleration), record.time_step)[-1]),
+            openquake="CAV",
+            openquake_scale=1 / GRAVITY,
+        ),
     )
 }
-"""The intensity measures by name; the first is the default."""
-MEASURES_IN_WORDS = ", ".join(f"{each.name} [{each.unit or '-'}]" for each in INTENSITY_MEASURES.values())
+"""The intensity measures without a period, by name; the first is the default."""
+WITH_PERIODS: dict[str, tuple[int, Callable[..., IntensityMeasure]]] = {
+    "SA": (1, _spectral),
+    "AvgSA": (2, _averaged),
+    "Sa_avg2": (1, _averaged_up_to(2)),
+    "Sa_avg3": (1, _averaged_up_to(3)),
+    "FIV3": (1, _filtered),
+}
+"""How many periods a measure of each name has, and what makes it of them."""
+FROM_STRUCTURE = ("AvgSA", "FIV3")
+"""The measures that take their periods from the structure where none are said."""
+SPELLINGS = (
+    *INTENSITY_MEASURES,
+    *(f"{name}({'T' if count == 1 else 'T1,T2'})" for name, (count, _) in WITH_PERIODS.items()),
+    *FROM_STRUCTURE,
+)
+"""What settings may say."""
+MEASURES_IN_WORDS = (
+    ", ".join(f"{each.name} [{each.unit or '-'}]" for each in INTENSITY_MEASURES.values())
+    + ", SA(T), AvgSA(T1,T2), Sa_avg2(T), Sa_avg3(T) [g], FIV3(T) [m/s]; AvgSA and FIV3 alone: at the periods of the "
+    "structure"
+)
 """Names with units, for the meanings of settings and columns."""
+_SPELLED = re.compile(r"\s*(\w+)\s*(?:\(([^()]*)\))?\s*")
+_BY_OPENQUAKE = {each.openquake: each for each in INTENSITY_MEASURES.values() if each.openquake}
 
 
-def intensity_measure(name: str) -> IntensityMeasure:
-    """Return the measure of that name. Raises ConfigurationError naming those there are."""
-    if name not in INTENSITY_MEASURES:
+def intensity_measure(name: str, structure: Structure | Mechanism | None = None) -> IntensityMeasure:
+    """Return the measure of that name, ours or OpenQuake's. AvgSA and FIV3 without periods take those of `structure`.
+
+    Raises ConfigurationError for a measure that there is not, a period that is none, or none of a structure.
+
+    >>> rocking.intensity_measure("SA(0.5)").unit
+    'g'
+    >>> rocking.intensity_measure("AvgSA", rocking.Block.of_size(0.6, 3.0)).name
+    'AvgSA(0.517,3.74)'
+    """
+    stem, periods = _parsed(name)
+    known = INTENSITY_MEASURES.get(stem) or _BY_OPENQUAKE.get(stem)
+    if known:
+        return known
+    made = WITH_PERIODS[stem][1]
+    return made(*(periods or _periods_of(stem, structure)))
+
+
+def check_name(name: str) -> None:
+    """Raise ConfigurationError unless it is the name of a measure; one that takes its periods from a structure is."""
+    stem, periods = _parsed(name)
+    if stem in WITH_PERIODS and not periods and stem not in FROM_STRUCTURE:
+        _periods_of(stem, None)
+
+
+def _parsed(name: str) -> tuple[str, tuple[float, ...]]:
+    """The name without its periods, and the periods, s; none where it says none."""
+    spelled = _SPELLED.fullmatch(name)
+    stem, inside = spelled.groups() if spelled else (name, None)
+    if inside is None and (stem in INTENSITY_MEASURES or stem in _BY_OPENQUAKE or stem in WITH_PERIODS):
+        return stem, ()
+    if stem not in WITH_PERIODS:
+        raise ConfigurationError(f"intensity_measure is {name!r}, but must be one of {', '.join(SPELLINGS)}.")
+    count = WITH_PERIODS[stem][0]
+    try:
+        periods = [float(each) for each in (inside or "").split(",")]
+    except ValueError:
+        periods = []
+    is_range = all(0 < period <= LONGEST_PERIOD for period in periods) and periods == sorted(set(periods))
+    if len(periods) != count or not is_range:
+        must = "a period in s" if count == 1 else "two ascending periods in s, parted by a comma,"
         raise ConfigurationError(
-            f"intensity_measure is {name!r}, but must be one of {', '.join(INTENSITY_MEASURES)}."
+            f"intensity_measure is {name!r}, but {stem} must have {must} above 0 and up to {LONGEST_PERIOD:g}."
         )
-    return INTENSITY_MEASURES[name]
+    return stem, tuple(periods)
+
+
+def _periods_of(stem: str, structure: Structure | Mechanism | None) -> tuple[float, ...]:
+    """The periods of AvgSA or FIV3 that follow from a structure alone, s, to three digits."""
+    if structure is None or stem not in FROM_STRUCTURE:
+        count = WITH_PERIODS[stem][0]
+        raise ConfigurationError(
+            f"intensity_measure is {stem!r}, but must say its {'period' if count == 1 else 'periods'} here, as in "
+            f"{stem}({'0.5' if count == 1 else '0.2,2.0'})."
+        )
+    mechanism = structure.mechanism() if isinstance(structure, Structure) else structure
+    rest = mechanism.equivalent_block("rest")
+    period = 2 * math.pi / rest.frequency_parameter
+    if stem == "FIV3":
+        return (_three_digits(FIV3_BY_PERIOD * period),)
+    largest_multiplier, largest_restitution = ONE_SWING
+    is_one_swing = (
+        mechanism.uplift_multiplier <= largest_multiplier and mechanism.restitution <= largest_restitution
+    )
+    if is_one_swing:
+        return RANGE_OF_ONE_SWING
+    return tuple(_three_digits(share * period) for share in RANGE_BY_PERIOD)
+
+
+def _three_digits(value: float) -> float:
+    return float(f"{value:.3g}")
+
+
+def compared(mechanism: Mechanism) -> tuple[IntensityMeasure, ...]:
+    """Return the measures whose scatter is told of a structure: all without a period, and four with."""
+    with_periods = ("SA(1.0)", "AvgSA", "FIV3")
+    return *INTENSITY_MEASURES.values(), *(intensity_measure(each, mechanism) for each in with_periods)

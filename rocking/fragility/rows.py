@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
-from scipy.special import stdtrit
+from scipy.special import ndtri, stdtrit
 
 from rocking.assessment.fidelity import peak_velocity
 from rocking.assessment.rows import Placed, PlacedRow
@@ -16,9 +16,9 @@ from rocking.assessment.rows.meanings import RECORD
 from rocking.errors import ConfigurationError
 from rocking.fragility.curves import Explanation, Fragility, IncrementalDynamicAnalysis, explanation
 from rocking.fragility.measures import (
-    INTENSITY_MEASURES,
     MEASURES_IN_WORDS,
     IntensityMeasure,
+    compared,
 )
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism
@@ -197,7 +197,7 @@ class IdaRow(PlacedRow[ScaledRecord]):
     level: float = of_scaled("Level to which the record is scaled", lambda of: of.level)
     scale_factor: float = of_scaled(
         "Factor on the record to reach the level",
-        lambda of: of.level / float(of.analysis.intensities[of.place]),
+        lambda of: float(of.analysis.factors[of.place, of.step]),
     )
     members: int = of_scaled("Number of members", lambda of: of.rotation_ratios.size)
     rotation_ratio_median: float = of_scaled(
@@ -318,8 +318,7 @@ class SummarisedCurve(DrawnCurve):
         """The largest factor on a record that was used; nan of outcomes alone."""
         if self.curve.analysis is None:
             return math.nan
-        factors = self.curve.levels / self.curve.analysis.intensities[:, None]
-        return float(factors[np.isfinite(self.curve.exceedance)].max())
+        return float(self.curve.analysis.factors[np.isfinite(self.curve.exceedance)].max())
 
 
 of_summary = Columns(SummarisedCurve)
@@ -407,8 +406,12 @@ class IntensityMeasureRow(PlacedRow[ExplainedOverturning]):
 
     intensity_measure: str = of_explained(_MEASURE, lambda of: of.measure.name)
     efficiency: float = of_explained(
-        "Dispersion of the level that overturns: standard deviation of its logarithm",
+        "Dispersion of the level that overturns: standard deviation of its logarithm (of the root of arias)",
         lambda of: of.explanation.efficiency,
+    )
+    stations_needed: int | None = of_explained(
+        "Number of stations at which the 90 % interval of the median is ± 20 %",
+        lambda of: stations_for(of.explanation.efficiency),
     )
     figure: str = of_explained(
         "Figure of the record that may say more: PGV/PGA, magnitude or ln of the distance",
@@ -431,6 +434,21 @@ class IntensityMeasureRow(PlacedRow[ExplainedOverturning]):
     )
 
 
+MARGIN = 0.2
+"""Half of the 90 % interval of a median that a study is to reach, as a share of it."""
+
+
+def stations_for(scatter: float) -> int | None:
+    """Return how many stations tell a median to ± MARGIN, 90 %; None of an unknown scatter.
+
+    The logarithm of a sample median of n scatters by √(π/2) times the scatter over √n, a normal law supposed.
+    """
+    if not math.isfinite(scatter):
+        return None
+    reach = float(ndtri(0.95)) * math.sqrt(math.pi / 2) * scatter / math.log(1 + MARGIN)
+    return max(2, math.ceil(reach**2))
+
+
 def intensity_measure_rows(
     structure: str,
     mechanism: Mechanism,
@@ -439,11 +457,11 @@ def intensity_measure_rows(
     support_period: float | None = None,
 ) -> Iterator[IntensityMeasureRow]:
     """Yield how well each measure explains which records overturn the structure at which level."""
-    factors = np.log(analysis.levels) - np.log(analysis.intensities)[:, None]
+    factors = np.log(analysis.factors)
     ratios = analysis.rotation_ratios
     falls = np.where(np.isnan(ratios), np.nan, np.isinf(ratios)).mean(axis=2)
-    for measure in INTENSITY_MEASURES.values():
-        logs = np.log([_or_nan(measure, record, mechanism) for record in records])
+    for measure in compared(mechanism):
+        logs = np.log([_or_nan(measure, record, mechanism) for record in records]) / measure.power
         for figure, values in _figures(records).items():
             both = np.isfinite(logs) & np.isfinite(values)
             stations = np.array(analysis.stations)[both].tolist()

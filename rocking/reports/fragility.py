@@ -10,8 +10,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rocking.assessment.over_periods import placed
-from rocking.fragility.measures import INTENSITY_MEASURES
-from rocking.fragility.rows import ROTATION_RATIOS, FragilityRow, FragilitySummaryRow, IdaRow
+from rocking.fragility.measures import INTENSITY_MEASURES, intensity_measure
+from rocking.fragility.rows import (
+    ROTATION_RATIOS,
+    FragilityRow,
+    FragilitySummaryRow,
+    IdaRow,
+    IntensityMeasureRow,
+)
 from rocking.quantities import counted
 from rocking.reports.document import compile_document
 from rocking.reports.panels import draw_probability
@@ -36,6 +42,7 @@ _HALF = 0.5
 """Share of the members from which on a record overturns a structure."""
 _COLOURS = dict(zip(ROTATION_RATIOS, ("#56B4E9", "#0072B2", "#009E73"), strict=False))
 _WORST = "#D55E00"
+_FIRST = next(iter(INTENSITY_MEASURES))
 _READ = (
     "structure",
     "support_period_s",
@@ -60,11 +67,14 @@ def write_fragility_report(folder: Path, pdf: Path, image: Path) -> None:
     )
     write_whole(image, svg(fragility_figure(curves)).encode())
     ida = by_place(frame(IdaRow, folder / IdaRow.table.file_name, _READ))
-    write_whole(pdf, compile_document("plain.typ", fragility_data(curves, summary, ida)))
+    measures = by_place(frame(IntensityMeasureRow, folder / IntensityMeasureRow.table.file_name))
+    write_whole(pdf, compile_document("plain.typ", fragility_data(curves, summary, ida, measures)))
 
 
-def fragility_data(curves: "DataFrame", summary: "DataFrame", ida: "DataFrame") -> dict[str, object]:
-    """Return what the template is given. The tables are fragility, fragility_summary and ida."""
+def fragility_data(
+    curves: "DataFrame", summary: "DataFrame", ida: "DataFrame", measures: "DataFrame"
+) -> dict[str, object]:
+    """Return what the template is given. The tables are fragility, fragility_summary, ida and intensity_measures."""
     stations = int(summary["stations"].max()) if len(summary) else 0
     scaled = (
         "Each record of the study is scaled up until the structure overturns; a level counts by its stations."
@@ -75,6 +85,8 @@ def fragility_data(curves: "DataFrame", summary: "DataFrame", ida: "DataFrame") 
         "form, and that exceed a rotation (overturns, or a share of the critical rotation φcr) with that of statics."
     )
     parts = [{"text": scaled + few * (stations < FEW_STATIONS)}, fragility_table(summary, ida)]
+    if len(measures):
+        parts.append(scatter_table(measures))
     names = list(dict.fromkeys(curves["structure"]))
     for first in range(0, len(names), ON_A_PAGE):
         page = names[first : first + ON_A_PAGE]
@@ -125,6 +137,39 @@ def fragility_table(summary: "DataFrame", ida: "DataFrame") -> dict[str, object]
     return table | {"caption": caption}
 
 
+def scatter_table(measures: "DataFrame") -> dict[str, object]:
+    """Return one row per structure: by how much the level that overturns scatters in each intensity measure."""
+    # A measure has a row for each figure beside it, but one scatter.
+    once = measures.drop_duplicates(["structure", "intensity_measure"]).sort_values(
+        "efficiency", kind="stable"
+    )
+    by_structure = {str(name): rows for name, rows in once.groupby("structure", sort=False)}
+
+    def scatters(name: str) -> str:
+        rows = zip(by_structure[name]["intensity_measure"], by_structure[name]["efficiency"], strict=True)
+        return ", ".join(f"{measure} {number(scatter, 2)}" for measure, scatter in rows)
+
+    def needed(name: str) -> str:
+        rows = by_structure[name].dropna(subset=["stations_needed"])
+        pairs = dict(zip(rows["intensity_measure"], rows["stations_needed"], strict=True))
+        told = {measure: count for measure, count in pairs.items() if measure in (next(iter(pairs)), _FIRST)}
+        return ", ".join(f"{int(count)} with {measure}" for measure, count in told.items())
+
+    names = [name for name in dict.fromkeys(measures["structure"].astype(str)) if name in by_structure]
+    table = table_of(
+        names,
+        ("Structure", "1.0", "l", words),
+        ("Scatter by intensity measure, least first [-]", "3.0", "l", scatters),
+        ("Stations for a median ± 20 %", "1.4", "l", needed),
+    )
+    caption = (
+        "Standard deviation of the logarithm of the level that overturns, by intensity measure (of arias: of its "
+        "root), and the stations that a 90 % interval of ± 20 % about the median needs, in the measure that scatters "
+        f"least and in {_FIRST}. A measure chosen for its scatter under these records scatters more under others."
+    )
+    return table | {"caption": caption}
+
+
 def _scaled(rows: Sequence[FragilitySummaryRow]) -> str:
     """Return the sentence that says by how much records were scaled, and which did not reach the highest level."""
     factors = [row.largest_scale_factor for row in rows if math.isfinite(row.largest_scale_factor)]
@@ -151,7 +196,7 @@ def _with_interval(row: FragilitySummaryRow, measure: str = "") -> str:
 
 
 def _unit(measure: str) -> str:
-    return INTENSITY_MEASURES[measure].unit or "-"
+    return intensity_measure(measure).unit or "-"
 
 
 def governing_records(ida: "DataFrame") -> dict[str, str]:

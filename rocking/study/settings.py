@@ -45,8 +45,10 @@ class StudyFragility:
     heading: ClassVar[Heading] = Heading.FRAGILITY
     changes_numbers: ClassVar[bool] = False
 
-    intensity_measure: Literal["pgv", "pga", "p_pgv", "pulse", "sa1"] = described(
-        "pgv", "measure of the levels: pgv [m/s], pga [g], p_pgv [-], pulse [-], sa1 [g]"
+    intensity_measure: str = described(
+        "pgv",
+        "measure of the levels: pgv [m/s], pga [g], p_pgv [-], arias [m/s], cav [m/s], SA(T), AvgSA(T1,T2), "
+        "Sa_avg2(T), Sa_avg3(T) [g], FIV3(T) [m/s]; AvgSA and FIV3 alone: at the periods of the structure",
     )
     members: bool = described(True, "whether a case counts by the share of its members that overturn")
     largest_factor: float = described(
@@ -62,6 +64,11 @@ class StudyFragility:
 
     def __post_init__(self) -> None:
         check_described(ConfigurationError, self)
+        if self.intensity_measure != "pgv":
+            # A study without a fragility has no need of it.
+            from rocking.fragility.measures import check_name
+
+            check_name(self.intensity_measure)
 
 
 @dataclass(frozen=True)

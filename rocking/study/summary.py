@@ -4,7 +4,7 @@ import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rocking.assessment.cracks import cracks
 from rocking.assessment.rows import (
@@ -35,9 +35,6 @@ from rocking.study.results import Outcome, outcomes_of, remove_others
 from rocking.study.terminal import log_error
 from rocking.tables import Row, data_package, frame, rows_written, write_tables, write_whole, written_together
 from rocking.tables.workbook import workbook
-
-if TYPE_CHECKING:
-    from rocking.fragility.measures import IntensityMeasure
 
 PROVENANCE = "provenance.json"
 """In the folder of the summary: what the results were made from and with."""
@@ -178,18 +175,16 @@ def write_fragility(
     # A quarter of a second that a summary has no need of.
     from rocking.fragility import rows
     from rocking.fragility.curves import fragility
-    from rocking.fragility.measures import intensity_measure
 
     settings = study.settings.fragility
     hazard = rows.read_hazard(Path(settings.hazard)) if settings.hazard else None
-    measure = intensity_measure(settings.intensity_measure)
     if all(cracks(each.structure)[0].mechanism.never_lets_go for each in study.scenes.values()):
         raise ConfigurationError(
             "no structure of the list can overturn, so that none has a fragility; give ties a tie_strength at which "
             "they let go, or leave the fragility out."
         )
-    mechanism = next(iter(study.structures.values())).mechanism()
-    names, accelerograms, reasons = _usable(records, study, measure, mechanism)
+    opened, reasons = _opened(records, study)
+    refused: list[ConfigurationError] = []
     tables: dict[type[Row], list[Row]] = {each: [] for each in rows.FRAGILITY_TABLES.values()}
     for count, (name, scene) in enumerate(study.scenes.items(), start=1):
         structure = scene.structure
@@ -197,17 +192,26 @@ def write_fragility(
         if never := cracks(structure)[0].mechanism.never_lets_go:
             reasons.append(f"{name}: it cannot overturn, and has no fragility: it {never}.")
             continue
+        names, accelerograms, lacking = _measured(opened, settings.intensity_measure, mechanism)
+        reasons += lacking
         for support in scene.place.axis:
             period = scene.place.period_of(support)
-            analysis = fragility(
-                accelerograms,
-                structure,
-                intensity_measure=settings.intensity_measure,
-                largest_factor=settings.largest_factor,
-                ensemble=study.settings.ensemble if settings.members else None,
-                tolerance=study.settings.tolerance,
-                support=support,
-            ).analysis
+            try:
+                analysis = fragility(
+                    accelerograms,
+                    structure,
+                    intensity_measure=settings.intensity_measure,
+                    largest_factor=settings.largest_factor,
+                    ensemble=study.settings.ensemble if settings.members else None,
+                    tolerance=study.settings.tolerance,
+                    support=support,
+                ).analysis
+            except (
+                ConfigurationError
+            ) as error:  # a measure at periods of the structure that few records can tell
+                refused.append(error)
+                reasons.append(f"{name}: {error}")
+                break
             assert analysis is not None
             tables[rows.IdaRow] += rows.ida_rows(name, names, analysis, period)
             for threshold in rows.ROTATION_RATIOS:
@@ -228,32 +232,52 @@ def write_fragility(
                     f"rocking ({type(error).__name__}: {error}); the log holds its traceback; please report it."
                 )
         tell(f"{count} of {len(study.scenes)}: {name}")
+    if refused and not tables[rows.FragilityRow]:
+        raise refused[0]
     write_tables(tables, folder, "rocking-fragility")
-    return reasons
+    return list(dict.fromkeys(reasons))
 
 
-def _usable(
-    records: Iterable[CatalogueRecord], study: Study, measure: "IntensityMeasure", mechanism: Mechanism
-) -> tuple[list[str], list[Accelerogram], list[str]]:
-    """The components that can be read and have the intensity measure, with their names; and why others are left out.
+def _opened(
+    records: Iterable[CatalogueRecord], study: Study
+) -> tuple[dict[str, list[Accelerogram]], list[str]]:
+    """The components of the records that can be read, by record; and why others are left out.
 
     Raises ConfigurationError where none is left.
     """
-    names: list[str] = []
-    accelerograms: list[Accelerogram] = []
+    opened: dict[str, list[Accelerogram]] = {}
     reasons: list[str] = []
     for record in records:
         try:
             components, _ = study.open(record)
-            for accelerogram in components:
-                measure.of(accelerogram, mechanism)
         except RockingError as error:
             reasons.append(f"{record.id}: {error}")
-            continue
-        names += [f"{record.id} {accelerogram.component}".strip() for accelerogram in components]
-        accelerograms += components
-    if not accelerograms:
+        else:
+            opened[record.id] = list(components)
+    if not opened:
         raise ConfigurationError(
             "no record of the catalogue can be used, but a fragility needs two stations; the log says why."
         )
+    return opened, reasons
+
+
+def _measured(
+    opened: Mapping[str, Sequence[Accelerogram]], measure: str, mechanism: Mechanism
+) -> tuple[list[str], list[Accelerogram], list[str]]:
+    """The components of the records that have the intensity measure, with their names; and why others are left out."""
+    from rocking.fragility.measures import intensity_measure
+
+    of_mechanism = intensity_measure(measure, mechanism)
+    names: list[str] = []
+    accelerograms: list[Accelerogram] = []
+    reasons: list[str] = []
+    for record, components in opened.items():
+        try:
+            for each in components:
+                of_mechanism.of(each, mechanism)
+        except RockingError as error:
+            reasons.append(f"{record}: {error}")
+            continue
+        names += [f"{record} {each.component}".strip() for each in components]
+        accelerograms += components
     return names, accelerograms, reasons

@@ -173,18 +173,17 @@ def test_members_make_shares_of_the_outcomes():
     assert ((spread.exceedance > 0) & (spread.exceedance < 1)).any()
 
 
-@pytest.mark.parametrize("name", INTENSITY_MEASURES)
-def test_a_measure_grows_in_proportion_to_the_motion(name):
-    measure, mechanism = INTENSITY_MEASURES[name], BLOCK.mechanism()
-    once, twice = (measure.of(RECORDS[2].scaled(factor), mechanism) for factor in (1.0, 2.0))
-    assert twice == pytest.approx(2 * once, rel=1e-9)
-
-
-def test_the_measure_of_a_pulse_is_its_amplitude_over_the_acceleration_of_uplift():
-    """Of a block of tan α = λ, the acceleration at which it lifts is gλ."""
-    mechanism, amplitude = BLOCK.mechanism(), rocking.extract_pulses(RECORDS[2]).dominant.amplitude
-    expected = abs(amplitude) / (9.80665 * math.tan(BLOCK.slenderness))
-    assert INTENSITY_MEASURES["pulse"].of(RECORDS[2], mechanism) == pytest.approx(expected, rel=1e-9)
+@pytest.mark.parametrize("intensity_measure", ["arias", "SA(0.5)", "FIV3(0.7)"])
+def test_a_record_is_scaled_to_a_level_of_any_measure(intensity_measure):
+    """At every level the record, multiplied by its factor, has that level, also where it grows with the square."""
+    curve = fragility(RECORDS, BLOCK, intensity_measure=intensity_measure)
+    analysis = curve.analysis
+    for place in (0, 20, 39):
+        record = RECORDS[1].scaled(analysis.factors[1, place])
+        level = analysis.measure.of(record, BLOCK.mechanism())
+        assert level == pytest.approx(curve.levels[place], rel=1e-9)
+    rows = list(ida_rows("block", [str(place) for place, _ in enumerate(RECORDS)], analysis))
+    assert max(row.scale_factor for row in rows) <= 10 * (1 + 1e-9)
 
 
 @pytest.mark.parametrize("members", [1, 2, 3, 4])
@@ -214,6 +213,7 @@ def test_a_cloud_keeps_the_records_as_they_are():
         ({"stations": ["one"] * 6}, "come from 1 station, but a fragility needs at least 2"),
         ({"stations": ["one", "two"]}, "stations names 2, but must name one for each of 6"),
         ({"intensity_measure": "mmi"}, "intensity_measure is 'mmi', but must be one of pgv, pga"),
+        ({"intensity_measure": "SA"}, "intensity_measure is 'SA', but must say its period here, as in SA"),
         ({"method": "cloud", "levels": [0.1, 0.2]}, "a cloud has those of its records"),
     ],
 )

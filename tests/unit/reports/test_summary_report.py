@@ -25,8 +25,8 @@ from rocking.assessment.verdict import (
     ratio_in_words,
     within_factor_two,
 )
-from rocking.fragility.measures import INTENSITY_MEASURES
-from rocking.fragility.rows import FragilityRow, FragilitySummaryRow
+from rocking.fragility.measures import compared
+from rocking.fragility.rows import FragilityRow, FragilitySummaryRow, IntensityMeasureRow
 from rocking.records.measures import response_spectrum
 from rocking.reports.design_figure import (
     MOST_LINES,
@@ -262,9 +262,28 @@ FRAGILITY = {
 
 
 def test_the_document_of_the_fragility_names_records_stations_units_and_what_governs(example):
-    data = fragility_data(FRAGILITY["fragility"], FRAGILITY["fragility_summary"], FRAGILITY["ida"])
+    scatters = {"pgv": (0.3, 12), "AvgSA(0.5,3.7)": (0.16, 4), "pga": (math.nan, None)}
+    measures = [
+        filled(
+            IntensityMeasureRow,
+            structure="pier",
+            intensity_measure=measure,
+            figure=figure,
+            efficiency=scatter,
+            records=4,
+            stations=3,
+            stations_needed=count,
+        )
+        for measure, (scatter, count) in scatters.items()
+        for figure in ("PGV/PGA", "magnitude")
+    ]
+    of_fragility = (FRAGILITY[name] for name in ("fragility", "fragility_summary", "ida"))
+    data = fragility_data(*of_fragility, frame(IntensityMeasureRow, measures))
     assert data["subtitle"] == "4 records of 3 stations; 1 structure."
-    text, table, figure = data["parts"]
+    text, table, scatter, figure = data["parts"]
+    assert scatter["rows"] == [
+        ["pier", "AvgSA(0.5,3.7) 0.16, pgv 0.30, pga –", "4 with AvgSA(0.5,3.7), 12 with pgv"]
+    ]
     assert "With 3 stations the curves are rough" in text["text"]
     assert "pgv [m/s]" in figure["svg"] and ">overturns, worst crack</text>" in figure["svg"]
     (row,) = table["rows"]
@@ -276,7 +295,7 @@ def test_the_document_of_the_fragility_names_records_stations_units_and_what_gov
     assert summary_data(tables | FRAGILITY, SETTINGS)["fragility"][0]["rows"] == [row]
 
 
-@pytest.mark.parametrize("measure", INTENSITY_MEASURES)
+@pytest.mark.parametrize("measure", [each.name for each in compared(rocking.Block(2.0, 0.2).mechanism())])
 def test_every_intensity_measure_is_drawn_with_its_unit(measure):
     curves = FRAGILITY["fragility"].assign(intensity_measure=measure)
     assert f">{measure} [" in svg(fragility_figure(curves))

@@ -15,7 +15,7 @@ from rocking.assessment.settings import AssessmentSettings
 from rocking.codes.design_spectrum import SOILS, TOPOGRAPHIES
 from rocking.described import described_values, parts_of
 from rocking.errors import ConfigurationError
-from rocking.fragility.measures import INTENSITY_MEASURES, MEASURES_IN_WORDS
+from rocking.fragility.measures import INTENSITY_MEASURES, MEASURES_IN_WORDS, SPELLINGS
 from rocking.records.processing import UNPROCESSED_DEFAULT
 from rocking.reports.printing import settings_texts
 from rocking.study.settings import (
@@ -64,7 +64,11 @@ def test_the_names_of_settings_are_those_of_the_codes_and_the_measures() -> None
     assert get_args(said["soil"].kind) == tuple(SOILS)
     assert (said["topography"].bounds["ge"], said["topography"].bounds["le"]) == TOPOGRAPHIES
     measure = described_values(StudyFragility)["intensity_measure"]
-    assert get_args(measure.kind) == tuple(INTENSITY_MEASURES)
+    assert measure.default == next(iter(INTENSITY_MEASURES))
+    for spelling in SPELLINGS:
+        StudyFragility(intensity_measure=spelling.replace("T1,T2", "0.2,2.0").replace("(T)", "(0.5)"))
+    with pytest.raises(ConfigurationError, match="intensity_measure is 'pulse', but must be one of pgv"):
+        StudyFragility(intensity_measure="pulse")
     assert measure.meaning.endswith(MEASURES_IN_WORDS)
 
 
