@@ -18,6 +18,7 @@ from rocking.motion.batch import rocking_spectrum
 from rocking.motion.nonlinear_kernel import rock
 from rocking.pulses import Pulse, extract_pulses
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.processing import Processing, process
 from rocking.sine_pulse import overturning_amplitudes, predict_maxima, predict_maximum
 from rocking.structures import Block
 
@@ -30,7 +31,7 @@ _EVERY = 5.0
 
 
 def compile_all(say: Callable[[str], None] = print) -> None:
-    """Compile the search for pulses, the closed form, the integration and spectra, where that is not done already.
+    """Compile what filters, finds pulses, predicts, integrates and makes spectra, where that is not done already.
 
     Beside what numba keeps, a file for each processor names what was compiled; who finds it locked waits for the other
     process. say: is told what is done, and every few seconds how long it has taken. Raises RockingError when it fails.
@@ -59,7 +60,7 @@ def _source() -> str:
     """One hash for numba and for what all files beside the kernels say."""
     package = Path(__file__).parents[1]
     files = [path for part in ("motion", "pulses", "sine_pulse") for path in (package / part).glob("*.py")]
-    files.append(package / "records" / "oscillator.py")
+    files += [package / "records" / name for name in ("butterworth.py", "oscillator.py")]
     return sha256_of_sources(package, files, version("numba"))
 
 
@@ -86,13 +87,14 @@ def _compile(say: Callable[[str], None]) -> None:
 
 
 def compile_mechanisms() -> None:
-    """Compile the search for pulses, the integration of mechanisms, and spectra."""
+    """Compile the search for pulses, the integration of mechanisms, filters and spectra."""
     record = _record()
     block = Block(2.0, 0.2)
     integrate(block, record)
     integrate_members(block, record, Members([1.0]))
     extract_pulses(record)
     record.spectrum()
+    process(record, Processing(high_pass=0.5))
 
 
 def compile_blocks() -> None:

@@ -150,14 +150,13 @@ def _butterworth(
     values: np.ndarray, time_step: float, kind: str, corner: float, order: int, margin: int
 ) -> np.ndarray:
     """Return `values` (n,) run both ways through a filter, its end values continued over `margin` samples."""
-    from scipy import signal  # takes half a second to import, and no record that is only read needs it
+    from rocking.records.butterworth import run_both_ways  # numba takes long to import
 
     nyquist = 0.5 / time_step
     if not corner < nyquist:
         raise RecordError(f"the {kind} corner is {corner!r} Hz, but must be below {nyquist:g} Hz (Nyquist).")
-    sections = signal.butter(order, corner / nyquist, kind, output="sos")
     whole = np.pad(values, margin, mode="edge")
-    filtered: np.ndarray = signal.sosfiltfilt(sections, whole, padtype=None)
+    filtered = run_both_ways(whole, order, corner / nyquist, passes_high=kind == "highpass")
     return filtered[margin : margin + values.size]
 
 

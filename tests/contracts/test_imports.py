@@ -34,7 +34,14 @@ FLOORS = [
 ONLY_IN = {
     "pydantic": ("described.py",),
     "obspy": ("records/",),
-    "numba": ("motion/", "pulses/", "sine_pulse/", "contacts/", "records/oscillator.py"),
+    "numba": (
+        "motion/",
+        "pulses/",
+        "sine_pulse/",
+        "contacts/",
+        "records/butterworth.py",
+        "records/oscillator.py",
+    ),
     "matplotlib": ("reports/",),
     "typst": ("reports/",),
     "snakemake": ("study/",),
