@@ -114,31 +114,42 @@ def conclusions(verdicts: Iterable[VerdictRow], comparison: Iterable[ComparisonR
     return sorted(made, key=lambda each: each.severity, reverse=True)
 
 
-def conclusion_in_words(words: Mapping[str, Verdict]) -> str:
-    """Return the sentence on all structures, by name the word of each: "4 of 12 structures overturn or probably do."
+def worst_of_each(made: Iterable[Conclusion]) -> list[Conclusion]:
+    """Return of each structure the conclusion under its worst record, the worst first."""
+    worst: dict[str, Conclusion] = {}
+    for each in sorted(made, key=lambda each: each.severity, reverse=True):
+        worst.setdefault(each.structure, each)
+    return list(worst.values())
+
+
+def conclusion_in_words(words: Mapping[str, Verdict], records: int = 1) -> str:
+    """Return the sentence on all structures, by name the worst word of each: "4 of 12 structures overturn …".
+
+    records: under which that is.
 
     >>> from rocking.assessment.conclusion import conclusion_in_words
     >>> from rocking.assessment.decide import Verdict
     >>> conclusion_in_words({"pier": Verdict.OVERTURNS, "wall": Verdict.STANDS, "spire": Verdict.CANNOT_BE_TOLD})
     '1 of 3 structures overturns or probably does; 1 cannot be told.'
-    >>> conclusion_in_words({"pier": Verdict.STANDS, "wall": Verdict.STANDS})
-    'All 2 structures stand.'
+    >>> conclusion_in_words({"pier": Verdict.STANDS, "wall": Verdict.STANDS}, records=7)
+    'All 2 structures stand under every record.'
     >>> conclusion_in_words({"pier": Verdict.UNCERTAIN})
     'pier is uncertain.'
     """
     every = len(words)
+    some = " under some record" if records > 1 else ""
+    each = " under every record" if records > 1 else ""
     if every <= 1:
-        return (
-            "".join(f"{name} {word.predicate}." for name, word in words.items())
-            or "No structure was assessed."
-        )
+        said = (f"{name} {word.predicate}{each if word.stays_up else some}." for name, word in words.items())
+        return next(said, "No structure was assessed.")
     if all(word.stays_up for word in words.values()):
-        return f"All {every} structures stand."
+        return f"All {every} structures stand{each}."
     falling = sum(word in FALLING for word in words.values())
     untold = sum(word is Verdict.CANNOT_BE_TOLD for word in words.values())
     of_them = f"All {every}" if falling == every else f"{falling or 'None'} of {every}"
     does = "overturns or probably does" if falling <= 1 else "overturn or probably do"
-    return f"{of_them} structures {does}" + (f"; {untold} cannot be told." if untold else ".")
+    under = some.replace("some", "any") if not falling else some
+    return f"{of_them} structures {does}{under}" + (f"; {untold} cannot be told." if untold else ".")
 
 
 def _or_least(value: float) -> float:

@@ -14,7 +14,7 @@ from pathlib import Path
 from threading import Thread
 from typing import Any, TextIO
 
-from rocking.assessment.rows import FailureRow, VerdictRow
+from rocking.assessment.rows import ComparisonRow, FailureRow, VerdictRow
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted, shown
 from rocking.study import close_doors
@@ -22,7 +22,7 @@ from rocking.study.folder import REMEMBERED, locked, new_log
 from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_plan, workflow_folder
 from rocking.study.settings import named_files
 from rocking.study.terminal import Progress, closing_lines, fitting, paths_to_read
-from rocking.tables import read_table
+from rocking.tables import read_rows, read_table
 
 _LOCK = REMEMBERED / "rocking_run.lock"
 """Held by the process that schedules the jobs of a study, in the folder of the study."""
@@ -118,7 +118,8 @@ def _told_of(results: Path) -> int:
     """Tell what came of a whole study, and return the exit status."""
     failures = read_table(FailureRow, results / "summary")
     verdicts = read_table(VerdictRow, results / "summary")
-    for line in (*closing_lines(verdicts, failures), *paths_to_read(results, verdicts)):
+    comparison = read_rows(ComparisonRow, results / "summary" / ComparisonRow.table.file_name)
+    for line in (*closing_lines(verdicts, comparison, failures), *paths_to_read(results, verdicts)):
         print(fitting(line, sys.stdout))
     return int(bool(failures))
 

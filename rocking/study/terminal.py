@@ -1,6 +1,7 @@
 """The words of a run: its progress, which jobs send as JSON lines, and the outcome of the records."""
 
 import json
+import math
 import os
 import sys
 import tempfile
@@ -9,23 +10,27 @@ from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from textwrap import wrap
 from threading import Thread
 from types import TracebackType
 from typing import BinaryIO, TextIO
 
 from rocking.assessment.case import SceneResult
+from rocking.assessment.conclusion import conclusion_in_words, conclusions, worst_of_each
 from rocking.assessment.decide import ORDER, worst_first
-from rocking.assessment.rows import FailureRow, VerdictRow, worst_period_each
+from rocking.assessment.rows import ComparisonRow, FailureRow, VerdictRow
 from rocking.assessment.verdict import rocks
 from rocking.errors import RecordError, RockingError, log_fault
 from rocking.quantities import counted, escaped
 from rocking.study.folder import new_log
 from rocking.tables import read_table
 
-_MOST = 6
-"""Rows of a list at the end; a screen should hold it beside the lines of a dozen records."""
-_FEW = 3
-"""Structures of one verdict between standing and overturning that the line of a record names; of more the number."""
+_WORST = 5
+"""Structures of the table at the end."""
+_NAMED = 8
+"""Names of a list; a line is to be read at a glance."""
+_WIDTH = 104
+"""Characters of a line at the end."""
 _PIPE = "ROCKING_PROGRESS"
 """The variable of the environment that names the pipe from the jobs to the one who waits."""
 _LOGS: list[Path] = []
@@ -38,7 +43,8 @@ def record_line(scenes: Iterable[SceneResult], failures: Iterable[FailureRow]) -
     """Say in one line what came of a record: "overturns: pier (100 %); uncertain: wall (19 %); stands: arch 0.31".
 
     The numbers are the shares that overturn, or of what stands the largest rotation over the critical one of the worst
-    component. What could not be assessed comes first. Structures on supports stand at the end in a sentence each.
+    component. What could not be assessed comes first. Structures on supports stand at the end in a sentence each. At
+    most _NAMED are named, the worst first.
     """
     reasons = ((f"{each.structure}: " if each.structure else "") + each.message for each in failures)
     parts: dict[str, list[str]] = {"failed": [" ".join(reasons)], **{word: [] for word in ORDER}}
@@ -53,38 +59,85 @@ def record_line(scenes: Iterable[SceneResult], failures: Iterable[FailureRow]) -
         divided = "," in each.structure or ";" in each.structure
         name = f'"{each.structure}"' if divided else each.structure
         parts[decision.word].append(name + number)
-    for word in ORDER:
-        if not word.is_sure and len(parts[word]) > _FEW:
-            parts[word] = [str(len(parts[word])), f"in {VerdictRow.table.file_name}"]
+    left = _NAMED
+    for word, names in parts.items():
+        if word != "failed" and len(names) > left:
+            count = len(names) - left
+            parts[word] = [*names[:left], f"{count} more" if left else str(count)]
+        left = max(0, left - len(names)) if word != "failed" else left
     lines = [f"{word}: {text}" for word, names in parts.items() if (text := ", ".join(names))]
-    return "; ".join([*lines, *(scene.sentence for scene in scenes if scene.scene.place.supports)])
+    carried = [scene.sentence for scene in scenes if scene.scene.place.supports]
+    if len(carried) > left:
+        more = counted(len(carried) - left, "structure")
+        carried[left:] = [f"{more}{' more' if left else ''} on supports, in {VerdictRow.table.file_name}"]
+    return "; ".join([*lines, *carried])
 
 
-def closing_lines(verdicts: Sequence[VerdictRow], failures: Iterable[FailureRow]) -> Iterator[str]:
-    """Yield a table of the structures that do not stand everywhere: a count for each verdict, and names of records.
+# Whole on purpose: the lines of a screen, from the first to the last.
+def closing_lines(
+    verdicts: Sequence[VerdictRow], comparison: Iterable[ComparisonRow], failures: Iterable[FailureRow]
+) -> Iterator[str]:
+    """Yield the conclusion on all structures, the worst with closed form, block and integration, and the others' words.
 
-    Below it stand the records that failed.
+    Below them stand what the closed form saw of the falls, and the records that failed. comparison: is gone through
+    once, and not kept.
     """
-    doubtful = [each for each in worst_period_each(verdicts) if not each.decision.word.stays_up]
-    of_all = Counter(each.structure for each in doubtful)
-    counts = Counter((each.structure, each.decision.word) for each in doubtful)
-    words = [word for word in ORDER if any(counts[name, word] for name in of_all)]
-    ordered = sorted(of_all, key=lambda name: [-counts[name, word] for word in words])
-    records = counted(len({each.record for each in verdicts}), "record")
-    if ordered:
-        width = max(9, *map(len, ordered[:_MOST]))
-        yield f"Of {records}:"
-        yield f"  {'':<{width}}  {'  '.join(words)}  records, the worst first"
-        for name in ordered[:_MOST]:
-            names = ", ".join(each.record for each in doubtful if each.structure == name)
-            numbers = "  ".join(f"{counts[name, word]:>{len(word)}}" for word in words)
-            yield f"  {name:<{width}}  {numbers}  {names}"
-        if len(ordered) > _MOST:
-            yield f"  and {counted(len(ordered) - _MOST, 'more structure')}, in {VerdictRow.table.file_name}"
-    elif verdicts:
-        yield f"Every structure stands under {records}."
+    worst = worst_of_each(conclusions(verdicts, []))
+    records = len({each.record for each in verdicts})
+    shown = {(each.verdict.record, each.structure): each for each in worst[:_WORST]}
+    of_shown: list[ComparisonRow] = []
+    seen = false = 0
+    missed: Counter[str] = Counter()
+    for row in comparison:
+        if (row.record, row.structure) in shown:
+            of_shown.append(row)
+        predicted = row.predicted_rotation_ratio
+        integrated = row.integrated_rotation_ratio
+        if not (math.isnan(predicted) or math.isnan(integrated)):
+            seen += predicted == integrated == math.inf
+            missed[row.record] += predicted < integrated == math.inf
+            false += integrated < predicted == math.inf
+    if worst:
+        words = {each.structure: each.decision.word for each in worst}
+        count = f"{counted(records, 'record')}, {counted(len(worst), 'structure')}"
+        yield f"{count}. {conclusion_in_words(words, records)}"
+        yield "Largest rotation, 1 = critical, of the worst, each under its worst record:"
+        yield f"{'':<17}  {'record':<22}  closed form   block  integrated  members that overturn"
+    own = (row for row in verdicts if (row.record, row.structure) in shown)
+    for each in conclusions(own, of_shown):
+        ratios = [_rotation(ratio) for ratio in (each.closed_form, each.block, each.integrated)]
+        marks = "  ".join(f"{text:>{width}}" for text, width in zip(ratios, (11, 6, 10), strict=True))
+        share = f"{each.decision.word} {each.decision.share_in_words}".rstrip()
+        yield f"{_cut(each.structure, 17):<17}  {_cut(each.verdict.record, 22):<22}  {marks}  {share}"
+    others: dict[str, list[str]] = {}
+    for each in worst[_WORST:]:
+        others.setdefault(each.decision.word, []).append(_cut(each.structure, 30))
+    if others:
+        text = "; ".join(f"{word}: {_few(names)}" for word, names in others.items())
+        yield from wrap(text, _WIDTH, initial_indent="Others  ", subsequent_indent=" " * 8)
+    if falls := seen + missed.total():
+        most, count_of_most = missed.most_common(1)[0]
+        where = f" ({count_of_most} of them in {_cut(most, 24)})" if records > 1 and count_of_most else ""
+        found = f"{seen} of {counted(falls, 'fall')} seen, {missed.total()} missed{where}"
+        yield f"Closed form against integration: {found}, {counted(false, 'false alarm')}"
     if failed := sorted({failure.record for failure in failures}):
-        yield f"{counted(len(failed), 'record')} failed, wholly or in part: {', '.join(failed)}"
+        yield f"{counted(len(failed), 'record')} failed, wholly or in part: {_few(failed)}"
+
+
+def _rotation(ratio: float) -> str:
+    """A rotation ratio in a column: "0.44", "falls", or a dash."""
+    return "–" if math.isnan(ratio) else "falls" if ratio == math.inf else f"{ratio:.2f}"
+
+
+def _cut(name: str, width: int) -> str:
+    """The name, with an ellipsis where it is longer than `width`."""
+    return name if len(name) <= width else f"{name[: width - 1]}…"
+
+
+def _few(names: Sequence[str]) -> str:
+    """The first names in a row, and how many there are more."""
+    more = len(names) - _NAMED
+    return ", ".join(names[:_NAMED]) + (f" and {counted(more, 'other')}" if more > 0 else "")
 
 
 def check_any_read(summary: Path, records: Collection[str]) -> None:
@@ -101,11 +154,15 @@ def check_any_read(summary: Path, records: Collection[str]) -> None:
 def paths_to_read(results: Path, verdicts: Iterable[VerdictRow]) -> Iterator[str]:
     """Yield a line for each of the files that come next for a reader, the report of the worst record among them."""
     summary = results / "summary"
-    yield from (f"Page to explore: {page}" for page in sorted(summary.glob("*.html")))
-    yield f"Summary: {report if (report := summary / 'summary.pdf').is_file() else summary}"
     records = worst_first((each.record, each.decision) for each in verdicts)
-    if records and (report := results / records[0] / "report.pdf").is_file():
-        yield f"Report of the worst record: {report}"
+    report = summary / "summary.pdf"
+    files = {report if report.is_file() else summary: "all records"}
+    if records and (of_worst := results / records[0] / "report.pdf").is_file():
+        files[of_worst] = "every structure under the worst record"
+    files |= dict.fromkeys(sorted(summary.glob("*.html")), "to explore")
+    width = max(len(str(path)) for path in files)
+    for path, what in files.items():
+        yield f"{'Open' if path in (report, summary) else '':<8}{path!s:<{width}}  {what}"
 
 
 class Progress:

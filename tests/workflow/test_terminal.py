@@ -23,7 +23,7 @@ def test_a_record_that_failed_has_its_line_and_ends_in_status_1_after_the_table(
     lines = [line for line in done.stdout.splitlines() if line.startswith(("broken", "good_"))]
     assert [line.partition(":")[0] for line in lines] == ["broken"], "the others were there already"
     assert "failed: " in lines[0] and "no reader recognises" in lines[0]
-    for text in ("Of 3 records:", "1 record failed, wholly or in part: broken", f"Summary: {log.parents[1]}"):
+    for text in ("3 records, ", "1 record failed, wholly or in part: broken", f"Open    {log.parents[1]}"):
         assert text in done.stdout
     assert not done.stderr and "\r" not in done.stdout and "jobid" not in done.stdout
     assert len(done.stdout.splitlines()) < 24

@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 
 from rocking.assessment.case import SceneResult, StationResult
+from rocking.assessment.rows import ComparisonRow
 from rocking.study import terminal
 from rocking.study.terminal import Progress, closing_lines, line_writer, paths_to_read, record_line
-from tests.unit.assessment.made_rows import broken, case, failure, station, verdicts
+from tests.unit.assessment.made_rows import broken, case, compared, failure, station, verdicts
 
 
 def alone(*stations: StationResult) -> list[SceneResult]:
@@ -38,11 +39,14 @@ def test_what_is_not_sure_is_ordered_by_share_and_counted_where_there_is_much_of
     ]
     line = record_line(alone(*stations), [])
     assert line == "probably overturns: wall (94\u00a0%); probably stands: pier (8\u00a0%); stands: arch 0.25"
-    many = [station(case("EW", 0.25, f"pier {number}", falls=5)) for number in range(7)]
-    line = record_line(alone(*stations, *many), [])
-    assert (
-        line == "probably overturns: wall (94\u00a0%); probably stands: 8, in verdicts.csv; stands: arch 0.25"
-    )
+
+
+def test_a_line_names_eight_structures_at_most_and_counts_the_others() -> None:
+    many = [station(case("EW", 0.25, f"pier {number}", falls=5)) for number in range(20)]
+    stands = [station(case("EW", 0.25, "arch", falls=0)), station(case("EW", 0.25, "wall", falls=64))]
+    line = record_line(alone(*many, *stands), [])
+    assert line.count("pier") == 7 and "pier 6 (8\u00a0%), 13 more; stands: 1" in line
+    assert line.startswith("overturns: wall (100\u00a0%); probably stands: pier 0")
 
 
 def test_a_failure_stands_first_without_repeating_the_record() -> None:
@@ -51,37 +55,75 @@ def test_a_failure_stands_first_without_repeating_the_record() -> None:
     assert line == "failed: wall: it cannot stand. it cannot be read.; uncertain: pier (one run)"
 
 
-def test_the_table_at_the_end_counts_each_verdict_apart() -> None:
+def compared_as(station_: StationResult, record: str, predicted: float) -> list[ComparisonRow]:
+    """Rows of the comparison of a station, the closed form beside what was integrated."""
+    return [
+        compared(
+            name,
+            each.integrated_rotation_ratio,
+            station_.structure,
+            record=record,
+            predicted_rotation_ratio=predicted,
+        )
+        for name, each in station_.cases.items()
+    ]
+
+
+def test_the_end_says_the_conclusion_the_worst_five_by_every_method_and_what_the_closed_form_saw() -> None:
     first = [station(case("EW", math.inf, falls=60)), station(case("EW", math.inf, "wall", falls=64))]
     second = [
         station(case("EW", math.inf, falls=64)),
         station(case("EW", 0.1, "wall", falls=0)),
-        station(case("EW", 0.1, "arch", falls=0)),
+        *(station(case("EW", 0.1, f"arch {number}", falls=0)) for number in range(12)),
     ]
     rows = [*verdicts(first, "a"), *verdicts(second, "b")]
-    lines = list(closing_lines(rows, [failure("", "", "not read.", "c")]))
-    assert lines[1].split() == ["overturns", "probably", "overturns", "records,", "the", "worst", "first"]
-    assert [line.split() for line in lines[2:4]] == [["pier", "1", "1", "b,", "a"], ["wall", "1", "0", "a"]]
-    assert lines[4:] == ["1 record failed, wholly or in part: c"]
+    comparison = [
+        *compared_as(first[0], "a", math.inf),
+        *compared_as(first[1], "a", 0.44),
+        *compared_as(second[0], "b", 0.2),
+        *compared_as(second[1], "b", math.inf),
+    ]
+    lines = list(closing_lines(rows, comparison, [failure("", "", "not read.", "c")]))
+    assert (
+        lines[0] == "2 records, 14 structures. 2 of 14 structures overturn or probably do under some record."
+    )
+    table = {line[:17].strip(): line[17:].split() for line in lines[3:8]}
+    assert table["wall"] == ["a", "0.44", "–", "falls", "overturns", "100", "%"]
+    assert table["pier"] == ["b", "0.20", "–", "falls", "overturns", "100", "%"]
+    assert len(table) == 5
+    assert lines[8].startswith("Others  stands: arch ") and lines[8].endswith(" and 1 other")
+    closed_form = (
+        "Closed form against integration: 1 of 3 falls seen, 2 missed (1 of them in a), 1 false alarm"
+    )
+    assert lines[-2:] == [closed_form, "1 record failed, wholly or in part: c"]
+    assert max(map(len, lines)) <= 104
+
+
+def test_lines_at_the_end_are_no_wider_than_104_letters_whatever_the_names() -> None:
+    names = [f"the structure {number} of the north transept, its upper gallery, west" for number in range(30)]
+    stations = [station(case("EW", math.inf, name, falls=60)) for name in names]
+    record = "a record whose name is longer than any column has room for, by far"
+    comparison = [row for each in stations for row in compared_as(each, record, 0.1)]
+    lines = list(closing_lines(verdicts(stations, record), comparison, []))
+    assert max(map(len, lines)) <= 104 and len(lines) < 16
 
 
 def test_nothing_overturns() -> None:
     stands = verdicts([station(case("", 0.1, falls=0))])
-    assert list(closing_lines(stands, [])) == ["Every structure stands under 1 record."]
+    assert next(closing_lines(stands, [], [])) == "1 record, 1 structure. pier stands."
     unknown = verdicts([station(broken(""))])
-    assert list(closing_lines(unknown, []))[2].split() == ["pier", "1", "a"]
+    assert list(closing_lines(unknown, [], []))[3].split()[:2] == ["pier", "a"]
+    assert list(closing_lines([], [], [])) == []
 
 
 def test_the_paths_are_those_that_exist(tmp_path: Path) -> None:
     summary = tmp_path / "summary"
     summary.mkdir()
-    assert list(paths_to_read(tmp_path, [])) == [f"Summary: {summary}"]
+    assert [line.split("  ")[:3:2] for line in paths_to_read(tmp_path, [])] == [["Open", f"{summary}"]]
     for name in ("summary.pdf", "explore.html"):
         (summary / name).touch()
-    assert list(paths_to_read(tmp_path, [])) == [
-        f"Page to explore: {summary / 'explore.html'}",
-        f"Summary: {summary / 'summary.pdf'}",
-    ]
+    lines = [line[8:].split("  ")[0] for line in paths_to_read(tmp_path, [])]
+    assert lines == [str(summary / "summary.pdf"), str(summary / "explore.html")]
 
 
 def test_what_is_sent_stands_in_the_log_and_on_the_terminal(tmp_path: Path) -> None:
