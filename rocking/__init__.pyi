@@ -56,6 +56,8 @@ from .sine_pulse import overturning_margins as overturning_margins
 from .sine_pulse import predict_maxima as predict_maxima
 from .sine_pulse import predict_maximum as predict_maximum
 from .sine_pulse import printed_maximum as printed_maximum
+from .strengthening import Strengthening as Strengthening
+from .strengthening import strengthen as strengthen
 from .structures import Arch as Arch
 from .structures import ArchOnPiers as ArchOnPiers
 from .structures import Block as Block

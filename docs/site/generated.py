@@ -96,7 +96,7 @@ TOPICS = {
     "structures": ("structures", "floors"),
     "pulses": ("pulses", "sine_pulse"),
     "motion": ("motion", "contacts"),
-    "assessment": ("assessment", "codes", "fragility"),
+    "assessment": ("assessment", "codes", "fragility", "strengthening"),
     "studies": ("study", "reports", "remarks", "errors"),
 }
 """Page of the Python names: the parts of the package from which they come."""

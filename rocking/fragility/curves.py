@@ -415,8 +415,11 @@ def fragility(
     return analysis.fragility(threshold, governing=True)
 
 
-def _checked_stations(records: Sequence[Accelerogram], stations: Sequence[str] | None) -> tuple[str, ...]:
-    """The stations, those of the records by default. Raises ConfigurationError for fewer than two."""
+def station_names(records: Sequence[Accelerogram], stations: Sequence[str] | None) -> tuple[str, ...]:
+    """Return what counts as one independent record, (r,): the stations, by default the event and station of each.
+
+    A record that names neither counts by itself. Raises ConfigurationError unless there is one name a record.
+    """
     if stations is None:
         names = (f"{record.event}; {record.station}" for record in records)
         stations = [f"record {place}" if name == "; " else name for place, name in enumerate(names)]
@@ -424,11 +427,17 @@ def _checked_stations(records: Sequence[Accelerogram], stations: Sequence[str] |
         raise ConfigurationError(
             f"stations names {len(stations)}, but must name one for each of {len(records)} records."
         )
-    if len(set(stations)) < 2:
-        raise ConfigurationError(
-            f"the records come from {len(set(stations))} station, but a fragility needs at least 2; add records."
-        )
     return tuple(map(str, stations))
+
+
+def _checked_stations(records: Sequence[Accelerogram], stations: Sequence[str] | None) -> tuple[str, ...]:
+    """The stations, those of the records by default. Raises ConfigurationError for fewer than two."""
+    names = station_names(records, stations)
+    if len(set(names)) < 2:
+        raise ConfigurationError(
+            f"the records come from {len(set(names))} station, but a fragility needs at least 2; add records."
+        )
+    return names
 
 
 def _rotation_ratios(

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from rocking.pulses import Pulse, PulseAnalysis
     from rocking.records.accelerogram import Accelerogram
     from rocking.records.measures import ResponseSpectrum
+    from rocking.strengthening import Strengthening
     from rocking.structures import Mechanism, Structure
     from rocking.structures.capacity import CapacityCurve
 
@@ -349,6 +350,31 @@ def _set_over_periods(axes: Axes, quantity: str) -> None:
     axes.legend()
 
 
+def _plot_strengthening(strengthening: "Strengthening", axes: Axes) -> None:
+    """The share that overturns over the value with its bounds, the target, and the value that can be shown to hold."""
+    outward = strengthening.field.outward
+    tried = strengthening.tried
+    values = [outward(each.value) for each in tried]
+    low, high = zip(*(each.interval for each in tried), strict=True)
+    label = f"share of {len(strengthening.stations)} stations"
+    axes.fill_between(
+        values, low, high, color="C0", alpha=0.2, linewidth=0, label="one-sided 90 % bounds, by station"
+    )
+    axes.plot(values, [each.share for each in tried], ".-", color="C0", linewidth=0.9, label=label)
+    axes.axhline(strengthening.target, color="0.4", linestyle=":", label=f"target {strengthening.target:.0%}")
+    if strengthening.chosen is not None:
+        shown_to_hold = f"shown to hold: {strengthening.as_typed(strengthening.value)}"
+        axes.axvline(outward(strengthening.value), color="C2", label=shown_to_hold)
+    if not math.isnan(strengthening.static_tie):
+        of_code = f"linear check: {strengthening.as_typed(strengthening.static_tie)}"
+        axes.axvline(outward(strengthening.static_tie), color="C3", linestyle="--", label=of_code)
+    plain_logarithmic(axes, "x")
+    axes.set_ylim(-0.02, 1.02)
+    unit = f" [{strengthening.field.unit}]"
+    axes.set(xlabel=strengthening.key.replace("_", " ") + unit, ylabel="share that overturns [-]")
+    axes.legend()
+
+
 def _plot_response_spectrum(spectrum: "ResponseSpectrum", axes: Axes) -> None:
     """The pseudo-acceleration over the undamped period."""
     axes.plot(
@@ -385,6 +411,7 @@ _PLOTS: dict[str, Callable[..., None]] = {
     "Mechanism": _plot_mechanism,
     "CapacityCurve": _plot_capacity,
     "Selection": _plot_selection,
+    "Strengthening": _plot_strengthening,
     "Structure": _plot_structure,
 }
 """The drawings by the name of the class: importing the classes costs whoever draws a record the kernels of motion."""

@@ -28,6 +28,7 @@ FLOORS = [
     {"contacts"},
     {"assessment"},
     {"codes", "fragility"},
+    {"strengthening"},
     {"reports"},
     {"study"},
 ]

@@ -1,0 +1,480 @@
+"""What holds it: the smallest tie, thickness or load that can be shown to hold under records, by dynamics.
+
+The rule is fixed before anything is followed: the smallest of GRID values such that at it and at all larger ones the
+upper bound of the share that overturns, by station, is at or below the target. The least value at which the records at
+hand show a share below the target would only just hold on them, and fail on others.
+"""
+
+import math
+import os
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.special import betaincinv, stdtrit
+
+from rocking.assessment.assessor import Assessor
+from rocking.assessment.component import Component, HorizontalMotion
+from rocking.assessment.scene import Scene
+from rocking.assessment.settings import AssessmentSettings
+from rocking.codes.check import CodeTerms
+from rocking.codes.design_spectrum import DesignSpectrum
+from rocking.codes.static_check import kinematic_check
+from rocking.drawn import Drawn
+from rocking.errors import ConfigurationError, DoesNotStandError, RockingError, StructureError
+from rocking.fragility.curves import station_names
+from rocking.quantities import counted, finite, kind_of, percent, shown
+from rocking.records import Accelerogram
+from rocking.structures import Structure, structure_from_config
+from rocking.structures.fields import Field, article
+from rocking.structures.structure_list import nearest
+
+GRID = 15
+"""Values that are tried, in equal ratios from end to end of the range."""
+CONFIDENCE = 0.9
+"""Of the one-sided bounds of a share."""
+LEAST_STATIONS = 6
+"""Stations below which nothing is said."""
+RISES = 0.99
+"""Confidence at which a share is said to rise with the value: one-sided, by the differences of the stations."""
+_MOST_NEEDED = 10_000
+"""Stations up to which it is said how many are needed."""
+_TIE = "tie_strength"
+
+
+def share_bounds(falls: float, stations: int) -> tuple[float, float]:
+    """Return the lower and the upper one-sided 90 % bound of a share (Jeffreys), of which `falls` may be a fraction.
+
+    The lower one is 0 where nothing falls, the upper one 1 where everything does.
+    """
+    stands = stations - falls
+    low = float(betaincinv(falls + 0.5, stands + 0.5, 1 - CONFIDENCE)) if falls > 0 else 0.0
+    high = float(betaincinv(falls + 0.5, stands + 0.5, CONFIDENCE)) if stands > 0 else 1.0
+    return low, high
+
+
+def stations_needed(share: float, target: float) -> float:
+    """Return the number of stations from which on the upper bound of this `share` is at or below the target.
+
+    nan where more than 10 000 are needed, as where the share is not below the target.
+    """
+    numbers = np.arange(1, _MOST_NEEDED + 1)
+    bounds = betaincinv(share * numbers + 0.5, (1 - share) * numbers + 0.5, CONFIDENCE)
+    too_few = np.flatnonzero(bounds > target)
+    needed = int(too_few[-1]) + 2 if too_few.size else 1
+    return float(needed) if needed <= _MOST_NEEDED and share < target else math.nan
+
+
+@dataclass(frozen=True, eq=False)
+class Tried:
+    """One value that was tried.
+
+    value: in SI; nan where the structure states none. shares: (n,) of each station, the mean over its components of the
+    members that overturn; what cannot be told counts as 1. governing: what overturns most often, or turns where nothing
+    does; "" of a structure with one mechanism. untold: components under which it cannot be told.
+    """
+
+    value: float
+    shares: np.ndarray
+    governing: str = ""
+    untold: int = 0
+
+    @property
+    def share(self) -> float:
+        """The mean over the stations."""
+        return float(self.shares.mean())
+
+    @cached_property
+    def interval(self) -> tuple[float, float]:
+        """The one-sided 90 % bounds of the share, each by itself."""
+        return share_bounds(float(self.shares.sum()), self.shares.size)
+
+    @property
+    def in_words(self) -> str:
+        """The share with its bounds: "3 % (1–8 %)"."""
+        low, high = self.interval
+        return f"{percent(self.share)}\u00a0% ({percent(low)}–{percent(high)}\u00a0%)"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Strengthening(Drawn):
+    """The smallest value of one size of a structure that can be shown to hold, and what was tried.
+
+    field: of the structure. target: share that overturns at the most. stations: (n,) names. tried: the values, smallest
+    first. given: the structure as it was given. static_tie: the least strength of a tie by the linear check of the
+    code, N/m; nan of another size, and where none of the range is enough. `plot` draws the share over the value with
+    its bounds.
+
+    >>> step = 0.01 * np.arange(600)
+    >>> pulses = [rocking.Pulse(3.0, omega, 0.5) for omega in np.linspace(4.0, 8.0, 30)]
+    >>> records = [rocking.Accelerogram(pulse.acceleration(step), 0.01) for pulse in pulses]
+    >>> parapet = rocking.Block.of_size(breadth=0.25, height=2.0)
+    >>> held = rocking.strengthen(records, parapet, "breadth", between=(0.25, 1.5))
+    >>> round(held.value, 2), round(held.share, 3), held.monotone
+    (0.54, 0.015, True)
+    """
+
+    field: Field
+    target: float
+    stations: tuple[str, ...]
+    tried: tuple[Tried, ...]
+    given: Tried
+    static_tie: float = math.nan
+
+    @property
+    def key(self) -> str:
+        """The name of the size."""
+        return self.field.name
+
+    @cached_property
+    def chosen(self) -> Tried | None:
+        """What was tried with the value that can be shown to hold; None where none can."""
+        place = self._place
+        return None if place is None else self.tried[place]
+
+    @cached_property
+    def _place(self) -> int | None:
+        place = len(self.tried)
+        while place > 0 and self.tried[place - 1].interval[1] <= self.target:
+            place -= 1
+        return place if place < len(self.tried) else None
+
+    @property
+    def value(self) -> float:
+        """The smallest that can be shown to hold, as all larger ones can, in SI; nan where none can."""
+        return self.chosen.value if self.chosen else math.nan
+
+    @property
+    def share(self) -> float:
+        """The share that overturns at this value; nan where none can be shown to hold."""
+        return self.chosen.share if self.chosen else math.nan
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Its one-sided 90 % bounds, of which the upper one is at or below the target; nan where there is no value."""
+        return self.chosen.interval if self.chosen else (math.nan, math.nan)
+
+    @property
+    def below(self) -> Tried | None:
+        """What was tried one step below the value; None where there is no value, or no step below it."""
+        return self.tried[self._place - 1] if self._place else None
+
+    @property
+    def needed_stations(self) -> float:
+        """About how many stations show a share as at the value, or at the largest one where none can be shown.
+
+        nan where the share there is not below the target, so that no number of stations shows it.
+        """
+        return stations_needed((self.chosen or self.tried[-1]).share, self.target)
+
+    @property
+    def monotone(self) -> bool:
+        """Whether no larger value overturns more than a smaller one, beyond what the stations leave to chance."""
+        return math.isnan(self.harmful)
+
+    @cached_property
+    def harmful(self) -> float:
+        """The value at which the share has risen most above that of a smaller one, in SI; nan where it does not rise.
+
+        It rises where the mean of the differences of the stations is above 0 with a confidence of 99 %.
+        """
+        worst = 0.0
+        found = math.nan
+        least = self.tried[0]
+        limit = stdtrit(len(self.stations) - 1, RISES)
+        for each in self.tried[1:]:
+            rises = each.shares - least.shares
+            rise = float(rises.mean())
+            if rise > worst and rise > limit * rises.std(ddof=1) / math.sqrt(rises.size):
+                worst = rise
+                found = each.value
+            if each.share < least.share:
+                least = each
+        return found
+
+    def as_typed(self, value: float) -> str:
+        """Return a value in the unit of a list of structures, with it: "12 kN/m"."""
+        return f"{self.field.outward(value):.3g}{self.field.suffix}"
+
+    @property
+    def words(self) -> str:
+        """What was found, in sentences."""
+        stations = counted(len(self.stations), "station")
+        target = f"{percent(self.target)}\u00a0%"
+        first = self.tried[0]
+        last = self.tried[-1]
+        as_given = self.given.in_words
+        if self.given.governing:
+            as_given += f", mostly {self.given.governing}"
+        if self.chosen is None:
+            told = (
+                f"{self.key}: no value from {self.as_typed(first.value)} to {self.as_typed(last.value)} can be shown "
+                f"to keep the share that overturns at or below {target}: at the largest one it is {last.in_words}, one "
+                f"step below it, {self.as_typed(self.tried[-2].value)}, {self.tried[-2].in_words}; {stations}, "
+            )
+            needed = self.needed_stations
+            told += "give larger values" if math.isnan(needed) else f"about {needed:.0f} are needed"
+        else:
+            told = (
+                f"{self.key}: {self.as_typed(self.value)} can be shown to hold, as all larger values can: "
+                f"{self.chosen.in_words} overturn by {stations}, against a target of {target}"
+            )
+            if self.chosen.governing:
+                told += f", what is left mostly {self.chosen.governing}"
+            if self.below:
+                told += f"; one step below, {self.as_typed(self.below.value)}, {self.below.in_words}"
+            else:
+                told += "; every value of the range holds, so that smaller ones may, too: give them"
+        sentences = [f"{told}", f"As given {as_given} overturn"]
+        if not self.monotone:
+            sentences.append(
+                f"A larger value harms: more overturn at {self.as_typed(self.harmful)} than below it"
+            )
+        if untold := (self.chosen or last).untold:
+            sentences.append(
+                f"Under {counted(untold, 'component')} it cannot be told, which counts as overturning"
+            )
+        if not math.isnan(self.static_tie):
+            sentences.append(f"The linear check of the code asks for {self.as_typed(self.static_tie)}")
+        return ". ".join(sentences) + "."
+
+    def __repr__(self) -> str:
+        return f"<{self.words}>"
+
+
+def strengthen(
+    records: Sequence[Accelerogram],
+    structure: Structure,
+    key: str,
+    *,
+    between: tuple[float, float],
+    target: float = 0.10,
+    stations: Sequence[str] | None = None,
+) -> Strengthening:
+    """Return the smallest value of `key` that can be shown to hold `structure` under records as they are given.
+
+    15 values between (low, high), in equal ratios, are tried. The one that is returned is the smallest such that at it
+    and at all larger ones the upper one-sided 90 % bound (Jeffreys) of the share that overturns is at or below the
+    target. Each station counts once, with the mean over its components of the members that overturn; one that cannot be
+    told counts as 1, as does a value with which the structure does not stand at rest.
+
+    records: horizontal components, each by itself. key: a length, an angle, a force or a stiffness of the structure, in
+    SI, as its constructor has it: tie_strength [N/m], thickness, breadth, pier_width, top_load. stations: one name a
+    record; None: each record's own event and station. Of a tie's strength the static one stands beside it: the least
+    by the linear check (C8.7.1.2.1.7, q = 2, FC = 1.35) at the mean peak acceleration of the records.
+    Raises ConfigurationError for a key that the structure lacks, a range or a target that is none, fewer than 6
+    stations, and a value with which there is no such structure.
+
+    >>> times = 0.01 * np.arange(600)
+    >>> pulses = [rocking.Pulse(3.0, omega, 0.5) for omega in np.linspace(4.0, 8.0, 6)]
+    >>> records = [rocking.Accelerogram(pulse.acceleration(times), 0.01) for pulse in pulses]
+    >>> few = rocking.strengthen(records, rocking.Block(2.0, 0.2), "breadth", between=(1.0, 3.0))
+    >>> few.value, few.needed_stations
+    (nan, 13.0)
+    """
+    if odd := [each for each in records if not isinstance(each, Accelerogram)]:
+        raise ConfigurationError(f"records hold a {type(odd[0]).__name__}, but must hold accelerograms.")
+    if not isinstance(structure, Structure):
+        raise ConfigurationError(
+            f"structure is {kind_of(structure)}, but must be a structure with sizes, as rocking.Block or "
+            "rocking.Facade."
+        )
+    fields = {each.name: each for each in sizes(structure)}
+    if key not in fields:
+        raise ConfigurationError(
+            f"key is {shown(key)}, but {article(structure.type_name)} has no such size{nearest(key, fields)}; it has "
+            f"{', '.join(fields)}."
+        )
+    return strengthen_scene(records, Scene("structure", structure), fields[key], between, target, stations)
+
+
+def sizes(structure: Structure) -> list[Field]:
+    """Return the fields of a structure that may be varied: those with a unit, and of lists those with one value."""
+    described = structure.described
+    lists = {
+        given.field.name: given.value for given in described.values if isinstance(given.value, list | tuple)
+    }
+    return [
+        each
+        for each in described.form.fields
+        if each.unit
+        and (not isinstance(each.value.example, list | tuple) or len(lists.get(each.name, ())) == 1)
+    ]
+
+
+# Whole on purpose: half of it is what the arguments must not be.
+def strengthen_scene(
+    records: Sequence[Accelerogram],
+    scene: Scene,
+    size: Field,
+    between: tuple[float, float],
+    target: float,
+    stations: Sequence[str] | None = None,
+    settings: AssessmentSettings | None = None,
+    spectrum: DesignSpectrum | None = None,
+    terms: CodeTerms | None = None,
+) -> Strengthening:
+    """Return what `strengthen` does, for a scene: on a support its worst period counts.
+
+    size: one of its `sizes`. between: in SI. settings: of the ensemble, friction and tolerance; no estimate settles a
+    case. spectrum, terms: at which a tie is sized by the code; without a spectrum, the mean peak of the records.
+    """
+    if not (isinstance(between, tuple | list) and len(between) == 2):
+        raise ConfigurationError(f"between is {shown(between)}, but must be two values, the lower one first.")
+    low, high = (finite(ConfigurationError, "between", each) for each in between)
+    if not 0 < low < high:
+        raise ConfigurationError(
+            f"between is {low:g} to {high:g}, but must go from above 0 to a larger value."
+        )
+    if not 0 < finite(ConfigurationError, "target", target) < 1:
+        raise ConfigurationError(
+            f"target is {target:g}, but must be above 0 and below 1: no number of stations shows a share of 0, and "
+            "every value keeps one of 1."
+        )
+    names = station_names(records, stations)
+    number = len(set(names))
+    if number < LEAST_STATIONS:
+        raise ConfigurationError(
+            f"the records come from {counted(number, 'station')}, but at least {LEAST_STATIONS} are needed; add "
+            "records."
+        )
+    settings = settings or AssessmentSettings()
+    if settings.fidelity != "contact":
+        settings = replace(settings, fidelity="auto")
+    settings = replace(settings, fidelity_risk=0.0)
+
+    values = np.geomspace(low, high, GRID).tolist()
+    changed = {f"{value!r}": with_value(scene.structure, size, value) for value in values}
+    scenes = {name: replace(scene, name=name, structure=each) for name, each in changed.items() if each}
+    scenes[""] = replace(scene, name="")
+    outcomes = _follow(records, scenes, settings)
+
+    def tried(value: float, name: str) -> Tried:
+        if name not in scenes:
+            return Tried(value, np.ones(number), "what acts on it at rest")
+        return _tried(value, [each[name] for each in outcomes], names)
+
+    given = {each.field.name: each for each in scene.structure.described.values}.get(size.name)
+    own = math.nan
+    if given is not None:
+        own = float(np.ravel(np.asarray(size.inward(given.value)))[0])
+    made = Strengthening(
+        field=size,
+        target=float(target),
+        stations=tuple(dict.fromkeys(names)),
+        tried=tuple(tried(value, f"{value!r}") for value in values),
+        given=tried(own, ""),
+    )
+    if size.name != _TIE:
+        return made
+    if spectrum is None:
+        peak = float(np.mean([each.peak_acceleration for each in records]))
+        spectrum = DesignSpectrum.ntc(ag=peak, f0=2.5, tc_star=0.5)
+    return replace(made, static_tie=static_tie(scene.structure, size, (low, high), spectrum, terms))
+
+
+def with_value(structure: Structure, size: Field, value: float) -> Structure | None:
+    """Return the structure with another `value` [SI] of one size; None where what acts on it at rest turns it over.
+
+    Raises ConfigurationError where there is no such structure.
+    """
+    is_list = isinstance(size.value.example, list | tuple)
+    outside = size.outward((value,) if is_list else value)
+    try:
+        return structure_from_config({**structure.described.entry, size.key: outside})
+    except DoesNotStandError:
+        return None
+    except StructureError as error:
+        raise ConfigurationError(
+            f"with {size.key} = {size.outward(value):.4g} there is no such structure: {error}"
+        ) from None
+
+
+@dataclass(frozen=True)
+class _Outcome:
+    """The outcome of one component: the share that overturns, nan where it cannot be told, and what governs."""
+
+    share: float
+    governing: str
+
+
+def _follow(
+    records: Sequence[Accelerogram], scenes: dict[str, Scene], settings: AssessmentSettings
+) -> list[dict[str, _Outcome]]:
+    """The outcome of every scene under each record, by name."""
+
+    def under(record: Accelerogram) -> dict[str, _Outcome]:
+        # Pulses are not sought: no closed form is asked for.
+        component = Component(record, None, HorizontalMotion(), None, ())
+        result = Assessor(settings).integrate("", (component,), scenes, {})
+        outcomes = {}
+        for name in scenes:
+            of_scene = result.scenes.get(name)
+            if of_scene is None:
+                outcomes[name] = _Outcome(math.nan, "")
+                continue
+            worst = of_scene.worst
+            governing = worst.ensembles.governing.description if worst.ensembles else ""
+            outcomes[name] = _Outcome(worst.decision.share, governing)
+        return outcomes
+
+    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        return list(pool.map(under, records))
+
+
+def _tried(value: float, outcomes: Sequence[_Outcome], names: Sequence[str]) -> Tried:
+    """The outcome at one value, by station. names: of the station of each record."""
+    told = [1.0 if math.isnan(each.share) else each.share for each in outcomes]
+    by_station: dict[str, list[float]] = {}
+    weights: dict[str, float] = {}
+    for name, share, outcome in zip(names, told, outcomes, strict=True):
+        by_station.setdefault(name, []).append(share)
+        # Where nothing overturns, what governs most often.
+        weights[outcome.governing] = weights.get(outcome.governing, 0.0) + share + 1e-6
+    untold = sum(math.isnan(each.share) for each in outcomes)
+    shares = np.array([float(np.mean(each)) for each in by_station.values()])
+    return Tried(value, shares, max(weights, key=weights.__getitem__), untold)
+
+
+def static_tie(
+    structure: Structure,
+    size: Field,
+    between: tuple[float, float],
+    spectrum: DesignSpectrum,
+    terms: CodeTerms | None = None,
+) -> float:
+    """Return the least strength of a tie by the linear check of the code on the ground, to 1 %; nan where none does.
+
+    Every mechanism that the tie holds, so that the work L_i of the tie raises its α_0 (C8.7.1.1), has
+    α_0 g/(e* FC) ≥ a_g S/q (C8.7.1.2.1.7). What no tie holds, such as a fall inwards, is left out. Sought within
+    `between`, of which it is the lower end where every value does.
+    """
+    terms = replace(terms or CodeTerms(), limit_state="SLV", support=None)  # the linear check is of SLV alone
+    asked = float(spectrum.acceleration(0.0)) / terms.behaviour_factor
+
+    def onsets(value: float) -> dict[str, float]:
+        changed = with_value(structure, size, value)
+        if changed is None:
+            return {}
+        mechanisms = kinematic_check(changed, spectrum, terms).mechanisms
+        return {each.description: each.onset_acceleration for each in mechanisms}
+
+    low, high = between
+    try:
+        weak = onsets(low)
+        strong = onsets(high)
+        held = [name for name, onset in strong.items() if onset > weak.get(name, 0.0) * (1 + 1e-9)]
+        if not held or min(strong[name] for name in held) < asked:
+            return math.nan
+        if all(weak.get(name, 0.0) >= asked for name in held):
+            return low
+        while high / low > 1.01:
+            middle = math.sqrt(low * high)
+            at_middle = onsets(middle)
+            meets = all(at_middle.get(name, 0.0) >= asked for name in held)
+            low, high = (low, middle) if meets else (middle, high)
+    except RockingError:  # what the code cannot check it does not size
+        return math.nan
+    return high
