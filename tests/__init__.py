@@ -1,0 +1,1 @@
+"""The tests of the package, of the workflow and of the research."""
