@@ -223,7 +223,7 @@ def test_a_structure_comes_back_from_its_description_a_file_and_another_process(
         if value is not None and not isinstance(value, bool):
             said = ", ".join(map(str, value)) if isinstance(value, list) else value
             assert f"{said}{field.suffix}" in structure.description
-    assert structure.size and "=" not in structure.description
+    assert structure.described.size and "=" not in structure.description
     for text in (repr(structure), repr(mechanism)):
         assert not re.search("lambda|array|function", text) and len(text) < 800
 
