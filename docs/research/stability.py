@@ -17,7 +17,7 @@ from rocking.assessment.causes import lattice
 from rocking.assessment.cracks import (
     CrackEnsembles,
     FollowedCrack,
-    cracks,
+    counting_cracks,
     ensemble_over_cracks,
     slides_first,
 )
@@ -88,7 +88,7 @@ def stability_trials(
     for kind in KINDS:
         for name in draw.choice(list(structures), STRUCTURES_PER_KIND, replace=False).tolist():
             structure = structures[name]
-            multiplier = cracks(structure)[0].mechanism.uplift_multiplier
+            multiplier = counting_cracks(structure)[0].mechanism.uplift_multiplier
             factor = sites.lifting_factor(first, multiplier, sites.UPLIFTS, draw)
             one, other = first.scaled(factor), second.scaled(factor)
             vertical = aligned(other.scaled(VERTICAL), one) if kind == "with vertical motion" else None
@@ -113,11 +113,8 @@ def words(structure: Structure, motions: GroundMotions) -> tuple[CrackEnsembles,
     """Return the ensembles of a structure as in a study, and of MEMBERS members of every crack that counts."""
     settings = AssessmentSettings()
     in_study = ensemble_over_cracks(structure, motions, settings)
-    several = list(cracks(structure))
-    if in_study.given:
-        several = several[:1]
-    else:
-        several = [each for each in several if not slides_first(each, motions, settings)] or several
+    several = counting_cracks(structure)
+    several = tuple(each for each in several if not slides_first(each, motions, settings)) or several
     followed = (
         FollowedCrack(
             each.description,
@@ -126,7 +123,7 @@ def words(structure: Structure, motions: GroundMotions) -> tuple[CrackEnsembles,
         )
         for each in several
     )
-    return in_study, CrackEnsembles(tuple(followed), in_study.given)
+    return in_study, CrackEnsembles(tuple(followed))
 
 
 def stability_scores(trials: Sequence[StabilityTrial]) -> Iterator[scores.Score]:

@@ -11,8 +11,8 @@ from functools import cached_property
 
 from rocking.assessment.component import Component, component_names
 from rocking.assessment.contacts import ContactShare
-from rocking.assessment.cracks import CrackEnsembles, FollowedCrack, cracks
-from rocking.assessment.decide import Decision, Facts, Verdict, decide
+from rocking.assessment.cracks import CrackEnsembles, FollowedCrack, counting_cracks, never_lets_go
+from rocking.assessment.decide import BEYOND, Decision, Facts, Verdict, decide
 from rocking.assessment.deciding import decided_by, would_tell
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer, Estimate
@@ -31,6 +31,7 @@ from rocking.records import Accelerogram
 from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Maximum
 from rocking.structures import EquivalentBlock, Outcome, Structure
+from rocking.structures.tied import Tied
 
 DECISIVE = ("responses", "directions")
 """Stages whose failure leaves a structure without a result; the others only leave out what stands beside it."""
@@ -215,31 +216,37 @@ class CaseResult:
 
         body: the structure. failures: why other components are missing.
         """
-        several = cracks(body)
-        given = body.crack_is_given
-        held = [each.mechanism.never_lets_go for each in (several[:1] if given else several)]
+        several = counting_cracks(body)
         settled = None
+        beyond = False
         rests = self.answer is not None and self.answer.outcome is Outcome.NO_UPLIFT
         if self.ensembles is not None:
-            followed = self.ensembles.followed[:1] if given else self.ensembles.followed
+            followed = [each for each in self.ensembles.followed if each.counts]
             rests = all(bool((each.ensemble.rotation_ratios == 0).all()) for each in followed)
+            beyond = any(each.facts.farthest > BEYOND for each in followed)
         elif self.answer is not None and self.answer.response is None:
             settled = Verdict.OVERTURNS if self.overturns else Verdict.STANDS
         runs = [self.integrated_rotation_ratio]
-        if not given:
-            runs += [each.integrated_rotation_ratio for each in self.variations if each.crack]
+        count = {each.description for each in several} if body.crack_is_given else set()
+        runs += [
+            each.integrated_rotation_ratio
+            for each in self.variations
+            if each.crack in count or (each.crack and not body.crack_is_given)
+        ]
         typed = several[0].mechanism.restitution_range is not None
         stacks = (self.contact.falls, self.contact.runs) if self.contact and self.contact.runs else None
-        own = self.ensembles.facts if self.ensembles else Facts(given=given)
+        own = self.ensembles.facts if self.ensembles else Facts()
         return replace(
             own,
             # A component that is missing may lift.
             rests=rests and not failures,
             run_ratio=max((each for each in runs if not math.isnan(each)), default=math.nan),
             settled=settled,
-            never_lets_go=held[0] if all(held) else "",
+            never_lets_go=never_lets_go(body),
             slides_at=self.slides_at,
             doubts=(self.doubt,) if self.doubt else (),
+            held=isinstance(body, Tied) and bool(body.held_wall.holds),
+            beyond=beyond,
             stacks=stacks,
             remarks=would_tell(self.ensembles, typed) if self.ensembles else (),
             failures=failures,

@@ -16,6 +16,7 @@ from rocking.quantities import GRAVITY
 from rocking.structures import Mechanism, Structure
 from rocking.structures.contacts import UnknownContacts
 from rocking.structures.structure import CRACKS
+from rocking.structures.tied import Tied
 
 IN_DOUBT = 0.3
 """Rotation ratio of a member beyond which it is in doubt that a mechanism other than that of statics stands."""
@@ -26,13 +27,16 @@ class Crack:
     """A mechanism that may form.
 
     description: what opens, in words; "" of a structure with one mechanism. position: its height [m]; nan without one.
-    friction: the largest friction coefficient that a joint needs as it lifts; 0 of a mechanism without joints.
+    friction: the largest friction coefficient that a joint needs as it lifts; 0 of a mechanism without joints. counts:
+    as of `CrackFacts`. bulges: whether it is the bulge of a held wall.
     """
 
     description: str
     position: float
     mechanism: Mechanism
     friction: float = 0.0
+    counts: bool = True
+    bulges: bool = False
 
     def slides_at(self, friction_coefficient: float) -> float:
         """Return the acceleration [g] at which a joint slides before this lifts; nan where none does.
@@ -48,18 +52,19 @@ class Crack:
 class FollowedCrack:
     """The ensemble of one crack; description and position [m] as those of `Crack`.
 
-    slides: whether it slides before it lifts, under a motion that reaches so far.
+    slides: whether it slides before it lifts, under a motion that reaches so far. counts: as of `CrackFacts`.
     """
 
     description: str
     position: float
     ensemble: Ensemble
     slides: bool = False
+    counts: bool = True
 
     @cached_property
     def facts(self) -> CrackFacts:
         """What the decision asks of it."""
-        return self.ensemble.facts(self.description, self.slides)
+        return self.ensemble.facts(self.description, self.slides, self.counts)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -67,11 +72,11 @@ class CrackEnsembles:
     """The ensemble of every crack that was followed, the one that is given or that statics chooses first.
 
     The crack that governs gives every number of the case: the worst of those that count (`decide.Facts`). A crack that
-    is `given` by whoever described the structure is meant: it governs, and what else may form is told beside it.
+    is given by whoever described the structure is meant: other cracks are told beside it, and only the bulge of a held
+    wall counts as it does.
     """
 
     followed: tuple[FollowedCrack, ...]
-    given: bool = False
 
     def __repr__(self) -> str:
         return f"<CrackEnsembles: {len(self.followed)} followed, {self.governing.ensemble!r}>"
@@ -80,7 +85,7 @@ class CrackEnsembles:
     def facts(self) -> Facts:
         """What the decision asks of the cracks alone."""
         risk = self.statics.ensemble.settings.risk
-        return Facts(cracks=tuple(each.facts for each in self.followed), given=self.given, risk=risk)
+        return Facts(cracks=tuple(each.facts for each in self.followed), risk=risk)
 
     @property
     def statics(self) -> FollowedCrack:
@@ -89,7 +94,7 @@ class CrackEnsembles:
 
     @cached_property
     def governing(self) -> FollowedCrack:
-        """The crack that is given, else the worst that counts; that of statics among equals."""
+        """The worst crack that counts; that of statics among equals."""
         return (
             self.followed[self.facts.cracks.index(self.facts.governing)]
             if self.facts.governing
@@ -104,7 +109,7 @@ class CrackEnsembles:
     @property
     def beside(self) -> FollowedCrack | None:
         """The crack told beside the one that governs: that of statics, or the worst beside a given one; or None."""
-        other = self.worst if self.given else self.statics
+        other = self.statics if self.worst is self.governing else self.worst
         return None if other is self.governing else other
 
 
@@ -112,9 +117,30 @@ class CrackEnsembles:
 def cracks(structure: Structure) -> tuple[Crack, ...]:
     """Return the mechanisms that may form; first the one that is given, or that statics chooses."""
     return tuple(
-        Crack(each.description, each.position, each.structure.mechanism(), _friction(each.structure))
+        Crack(
+            each.description,
+            each.position,
+            each.structure.mechanism(),
+            _friction(each.structure),
+            each.counts,
+            bulges=isinstance(each.structure, Tied) and each.structure.opening is not None,
+        )
         for each in structure.candidates(CRACKS)
     )
+
+
+def counting_cracks(structure: Structure) -> tuple[Crack, ...]:
+    """Return those of the mechanisms that may form that take part in the verdict."""
+    return tuple(each for each in cracks(structure) if each.counts)
+
+
+def never_lets_go(structure: Structure) -> str:
+    """Return why no mechanism that counts can overturn, in words; "" where one can, or where that is not known."""
+    held = [each.mechanism.never_lets_go for each in counting_cracks(structure)]
+    if not all(held) or not isinstance(structure, Tied):
+        return held[0] if all(held) else ""
+    lets_go = any(each.refusal or each.structure.mechanism().can_overturn for each in structure.mechanisms())
+    return "" if lets_go else held[0]
 
 
 def cracked(structure: Structure, description: str) -> Structure:
@@ -153,35 +179,40 @@ def ensemble_over_cracks(
 ) -> CrackEnsembles:
     """Return the ensembles of the cracks that may govern.
 
-    Where the crack that statics chooses overturns, it says all. Otherwise every crack that `screened` leaves in doubt
-    is followed in full, and the one that then governs with as many members as its word needs. A crack that slides
-    before it lifts is left out where another one is left, unless it is given. exhaustive: every crack is followed,
-    whatever the screen says; docs/pages/validation.md counts what it misses. verdict_only: as `ensemble` takes it.
+    Where the crack that statics chooses overturns, it says all. Otherwise the bulge of a held wall is followed in full,
+    and every crack that `screened` leaves in doubt, and the one that then governs with as many members as its word
+    needs. A crack other than a bulge that slides before it lifts is left out where one that counts is left. exhaustive:
+    every crack is followed, whatever the screen says; docs/pages/validation.md counts what it misses. verdict_only: as
+    `ensemble` takes it.
     Raises MotionError as `integrate` does.
     """
-    given = structure.crack_is_given
     several = cracks(structure)
     sliding = [each for each in several if slides_first(each, motions, settings)]
-    first, *others = several if given else [each for each in several if each not in sliding] or several
+    counting = [each for each in several if each.counts]
+    if any(each not in sliding for each in counting):
+        # A bulge whose joints slide instead is no safer for it.
+        sliding = [each for each in sliding if not each.bulges]
+    lifting = [each for each in counting if each not in sliding] or counting
+    first, *others = *lifting, *(each for each in several if not each.counts)
     of_statics = ensemble(
         first.mechanism, motions, settings.ensemble, tolerance=settings.tolerance, verdict_only=verdict_only
     )
     name = first.description if len(several) > 1 else ""
     statics = FollowedCrack(name, first.position, of_statics, first in sliding)
     if not others or statics.facts.step(settings.ensemble.risk) is Verdict.OVERTURNS:
-        return CrackEnsembles((statics,), given)
-    doubtful = (
-        others
-        if exhaustive
-        else screened(others, of_statics, motions, settings, first.mechanism.uplift_multiplier)
-    )
+        return CrackEnsembles((statics,))
+    doubtful = others
+    if not exhaustive:
+        always = [each for each in others if each.bulges]
+        rest = [each for each in others if not each.bulges]
+        doubtful = always + screened(rest, of_statics, motions, settings, first.mechanism.uplift_multiplier)
     mechanisms = {
         FollowedCrack(
-            each.description, each.position, _alone(each, motions, settings), each in sliding
+            each.description, each.position, _alone(each, motions, settings), each in sliding, each.counts
         ): each.mechanism
         for each in doubtful
     }
-    ensembles = CrackEnsembles((statics, *mechanisms), given)
+    ensembles = CrackEnsembles((statics, *mechanisms))
     while (governing := ensembles.governing) in mechanisms:
         # Another crack may govern once this one has its members; each grows once.
         more = grown(

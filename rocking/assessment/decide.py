@@ -130,7 +130,8 @@ class CrackFacts:
 
     name: of the crack; "" where only one may form. falls: of those `followed`, that overturn. failed: members that
     could not be followed. farthest: largest rotation ratio of those followed; nan without any. slides: whether its
-    joint slides before it lifts, under a motion that reaches so far. Raises ValueError.
+    joint slides before it lifts, under a motion that reaches so far. counts: whether it takes part in the word;
+    otherwise it is told beside the crack that is given. Raises ValueError.
     """
 
     name: str
@@ -139,6 +140,7 @@ class CrackFacts:
     failed: int = 0
     farthest: float = math.nan
     slides: bool = False
+    counts: bool = True
 
     def __post_init__(self) -> None:
         if not 0 <= self.falls <= self.followed or self.failed < 0:
@@ -210,7 +212,7 @@ CONTACTS = (Kind.CONTACTS_OPEN, Kind.COURSES_THROWN)
 class Facts:
     """The facts that are known of one structure under one motion.
 
-    cracks: those that were followed, first the one that is `given` or that statics chooses. rests: whether nothing can
+    cracks: those that were followed, first the one that is given or that statics chooses. rests: whether nothing can
     lift. run_ratio: largest rotation ratio of single runs, where no members were followed; nan without one. settled:
     the word of a cheaper method that settled it. never_lets_go: why no motion can overturn it with a crack that
     counts; "" where one can. slides_at: acceleration [g] at which its joints slide, where the motion reaches it; else
@@ -222,7 +224,6 @@ class Facts:
     """
 
     cracks: tuple[CrackFacts, ...] = ()
-    given: bool = False
     rests: bool = False
     run_ratio: float = math.nan
     settled: Verdict | None = None
@@ -248,10 +249,9 @@ class Facts:
 
     @property
     def counting(self) -> tuple[CrackFacts, ...]:
-        """The cracks that count: the one that is given; else those that lift before they slide, where there are any."""
-        if self.given:
-            return self.cracks[:1]
-        return tuple(each for each in self.cracks if not each.slides) or self.cracks
+        """The cracks that count, and of them those that lift before they slide, where there are any."""
+        counting = tuple(each for each in self.cracks if each.counts)
+        return tuple(each for each in counting if not each.slides) or counting
 
     @property
     def followed(self) -> tuple[CrackFacts, ...]:
@@ -330,7 +330,7 @@ def decide(facts: Facts) -> Decision:
          reaches so far
     4    no result at all                                                  cannot be told
     5    one run: settled by an estimate / stands up to FAR / else         as settled / probably stands / uncertain
-    6    cracks, none given                                                step of the worst one, but no worse than
+    6    cracks that count                                                 step of the worst one, but no worse than
                                                                            uncertain where the first (probably) stands,
                                                                            no worse than probably overturns where the
                                                                            first does not overturn
@@ -448,11 +448,11 @@ def _over_cracks(steps: Sequence[Verdict]) -> Verdict:
 
 def _worse_than_given(facts: Facts) -> CrackFacts | None:
     """The worst crack beside one that is given, where its word is worse."""
-    if not facts.given:
-        return None
-    others = [each for each in facts.cracks[1:] if each.members and not each.slides]
+    others = [each for each in facts.cracks if not each.counts and each.members and not each.slides]
     worst = max(others, key=lambda each: each.severity(facts.risk), default=None)
-    if worst is None or worst.step(facts.risk).badness <= facts.cracks[0].step(facts.risk).badness:
+    if worst is None or facts.governing is None:
+        return None
+    if worst.step(facts.risk).badness <= facts.governing.step(facts.risk).badness:
         return None
     return worst
 

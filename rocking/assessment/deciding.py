@@ -47,8 +47,7 @@ class Deciding:
 def deciding(ensembles: CrackEnsembles) -> list[Deciding]:
     """Return what the outcome depends on, the largest share first; [] where all members agree.
 
-    The causes are those of the crack that governs; which crack opens is asked of all that were followed, unless one is
-    given.
+    The causes are those of the crack that governs; which crack opens is asked of those that count.
     """
     governing = ensembles.governing.ensemble
     falls = np.isinf(governing.rotation_ratios)
@@ -59,8 +58,9 @@ def deciding(ensembles: CrackEnsembles) -> list[Deciding]:
         if cause.name in governing.causes
         for groups in [_groups(governing.causes[cause.name])]
     ]
-    if len(ensembles.followed) > 1 and not ensembles.given:
-        shares.append(Deciding(CRACK, _explained_by_crack(ensembles.followed), Origin.IGNORANCE))
+    counting = [each for each in ensembles.followed if each.counts]
+    if len(counting) > 1:
+        shares.append(Deciding(CRACK, _explained_by_crack(counting), Origin.IGNORANCE))
     some = [each for each in shares if each.share > 0]
     return sorted(some, key=lambda each: each.share, reverse=True)
 

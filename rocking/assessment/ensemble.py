@@ -96,8 +96,8 @@ class Ensemble:
         place = np.clip(share * self.members - 0.5, 0, self.members - 1)
         return float(np.interp(place, places, np.sort(self._followed)))
 
-    def facts(self, name: str = "", slides: bool = False) -> CrackFacts:
-        """Return what the decision asks of these members. name: of their crack; slides: whether that slides first."""
+    def facts(self, name: str = "", slides: bool = False, counts: bool = True) -> CrackFacts:
+        """Return what the decision asks of these members. name: of their crack; slides, counts: as `CrackFacts`."""
         return CrackFacts(
             name=name,
             falls=self.overturning_members,
@@ -105,6 +105,7 @@ class Ensemble:
             failed=self.failed_members,
             farthest=float(self._followed.max()) if self.members else np.nan,
             slides=slides,
+            counts=counts,
         )
 
     @property

@@ -8,7 +8,7 @@ from rocking.assessment.case import CaseResult, Failure, Motion, Prediction
 from rocking.assessment.clock import Clock
 from rocking.assessment.component import Component
 from rocking.assessment.contacts import contact_share, doubt
-from rocking.assessment.cracks import cracks, ensemble_over_cracks, slides_first
+from rocking.assessment.cracks import counting_cracks, cracks, ensemble_over_cracks, slides_first
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
 from rocking.assessment.ground_motions import GroundMotions, processed
@@ -139,7 +139,7 @@ def with_contacts(
     A doubt is asked for every word below "probably overturns", and contact dynamics where there is a doubt. bounces:
     whether a contact opens in a run as recorded; None where that is not known.
     """
-    counting = cracks(structure)[:1] if structure.crack_is_given else cracks(structure)
+    counting = counting_cracks(structure)
     if all(slides_first(each, motions, settings) for each in counting):
         return replace(case, slides_at=counting[0].slides_at(settings.friction_coefficient))
     if decide(case.facts(structure)).word.badness < Verdict.PROBABLY_OVERTURNS.badness:

@@ -174,7 +174,9 @@ def _opening(structure: Structure) -> Iterator[tuple[str, int, Structure]]:
             f"the structure is {kind_of(structure)}, which has no capacity curve; give a structure with a "
             "geometry, as rocking.Block or rocking.Facade."
         )
-    candidates = structure.candidates()
+    candidates = tuple(
+        each for each in structure.candidates() if getattr(each.structure, "opening", None) is None
+    )
     if structure.statics_chooses:
         candidates = candidates[:1]
     bulges: tuple[Tied, ...] = ()
@@ -205,7 +207,7 @@ def _bulges(structure: Tied) -> tuple[Tied, ...]:
     One that bulges inwards alone comes last, where the same joints do not open outwards. Where statics chooses between
     two supports and no tie is between them, its candidate is the only bulge.
     """
-    if structure.crack == "known" or (structure.statics_chooses and not structure.tie_heights):
+    if structure.statics_chooses and not structure.tie_heights:
         return ()
     bulges: list[Tied] = []
     spans = set()

@@ -17,7 +17,7 @@ import numpy as np
 from scipy.special import betaincinv, erfcx, ndtr, stdtr, stdtrit
 
 from rocking.assessment.causes import lattice
-from rocking.assessment.cracks import cracks
+from rocking.assessment.cracks import counting_cracks, never_lets_go
 from rocking.assessment.ensemble import drawn
 from rocking.assessment.fidelity import peak_velocity, per_velocity
 from rocking.assessment.ground_motions import GroundMotions
@@ -384,14 +384,10 @@ def fragility(
         raise ConfigurationError("structure is an equivalent block, but must be a structure or a mechanism.")
     names = _checked_stations(records, stations)
     body = as_structure(structure if isinstance(structure, Structure) else reduced)
-    first, *others = cracks(body)
-    if body.crack_is_given:
-        others = []  # what is given decides
+    first, *others = counting_cracks(body)
     mechanism = first.mechanism
-    if mechanism.never_lets_go:
-        raise StructureError(
-            f"the structure cannot overturn, and has no fragility: it {mechanism.never_lets_go}."
-        )
+    if held := never_lets_go(body):
+        raise StructureError(f"the structure cannot overturn, and has no fragility: it {held}.")
     measure = measure_named(intensity_measure, mechanism)
     intensities = np.array([measure.of(record, mechanism) for record in records])
     carried = records if support is None else [support.motion(record) for record in records]

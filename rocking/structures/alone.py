@@ -13,7 +13,7 @@ from rocking.structures.stack import Stack
 from rocking.structures.structure import Structure
 
 
-@dataclass(frozen=True, repr=False, eq=False)
+@dataclass(frozen=True, repr=False)
 class MechanismAlone(Structure):
     """A mechanism that somebody gives without its geometry: it has one crack, no outline and unknown contacts."""
 

@@ -310,8 +310,9 @@ class Structure(ABC):
         """Return the mechanisms that may form, `count` or one more; the first decides, the others by their λ.
 
         The first is the structure as given where it says where it is cracked, else the one that statics chooses, of
-        least λ. One, the structure as given, where the crack is known or there is none. The same objects at every call,
-        as they keep what they compute.
+        least λ. One, the structure as given, where the crack is known or there is none. A wall that is held above its
+        foot may bulge wherever it is cracked: its bulge of least λ counts besides, and comes first where it is weaker.
+        The same objects at every call, as they keep what they compute.
         """
         if count not in self._candidates:
             self._candidates[count] = self._ranked_candidates(count)
@@ -326,7 +327,7 @@ class Structure(ABC):
         return (Candidate("as given", np.nan, self),)
 
     def mechanisms(self) -> "tuple[Candidate, ...]":
-        """Return every mechanism in which it may fall; that of a wall held at several heights has many by name."""
+        """Return every mechanism in which it may fall; a wall that is held at several heights has many by name."""
         return self.candidates()
 
     @property
@@ -339,8 +340,8 @@ class Structure(ABC):
         """The least λ of its candidates: the ground acceleration in g at which static limit analysis lets it fall."""
         first, *others = self.candidates()
         if not self.crack_is_given:
-            return first.multiplier
-        return min(each.multiplier for each in (first, *others))
+            return first.uplift_multiplier
+        return min(each.uplift_multiplier for each in (first, *others))
 
     @property
     def description(self) -> str:
@@ -441,7 +442,7 @@ class Candidate:
     description: in words, "hinge at 2.56 m". position: nan where a height does not tell it, as of an arch's hinges.
     name: what it does, "bulges between foot and tie". limit: its λ by limit analysis, in which a tie pulls with the
     force at which it yields; None where it has no such tie. sign: of the rotation to the side to which it falls; 0:
-    both sides.
+    both sides. counts: whether it takes part in the verdict; otherwise it is told beside the crack that is given.
     """
 
     description: str
@@ -450,6 +451,7 @@ class Candidate:
     name: str = "overturns"
     limit: float | None = None
     sign: int = 0
+    counts: bool = True
 
     @property
     def multiplier(self) -> float:
@@ -555,7 +557,8 @@ class Crackable(Crushable):
         known = replace(self, crack="known")
         known.__dict__["_mechanism"] = self.mechanism()  # one object, so that it is integrated once
         own = Candidate(self.crack_in_words, self.crack_position, known)
-        return (own, *(each for each in others if each.description != own.description))
+        beside = (replace(each, counts=False) for each in others if each.description != own.description)
+        return (own, *beside)
 
     @abstractmethod
     def _may_form(self, count: int) -> tuple[Candidate, ...]:

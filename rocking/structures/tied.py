@@ -152,9 +152,63 @@ class Tied(CrackedAtHeight):
     def mechanisms(self) -> tuple[Candidate, ...]:
         """Return the family of mechanisms in which it may fall, by their λ of limit analysis (theory: section 12).
 
-        One, the structure as given, where the crack is known. The same objects at every call.
+        Where the crack is known: the structure as given, and its bulges. The same objects at every call.
         """
-        return self.candidates() if self.crack == "known" else self._family
+        if self.crack != "known":
+            return self._family
+        own, *_ = (each for each in self.candidates() if each.structure is self)
+        return tuple(sorted((own, *self._bulges), key=lambda each: each.uplift_multiplier))
+
+    @cached_property
+    def _bulges(self) -> tuple[Candidate, ...]:
+        """Those of the family in which it opens at a hinge that cracks elsewhere leave out, by their λ.
+
+        A crack that is given says where the wall is cracked, not that what holds it keeps it from bulging.
+        """
+        if not self.held_wall.holds:
+            return ()
+        own = self._described_opening
+        span = (own.foot, own.hold) if own else None
+        if span and not self.tie_heights:
+            return ()  # it is that bulge itself
+        bulges = []
+        for each in self._family:
+            opening = each.structure.opening if isinstance(each.structure, Tied) else None
+            if opening and opening.hinge is not None and (opening.foot, opening.hold) != span:
+                bulges.append(each)
+        return tuple(bulges)
+
+    def _ranked_candidates(self, count: int) -> tuple[Candidate, ...]:
+        """The cracks, and the bulge of least λ whose motion can be followed (theory: section 12.6).
+
+        Statics chooses by limit analysis: ties pull with the force at which they yield, and what they keep shut for
+        good is left out unless it is given.
+        """
+        cracked = super()._ranked_candidates(count)
+        bulge = next((each for each in self._bulges if not each.refusal), None)
+        if bulge is None:
+            return cracked
+        cracked = tuple(self._limited(each) for each in cracked)
+        counting = [each for each in cracked if each.counts]
+        if self.crack_is_given:
+            counting = [
+                replace(each, description=self.crack_in_words, position=self.crack_position)
+                for each in counting
+            ]
+        elif bulge.structure.mechanism().can_overturn:
+            counting = [each for each in counting if each.structure.mechanism().can_overturn]
+        counting.append(bulge)
+        counting.sort(key=lambda each: float(f"{each.uplift_multiplier:.9g}"))
+        return (*counting, *(each for each in cracked if not each.counts))
+
+    def _limited(self, candidate: Candidate) -> Candidate:
+        """A crack with its λ by limit analysis, in which each tie pulls with the force at which it yields."""
+        wall = candidate.structure
+        if not self.tie_heights or not isinstance(wall, Tied):
+            return candidate
+        outwards = wall.held_wall.multiplier(wall._described_opening or Opening(wall.crack_position))
+        inwards = [side.uplift_multiplier for side in wall.mechanism().sides[1:]]
+        return replace(candidate, limit=min([outwards, *inwards]))
 
     @cached_property
     def _family(self) -> tuple[Candidate, ...]:
@@ -171,8 +225,9 @@ class Tied(CrackedAtHeight):
                 warnings.simplefilter("ignore", StructureWarning)  # nobody asked for its restitution
                 opened = self.opened(opening)
             sign = 1 if opening.outwards else -1
-            words = f"{what} at {place:.4g} m"
-            family.append(Candidate(words, place, opened, wall.name(opening), multiplier, sign))
+            name = wall.name(opening)
+            words = f"{what} at {place:.4g} m" + ("" if opening.hinge is None else f" ({name})")
+            family.append(Candidate(words, place, opened, name, multiplier, sign))
         return tuple(family)
 
     @property

@@ -6,7 +6,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
-from rocking.assessment.cracks import cracks
+from rocking.assessment.cracks import never_lets_go
 from rocking.assessment.rows import (
     AGREEMENT_COLUMNS,
     RECORD_TABLES,
@@ -178,7 +178,7 @@ def write_fragility(
 
     settings = study.settings.fragility
     hazard = rows.read_hazard(Path(settings.hazard)) if settings.hazard else None
-    if all(cracks(each.structure)[0].mechanism.never_lets_go for each in study.scenes.values()):
+    if all(never_lets_go(each.structure) for each in study.scenes.values()):
         raise ConfigurationError(
             "no structure of the list can overturn, so that none has a fragility; give ties a tie_strength at which "
             "they let go, or leave the fragility out."
@@ -189,7 +189,7 @@ def write_fragility(
     for count, (name, scene) in enumerate(study.scenes.items(), start=1):
         structure = scene.structure
         mechanism = structure.mechanism()
-        if never := cracks(structure)[0].mechanism.never_lets_go:
+        if never := never_lets_go(structure):
             reasons.append(f"{name}: it cannot overturn, and has no fragility: it {never}.")
             continue
         names, accelerograms, lacking = _measured(opened, settings.intensity_measure, mechanism)

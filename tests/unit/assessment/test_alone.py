@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import rocking
+from rocking.assessment.cracks import cracks
 from rocking.errors import StructureError
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
@@ -32,3 +33,11 @@ def test_what_needs_a_geometry_is_refused():
         alone.contact_forces(0.01, 0.1)
     with pytest.raises(StructureError, match="no stack of courses"):
         alone.stack()
+
+
+def test_two_mechanisms_alone_are_not_taken_for_one_another():
+    """What is kept of one by its equality is not that of another."""
+    slender, stout = (as_structure(rocking.Block(2.0, each).mechanism()) for each in (0.2, 0.4))
+    assert slender != stout
+    multipliers = [cracks(each)[0].mechanism.uplift_multiplier for each in (slender, stout)]
+    assert multipliers == pytest.approx(np.tan([0.2, 0.4]), rel=1e-12)

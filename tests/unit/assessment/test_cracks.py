@@ -21,7 +21,8 @@ from rocking.fragility.curves import fragility
 from rocking.motion import integrate
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
-from rocking.structures import Arch, Block, Spire, Wall
+from rocking.remarks import Kind
+from rocking.structures import Arch, Block, Facade, LoadedWall, Spire, Wall
 
 STEP, TIMES = 0.01, np.arange(0, 4, 0.01)
 SPIRE = Spire(width=3.0, height=15.0, wall_thickness=0.3)
@@ -194,3 +195,43 @@ def test_a_row_of_the_comparison_speaks_of_the_crack_that_governs_alone(several,
         ):
             assert told == predict(own.mechanism(), pulses).maximum.rotation_ratio
     assert station.rotation_ratio == rows[0].integrated_rotation_ratio
+
+
+@pytest.mark.parametrize("crack", ["known", "unknown"])
+def test_a_wall_falls_as_it_bulges_below_the_tie_that_holds_it_for_good(crack):
+    """About its foot it stands. The same wall between supports, hinged where statics puts it, is the oracle."""
+    front = Facade(
+        (3.2, 3.2),
+        (0.4, 0.4),
+        19e3,
+        floor_loads=(1e4, 1e4),
+        one_sided=True,
+        restitution=0.7,
+        tie_heights=(6.4,),
+        tie_stiffness=2e7,
+        crack=crack,
+    )
+    times = np.arange(0, 12, STEP)
+    motion = Accelerogram(np.where(times < 3, 8 * np.sin(6 * times), 0.0), STEP)
+    span = LoadedWall.of_size(6.4, 0.4, 19e3, top_load=1e4, one_sided=True, restitution=0.7)
+    about_its_foot, between_supports = (rocking.assess(motion, each) for each in (front.mechanism(), span))
+    assert (about_its_foot.verdict, about_its_foot.overturning_members) == (Verdict.STANDS, 0)
+    assessed = rocking.assess(motion, front)
+    assert assessed.verdict is between_supports.verdict is Verdict.OVERTURNS
+    assert assessed.overturning_members == between_supports.overturning_members == 64
+    assert assessed.crack == "hinge at 4.822 m (bulges between foot and tie)"
+
+
+def test_a_held_wall_that_turns_far_only_probably_stands():
+    """Row 8b: beyond 0.4 φ_cr of any mechanism, in any member."""
+    front = Facade(
+        (3.2,), (0.4,), 19e3, one_sided=True, restitution=0.5, tie_heights=(3.2,), tie_stiffness=2e7
+    )
+    words = {}
+    for amplitude in np.arange(3.0, 6.0, 0.25):
+        assessed = rocking.assess(record(float(amplitude), 0.6), front)
+        farthest = float(np.nanmax(assessed.rotation_ratios))
+        if farthest <= 1:
+            words[farthest > 0.4] = assessed.verdict, [each.kind for each in assessed.decision.doubts]
+    assert words[False][0] is Verdict.STANDS
+    assert words[True][0] is Verdict.PROBABLY_STANDS and Kind.HELD_BEYOND in words[True][1]

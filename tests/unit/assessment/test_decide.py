@@ -23,11 +23,11 @@ SAFEST_FIRST = (
 )
 
 
-def crack(falls, members=64, failed=0, farthest=0.8, name="hinge", slides=False):
+def crack(falls, members=64, failed=0, farthest=0.8, name="hinge", slides=False, counts=True):
     """A crack of so many members, of which some failed and some of the others fall."""
     followed = members - failed
     farthest = math.nan if not followed else math.inf if falls else farthest
-    return CrackFacts(name, falls, followed, failed, farthest, slides)
+    return CrackFacts(name, falls, followed, failed, farthest, slides, counts)
 
 
 def word(**facts):
@@ -103,10 +103,8 @@ def test_3_what_slides_first_cannot_be_told():
 def test_3_a_crack_that_slides_first_is_left_out_where_another_is_left():
     cracks = (crack(0, name="base"), crack(64, name="upper", slides=True))
     assert word(cracks=cracks, slides_at=0.6) == "stands"
-    assert (
-        word(cracks=(crack(0, slides=True), crack(64, name="upper")), given=True, slides_at=0.6)
-        == "cannot be told"
-    )
+    beside = crack(64, name="upper", counts=False)
+    assert word(cracks=(crack(0, slides=True), beside), slides_at=0.6) == "cannot be told"
 
 
 def test_4_without_a_result_it_cannot_be_told():
@@ -159,10 +157,21 @@ def test_6_cracks_whose_words_differ_have_a_range():
 
 
 def test_6_a_given_crack_decides_alone_and_a_worse_one_is_a_doubt_beside_it():
-    decision = decide(Facts(cracks=(crack(0), crack(64, name="upper")), given=True))
+    upper = crack(64, name="upper", counts=False)
+    decision = decide(Facts(cracks=(crack(0), upper)))
     assert (str(decision.word), decision.share) == ("stands", 0.0)
     assert kinds(decision.doubts) == [Kind.OTHER_CRACK_WORSE]
     assert "as given; should the upper form instead, 64 of 64 do" in decision.why
+
+
+def test_6_a_bulge_counts_beside_a_given_crack():
+    """Weaker by statics it comes first, and its word is that of the wall; else the crack keeps a word in it."""
+    bulge = crack(64, name="bulge")
+    beside = crack(64, name="upper", counts=False)
+    assert word(cracks=(bulge, crack(0), beside)) == "overturns"
+    decision = decide(Facts(cracks=(crack(0), bulge, beside)))
+    assert (str(decision.word), decision.interval) == ("uncertain", (0.0, 1.0))
+    assert kinds(decision.doubts) == []
 
 
 def test_7_failed_members_count_as_falling():
@@ -295,11 +304,12 @@ def drawn(chance):
         falls = min(one_of(0, 1, members, int(chance() * members)), members - failed)
         farthest = one_of(0.0, 0.2, 0.3, 0.8)
         cracks.append(crack(falls, members, failed, farthest, f"crack {place}", slides=chance() < 0.1))
+    if chance() < 0.2:  # one is given, beside which a bulge may count
+        cracks = [replace(each, counts=not place or chance() < 0.3) for place, each in enumerate(cracks)]
     runs = one_of(6, 24, 64)
     fallen = one_of(0, 1, runs, int(chance() * runs))
     return Facts(
         cracks=tuple(cracks),
-        given=chance() < 0.2,
         rests=chance() < 0.03,
         run_ratio=one_of(math.nan, 0.1, 0.5, math.inf),
         settled=one_of(Verdict.STANDS, Verdict.OVERTURNS) if chance() < 0.1 else None,
@@ -348,8 +358,8 @@ def oracle(facts):
             return min(max(words), 3)
         return max(words) if words[0] == 6 else min(max(words), 5)
 
-    lifting = [each for each in facts.cracks if not each.slides]
-    count = list(facts.cracks[:1]) if facts.given else lifting or list(facts.cracks)
+    count = [each for each in facts.cracks if each.counts]
+    count = [each for each in count if not each.slides] or count
     if facts.never_lets_go and not facts.doubts:
         return SAFEST_FIRST[0]
     if facts.rests:
@@ -403,7 +413,7 @@ def worsened(facts, chance):
             left = each.farthest if followed > 1 else math.nan
             worse += [(falls, followed - 1, failed + 1, left), (falls + 1, followed, failed, math.inf)]
         for counts in worse:
-            other = CrackFacts(each.name, *counts, each.slides)
+            other = CrackFacts(each.name, *counts, each.slides, each.counts)
             ways.append({"cracks": (*facts.cracks[:place], other, *facts.cracks[place + 1 :])})
     return replace(facts, **ways[int(chance() * len(ways))])
 

@@ -18,8 +18,11 @@ def _ensemble(falls: np.ndarray, **causes: np.ndarray) -> Ensemble:
 
 
 def _ensembles(*several: Ensemble, given: bool = False) -> CrackEnsembles:
-    followed = tuple(FollowedCrack(f"crack {k}", float(k), each) for k, each in enumerate(several))
-    return CrackEnsembles(followed, given)
+    followed = (
+        FollowedCrack(f"crack {k}", float(k), each, counts=not (given and k))
+        for k, each in enumerate(several)
+    )
+    return CrackEnsembles(tuple(followed))
 
 
 def test_what_is_known_from_one_cause_is_decided_by_it_and_what_is_not_by_none():

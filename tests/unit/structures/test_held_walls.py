@@ -355,14 +355,60 @@ def test_what_stands_behind_is_said_once(values, words):
         replace(THREE, **values)
 
 
+FRONT = rocking.Facade(
+    (3.2, 3.2),
+    (0.4, 0.4),
+    19e3,
+    floor_loads=(1e4, 1e4),
+    one_sided=True,
+    restitution=0.7,
+    tie_heights=(6.4,),
+    tie_stiffness=2e7,
+)
+
+
+@pytest.mark.parametrize("crack", ["known", "given", "unknown"])
+def test_the_bulge_of_least_multiplier_counts_wherever_the_wall_is_cracked(crack):
+    """By hand, floors at mid-thickness that ride: foot 0, hinge h, tie 6.4 m, of which the least over h."""
+    t, top, w, n = 0.4, 6.4, 0.4 * 19e3, 1e4
+    hinges = np.linspace(3.2, 6.39, 20_001)
+    part = hinges / (top - hinges)  # all above turns back by ψ
+    up = w * top + 2 * n
+    above = w * (top - hinges) + n
+    rises = up * t / 2 + (1 + part) * above * t / 2
+    pushed = (
+        w * top**2 / 2 + n * (3.2 + 6.4) - (1 + part) * (w * (top - hinges) ** 2 / 2 + n * (top - hinges))
+    )
+    by_hand = rises / pushed
+    first, *others = replace(FRONT, crack=crack).candidates()
+    assert first.uplift_multiplier == pytest.approx(by_hand.min(), rel=1e-6)
+    assert first.position == pytest.approx(hinges[by_hand.argmin()], abs=2e-3)
+    assert first.name == "bulges between foot and tie"
+    assert all(each.counts for each in others) is (crack != "given")
+    assert replace(FRONT, crack=crack).static_multiplier == first.uplift_multiplier
+
+
+def test_a_tie_that_yields_first_leaves_the_wall_to_overturn():
+    """R ≤ F if and only if the bulge is the weaker one (theory: section 12.7)."""
+    bulge = FRONT.candidates()[0]
+    force = bulge.structure.reactions()[0].force[0]
+    for factor, name in ((0.99, "overturns"), (1.01, "bulges between foot and tie")):
+        wall = replace(FRONT, tie_strength=force * factor, tie_plastic_elongation=0.05)
+        assert wall.candidates()[0].name == name
+
+
 def test_remark_on_floors_behind_ends_where_it_is_said_what_stands_there():
     assert THREE.caution
     assert not replace(THREE, behind="nothing").caution
 
 
-def test_a_known_crack_is_the_only_mechanism():
+def test_a_known_crack_leaves_the_bulges_alone():
+    """It says where the wall is cracked: what holds the wall lets it bulge all the same."""
     known = replace(THREE, crack="known", crack_storey=2)
-    assert [each.structure for each in known.mechanisms()] == [known]
+    bulges = [each for each in replace(known, crack="unknown").mechanisms() if each.structure.opening]
+    assert {each.name for each in known.mechanisms()} == {"overturns", *(each.name for each in bulges)}
+    untied = replace(known, tie_heights=(), tie_stiffness=0.0)
+    assert [each.structure for each in untied.mechanisms()] == [untied]
     assert rocking.Block(2.0, 0.2).mechanisms()[0].uplift_multiplier == pytest.approx(np.tan(0.2))
 
 

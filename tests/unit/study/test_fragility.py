@@ -30,6 +30,8 @@ from rocking.study.terminal import line_writer
 from rocking.tables import read_rows, read_table
 from tests.made_structures import HELD
 
+ALONE = HELD.mechanism()
+"""It has no joints but its own, and an unbreakable tie holds it for good."""
 STRUCTURES = {"slender": Block.of_size(0.5, 3.0), "stout": Block.of_size(1.0, 3.0), "spire": Spire(1.0, 6.0)}
 
 
@@ -50,13 +52,13 @@ def _records(folder: Path, count: int) -> list[CatalogueRecord]:
 
 def test_what_cannot_overturn_is_left_out_and_said(tmp_path):
     records = _records(tmp_path, 2)
-    both = replace(_study(), scenes=on_the_ground({"held": HELD, "slender": STRUCTURES["slender"]}))
+    both = replace(_study(), scenes=on_the_ground({"held": ALONE, "slender": STRUCTURES["slender"]}))
     (unused,) = write_fragility(records, both, tmp_path / "out")
     assert unused.startswith("held: it cannot overturn, and has no fragility: it lifts at 0.263 g")
     rows = read_rows(FragilitySummaryRow, tmp_path / "out" / FragilitySummaryRow.table.file_name)
     assert {row.structure for row in rows} == {"slender"}
     with pytest.raises(ConfigurationError, match="no structure of the list can overturn"):
-        write_fragility(records, replace(both, scenes=on_the_ground({"held": HELD})), tmp_path / "none")
+        write_fragility(records, replace(both, scenes=on_the_ground({"held": ALONE})), tmp_path / "none")
     assert not (tmp_path / "none").exists()
 
 
