@@ -109,13 +109,6 @@ class Kind(StrEnum):
         "From {time_s:g} s on {samples} samples in a row are the same, while those before and after change: a filled "
         "gap?"
     )
-    LINES_EXCHANGED = auto(), (
-        "Around {time_s:g} s two lines of numbers seem to be exchanged: turned they would join smoothly."
-    )
-    STRETCH_COPIED = auto(), (
-        "The {samples} samples from {time_s:g} s on are those from {first_s:g} s on, digit by digit: lines are "
-        "repeated, or copied over others."
-    )
     ROW_REPEATED = auto(), (
         "At {time_s:g} s all channels repeat the sample before: a row of numbers is repeated."
     )

@@ -27,7 +27,7 @@ from rocking.records.direction import (
 )
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
-from rocking.records.formats.text import is_number, lines, numbers_per_line
+from rocking.records.formats.text import is_number, lines
 from rocking.records.instrument import channel_warnings, site_warnings
 from rocking.records.plausibility import pass_limits
 from rocking.records.sheet import is_workbook, table_of_workbook
@@ -126,13 +126,12 @@ def read_content(
             raise RecordError("the file holds no channel of acceleration; use the acceleration file.")
         is_doubled = b"\r\r\n" in content[:2000] and text is not content
         notes = [Remark(Kind.LINE_ENDS_DOUBLED)] if is_doubled else []
-        per_line = numbers_per_line(text)
         of_rows = repeated_rows(records)
         repeated = [of_rows] if of_rows is not None else []
         for i, record in enumerate(records):
             own = replace(source, format=reader.name, unit=record.source.unit)
             doubts = (*record.warnings, *notes, *pass_limits(record, reader.name))
-            damage = (*damage_warnings(record, per_line), *repeated)
+            damage = (*damage_warnings(record), *repeated)
             records[i] = replace(record, source=own, warnings=tuple(dict.fromkeys((*doubts, *damage))))
         return records
 
@@ -141,7 +140,7 @@ def checked_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
     """Return channels that came without a file, with names of their own and the doubts that a file's would have."""
     checked = []
     for record in distinct_channels(records):
-        doubts = (*pass_limits(record, record.source.format), *damage_warnings(record, 1))
+        doubts = (*pass_limits(record, record.source.format), *damage_warnings(record))
         checked.append(record.warned(*(each for each in doubts if each not in record.warnings)))
     return checked
 
@@ -198,8 +197,9 @@ def recognise(content: bytes) -> Format:
         raise RecordError("the file is empty; fetch it again.")
     if content.startswith(_PICKLE + _PICKLED):
         raise UnknownFormatError("this is a pickled Python object, which could run code; it is never opened.")
-    forms = [form for form in FORMATS if form.recognise(content)]
-    forms = [form for form in forms if not form.yields] or forms
+    # Bare numbers last: what stands above them, and how, takes longer than all the other first lines together.
+    forms = [form for form in FORMATS if not form.yields and form.recognise(content)]
+    forms = forms or [form for form in FORMATS if form.yields and form.recognise(content)]
     if len(forms) == 1:
         return forms[0]
     if forms:

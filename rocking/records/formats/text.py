@@ -76,7 +76,7 @@ def numbers(text: bytes | str) -> np.ndarray:
 
 def check_plain(text: bytes) -> None:
     """Raise RecordError at the first word of `text` that is no plain decimal number."""
-    if not text.translate(None, b"0123456789 \t\n\r"):
+    if not text.translate(None, b"-0123456789 \t\n\r"):  # of whole numbers obspy refuses what is none
         return
     # A dash of typography is named before numbers that merely touch, which is how some formats write.
     for line, row in sorted(enumerate(lines(text), 1), key=lambda each: each[1].isascii()):
@@ -119,16 +119,6 @@ def _parted(rows: list[str], width: int, margin: int) -> bytes:
         broken = cells[int(np.argmax(numbers != 1))].tobytes().decode("latin-1").strip()
         raise RecordError(f"a column of {width} characters holds {broken!r}, not one number.") from None
     return np.pad(cells, ((0, 0), (0, 1)), constant_values=_BLANK).tobytes()
-
-
-def numbers_per_line(content: bytes) -> int:
-    """Return how many numbers most lines around the middle of a text hold, touching or not; 0 of another content."""
-    if b"\0" in content[:512]:
-        return 0
-    middle = content[len(content) // 2 :][:8000].split(b"\n")[1:-1]
-    rows = [row for row in middle if row.strip() and not row.translate(None, _NUMERIC)]
-    counts = [max(row.count(b"."), len(row.split())) for row in rows]
-    return max(set(counts), key=counts.count, default=0)
 
 
 def table(rows: list[str], columns: int, width: int = 0, margin: int = 0) -> np.ndarray:
