@@ -11,7 +11,7 @@ import warnings
 from contextlib import suppress
 from dataclasses import replace
 from datetime import datetime
-from functools import partial
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -376,10 +376,10 @@ def _inventory(stats: Any, options: Options) -> Any:
         return None
     naming = []
     for path in sorted(options.folder.glob("*.xml")):
-        with suppress(RecordError):
-            text = read_whole(path, _LARGEST_XML, RecordError).decode("utf-8", "replace")
-            station = re.search(rf'<(\w+:)?Station\b[^>]*\bcode="{re.escape(stats.station)}"', text)
-            if station and "FDSNStationXML" in text[:2000] and f'code="{stats.network}"' in text:
+        with suppress(OSError):
+            state = path.stat()
+            codes = _codes_in(str(path), state.st_mtime_ns, state.st_size)
+            if ("Network", stats.network) in codes and ("Station", stats.station) in codes:
                 naming.append(path)
     if len(naming) != 1:
         several = f"several do: {', '.join(p.name for p in naming)}" if naming else "none beside it does"
@@ -388,18 +388,39 @@ def _inventory(stats: Any, options: Options) -> Any:
     return _parse(naming[0])
 
 
+_CODE = re.compile(r'<(?:\w+:)?(Network|Station)\b[^>]*\bcode="([^"]*)"')
+
+
+@lru_cache(maxsize=1000)
+def _codes_in(path: str, changed: int, size: int) -> frozenset[tuple[str, str]]:
+    """Return the networks and stations that an XML file describes, none where it is no StationXML.
+
+    changed, size: its state, by which each file of a folder is looked through once, and not for each record beside it.
+    """
+    try:
+        text = read_whole(Path(path), _LARGEST_XML, RecordError).decode("utf-8", "replace")
+    except RecordError:
+        return frozenset()
+    return frozenset(_CODE.findall(text)) if "FDSNStationXML" in text[:2000] else frozenset()
+
+
 def _parse(path: Path) -> Any:
+    return _parsed(read_whole(path, _LARGEST_XML, RecordError, path.name), path.name)
+
+
+@lru_cache(maxsize=4)
+def _parsed(content: bytes, name: str) -> Any:
+    """Return obspy's inventory of a StationXML, which the channels of a station ask for one after another."""
     from obspy import read_inventory  # which takes a second to import
 
-    content = read_whole(path, _LARGEST_XML, RecordError, path.name)
     if b"FDSNStationXML" not in content[:2000] or b"<!DOCTYPE" in content:
-        raise RecordError(f"{path.name} is not a plain StationXML file; give one.")
+        raise RecordError(f"{name} is not a plain StationXML file; give one.")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             return read_inventory(io.BytesIO(content), format="STATIONXML")
     except Exception as error:
-        raise RecordError(f"damaged StationXML {path.name}, {str(error)[:200]}; fetch it again.") from error
+        raise RecordError(f"damaged StationXML {name}, {str(error)[:200]}; fetch it again.") from error
 
 
 def may_be_counts(head: bytes) -> bool:

@@ -21,6 +21,7 @@ from rocking.records.instrument import refuse_by_name, refuse_other_quantity
 from rocking.remarks import Kind, Remark
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
+_EMPTY_LAST = re.compile(rb"[,;][ \t]*(?:\n|\Z)")
 _EMPTY_END = re.compile(rb"(?m)(?:[ \t]*[,;])+[ \t]*$")
 """Empty cells at the end of rows, and whole rows of them below a table, as spreadsheets write them."""
 _EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
@@ -285,7 +286,8 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     below = text.after_lines(pointed, table.start)
     unended = below[:-_TAIL] + _END.sub(b"\n", below[-_TAIL:])
     body, filled = _without_filling(unended, table)
-    body = _EMPTY_END.sub(b"", body)
+    if _EMPTY_LAST.search(body):
+        body = _EMPTY_END.sub(b"", body)
     if _EMPTY_CELL.search(body):
         raise RecordError("a cell is empty; every column needs a number on every line.")
     spaced = body.replace(b",", b" ").replace(b";", b" ")
