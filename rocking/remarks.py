@@ -228,6 +228,10 @@ class Kind(StrEnum):
     SIZE_UNUSUAL = auto(), (
         "{about} is {value:.6g}{unit}, but is usually between {low:g} and {high:g}{unit} for {type}; check the unit."
     )
+    HELD_AT_CEILING = auto(), (
+        "{about} of type wall: held at floor and ceiling, it moves at neither; a wall that stands free at its top, as "
+        "a boundary wall does, is a free_wall."
+    )
     FLOORS_BEHIND = auto(), (
         "It rocks inwards as freely as outwards, though the floors that it carries or is tied to stand behind it: with "
         "behind: floors or cross_walls and the restitution of its impact on them it does not; neither is the safe side "

@@ -7,7 +7,6 @@ from matplotlib.figure import Figure
 from rocking.reports.style import styled
 from rocking.structures import Structure
 from rocking.structures.fields import Form
-from rocking.structures.fields import forms as forms_of
 from rocking.structures.structure_list import TYPES, structure_from_config
 
 _SEEN_ROTATION, _MOST_ROTATION = 0.12, 0.3
@@ -16,8 +15,8 @@ _SEEN_ROTATION, _MOST_ROTATION = 0.12, 0.3
 
 def forms() -> Iterator[tuple[str, str, Form]]:
     """Yield the name of the drawing, the type and the form, of every form of every type."""
-    for name, kind in TYPES.items():
-        for place, form in enumerate(forms_of(kind)):
+    for name, of_type in TYPES.items():
+        for place, form in enumerate(of_type):
             yield f"structure_{name}_{place + 1}", name, form
 
 

@@ -1,6 +1,5 @@
 """Drawings of structures: at rest, turned, fallen; with dimension lines, loads, thrusts and ties."""
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -9,7 +8,7 @@ from matplotlib.patches import Polygon
 from matplotlib.transforms import Transform
 
 from rocking.structures import Structure
-from rocking.structures.drawing import Dimension, Mark
+from rocking.structures.drawing import Mark
 
 _THIN = {"color": "0.35", "linewidth": 0.4}
 _PAPER = {"facecolor": "white", "edgecolor": "none", "pad": 0.4}
@@ -24,6 +23,7 @@ _HINGE: dict[str, Any] = {
     "markersize": 3,
     "markeredgewidth": 0.6,
 }
+_SUPPORT: dict[str, Any] = {"color": "0.45", "linewidth": 2.2, "solid_capstyle": "butt", "zorder": 3}
 _SIDES = {"load": ("center", "bottom"), "thrust": ("right", "center")}
 """The side of its value that touches the end of an arrow, horizontally and vertically."""
 _FALLEN = 3.0
@@ -64,11 +64,16 @@ def draw_structure(
 
 
 def _draw_mark(axes: Axes, mark: Mark, where: Transform, corner: tuple[float, float] | None) -> None:
-    """Draw a load or thrust as an arrow, a tie as a line to its anchorage.
+    """Draw a load or thrust as an arrow, a tie as a line to its anchorage, a support as the edge of a floor.
 
     corner: left end and top of the structure, m, beside which values stand; None draws no values.
     """
     tail, tip = mark.line
+    if mark.kind == "support":
+        axes.plot(*mark.line.T, transform=where, **_SUPPORT)
+        if corner is not None:
+            axes.text(tail[0], tail[1], f" {mark.text}", ha="left", va="center", transform=where)
+        return
     if mark.kind == "tie":
         axes.plot(*mark.line.T, color=_TIE, linewidth=1.0, zorder=3, transform=where)
         for end, size in zip(mark.line, (7, 5), strict=True):
@@ -93,9 +98,14 @@ def _draw_mark(axes: Axes, mark: Mark, where: Transform, corner: tuple[float, fl
         axes.text(tail[0], tail[1], f" {mark.text} ", ha=ha, va=va, zorder=4, bbox=_PAPER, transform=where)
 
 
-def draw_dimensions(axes: Axes, dimensions: Sequence[Dimension], *, values: bool = False) -> None:
-    """Draw dimension lines with their letters. values: write the value of each behind its letter."""
-    for each in dimensions:
+def draw_dimensions(axes: Axes, structure: Structure, *, values: bool = False) -> None:
+    """Draw the front of a structure where it is known, and its dimension lines with their letters.
+
+    values: write the value of each behind its letter.
+    """
+    if len(structure.front):
+        axes.add_patch(Polygon(structure.front, closed=True, fill=False, edgecolor="0.3", linewidth=0.6))
+    for each in structure.dimensions():
         axes.plot(*each.line.T, **_THIN)  # type: ignore[arg-type]
         for end, before in ((0, 1), (-1, -2)):
             axes.annotate("", tuple(each.line[end]), tuple(each.line[before]), arrowprops=_HEAD)

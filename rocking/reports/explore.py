@@ -93,7 +93,7 @@ def explore_page(records: Iterable[Content], structures: Mapping[str, Structure]
         {
             "name": name,
             "size": structure.described.size,
-            "type": structure.type_name,
+            "type": structure.described.type_name,
             "frames": drawings(structure),
         }
         for name, structure in structures.items()

@@ -389,7 +389,7 @@ def _plot_structure(
     """To scale; loads, thrusts and ties too, and at rest the line of thrust as it starts to rock."""
     draw_structure(axes, structure, rotation, values=not dimensions)
     if dimensions:
-        draw_dimensions(axes, structure.dimensions())
+        draw_dimensions(axes, structure)
     if not rotation and len(structure.thrust_line()):
         axes.plot(*structure.thrust_line().T, color="C3", linewidth=1.0, label="thrust line at uplift")
         axes.legend(loc="upper right")

@@ -333,7 +333,7 @@ def _structure_figure(structure: Structure, checked: StructureCheck) -> Figure:
     mechanism = checked.governing
     drawn = panel_at(figure, 2, 4, 60, _FIGURE_HEIGHT - 10)
     draw_structure(drawn, structure, values=True)
-    draw_dimensions(drawn, structure.dimensions(), values=True)
+    draw_dimensions(drawn, structure, values=True)
     turned = panel_at(figure, 62, 4, 36, _FIGURE_HEIGHT - 10)
     critical = mechanism.static.side.critical_rotation
     draw_structure(turned, mechanism.body, mechanism.sign * _TURNED * critical)

@@ -137,7 +137,8 @@ class RigidBody(Structure):
     of the centre of mass above the corners, m. inertia: about the centre of mass, per mass, m².
     restitution: η in [0, 1] on both sides, or "momentum" or "housner" (the same balance, the default): angular momentum
     about the corner to come, which differs from side to side. A one-sided body needs a number.
-    one_sided: it rocks about the right corner only, and is thrown back at every impact.
+    one_sided: it rocks about the right corner only, and is thrown back at every impact. height: of its outline, m, for
+    drawings and what they measure; None: twice centre_height.
     Its outline is not known, so each side is followed until the centre of mass is level with the corner.
     Raises StructureError when it cannot stand.
 
@@ -166,6 +167,17 @@ class RigidBody(Structure):
     ]
     restitution: Balanced = None
     one_sided: OneSided = False
+    height: Annotated[
+        float | None,
+        length("Height of its outline; left out: twice that of the centre of mass", 4.0, (0.05, 100), "h"),
+    ] = field(default=None, kw_only=True)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.height is not None and self.height <= self.centre_height:
+            raise StructureError(
+                f"height is {self.height!r} m, but must be above the centre of mass, at {self.centre_height!r} m."
+            )
 
     @property
     def symmetric(self) -> bool:
@@ -191,9 +203,13 @@ class RigidBody(Structure):
         body = Course(face, face, 0.0, 2 * self.centre_height, 1.0, (0.0, self.centre_height), self.inertia)
         return Stack((body,))
 
+    @property
+    def _outline_height(self) -> float:
+        return 2 * self.centre_height if self.height is None else self.height
+
     def _parts(self) -> list[tuple[int, np.ndarray]]:
-        """The parallelogram with these corners and this centre of mass, for want of the true outline."""
-        top = 2j * self.centre_height
+        """A parallelogram with these corners, about this centre of mass, for want of the true outline."""
+        top = 1j * self._outline_height
         return [(0, np.array([-self.left, self.right, self.left + top, -self.right + top]))]
 
     def _dimensions(self) -> dict[str, Path]:
@@ -203,6 +219,8 @@ class RigidBody(Structure):
             "left": span([-self.left, 0.0], [0.0, 0.0], apart),
             "right": span([0.0, 0.0], [self.right, 0.0], 2 * apart),
             "centre_height": span([0.0, 0.0], centre),
+            "base": span([-self.left, 0.0], [self.right, 0.0], apart),
+            "height": span([-self.left, 0.0], [-self.left, self._outline_height], apart[::-1]),
         }
 
 

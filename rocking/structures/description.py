@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from rocking.remarks import Remark
 from rocking.structures.fields import Field, Form
 
@@ -17,11 +19,15 @@ class Given(NamedTuple):
 
 @dataclass(frozen=True)
 class Description:
-    """What one structure says of itself. type_name: the `type` in a file. form: the one in which it is described."""
+    """What one structure says of itself: the form in which it is described, and the values of its keys."""
 
-    type_name: str
     form: Form
     values: tuple[Given, ...]
+
+    @property
+    def type_name(self) -> str:
+        """The `type` in a file."""
+        return self.form.type_name
 
     @property
     def words(self) -> str:
@@ -43,6 +49,11 @@ class Description:
         """A remark on each size beyond its plausible range."""
         remarks = (given.field.remark(self.type_name, given.value) for given in self.values)
         return tuple(remark for remark in remarks if remark)
+
+    @property
+    def front(self) -> np.ndarray:
+        """The outline of its front (k, 2), m, beside the section; (0, 2) where its form knows none."""
+        return self.form.front_of({given.field.name: given.value for given in self.values})
 
     @property
     def entry(self) -> dict[str, object]:

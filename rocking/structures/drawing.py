@@ -23,13 +23,13 @@ class Dimension:
 
 @dataclass(frozen=True, eq=False)
 class Mark:
-    """A load, thrust or tie that acts on a structure, as a drawing shows it, in m.
+    """A load, thrust, tie or support that acts on a structure, as a drawing shows it, in m.
 
-    kind: "load" or "thrust", an arrow along `line`, or "tie", a line to its anchorage. text: its value with unit.
-    line: (2, 2), its second point is where it acts.
+    kind: "load" or "thrust", an arrow along `line`, "tie", a line to its anchorage, or "support", the edge of a floor
+    that holds it. text: its value with unit. line: (2, 2), its second point is where it acts.
     """
 
-    kind: Literal["load", "thrust", "tie"]
+    kind: Literal["load", "thrust", "tie", "support"]
     text: str
     line: np.ndarray = field(repr=False)
 

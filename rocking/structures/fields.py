@@ -34,6 +34,7 @@ class Value:
     example: of a structure that stands. unit: of the file; lengths m, angles °, forces kN. usual: plausible range in
     that unit; beyond it a remark, not a refusal. letter: in drawings. phrase: how the description says it, of {name}
     and {value}, which has its unit. bounds: any of ge, gt, le, lt. names: of what may stand in place of a number.
+    dimension: the line of a drawing that measures it, where that has another name than the parameter.
     """
 
     meaning: str
@@ -44,6 +45,7 @@ class Value:
     phrase: str = "{name} {value}"
     bounds: Mapping[str, float] = field(default_factory=lambda: {"ge": 0})
     names: tuple[str, ...] = ()
+    dimension: str = ""
 
 
 def length(meaning: str, example: float, usual: tuple[float, float], letter: str = "", **more: Any) -> Value:
@@ -176,13 +178,24 @@ class Field(Described):
 class Form:
     """One way to describe a structure in a file.
 
-    meaning: for the documentation. make: name of the class method that takes the parameters as keywords; the class
-    itself when "". fields: its keys.
+    type_name: the `type` in a file. meaning: for the documentation. made_of: the class of the structure. make: name of
+    its class method that takes the parameters as keywords; the class itself when "". fields: its keys.
     """
 
+    type_name: str
     meaning: str
-    make: str
     fields: tuple[Field, ...]
+    made_of: Any
+    make: str = ""
+
+    def construct(self, **values: Any) -> Any:
+        """Return the structure of `values` by name, in SI; raises StructureError where it cannot stand."""
+        make = getattr(self.made_of, self.make) if self.make else self.made_of
+        return make(**values)
+
+    def front_of(self, sizes: Mapping[str, Any]) -> np.ndarray:
+        """Return the outline of the front of that size (k, 2), m; (0, 2) for what its section shows alone."""
+        return np.empty((0, 2))
 
     @classmethod
     def of(cls, kind: Any, make: str, meaning: str) -> "Form":
@@ -201,8 +214,8 @@ class Form:
         described = []
         for name, parameter in parameters.items():
             for value in getattr(hints.get(name), "__metadata__", ()):
-                described.append(_field(name, hints[name].__origin__, value, parameter.default))
-        return cls(meaning, make, tuple(described))
+                described.append(field_of(name, hints[name].__origin__, value, parameter.default))
+        return cls(kind.type_name, meaning, tuple(described), kind, make)
 
     @property
     def keys(self) -> dict[str, Field]:
@@ -232,7 +245,8 @@ def forms(kind: Any) -> tuple[Form, ...]:
     return tuple(Form.of(kind, make, meaning) for make, meaning in kind._described_as.items())
 
 
-def _field(name: str, hint: Any, value: Value, default: Any) -> Field:
+def field_of(name: str, hint: Any, value: Value, default: Any = Parameter.empty) -> Field:
+    """Return the key of a parameter of that type, its default `Parameter.empty` where it must be given."""
     required = default is Parameter.empty
 
     def kind_of(hint: Any) -> Any:

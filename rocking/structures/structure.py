@@ -18,8 +18,8 @@ from rocking.structures.capacity import CapacityCurve as CapacityCurve
 from rocking.structures.capacity import StaticCapacity
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.description import Description, Given
-from rocking.structures.drawing import Dimension, Mark, Path, plane
-from rocking.structures.fields import CompressiveStrength, Value, constructor, forms
+from rocking.structures.drawing import Dimension, Mark, Path, plane, span
+from rocking.structures.fields import CompressiveStrength, Form, Value, constructor, forms
 from rocking.structures.linkage import STILL, Linkage, Motion, Restitution, momentum_balance
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.stack import Stack
@@ -276,11 +276,14 @@ class Structure(ABC):
     def dimensions(self) -> tuple[Dimension, ...]:
         """Return the dimension lines of the sizes it was described by, at rest; of a list, one for each value."""
         lines = []
-        paths = self._dimensions()
+        paths = dict(self._dimensions())
+        if len(self.front):
+            foot = self.front[:2]
+            paths["front"] = span(foot[0], foot[1], [0.0, -0.06 * self.front[:, 1].max()])
         for given in self.described.values:
             letter = given.field.value.letter
             unit = given.field.suffix
-            path = paths.get(given.field.name, [])
+            path = paths.get(given.field.value.dimension or given.field.name, [])
             if not isinstance(path, list):
                 lines.append(Dimension(letter, given.text + unit, *path))
                 continue
@@ -291,8 +294,13 @@ class Structure(ABC):
                 lines.append(Dimension(numbered, text + unit, *own_path))
         return tuple(lines)
 
+    @property
+    def front(self) -> np.ndarray:
+        """The outline of its front (k, 2), m, as it stands beside the section in a drawing; (0, 2) where not known."""
+        return self.described.front
+
     def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
-        """Return the loads, thrusts and ties on it at a signed `rotation` [rad]."""
+        """Return the loads, thrusts, ties and supports on it at a signed `rotation` [rad]."""
         return ()
 
     def thrust_line(self, count: int = 200) -> np.ndarray:
@@ -354,11 +362,10 @@ class Structure(ABC):
 
         Options that were not given are left out.
         """
-        typed: Mapping[str, tuple[Any, str]] | None = self.__dict__.get("_typed")
-        if typed is not None:
-            form = max(forms(type(self)), key=lambda form: len(set(form.required) & typed.keys()))
+        if "_typed" in self.__dict__:
+            form, typed = self.__dict__["_typed"]
             given = [Given(each, *typed[each.key]) for each in form.fields if each.key in typed]
-            return Description(self.type_name, form, tuple(given))
+            return Description(form, tuple(given))
         form = forms(type(self))[0]
         defaults = {each.name: each.default for each in constructor(type(self)).fields}
         values = []
@@ -368,7 +375,7 @@ class Structure(ABC):
             if each.required or is_an_option_given:
                 outside = each.outward(value)
                 values.append(Given(each, outside, typed_text(outside, "{:.6g}")))
-        return Description(self.type_name, form, tuple(values))
+        return Description(form, tuple(values))
 
     @cached_property
     def _mechanism(self) -> Mechanism:
@@ -666,9 +673,14 @@ def free_to_both_sides(structure: Structure) -> None:
         )
 
 
-def remember_as_typed(structure: Structure, values: Mapping[str, object], texts: Mapping[str, str]) -> None:
+def remember_as_typed(
+    structure: Structure,
+    form: Form,
+    values: Mapping[str, object],
+    texts: Mapping[str, str],
+) -> None:
     """Let a structure describe itself by the `values` of a file, by key, and by their `texts` as they were typed."""
-    object.__setattr__(structure, "_typed", {key: (values[key], texts[key]) for key in values})
+    object.__setattr__(structure, "_typed", (form, {key: (values[key], texts[key]) for key in values}))
 
 
 def typed_text(value: object, number: str = "{}") -> str:

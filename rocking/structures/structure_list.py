@@ -4,13 +4,14 @@ Degrees, metres and kilonewtons outside, SI and radians inside; each size is rem
 follows from the forms of the types.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from pkgutil import resolve_name
 from typing import Any
 
 from rocking.errors import ConfigurationError, StructureError
 from rocking.quantities import shown
+from rocking.structures.building_parts import PARTS
 from rocking.structures.fields import Form, article, forms
 from rocking.structures.structure import Structure, remember_as_typed, typed_text
 
@@ -27,8 +28,12 @@ _CLASSES = (
 )
 
 
-TYPES: dict[str, type[Structure]] = {each.type_name: each for each in map(resolve_name, _CLASSES)}
-"""The classes by the `type` of a structure list."""
+TYPES: dict[str, tuple[Form, ...]] = {
+    **{each.type_name: forms(each) for each in map(resolve_name, _CLASSES)},
+    **{name: (each,) for name, each in PARTS.items()},
+}
+"""The forms of each `type` of a structure list."""
+_OTHER_NAMES = {other: name for name, each in PARTS.items() for other in each.others}
 
 
 def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str] | None = None) -> Structure:
@@ -47,9 +52,9 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
         )
     kind = mapping.get("type")
     if not isinstance(kind, str) or kind not in TYPES:
-        raise ConfigurationError(
-            f"type is {shown(kind)}, but must be one of {', '.join(TYPES)}{nearest(kind, TYPES)}."
-        )
+        known = _OTHER_NAMES.get(str(kind).replace("_", " ").lower())
+        hint = f" (it is described as {article(known)}, type: {known})" if known else nearest(kind, TYPES)
+        raise ConfigurationError(f"type is {shown(kind)}, but must be one of {', '.join(TYPES)}{hint}.")
     values = {
         key: value for key, value in mapping.items() if key not in ("type", "name") and value is not None
     }
@@ -57,13 +62,12 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
     arguments: dict[str, Any] = {
         form.keys[key].name: form.keys[key].inward(value) for key, value in values.items()
     }
-    make: Callable[..., Structure] = getattr(TYPES[kind], form.make) if form.make else TYPES[kind]
     try:
-        structure = make(**arguments)
+        structure: Structure = form.construct(**arguments)
     except StructureError as error:
         raise type(error)(_by_key(str(error), form, values, arguments)) from None
     remember_as_typed(
-        structure, values, {key: typed_text(value) for key, value in values.items()} | dict(texts or {})
+        structure, form, values, {key: typed_text(value) for key, value in values.items()} | dict(texts or {})
     )
     return structure
 
@@ -83,7 +87,7 @@ def _form(kind: str, values: Mapping[str, object], keys_typed: Iterable[str]) ->
 
     keys_typed: those of `values`, and those whose value was left blank.
     """
-    of_kind = forms(TYPES[kind])
+    of_kind = TYPES[kind]
     allowed = {key for form in of_kind for key in form.keys}
     for key in keys_typed:
         if key not in allowed:
@@ -129,9 +133,9 @@ NAME = {
 def definitions(more: Mapping[str, object]) -> dict[str, dict[str, object]]:
     """Return the JSON schema (draft 7) of an entry in each form of each type, by name. more: keys that all may have."""
     return {
-        kind if len(forms(each)) == 1 else f"{kind}_{number}": _definition(kind, form, more)
-        for kind, each in TYPES.items()
-        for number, form in enumerate(forms(each), start=1)
+        kind if len(of_kind) == 1 else f"{kind}_{number}": _definition(kind, form, more)
+        for kind, of_kind in TYPES.items()
+        for number, form in enumerate(of_kind, start=1)
     }
 
 

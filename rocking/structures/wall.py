@@ -15,7 +15,7 @@ from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, finite
 from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.crushing import inset
-from rocking.structures.drawing import Path, rectangle, span
+from rocking.structures.drawing import Mark, Path, rectangle, span
 from rocking.structures.fields import OneSided, OptionalUnitWeight, Value, length, restitution_value
 from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
 from rocking.structures.linkage import Hung, Linkage, Motion, Restitution, cross, keeps_last
@@ -254,6 +254,18 @@ class CrackedWall(CrackedAtHeight):
         hinge = self.lower_height
         return [(0, rectangle(-half, half, 0.0, hinge)), (1, rectangle(-half, half, hinge, self.height))]
 
+    def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
+        """Return also the floor and the ceiling, which hold it sideways on both faces; the ceiling moves up with it."""
+        face = self.thickness / 2
+        end = face + 0.1 * self.height
+        ceiling = float(self.hinges(rotation)[-1, 1])
+        held = [
+            Mark("support", text, np.array([[sign * end, height], [sign * face, height]]))
+            for height in (0.0, ceiling)
+            for sign, text in ((-1, ""), (1, "held"))
+        ]
+        return (*super().marks(rotation), *held)
+
     def _dimensions(self) -> dict[str, Path]:
         half = self.thickness / 2
         crack = self.lower_height
@@ -272,7 +284,8 @@ class CrackedWall(CrackedAtHeight):
 
 @dataclass(frozen=True, repr=False)
 class Wall(CrackedWall):
-    """A wall cracked into two blocks; base and top follow the ground, the top support slides vertically.
+    """A wall held at floor and ceiling, cracked into two blocks; base and top follow the ground, the top support slides
+    vertically. One that stands free at its top is a `Block`.
 
     lower_height, upper_height: h₁ below and h₂ above the hinge, m. thickness: 2b, m. The rotation φ is the
     lower block's. restitution: η in [0, 1] or "momentum" (the default): the impulses at the hinges of the
@@ -288,8 +301,8 @@ class Wall(CrackedWall):
 
     type_name: ClassVar[str] = "wall"
     _described_as: ClassVar[dict[str, str]] = {
-        "of_size": "Wall by its height, and that of its hinge where it is known",
-        "": "Wall by the heights below and above its hinge",
+        "of_size": "Wall held at floor and ceiling, by its height, and that of its hinge where it is known",
+        "": "Wall held at floor and ceiling, by the heights below and above its hinge",
     }
 
     restitution: Balanced = None

@@ -7,9 +7,13 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 from rocking.described import check_described, described
 from rocking.errors import ConfigurationError
 from rocking.quantities import GRAVITY
+from rocking.remarks import Kind, Remark
 
 if TYPE_CHECKING:
     from rocking.codes.design_spectrum import DesignSpectrum
+
+_LARGEST_USUAL = 0.6
+"""a_g beyond which a remark asks for the unit, g: what maps of hazard give for rock lies below nearly everywhere."""
 
 
 @dataclass(frozen=True)
@@ -71,6 +75,21 @@ class DesignSettings:
                 f"least_factor is {self.least_factor:g}, but must be below largest_factor, "
                 f"{self.largest_factor:g}."
             )
+
+    @property
+    def remark(self) -> Remark | None:
+        """A remark on an a_g beyond what codes map, as one that was typed in m/s² is; None within."""
+        if self.ag is None or self.ag <= _LARGEST_USUAL:
+            return None
+        return Remark.of(
+            Kind.SIZE_UNUSUAL,
+            "design_spectrum.ag_g",
+            value=self.ag,
+            low=0.0,
+            high=_LARGEST_USUAL,
+            unit=" g",
+            type="a design level",
+        )
 
     def spectrum(self) -> "DesignSpectrum | None":
         """Return the spectrum; None where there is no design level. Raises ConfigurationError for its points."""

@@ -30,6 +30,8 @@ T = TypeVar("T")
 
 JOBS = REMEMBERED / "rocking_jobs.lock"
 """Held by every job of a study while it works, in the folder of the study."""
+_NAMED = 8
+"""Structures that a remark names."""
 _MOST_BATCHES = 8
 _MANY = 200
 _FEW = 24
@@ -55,7 +57,12 @@ class Plan:
         results = Path(self.settings.results)
         names = {*self.records, "summary", "fragility"}
         folders = (report.parent for report in sorted(results.glob("*/report.pdf")))
+        walls = [name for name, scene in self.scenes.items() if scene.structure.type_name == "wall"]
+        named = ", ".join(walls[:_NAMED]) + f" and {len(walls) - _NAMED} more" * (len(walls) > _NAMED)
+        level = self.settings.design_spectrum.remark
         return (
+            *([Remark(Kind.HELD_AT_CEILING, named)] if walls else []),
+            *([level] if level else []),
             *repeated(self.records.values()),
             *unlisted(Path(self.settings.catalogue)),
             *self._outdated,

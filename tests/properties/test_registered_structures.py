@@ -19,7 +19,6 @@ from rocking.motion import integrate
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.structures.contacts import UnknownContacts
-from rocking.structures.fields import forms
 from rocking.structures.structure_list import TYPES, structure_from_config
 
 UNCHECKED = [HealthCheck.too_slow, HealthCheck.filter_too_much]
@@ -31,8 +30,8 @@ FEW = settings(
 )
 REGISTERED = [
     pytest.param(kind, form, id=f"{kind} {number}")
-    for kind, each in TYPES.items()
-    for number, form in enumerate(forms(each), start=1)
+    for kind, of_kind in TYPES.items()
+    for number, form in enumerate(of_kind, start=1)
 ]
 
 
@@ -188,7 +187,7 @@ def test_a_drawing_is_finite_closed_and_measured(structure):
             for shift in (1, 2):
                 edges = (np.abs((part - np.roll(part, shift, axis=0)) @ [1, 1j]) for part in (before, after))
                 np.testing.assert_allclose(*edges, atol=1e-10 * np.ptp(before, axis=0).max())
-    points = np.vstack(structure.outline())
+    points = np.vstack([*structure.outline(), structure.front])
     size = np.ptp(points, axis=0).max()
     dimensions = structure.dimensions()
     assert len(dimensions) >= 2
@@ -206,7 +205,8 @@ def test_a_drawing_is_finite_closed_and_measured(structure):
 def test_a_structure_comes_back_from_its_description_a_file_and_another_process(structure):
     """And its description says every value with its unit, its repr what a person can read."""
     mapping = structure.described.entry
-    assert all(len(form.keys) == len(form.fields) for form in forms(type(structure)))  # no key twice
+    form = structure.described.form
+    assert len(form.keys) == len(form.fields)  # no key twice
     entry = {"name": "one", **mapping}
     jsonschema.validate([entry], scenes_schema())
     with tempfile.TemporaryDirectory() as folder:

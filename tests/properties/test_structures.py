@@ -6,7 +6,6 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from rocking.errors import RockingError
-from rocking.structures.fields import forms
 from rocking.structures.structure_list import TYPES, structure_from_config
 
 SLOW = {"derandomize": True, "suppress_health_check": [HealthCheck.too_slow]}
@@ -22,7 +21,7 @@ values = st.one_of(st.floats(0.05, 60.0), st.integers(1, 9), nasty)
 def descriptions(draw):
     """A mapping with the keys of one form and values good and bad."""
     kind = draw(st.sampled_from(sorted(TYPES)))
-    form = draw(st.sampled_from(forms(TYPES[kind])))
+    form = draw(st.sampled_from(TYPES[kind]))
     return {"type": kind, **{key: draw(values) for key in form.keys if draw(st.integers(0, 9))}}
 
 

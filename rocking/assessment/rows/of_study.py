@@ -106,7 +106,9 @@ of_listed = Columns(ListedStructure)
 class StructureRow(StructureNameRow[ListedStructure]):
     """One row per structure: its mechanism and its equivalent block."""
 
-    type: str = of_listed("Type of the structure, as in the structure list", lambda of: of.body.type_name)
+    type: str = of_listed(
+        "Type of the structure, as in the structure list", lambda of: of.body.described.type_name
+    )
     geometry: str = of_listed("Sizes of the structure with their units", lambda of: of.body.description)
     crack: str = of_listed(
         "Hinge or crack, whose place is open; empty where none is", lambda of: of.body.crack_name

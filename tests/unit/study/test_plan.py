@@ -248,3 +248,24 @@ def test_an_edit_of_the_reports_is_in_the_hash_of_the_package_and_not_in_that_of
 
     (tmp_path / "motion" / "table.py").write_text("2\n")
     assert hashes()[0] != after[0] and hashes()[1] != after[1]
+
+
+def test_a_study_that_lists_walls_is_told_once_that_they_are_held(tmp_path: Path) -> None:
+    sizes = "height_m: 2.2, thickness_m: 0.3"
+    entries = "".join(f"- {{name: w{number}, type: wall, {sizes}}}\n" for number in range(10))
+    free = f"- {{name: boundary, type: free_wall, {sizes}}}\n"
+    plan = make_plan(_write(tmp_path, f"a,a.AT2,{SHA256}\n", entries + free))
+    (held,) = (remark for remark in plan.doubts if remark.kind is Kind.HELD_AT_CEILING)
+    assert held.about == "w0, w1, w2, w3, w4, w5, w6, w7 and 2 more"
+    assert "held at floor and ceiling" in str(held) and "is a free_wall." in str(held)
+    plan = make_plan(_write(tmp_path, f"a,a.AT2,{SHA256}\n", free))
+    assert not [remark for remark in plan.doubts if remark.kind is Kind.HELD_AT_CEILING]
+
+
+@pytest.mark.parametrize(("ag", "told"), [(0.26, False), (0.6, False), (2.55, True)])
+def test_a_design_level_typed_in_another_unit_gets_a_remark(tmp_path: Path, ag: float, told: bool) -> None:
+    level = {"ag_g": ag, "f0": 2.4, "tc_star_s": 0.3}
+    plan = make_plan(_write(tmp_path, f"a,a.AT2,{SHA256}\n", design_spectrum=level))
+    remarks = [str(remark) for remark in plan.doubts if remark.kind is Kind.SIZE_UNUSUAL]
+    said = "design_spectrum.ag_g is 2.55 g, but is usually between 0 and 0.6 g for a design level; check the unit."
+    assert remarks == [said] * told

@@ -1,0 +1,246 @@
+"""Parts of buildings by the names of practice: rows over block, rigid_body and spire, without classes of their own.
+
+Each is a height and the thickness over which it rocks; its breadth across shows its front.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal
+
+import numpy as np
+
+from rocking.errors import StructureError
+from rocking.structures.block import Block, RigidBody, Spire
+from rocking.structures.fields import Field, Form, constructor, field_of, length
+from rocking.structures.structure import Structure
+
+Sizes = Mapping[str, Any]
+"""Sizes in SI by name: height, thickness, breadth and, of a chimney, wall_thickness; None where left out."""
+
+
+@dataclass(frozen=True)
+class BuildingPart(Form):
+    """A row: a type that is described by its own sizes and made of a class.
+
+    arguments: those of `made_of` from the sizes. front: the shape seen from the front. others: what it is called as
+    well.
+    """
+
+    arguments: Callable[[Sizes], Mapping[str, object]] = field(kw_only=True)
+    front: Literal["rectangle", "triangle"] = field(default="rectangle", kw_only=True)
+    others: tuple[str, ...] = field(default=(), kw_only=True)
+
+    def construct(self, **values: Any) -> Structure:
+        """Return the structure of sizes and options by name, in SI; raises StructureError where it cannot stand."""
+        sizes = {each.name: values.pop(each.name, None) for each in self.fields if each.name in _SIZES}
+        for each in self.fields:
+            if sizes.get(each.name) is not None:
+                each.in_si(sizes[each.name])
+        structure: Structure = super().construct(**self.arguments(sizes), **values)
+        return structure
+
+    def front_of(self, sizes: Sizes) -> np.ndarray:
+        """Return its front (k, 2), m, to the right of the section; (0, 2) where its breadth is not known."""
+        height = sizes["height"]
+        breadth = sizes.get("breadth")
+        if breadth is None and self.front == "rectangle":
+            return np.empty((0, 2))
+        # A gable of which nobody said how broad it is: under a roof of 45°.
+        across = 2 * height if breadth is None else breadth
+        left = 1.5 * sizes["thickness"] + 0.15 * height
+        corners = [[left, 0.0], [left + across, 0.0], [left + across, height], [left, height]]
+        if self.front == "triangle":
+            corners[2:] = [[left + across / 2, height]]
+        return np.array(corners)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return building_part, (self.type_name,)
+
+
+def building_part(name: str) -> BuildingPart:
+    """Return the row of that type."""
+    return PARTS[name]
+
+
+def _wide(sizes: Sizes) -> dict[str, object]:
+    """The arguments of a block."""
+    return {"breadth": sizes["thickness"], "height": sizes["height"]}
+
+
+def _triangle(sizes: Sizes) -> dict[str, object]:
+    """The arguments of a body as thick all over, its front a triangle: centre of mass at h/3, inertia h²/18 + t²/12."""
+    half = sizes["thickness"] / 2
+    height = sizes["height"]
+    return {
+        "left": half,
+        "right": half,
+        "centre_height": height / 3,
+        "inertia": height**2 / 18 + half**2 / 3,
+        "height": height,
+    }
+
+
+def _shaft(sizes: Sizes) -> dict[str, object]:
+    """The arguments of a rectangular shaft of its outer sizes, solid or with a flue."""
+    thickness = sizes["thickness"]
+    height = sizes["height"]
+    breadth = sizes["breadth"] or thickness
+    walls = sizes["wall_thickness"]
+    area = breadth * thickness
+    second_moment = area * thickness**2 / 12
+    if walls is not None:
+        flue = thickness - 2 * walls
+        across = breadth - 2 * walls
+        if min(flue, across) <= 0:
+            raise StructureError(
+                f"wall_thickness is {walls!r} m, but must be less than half the smaller outer size, "
+                f"{min(thickness, breadth) / 2!r} m; leave it out for a solid chimney."
+            )
+        area -= across * flue
+        second_moment -= across * flue**3 / 12
+    return {
+        "left": thickness / 2,
+        "right": thickness / 2,
+        "centre_height": height / 2,
+        "inertia": height**2 / 12 + second_moment / area,
+    }
+
+
+def _pyramid(sizes: Sizes) -> dict[str, object]:
+    """The arguments of a solid pyramid, whose breadth does not change how it rocks over its thickness."""
+    return {"width": sizes["thickness"], "height": sizes["height"], "plan": "square"}
+
+
+_SIZES = ("height", "thickness", "breadth", "wall_thickness")
+
+
+def _part(
+    name: str,
+    meaning: str,
+    made_of: type[Structure],
+    arguments: Callable[[Sizes], Mapping[str, object]],
+    *,
+    height: tuple[float, float, float],
+    thickness: tuple[float, float, float],
+    breadth: tuple[float, float, float],
+    breadth_meaning: str = "Length across, for the drawing of its front",
+    more: tuple[Field, ...] = (),
+    crack: float | None = None,
+    front: Literal["rectangle", "triangle"] = "rectangle",
+    others: tuple[str, ...] = (),
+) -> BuildingPart:
+    """Return a row; of each size an example and the usual range, m. Its options are those of the class.
+
+    crack: an example of the height of its crack, m.
+    """
+    across = {Block: "breadth", RigidBody: "base", Spire: "width"}[made_of]
+    sizes = (
+        field_of("height", float, length("Height", height[0], height[1:], "h")),
+        field_of(
+            "thickness",
+            float,
+            length("Thickness, over which it rocks", thickness[0], thickness[1:], "t", dimension=across),
+        ),
+        field_of(
+            "breadth",
+            float | None,
+            length(breadth_meaning, breadth[0], breadth[1:], "b", dimension="front"),
+            None,
+        ),
+    )
+    own = {*_SIZES, *arguments({"height": 2.0, "thickness": 0.5, "breadth": 1.0, "wall_thickness": None})}
+    options = tuple(
+        replace(each, value=replace(each.value, example=crack)) if each.name == "crack_height" else each
+        for each in constructor(made_of).fields
+        if not each.required and each.name not in own
+    )
+    return BuildingPart(
+        name,
+        meaning,
+        (*sizes, *more, *options),
+        made_of,
+        "of_size" if made_of is Block else "",
+        arguments=arguments,
+        front=front,
+        others=others,
+    )
+
+
+_FLUE = field_of(
+    "wall_thickness",
+    float | None,
+    length("Thickness of its walls about the flue; left out: solid", 0.12, (0.05, 1)),
+    None,
+)
+
+PARTS: dict[str, BuildingPart] = {
+    each.type_name: each
+    for each in (
+        _part(
+            "free_wall",
+            "Wall that stands free, held by nothing at its top, such as a boundary wall",
+            Block,
+            _wide,
+            height=(2.0, 0.3, 20),
+            thickness=(0.3, 0.05, 3),
+            breadth=(3.0, 0.2, 200),
+            others=("boundary wall", "garden wall", "freestanding wall", "fence", "retaining wall"),
+        ),
+        _part(
+            "parapet",
+            "Parapet, a wall free at its top along the edge of a roof or a balcony",
+            Block,
+            _wide,
+            height=(1.0, 0.2, 4),
+            thickness=(0.25, 0.05, 1),
+            breadth=(3.0, 0.2, 200),
+            others=("balustrade", "battlement", "attic"),
+        ),
+        _part(
+            "chimney",
+            "Rectangular chimney by its outer sizes, solid or with a flue",
+            RigidBody,
+            _shaft,
+            height=(2.5, 0.3, 40),
+            thickness=(0.6, 0.1, 5),
+            breadth=(0.9, 0.1, 5),
+            breadth_meaning="Outer length across, of which the walls about the flue are a part; left out: square",
+            more=(_FLUE,),
+            others=("stack", "chimney stack", "flue"),
+        ),
+        _part(
+            "gable",
+            "Gable, a triangular wall that falls out of its plane, held by no roof",
+            RigidBody,
+            _triangle,
+            height=(3.0, 0.5, 15),
+            thickness=(0.4, 0.05, 2),
+            breadth=(7.0, 0.5, 40),
+            front="triangle",
+            others=("gable wall", "pediment", "tympanum"),
+        ),
+        _part(
+            "buttress",
+            "Buttress alone, as a rectangular block, that falls along its thickness",
+            Block,
+            _wide,
+            height=(5.0, 0.5, 40),
+            thickness=(1.2, 0.1, 8),
+            breadth=(0.8, 0.1, 8),
+            others=("counterfort",),
+        ),
+        _part(
+            "pinnacle",
+            "Pinnacle, a solid pyramid",
+            Spire,
+            _pyramid,
+            height=(3.0, 0.3, 20),
+            thickness=(0.7, 0.1, 5),
+            breadth=(0.7, 0.1, 5),
+            crack=1.0,
+            front="triangle",
+            others=("finial", "obelisk"),
+        ),
+    )
+}
+"""The rows by their type."""
