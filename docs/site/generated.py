@@ -17,6 +17,7 @@ from rocking.records.formats import FORMATS
 from rocking.sine_pulse import Regime
 from rocking.structures.fields import Form
 from rocking.study.settings import Settings
+from rocking.study.strengthening import StrengtheningRow
 from rocking.tables import data_package
 
 
@@ -43,7 +44,9 @@ def structures() -> str:
 
 def tables() -> str:
     """Every column of every table."""
-    classes = dict.fromkeys((*RECORD_TABLES, HistoryRow, *SUMMARY_TABLES, CodeCheckRow, SpectrumRow))
+    classes = dict.fromkeys(
+        (*RECORD_TABLES, HistoryRow, *SUMMARY_TABLES, CodeCheckRow, StrengtheningRow, SpectrumRow)
+    )
     package = json.loads(data_package("tables", {each: each.table.file_name for each in classes}))
     return "\n\n".join(map(_table_section, package["resources"]))
 

@@ -43,19 +43,12 @@ _PERIODS_PER_DOUBLING = 8
 
 
 @dataclass(frozen=True, eq=False)
-class Selection(Drawn):
-    """Sets of records for a design spectrum; `plot` draws the chosen one against its target.
+class ScaledPool:
+    """Records, each with the factor that brings it nearest to a design spectrum.
 
     names, stations: (m,) of the pool. pairs: its horizontal components, unscaled. factors: (m,), by which each is
     scaled. periods: (k,) s. target: (k,) m/s². spectra: (m, k) m/s², of each scaled pair the mean of its components,
-    5 % damping or that of the design spectrum. sets: (s, n) places in the pool, each within the limits; chosen: (n,),
-    the set whose mean lies nearest to the target. drawn: sets that were tried. below, above: the limits.
-
-    >>> (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
-    >>> pool = {"one": [record]}
-    >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.4)
-    >>> rocking.select(pool, spectrum, 1, below=0.9, above=9.0).chosen_names
-    ('one',)
+    5 % damping or that of the design spectrum.
     """
 
     names: tuple[str, ...]
@@ -65,6 +58,26 @@ class Selection(Drawn):
     periods: np.ndarray = field(repr=False)
     target: np.ndarray = field(repr=False)
     spectra: np.ndarray = field(repr=False)
+
+    def scaled(self, place: int) -> tuple[Accelerogram, ...]:
+        """Return the components of a record of the pool, scaled."""
+        return tuple(each.scaled(float(self.factors[place])) for each in self.pairs[place])
+
+
+@dataclass(frozen=True, eq=False)
+class Selection(ScaledPool, Drawn):
+    """Sets of records for a design spectrum; `plot` draws the chosen one against its target.
+
+    sets: (s, n) places in the pool, each within the limits; chosen: (n,), the set whose mean lies nearest to the
+    target. drawn: sets that were tried. below, above: the limits. The rest: as ScaledPool.
+
+    >>> (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
+    >>> pool = {"one": [record]}
+    >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.4)
+    >>> rocking.select(pool, spectrum, 1, below=0.9, above=9.0).chosen_names
+    ('one',)
+    """
+
     sets: np.ndarray = field(repr=False)
     chosen: np.ndarray = field(repr=False)
     drawn: int
@@ -87,10 +100,6 @@ class Selection(Drawn):
     def chosen_names(self) -> tuple[str, ...]:
         """The records of the chosen set."""
         return tuple(self.names[place] for place in self.chosen)
-
-    def scaled(self, place: int) -> tuple[Accelerogram, ...]:
-        """Return the components of a record of the pool, scaled."""
-        return tuple(each.scaled(float(self.factors[place])) for each in self.pairs[place])
 
     def redrawn(self, rng: np.random.Generator, tries: int = 4000, most: int = SETS) -> np.ndarray:
         """Return sets (s, n), s up to `most`, within the limits, of stations drawn again from those of the pool.
@@ -159,35 +168,45 @@ def select(
     >>> rocking.select(pool, spectrum, 3, below=0.9, above=9.0, sets=2).chosen.size
     3
     """
-    _check_ranges(periods, factors)
     for name, value in (("stations", stations), ("below", below), ("above", above), ("tries", tries)):
         positive(ConfigurationError, name, value)
+    pool = scaled_pool(records, spectrum, periods, factors)
+    found, chosen, drawn = search(
+        pool.spectra / pool.target,
+        pool.stations,
+        stations,
+        below=below,
+        above=above,
+        sets=sets,
+        tries=tries,
+        seed=seed,
+    )
+    return Selection(**vars(pool), sets=found, chosen=chosen, drawn=drawn, below=below, above=above)
+
+
+def scaled_pool(
+    records: Mapping[str, Sequence[Accelerogram]],
+    spectrum: DesignSpectrum,
+    periods: tuple[float, float],
+    factors: tuple[float, float],
+) -> ScaledPool:
+    """Return records with the factor that brings each nearest to `spectrum`, within the limits; as `select` does."""
+    _check_ranges(periods, factors)
     shortest, longest = periods
     count = 1 + math.ceil(_PERIODS_PER_DOUBLING * math.log2(longest / shortest))
     grid = np.geomspace(shortest, longest, count)
     target = np.asarray(spectrum.acceleration(grid))
     means = [_mean_spectrum(pair, grid, spectrum.damping) for pair in records.values()]
     own = np.array(means).reshape(-1, count)
-    names = tuple(records)
-    places = _stations(records, own)
     scaling = np.clip(np.exp(np.log(target / own).mean(axis=1)), *factors)
-    spectra = own * scaling[:, None]
-    found, chosen, drawn = search(
-        spectra / target, places, stations, below=below, above=above, sets=sets, tries=tries, seed=seed
-    )
-    return Selection(
-        names=names,
-        stations=places,
+    return ScaledPool(
+        names=tuple(records),
+        stations=_stations(records, own),
         pairs=tuple(tuple(pair) for pair in records.values()),
         factors=scaling,
         periods=grid,
         target=target,
-        spectra=spectra,
-        sets=found,
-        chosen=chosen,
-        drawn=drawn,
-        below=below,
-        above=above,
+        spectra=own * scaling[:, None],
     )
 
 

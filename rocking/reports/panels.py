@@ -13,7 +13,17 @@ from matplotlib.axes import Axes
 from rocking.errors import MotionError, RockingError
 from rocking.quantities import shown
 from rocking.reports.drawings import draw_dimensions, draw_structure
-from rocking.reports.style import MOST_POINTS, PREDICTED, PULSE, RECORD, plain_logarithmic, thinned
+from rocking.reports.style import (
+    MOST_POINTS,
+    PREDICTED,
+    PULSE,
+    RECORD,
+    new_figure,
+    plain_logarithmic,
+    styled,
+    svg,
+    thinned,
+)
 
 if TYPE_CHECKING:
     from rocking.assessment.assess import StructureAssessment
@@ -60,6 +70,14 @@ def plot(thing: object, axes: Axes | None = None, **options: Any) -> Axes:
         axes = pyplot.subplots()[1]
     draw(thing, axes, **options)
     return axes
+
+
+@styled
+def svg_of(thing: object) -> bytes:
+    """Return the picture of a thing that has one, in the style of the reports, as SVG."""
+    figure = new_figure(90.0)
+    plot(thing, figure.subplots())
+    return svg(figure).encode()
 
 
 # What a report and a method draw alike ---------------------------------------------------------------------

@@ -130,6 +130,20 @@ def _parser() -> argparse.ArgumentParser:
         type=Path,
         help="CSV file to write (default: selected.csv beside the catalogue of the pool)",
     )
+    add = verb(
+        _strengthen,
+        "find the smallest value of one size of a structure that can be shown to hold under the records of a study",
+    )
+    add("folder", type=Path, help="folder of the study")
+    add("structure", help="name of the structure in the list of the study")
+    add("key", help="key of the list that is varied, such as tie_strength_kN_m or thickness_m")
+    add("between", help="range of its values, such as 2..40")
+    add("--target", type=float, default=0.1, help="share that may overturn (default: 0.1)")
+    add(
+        "--output",
+        type=Path,
+        help="folder for the table and the figure (default: strengthening in the results)",
+    )
     add = verb(_tables, "write the tables of single records of a finished study")
     add("results", type=Path, help="folder of the results of a study")
     add("record", nargs="+", help="identifier of a record in the catalogue")
@@ -173,6 +187,15 @@ def _select(options: argparse.Namespace) -> None:
     from rocking.study.selection import write_selection
 
     print(*write_selection(options.folder, options.output), sep="\n")
+
+
+def _strengthen(options: argparse.Namespace) -> None:
+    from rocking.study.strengthening import write_strengthening
+
+    lines = write_strengthening(
+        options.folder, options.structure, options.key, options.between, options.target, options.output
+    )
+    print(*lines, sep="\n")
 
 
 def _tables(options: argparse.Namespace) -> None:

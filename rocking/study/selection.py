@@ -35,6 +35,25 @@ def select_for(study: Study, records: tuple[CatalogueRecord, ...]) -> tuple[Sele
             "setting design_spectrum.ag_g is null, and so is points, but records are selected for a design level; give "
             "one."
         )
+    pool, reasons = opened(study, records)
+    selection = select(
+        joined_by_station(pool),
+        spectrum,
+        design.stations,
+        periods=(design.shortest_period, design.longest_period),
+        factors=(design.least_factor, design.largest_factor),
+        seed=design.seed,
+    )
+    return selection, reasons
+
+
+def opened(
+    study: Study, records: Sequence[CatalogueRecord]
+) -> tuple[dict[str, list[Accelerogram]], dict[str, str]]:
+    """Return the horizontal components of `records`, processed as the study says, and why some could not be used.
+
+    Both by the name of the record. Raises RecordError where none could be read.
+    """
     pool: dict[str, list[Accelerogram]] = {}
     reasons: dict[str, str] = {}
     for record in records:
@@ -46,15 +65,7 @@ def select_for(study: Study, records: tuple[CatalogueRecord, ...]) -> tuple[Sele
         raise RecordError(
             f"none of {len(records)} records could be read; the first: {next(iter(reasons.values()))}"
         )
-    selection = select(
-        joined_by_station(pool),
-        spectrum,
-        design.stations,
-        periods=(design.shortest_period, design.longest_period),
-        factors=(design.least_factor, design.largest_factor),
-        seed=design.seed,
-    )
-    return selection, reasons
+    return pool, reasons
 
 
 _BETWEEN = " + "
@@ -113,7 +124,9 @@ def write_selection(folder: Path, output: Path | None = None) -> list[str]:
         selection, reasons = select_for(Study({}, settings), load_catalogue(catalogue))
         write_whole(target, _catalogue_of(selection, catalogue).encode())
         image = target.with_suffix(".svg")
-        write_whole(image, _figure(selection))
+        from rocking.reports.panels import svg_of  # matplotlib takes half a second to import
+
+        write_whole(image, svg_of(selection))
     lines = [f"{name}: not used, {reason}" for name, reason in reasons.items()]
     factors = selection.factors[selection.chosen]
     lines += [
@@ -134,16 +147,3 @@ def _catalogue_of(selection: Selection, catalogue: Path) -> str:
             chosen.append(row | {"scale_factor": repr(float(own * selection.factors[place]))})
     columns = [name for name in COLUMNS if name in chosen[0]]
     return catalogue_text(chosen, columns)
-
-
-def _figure(selection: Selection) -> bytes:
-    from rocking.reports.panels import plot  # matplotlib takes half a second to import
-    from rocking.reports.style import new_figure, styled, svg
-
-    @styled
-    def drawn() -> bytes:
-        figure = new_figure(90.0)
-        plot(selection, figure.subplots())
-        return svg(figure).encode()
-
-    return drawn()

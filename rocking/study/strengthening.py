@@ -1,0 +1,188 @@
+"""What holds a structure of a study: one size of it varied under the records of the study, as a table and a figure."""
+
+import math
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import chdir
+from dataclasses import dataclass
+from pathlib import Path
+
+from rocking.assessment.scene import Scene
+from rocking.codes.check import CodeTerms
+from rocking.codes.selection import scaled_pool
+from rocking.errors import ConfigurationError
+from rocking.fragility.curves import station_names
+from rocking.quantities import counted, shown
+from rocking.records import Accelerogram, load_catalogue
+from rocking.strengthening import Strengthening, Tried, sizes, strengthen_scene
+from rocking.structures.fields import Field, article
+from rocking.structures.structure_list import nearest
+from rocking.study.job import Study
+from rocking.study.plan import check_config_file, config_file, make_plan
+from rocking.study.selection import joined_by_station, opened, pool_of
+from rocking.tables import Columns, RowOf, row, write_rows, write_whole, written_together
+
+_RANGE = re.compile(r"\s*([^.\s][^\s]*?)\s*\.\.\s*(\S+)\s*")
+
+
+@dataclass(frozen=True)
+class _TriedValue:
+    """One value of a structure that was tried. found: what was found of all of them."""
+
+    structure: str
+    found: Strengthening
+    tried: Tried
+
+
+of_tried = Columns(_TriedValue)
+
+
+@row("strengthening")
+class StrengtheningRow(RowOf[_TriedValue]):
+    """One row per value that was tried, below the structure as it is given; written by rocking strengthen."""
+
+    structure: str = of_tried("Name of the structure", lambda each: each.structure)
+    key: str = of_tried("Key of the list of structures that is varied", lambda each: each.found.field.key)
+    value: float = of_tried(
+        "Value, in the unit at the end of its key; empty where the structure states none",
+        lambda each: float(each.found.field.outward(each.tried.value)),
+        unit="that of the key",
+    )
+    is_given: bool = of_tried(
+        "Whether this is the structure as it is given", lambda each: each.tried is each.found.given
+    )
+    holds: bool = of_tried(
+        "Whether this value and all larger ones can be shown to hold",
+        lambda each: each.tried is not each.found.given and each.tried.value >= each.found.value,
+    )
+    overturning_share: float = of_tried(
+        "Share that overturns, the mean over the stations; what cannot be told counts as 1",
+        lambda each: each.tried.share,
+    )
+    share_low: float = of_tried("Its lower one-sided 90 % bound", lambda each: each.tried.interval[0])
+    share_high: float = of_tried("Its upper one-sided 90 % bound", lambda each: each.tried.interval[1])
+    target_share: float = of_tried("Share that may overturn", lambda each: each.found.target)
+    stations: int = of_tried("Number of stations", lambda each: len(each.found.stations))
+    untold: int = of_tried(
+        "Number of components under which it cannot be told", lambda each: each.tried.untold
+    )
+    governing: str = of_tried("The crack that overturns most often", lambda each: each.tried.governing)
+    static_tie: float = of_tried(
+        "Least strength of a tie by the linear check of the code",
+        lambda each: each.found.static_tie / 1e3,
+        unit="kN/m",
+    )
+
+
+def write_strengthening(
+    folder: Path, structure: str, key: str, between: str, target: float, output: Path | None = None
+) -> list[str]:
+    """Write table and figure of what holds a structure of the study in `folder`, and return what to tell.
+
+    structure: its name. key: of the list. between: its range, as "2..40". output: folder of both files, by default that
+    of the results. At the design level of the study each record of the pool has the factor that brings it nearest to
+    the spectrum, and one that no factor within the limits brings there is left out; without a level the records of the
+    study act as the catalogue scales them. Raises ConfigurationError before anything is followed, and writes nothing.
+    """
+    target_folder = None if output is None else output.absolute()
+    with chdir(folder):
+        path = config_file(Path())
+        plan = make_plan(check_config_file(path) if path else {})
+        scene = _scene(plan.scenes, structure, plan.settings.structures)
+        size, ends = _size(scene, key, between)
+        study = Study(plan.scenes, plan.settings)
+        records, stations, notes = _records(study)
+        design = plan.settings.design_spectrum
+        found = strengthen_scene(
+            records,
+            scene,
+            size,
+            ends,
+            target,
+            stations,
+            study.assessment,
+            design.spectrum(),
+            CodeTerms(confidence_factor=design.confidence_factor, behaviour_factor=design.behaviour_factor),
+        )
+        from rocking.reports.panels import svg_of  # matplotlib takes half a second to import
+
+        place = target_folder or (Path(plan.settings.results) / "strengthening").absolute()
+        name = re.sub(r"[^A-Za-z0-9._-]+", "_", f"{structure}_{size.key}").strip("._-")[:150]
+        table = place / f"{name}.csv"
+        image = place / f"{name}.svg"
+        with written_together():
+            write_rows(StrengtheningRow, _rows(structure, found), table)
+            write_whole(image, svg_of(found))
+    return [*notes, f"{structure}: {found.words}", str(table), str(image)]
+
+
+def _rows(structure: str, found: Strengthening) -> Iterator[StrengtheningRow]:
+    for each in (found.given, *found.tried):
+        yield StrengtheningRow.of(_TriedValue(structure, found, each))
+
+
+def _scene(scenes: Mapping[str, Scene], name: str, path: str) -> Scene:
+    """The scene of that name. Raises ConfigurationError naming those there are."""
+    if name not in scenes:
+        raise ConfigurationError(
+            f"structure is {shown(name)}, but must be one of those in {path}: {', '.join(scenes)}."
+        )
+    return scenes[name]
+
+
+def _size(scene: Scene, key: str, between: str) -> tuple[Field, tuple[float, float]]:
+    """The size of that key, and the ends of the range in SI. Raises ConfigurationError."""
+    allowed = {each.key: each for each in sizes(scene.structure)}
+    if key not in allowed:
+        raise ConfigurationError(
+            f"key is {shown(key)}, but {article(scene.structure.type_name)} has no such size{nearest(key, allowed)}; "
+            f"it has {', '.join(allowed)}."
+        )
+    size = allowed[key]
+    ends = _RANGE.fullmatch(between)
+    try:
+        low, high = map(float, ends.groups() if ends else ())
+    except ValueError:
+        raise ConfigurationError(
+            f"the range of {key} is {shown(between)}, but must be two numbers with two points between them, as 2..40."
+        ) from None
+    if not 0 < low < high < math.inf:
+        raise ConfigurationError(
+            f"the range of {key} is {shown(between)}, but must go from above 0 to a larger value."
+        )
+    factor = float(size.inward(1.0))  # type: ignore[arg-type]
+    return size, (factor * low, factor * high)
+
+
+def _records(study: Study) -> tuple[list[Accelerogram], list[str], list[str]]:
+    """The components at the design level, or as the catalogue scales them; their stations, and what there is to say."""
+    design = study.settings.design_spectrum
+    spectrum = design.spectrum()
+    catalogue = load_catalogue(study.settings.catalogue if spectrum is None else pool_of(study.settings))
+    pool, reasons = opened(study, catalogue)
+    notes = [f"{name}: not used, {reason}" for name, reason in reasons.items()]
+    if study.settings.vertical:
+        notes.append("Vertical components do not act here, though the settings say vertical: true.")
+    if spectrum is None:
+        of_pool = [(name, each) for name, pair in pool.items() for each in pair]
+        records = [each for _, each in of_pool]
+        own = station_names(records, None)
+        # A record whose file names no station is one by itself, with both of its components.
+        stations = [
+            name if not (each.event or each.station) else station
+            for (name, each), station in zip(of_pool, own, strict=True)
+        ]
+        return records, stations, notes
+    limits = (design.least_factor, design.largest_factor)
+    scaled = scaled_pool(
+        joined_by_station(pool), spectrum, (design.shortest_period, design.longest_period), limits
+    )
+    within = [place for place, factor in enumerate(scaled.factors.tolist()) if limits[0] < factor < limits[1]]
+    if beyond := len(scaled.names) - len(within):
+        notes.append(
+            f"{counted(beyond, 'record')} left out, which no factor from {limits[0]:g} to {limits[1]:g} brings to the "
+            "design level."
+        )
+    records = [each for place in within for each in scaled.scaled(place)]
+    stations = [scaled.stations[place] for place in within for _ in scaled.pairs[place]]
+    return records, stations, notes
