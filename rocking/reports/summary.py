@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from rocking.assessment.conclusion import conclusion_in_words, conclusions, worst_of_each
 from rocking.assessment.decide import ORDER, Verdict, worst_first
 from rocking.assessment.over_periods import placed
 from rocking.assessment.rows import (
@@ -26,6 +27,8 @@ from rocking.quantities import GRAVITY, counted
 from rocking.reports import printing
 from rocking.reports.design_figure import design_summary_figure
 from rocking.reports.document import compile_document
+from rocking.reports.matrix import MOST_RECORDS as MOST_RECORDS_BESIDE
+from rocking.reports.matrix import matrix
 from rocking.reports.printing import (
     Column,
     Notice,
@@ -38,7 +41,8 @@ from rocking.reports.printing import (
     table_of,
     words,
 )
-from rocking.reports.style import PREDICTED, elided, new_figure, picture, pictures, styled, wrapped
+from rocking.reports.scatter import prediction_scatter
+from rocking.reports.style import elided, new_figure, picture, pictures, styled, wrapped
 from rocking.reports.supports import shares_by_period_figure
 from rocking.reports.units import displaying, unit_of
 from rocking.tables import rows_of
@@ -52,20 +56,14 @@ FEWEST_POINTS = 3
 """Cases from which on the closed form is drawn against the integration; fewer are read from the tables."""
 MOST_MAPPED = 48
 """Records of the map, the worst first; verdicts.csv holds all."""
+MOST_ON_PAGE_ONE = 16
+"""Of these those on the first page, above the scatter."""
 MOST_STRUCTURES = 20
 """Structures of the map, likewise."""
 MOST_LISTED = 20
 """Rows of the lists of unsafe cases and of failures; the CSV tables hold all."""
 MOST_RECORDS = 200
 """Rows of the list of the records, likewise."""
-_SMALLEST = 1e-3
-"""Rotation ratio below which a point is set on the edge of the scatter."""
-_FALLEN = 1.6
-"""Rotation ratio at which overturning is set there."""
-_MOST_POINTS = 5000
-"""Points that are drawn as shapes; more become a picture, whose size does not grow with them."""
-MOST_NAMED = 8
-"""Structures that a sentence names."""
 _BESIDE = 30
 """Letters of a name beside a bar."""
 _HEAD = 26
@@ -110,10 +108,14 @@ def _data(
     trade: Sequence[Mapping[str, str]],
     design: Design | None,
 ) -> dict[str, object]:
-    verdicts = rows_of(VerdictRow, tables["verdicts"])
+    verdicts = list(rows_of(VerdictRow, tables["verdicts"]))
     carried = supports_of(tables)
     shown = worst_period_each(verdicts)
     comparison = tables["comparison"]
+    made = conclusions(verdicts, rows_of(ComparisonRow, comparison))
+    words_of_all = {each.structure: each.decision.word for each in worst_of_each(made)}
+    judged = {row.record for row in shown}
+    many = len(judged) > MOST_RECORDS_BESIDE
     failures = tables["failures"]
     records = tables["record"]
     unsafe = comparison[comparison["agreement"] == Agreement.TOO_LOW]
@@ -121,20 +123,21 @@ def _data(
     both = comparison[["predicted_rotation_ratio", "integrated_rotation_ratio"]].max(axis=1, skipna=False)
     drawable = int((both > 0).sum()) >= FEWEST_POINTS
     summary = tables.get("fragility_summary")
-    alt = "Scatter of predicted against integrated rotation ratio, with factor-two lines."
     return {
-        "title": "Rocking assessment: summary",
+        "title": "Summary over the records",
         **printing.settings_texts(settings),
         "subtitle": f"{counted(records['record'].nunique(), 'record')}, "
-        f"{counted(len(tables['structures']), 'structure')}, {counted(len(comparison), 'case')}.",
+        f"{counted(len(tables['structures']), 'structure')}, {counted(len(comparison), 'case')}",
+        "conclusion": conclusion_in_words(words_of_all, len(judged)),
+        "matrix": matrix(made, records, tables["pulses"]),
         "notices": [notice.data for notice in _notices(records, comparison, len(failures))],
-        "outcomes": outcome_sentences(shown),
         "outcomes-figure": pictures(
             outcomes_figure,
-            shown if len(shown) > 1 else (),
+            shown if many else (),
             "Number of records under which each structure has each verdict.",
         ),
-        "map": severity_map(shown, records),
+        "map": severity_map(shown if many else (), records, MOST_ON_PAGE_ONE),
+        "whole-map": severity_map(shown if len(judged) > MOST_ON_PAGE_ONE else (), records, MOST_MAPPED),
         "supports": pictures(
             shares_by_period_figure,
             carried,
@@ -142,7 +145,7 @@ def _data(
         ),
         "methods": method_table(tables),
         "structures": structure_table(shown),
-        "scatter": [picture(prediction_scatter(comparison), alt)] if drawable else [],
+        "scatter": _scatter(tables) if drawable else [],
         "agreement": table_of(rows_of(AgreementRow, tables["agreement"]), *AGREEMENT_COLUMNS),
         "unsafe": table_of(rows_of(ComparisonRow, unsafe.head(MOST_LISTED)), *UNSAFE_COLUMNS),
         "unsafe-note": remainder(len(unsafe) - MOST_LISTED, "case", "comparison.csv"),
@@ -154,6 +157,15 @@ def _data(
         "design": _design(design),
         "trade": list(trade),
     }
+
+
+def _scatter(tables: Mapping[str, "DataFrame"]) -> list[dict[str, str]]:
+    """The scatter of all cases, with what the closed form saw of the falls as its heading."""
+    of_all = next(rows_of(AgreementRow, tables["agreement"]))
+    falls = f"{of_all.overturning_hits} of {counted(of_all.overturning, 'fall')}"
+    heading = f"The closed form sees {falls}, and falsely {of_all.overturning_false_alarms} more"
+    alt = "Scatter of the rotation ratio by closed form against that by integration, in four quadrants."
+    return [{**picture(prediction_scatter(tables["comparison"], tables["pulses"]), alt), "heading": heading}]
 
 
 def _fragility(summary: "DataFrame", ida: "DataFrame") -> list[dict[str, object]]:
@@ -213,25 +225,6 @@ def outcome_counts(verdicts: Sequence[VerdictRow]) -> dict[str, Counter[Verdict]
     return counts
 
 
-def outcome_sentences(verdicts: Sequence[VerdictRow]) -> list[str]:
-    """Return which structures have which verdict at worst, a sentence for each that occurs, the worst first."""
-    counts = outcome_counts(verdicts)
-    several = len({row.record for row in verdicts}) > 1
-    sentences = []
-    for word in ORDER:
-        at_worst = [name for name, each in counts.items() if next(filter(each.get, ORDER)) is word]
-        if not at_worst:
-            continue
-        if several and not word.stays_up:
-            under = "at least one record"
-            at_worst = [f"{name} ({counts[name][word]} of {counts[name].total()})" for name in at_worst]
-        else:
-            under = "every record" if several else "the record"
-        names = printing.listed(at_worst, most=MOST_NAMED)
-        sentences.append(f"{printing.sentence(word.predicate)} under {under}: {names}.")
-    return sentences
-
-
 @styled
 def outcomes_figure(verdicts: Sequence[VerdictRow]) -> Figure:
     """Draw of each structure, the worst first, under how many records it has each verdict."""
@@ -267,13 +260,18 @@ def outcomes_figure(verdicts: Sequence[VerdictRow]) -> Figure:
     return figure
 
 
-def severity_map(verdicts: Sequence[VerdictRow], records: "DataFrame") -> dict[str, object]:
-    """Return verdict and share by record and structure, both the worst first. verdicts: the worst first."""
+def severity_map(
+    verdicts: Sequence[VerdictRow], records: "DataFrame", most: int = MOST_MAPPED
+) -> dict[str, object]:
+    """Return verdict and share by record and structure, both the worst first.
+
+    verdicts: the worst first. most: records.
+    """
     names = [
         worst_first((getattr(row, which), row.decision) for row in verdicts)
         for which in ("record", "structure")
     ]
-    rows = names[0][:MOST_MAPPED]
+    rows = names[0][:most]
     columns = names[1][:MOST_STRUCTURES]
     others = [(len(names[0]) - len(rows), "record"), (len(names[1]) - len(columns), "structure")]
     rest = " and ".join(counted(count, noun) for count, noun in others if count)
@@ -313,7 +311,7 @@ def structure_table(verdicts: Sequence[VerdictRow]) -> dict[str, object]:
     return table_of(
         [(name, *[counts[name][verdict] for verdict in kinds], worst[name]) for name in counts],
         ("Structure", "1.6", "l", lambda row: strong(row[0])),
-        *((head, "auto", "r", lambda row, at=at: str(row[at])) for at, head in enumerate(heads, start=1)),
+        *((head, "0.9", "r", lambda row, at=at: str(row[at])) for at, head in enumerate(heads, start=1)),
         ("Worst record", "1.6", "l", lambda row: placed(row[-1].record, row[-1].support_period_s)),
         ("Overturns there in", "0.8", "l", lambda row: words(row[-1].decision.share_in_words)),
         ("As given", "0.7", "r", lambda row: ratio(row[-1].rotation_ratio, 2)),
@@ -370,39 +368,6 @@ def _worth(method: Method, ratios: "DataFrame", integrated: "DataFrame") -> _Wor
         both_rock=sum(each is not None for each in closeness),
         near=sum(bool(each) for each in closeness),
     )
-
-
-@styled
-def prediction_scatter(comparison: "DataFrame") -> Figure:
-    """Draw predicted against integrated rotation ratio with factor-two lines; what overturns stands at the far edges.
-
-    A case without one of the two is left out, and so is one that neither lifts.
-    """
-    figure = new_figure(80, 105, margins=(20, 3, 13, 3))
-    axes = figure.subplots()
-    span = np.array([_SMALLEST, 1.0])
-    for factor, line in ((1.0, "-"), (0.5, "--"), (2.0, "--")):
-        axes.plot(span, factor * span, line, color="black", linewidth=0.6)
-    columns = ["integrated_rotation_ratio", "predicted_rotation_ratio"]
-    cases = comparison.loc[comparison[columns].max(axis=1, skipna=False) > 0, columns]
-    places = np.clip(cases.to_numpy(dtype=float).T, 0.7 * _SMALLEST, None)
-    places[np.isinf(places)] = _FALLEN
-    look: dict[str, Any] = {"color": "none", "markeredgecolor": PREDICTED, "markeredgewidth": 0.8}
-    count = len(cases)
-    axes.plot(*places, "o", rasterized=count > _MOST_POINTS, label=f"cases ({count})", **look)
-    for edge in (1.25, 0.85 * _SMALLEST):
-        axes.axvline(edge, color="0.5", linewidth=0.5)
-        axes.axhline(edge, color="0.5", linewidth=0.5)
-    limits = 0.55 * _SMALLEST, 2.1
-    axes.set(xscale="log", yscale="log", xlim=limits, ylim=limits)
-    axes.minorticks_off()
-    ticks = {0.001: "0.001", 0.01: "0.01", 0.1: "0.1", 1.0: "1"}
-    axes.set_xticks([*ticks, _FALLEN], [*ticks.values(), "\noverturns"])
-    axes.set_yticks([*ticks, _FALLEN], [*ticks.values(), "overturns"])
-    axes.set_xlabel("rotation / critical rotation, full integration [-]")
-    axes.set_ylabel("rotation / critical rotation, closed form [-]")
-    axes.legend(loc="upper left", bbox_to_anchor=(0.03, 0.88))
-    return figure
 
 
 AGREEMENT_COLUMNS: list[Column] = [

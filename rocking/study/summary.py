@@ -140,8 +140,9 @@ def _report(
 
     spectra: of the components, where there is a design level. fragility: its folder, where it was measured.
     """
+    from rocking.reports.scatter import prediction_scatter
     from rocking.reports.style import svg  # as above
-    from rocking.reports.summary import prediction_scatter, summary_report
+    from rocking.reports.summary import summary_report
     from rocking.reports.trade import trade_picture
 
     tables = {each.table.name: frame(each, rows[each]) for each in _SHOWN}
@@ -155,7 +156,7 @@ def _report(
     design = (level, spectra) if level is not None and spectra else None
     write_whole(folder / "summary.pdf", summary_report(tables, study.settings.mapping(), pictures, design))
     figure = folder / "prediction_against_integration.svg"
-    write_whole(figure, svg(prediction_scatter(tables["comparison"])).encode())
+    write_whole(figure, svg(prediction_scatter(tables["comparison"], tables["pulses"])).encode())
     return [folder / "summary.pdf", figure]
 
 

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 import rocking
 from rocking.reports.panels import draw_energy_map, draw_rotation, rotation_ratios
+from rocking.reports.scatter import prediction_scatter
 from rocking.reports.style import (
     elided,
     new_figure,
@@ -18,7 +19,6 @@ from rocking.reports.style import (
     svg,
     wrapped,
 )
-from rocking.reports.summary import prediction_scatter
 
 TIMES = np.arange(3000) * 0.01
 PULSE = rocking.Pulse(4.0, 2 * np.pi / 0.9, 5.0)
@@ -130,18 +130,56 @@ def test_rotations_of_several_records_in_one_panel_stand_at_their_level_in_their
     assert [[bar.ymin, bar.ymax] for bar in bars] == [pytest.approx([3.4, 5.0]), pytest.approx([1.0, 2.6])]
 
 
-def test_what_overturns_and_what_rests_stand_beyond_a_line_from_what_rocks():
-    integrated, predicted = [0.001, 1.0, np.inf, 0.0], [1.0, 0.001, 0.0, np.inf]
-    ratios = {"integrated_rotation_ratio": integrated, "predicted_rotation_ratio": predicted}
-    (axes,) = prediction_scatter(pandas.DataFrame(ratios)).axes
-    (cases,) = (line for line in axes.lines if line.get_label() == "cases (4)")
-    lower, upper = sorted(line.get_xdata()[0] for line in axes.lines if len(set(line.get_xdata())) == 1)
-    for places in (cases.get_xdata(), cases.get_ydata()):
-        least, *rocking_ones, largest = sorted(places)
-        assert axes.get_xlim()[0] < least < lower < min(rocking_ones)
-        assert max(rocking_ones) < upper < largest < axes.get_xlim()[1]
-    factors = {line.get_ydata()[-1] / line.get_xdata()[-1] for line in axes.lines[:3]}
-    assert factors == {0.5, 1.0, 2.0}
+def test_each_case_stands_in_the_quadrant_of_who_says_that_it_falls():
+    """And what rocks in both at the logarithm of its rotation ratios; each quadrant says how many it holds."""
+    predicted = [0.1, np.inf, 0.2, np.inf, 0.4, 0.4, np.inf]
+    integrated = [0.5, np.inf, np.inf, 0.3, np.inf, 0.5, np.inf]
+    component = ["N", "N", "N", "E", "E", "E", "E"]
+    cases = {
+        "integrated_rotation_ratio": integrated,
+        "predicted_rotation_ratio": predicted,
+        "record": "a",
+        "component": component,
+    }
+    pulses = {
+        "record": "a",
+        "component": ["N", "E"],
+        "kind": "alternative",
+        "rank": 1,
+        "explained_energy": [0.2, 0.6],
+    }
+    axes, key = prediction_scatter(pandas.DataFrame(cases), pandas.DataFrame(pulses)).axes
+    light, dark = (line.get_xydata() for line in axes.lines if str(line.get_label()).startswith("cases"))
+    zone = 0.25  # from here on it falls
+    assert [tuple(point > zone) for point in light] == [(False, False), (True, True), (False, True)]
+    assert [tuple(point > zone) for point in dark] == [
+        (True, False),
+        (False, True),
+        (False, False),
+        (True, True),
+    ]
+    assert light[0] == pytest.approx(np.log10([0.1, 0.5])) and light[2][0] == pytest.approx(np.log10(0.2))
+    texts = [text.get_text() for text in axes.texts]
+    assert {"2 missed", "2 right", "1 false", "2 rock in both,", "1 within factor two"} <= set(texts)
+    beside = [text.get_text().replace("\u00a0", " ") for text in key.texts]
+    assert beside[1:5] == ["60 %", "misses 1 of 2", "20 %", "misses 1 of 2"]
+
+
+def test_no_two_points_of_what_falls_stand_on_one_another():
+    ratios = np.linspace(0.3, 0.31, 7)
+    cases = {
+        "predicted_rotation_ratio": [*ratios, *[np.inf] * 40],
+        "integrated_rotation_ratio": [np.inf] * 47,
+        "record": "a",
+        "component": "N",
+    }
+    axes = prediction_scatter(pandas.DataFrame(cases)).axes[0]
+    points = np.vstack(
+        [line.get_xydata() for line in axes.lines if str(line.get_label()).startswith("cases")]
+    )
+    assert len(points) == 47
+    apart = np.linalg.norm(points[:, None] - points[None], axis=2)[~np.eye(47, dtype=bool)]
+    assert apart.min() > 0.07
 
 
 @pytest.mark.parametrize("which", ["x", "y"])

@@ -35,8 +35,9 @@ from rocking.reports.design_figure import (
     spectrum_periods,
 )
 from rocking.reports.fragility import fragility_data, fragility_figure
+from rocking.reports.scatter import prediction_scatter
 from rocking.reports.style import svg
-from rocking.reports.summary import prediction_scatter, summary_data, summary_report
+from rocking.reports.summary import outcomes_figure, severity_map, summary_data, summary_report
 from rocking.tables import frame
 from tests.unit.assessment.made_rows import case as run
 from tests.unit.assessment.made_rows import filled, station, verdicts
@@ -109,14 +110,10 @@ def test_the_summary_counts_the_verdicts_of_each_structure_and_names_its_worst_r
     ]
     assert rows["wall"][:6] == ["1", "0", "1", "0", "two", "100\u00a0%"]
     assert rows["pier"][4:] == ["one", "31\u00a0%", "overturns", "0.50 – overturns"]
-    assert data["outcomes"] == [
-        "Overturns under at least one record: wall (1 of 2).",
-        "Is uncertain under at least one record: pier (1 of 1).",
-        "Stands under every record: arch.",
-    ]
-    (figure,) = data["outcomes-figure"]
+    assert data["conclusion"] == "1 of 3 structures overturns or probably does under some record."
+    assert data["outcomes-figure"] == [], "three records stand beside each other"
     drawn = re.findall(
-        r">(wall|pier|arch|▲ overturns|≈ uncertain|○ probably stands|● stands)<", figure["svg"]
+        r">(wall|pier|arch|▲ overturns|≈ uncertain|○ probably stands|● stands)<", svg(outcomes_figure(judged))
     )
     assert sorted(drawn[:3]) == ["arch", "pier", "wall"] and len(drawn) == 7
 
@@ -125,7 +122,7 @@ def test_the_map_holds_sign_and_share_with_the_worst_record_and_structure_first(
     alone = verdicts([station(run("EW", math.inf, "pier"))], "one")
     alone += verdicts([station(run("EW", 0.8, "arch"))], "two")
     judged = [*alone, verdict("two", "wall", math.inf, 60), verdict("three", "wall", 0.7, 0)]
-    content = summary_data(summary_tables(CASES, verdicts=judged), SETTINGS)["map"]
+    content = severity_map(judged, summary_tables(CASES, verdicts=judged)["record"])
     assert content["heads"] == ["pier", "wall", "arch"]
     assert [row["record"] for row in content["rows"]] == ["one", "two", "three"]
     assert [[cell["text"] for cell in row["cells"]] for row in content["rows"]] == [
@@ -133,6 +130,35 @@ def test_the_map_holds_sign_and_share_with_the_worst_record_and_structure_first(
         ["?", "△ 94\u00a0%", "≈ one run"],
         ["?", "● 0\u00a0%", "?"],
     ]
+
+
+def test_the_matrix_holds_a_word_for_each_record_the_worst_structure_first_and_what_to_do():
+    judged = [
+        verdict("one", "pier", 0.8, 0),
+        verdict("two", "pier", math.inf, 64),
+        verdict("one", "wall", math.inf, 64),
+        verdict("two", "wall", math.inf, 64),
+        verdict("two", "arch", 0.4, 12),
+    ]
+    content = summary_data(summary_tables(CASES, verdicts=judged), SETTINGS)["matrix"]
+    assert [head["name"] for head in content["heads"]] == ["two", "one"]
+    words = {row["name"]: [cell["word"] for cell in row["cells"]] for row in content["rows"]}
+    assert list(words.items()) == [
+        ("wall", ["overturns", "overturns"]),
+        ("pier", ["overturns", "stands"]),
+        ("arch", ["probably stands", ""]),
+    ]
+    assert [row["remark"] for row in content["rows"]] == ["", "", ""], "the words say it"
+
+
+def test_of_many_records_each_has_a_line_of_the_map_and_the_worst_stand_on_the_first_page():
+    judged = [verdict(f"record {number}", "pier", math.inf, number) for number in range(40)]
+    data = summary_data(summary_tables(CASES, verdicts=judged), SETTINGS)
+    assert data["matrix"]["rows"] == []
+    assert [row["record"] for row in data["map"]["rows"]] == [f"record {39 - number}" for number in range(16)]
+    assert len(data["whole-map"]["rows"]) == 40
+    few = summary_data(summary_tables(CASES, verdicts=judged[:10]), SETTINGS)
+    assert len(few["map"]["rows"]) == 10 and few["whole-map"]["rows"] == []
 
 
 def test_each_method_is_held_against_the_integration_and_no_time_is_told(example):

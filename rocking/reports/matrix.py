@@ -1,0 +1,76 @@
+"""The matrix of a summary: what becomes of each structure under each record, in words on their colours."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from rocking.assessment.conclusion import Conclusion, worst_of_each
+from rocking.assessment.decide import worst_first
+from rocking.quantities import GRAVITY, percent
+from rocking.remarks import Kind
+from rocking.reports.printing import LOOKS, number
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+MOST_RECORDS = 5
+"""Records beside each other; of more the map has a line each."""
+MOST_STRUCTURES = 20
+"""Structures below each other, the worst first; verdicts.csv holds all."""
+_UNSAID = (Kind.STRENGTHEN, Kind.NOTHING_TO_DO, Kind.NOTHING_DECIDES)
+"""Remarks that the word itself says."""
+
+
+def matrix(made: Sequence[Conclusion], records: "DataFrame", pulses: "DataFrame") -> dict[str, object]:
+    """Return heads and rows: a column for each record, a row for each structure, both the worst first.
+
+    Without rows where there are more records than stand beside each other. made: the conclusions on all. records,
+    pulses: the tables.
+    """
+    columns = worst_first((each.verdict.record, each.decision) for each in made)
+    by_pair = {(each.verdict.record, each.structure): each for each in made}
+    shares = worst_first((each.structure, each.decision) for each in made)
+    worst = {each.structure: each for each in worst_of_each(made)}
+    names = sorted(shares, key=lambda name: worst[name].decision.word.badness, reverse=True)
+    if not 0 < len(columns) <= MOST_RECORDS:
+        return {"heads": [], "rows": [], "left-out": 0}
+    return {
+        "heads": [{"name": name, "below": _head(name, records, pulses)} for name in columns],
+        "rows": [
+            {
+                "name": name,
+                "cells": [_cell(by_pair.get((record, name))) for record in columns],
+                "remark": _remark(worst[name]),
+            }
+            for name in names[:MOST_STRUCTURES]
+        ],
+        "left-out": max(0, len(names) - MOST_STRUCTURES),
+    }
+
+
+def _head(record: str, records: "DataFrame", pulses: "DataFrame") -> str:
+    """The peak of a record, and the share of the energy in its sine: "0.99 g; sine 11–13 %"."""
+    peak = records.loc[records["record"] == record, "peak_acceleration_m_s2"].max() / GRAVITY
+    dominant = pulses[
+        (pulses["record"] == record) & (pulses["kind"] == "alternative") & (pulses["rank"] == 1)
+    ]
+    energy = sorted(dominant["explained_energy"])
+    text = f"{number(peak, 2)} g"
+    if energy:
+        low, high = percent(energy[0]), percent(energy[-1])
+        text += f"; sine {low if low == high else f'{low}–{high}'}\u00a0%"
+    return text
+
+
+def _cell(conclusion: Conclusion | None) -> dict[str, object]:
+    if conclusion is None:
+        return {"word": "", "share": "", "fill": "#ffffff", "ink": "#000000", "hatched": False}
+    decision = conclusion.decision
+    _, fill, ink, hatch = LOOKS[decision.word]
+    word = f"? {decision.word}" if hatch else str(decision.word)
+    share = "" if hatch else decision.share_in_words
+    return {"word": word, "share": share, "fill": fill, "ink": ink, "hatched": bool(hatch)}
+
+
+def _remark(conclusion: Conclusion) -> str:
+    remark = conclusion.remark
+    return "" if remark.kind in _UNSAID else remark.brief
