@@ -25,6 +25,8 @@ from .floors.support import Mode as Mode
 from .floors.support import Support as Support
 from .fragility.curves import Fragility as Fragility
 from .fragility.curves import fragility as fragility
+from .fragility.hazard import AnnualRate as AnnualRate
+from .fragility.hazard import Hazard as Hazard
 from .fragility.measures import IntensityMeasure as IntensityMeasure
 from .fragility.measures import intensity_measure as intensity_measure
 from .motion.batch import integrate_batch as integrate_batch

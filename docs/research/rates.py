@@ -18,7 +18,7 @@ from docs.research import scores
 from docs.research.fragilities import real_sites
 from docs.research.report import Target
 from rocking.fragility.curves import Fragility
-from rocking.fragility.rows import HazardRow, annual_rate, rate_interval
+from rocking.fragility.hazard import Hazard, rate_interval
 
 SLOPES = (1.5, 2.5, 3.5)
 """Of the logarithm of the hazard over that of the level, downwards."""
@@ -115,12 +115,12 @@ def least_reach(
 def rates_of_sites(curve: Fragility, pool: np.ndarray, slope: float) -> np.ndarray:
     """Return the annual rate (n,) of each site, whose curves (n, k) are `pool`, under a hazard of one slope."""
     ends = curve.levels[[0, -1]] * np.array([0.5, 2.0])
-    points = [HazardRow(intensity=level, annual_rate=(level / ends[0]) ** -slope) for level in ends.tolist()]
+    hazard = Hazard(ends, (ends / ends[0]) ** -slope)
     of_each = (
         replace(curve, probability=own, exceedance=own[None], stations=(str(place),))
         for place, own in enumerate(pool)
     )
-    return np.array([annual_rate(each, points).value for each in of_each])
+    return np.array([each.annual_rate(hazard).value for each in of_each])
 
 
 def _lognormal(rng: np.random.Generator, count: int, slope: float) -> np.ndarray:

@@ -11,6 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
+from pathlib import Path
 from typing import Literal
 
 import numpy as np
@@ -25,6 +26,8 @@ from rocking.assessment.settings import EnsembleSettings
 from rocking.drawn import Drawn
 from rocking.errors import ConfigurationError, StructureError
 from rocking.floors.support import Support
+from rocking.fragility.exchange import fragility_csv, nrml
+from rocking.fragility.hazard import AnnualRate, Hazard, annual_rate
 from rocking.fragility.measures import IntensityMeasure, check_name
 from rocking.fragility.measures import intensity_measure as measure_named
 from rocking.motion.batch import integrate_batch
@@ -33,6 +36,7 @@ from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.structures import EquivalentBlock, Mechanism, Structure
 from rocking.structures.alone import as_structure
+from rocking.tables import write_whole
 
 LEVELS = 40
 """Levels in all."""
@@ -107,6 +111,28 @@ class Fragility(Drawn):
     def independent(self) -> int:
         """Number of stations."""
         return len(set(self.stations))
+
+    def annual_rate(self, hazard: Hazard) -> AnnualRate:
+        """Return the annual rate of exceedance under a hazard curve, with its 90 % interval by stations.
+
+        Beside it stand the rates under the quantiles of the hazard. Raises ConfigurationError for a hazard curve that
+        says another intensity measure.
+        """
+        if self.measure:
+            hazard.check_measure(self.measure)
+        return annual_rate(self.levels, self.probability, self.exceedance, self.stations, hazard)
+
+    def to_nrml(self, path: str | Path, *, name: str = "structure", lognormal: bool = False) -> None:
+        """Write the curve as a fragility model of OpenQuake, NRML 0.5: discrete, or with two parameters of a lognormal.
+
+        name: of the function, by which an exposure model names its class. Levels are in OpenQuake's unit. Raises
+        ConfigurationError for a measure that OpenQuake lacks.
+        """
+        write_whole(Path(path), nrml(self, name, lognormal))
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write the curve as a CSV: a row a level, with the measure and its unit in each."""
+        write_whole(Path(path), fragility_csv(self))
 
     @property
     def reversals(self) -> np.ndarray:

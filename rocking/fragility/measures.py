@@ -268,6 +268,21 @@ def intensity_measure(name: str, structure: Structure | Mechanism | None = None)
     return made(*(periods or _periods_of(stem, structure)))
 
 
+def of_openquake(name: str) -> tuple[str, float]:
+    """Return OpenQuake's name of a measure, and a value in its unit there over the same in ours.
+
+    Raises ConfigurationError for one that there is not, or that OpenQuake lacks. AvgSA does not say its range there.
+    """
+    if _parsed(name)[0] == "AvgSA":
+        return "AvgSA", 1.0
+    measure = intensity_measure(name)
+    if not measure.openquake:
+        raise ConfigurationError(
+            f"intensity_measure is {name!r}, which OpenQuake lacks; take another, such as pgv."
+        )
+    return measure.openquake, measure.openquake_scale
+
+
 def check_name(name: str) -> None:
     """Raise ConfigurationError unless it is the name of a measure; one that takes its periods from a structure is."""
     stem, periods = _parsed(name)

@@ -1,20 +1,20 @@
-"""The rows of a study's fragility: responses at every level, curves, what each comes down to, and the hazard."""
+"""The rows of a study's fragility: responses at every level, curves, and what each comes down to."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
-from scipy.special import ndtri, stdtrit
+from scipy.special import ndtri
 
 from rocking.assessment.fidelity import peak_velocity
 from rocking.assessment.rows import Placed, PlacedRow
 from rocking.assessment.rows.meanings import RECORD
 from rocking.errors import ConfigurationError
 from rocking.fragility.curves import Explanation, Fragility, IncrementalDynamicAnalysis, explanation
+from rocking.fragility.hazard import AnnualRate, Hazard
 from rocking.fragility.measures import (
     MEASURES_IN_WORDS,
     IntensityMeasure,
@@ -22,136 +22,11 @@ from rocking.fragility.measures import (
 )
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism
-from rocking.tables import Columns, Row, column, read_rows, read_whole, row
+from rocking.tables import Columns, Row, row
 
-_STEPS = 400
-"""Steps of the integral over the hazard curve, in equal parts of the logarithm of the level."""
-_LARGEST_HAZARD = 1_000_000
-"""Bytes of a hazard curve; fifty points take about one thousand."""
 ROTATION_RATIOS = (0.1, 0.3, 0.5, math.inf)
 """Largest rotations over the critical one whose exceedance has a curve; inf: overturning."""
 _MEASURE = f"Intensity measure: {MEASURES_IN_WORDS}"
-
-
-@row("hazard")
-class HazardRow(Row):
-    """One row per level of the intensity measure, ascending."""
-
-    intensity: float = column("Level, in the unit of the intensity measure")
-    annual_rate: float = column("Annual rate of exceedance of the level", unit="1/year")
-
-
-def read_hazard(path: Path) -> list[HazardRow]:
-    """Return the points of a hazard curve from a CSV with the columns intensity and annual_rate.
-
-    Raises ConfigurationError for fewer than two points, levels that do not ascend, or a rate that rises.
-    """
-    read_whole(path, _LARGEST_HAZARD, ConfigurationError)
-    points = list(read_rows(HazardRow, path))
-    if len(points) < 2:
-        raise ConfigurationError(f"{path} holds {len(points)} points, but must hold at least 2.")
-    for before, point in zip([None, *points], points, strict=False):
-        at = f"{point.annual_rate:g} a year at {point.intensity:g}"
-        if not (point.intensity > 0 and point.annual_rate > 0):
-            raise ConfigurationError(f"{path} holds {at}, but both must be above 0.")
-        if before and point.intensity <= before.intensity:
-            raise ConfigurationError(
-                f"{path} holds {point.intensity:g} after {before.intensity:g}, but intensity must ascend; sort it."
-            )
-        if before and point.annual_rate > before.annual_rate:
-            raise ConfigurationError(
-                f"{path} says {at}, more than {before.annual_rate:g} at {before.intensity:g}, but annual_rate must "
-                "not rise."
-            )
-    return points
-
-
-@dataclass(frozen=True)
-class AnnualRate:
-    """The annual rate of exceedance with its 90 % interval, and the most that it may lack, 1/year."""
-
-    value: float
-    low: float
-    high: float
-    remainder: float
-
-
-def annual_rate(fragility: Fragility, points: Sequence[HazardRow]) -> AnnualRate:
-    """Return ∫ P dν over the hazard curve ν; both are linear in the logarithm of the level between their points.
-
-    The rate is the mean over the stations of the rate of each. Below its levels a station's curve counts as 0, above
-    them as its last value, and where it was not tried as the share of the others; beyond the last point of the hazard
-    curve all is counted there. The interval is that of `rate_interval`. The remainder is the most that the rate
-    may lack: because the curve ends below a probability of 1, and because levels below the first point of the hazard
-    curve are left out, which occur as often as the hazard curve, continued by its first slope, says.
-    """
-    levels = np.log(fragility.levels)
-    logs, log_rates = np.log([[point.intensity, point.annual_rate] for point in points]).T
-    edges = np.linspace(logs[0], logs[-1], _STEPS + 1)
-    rates = np.exp(np.interp(edges, logs, log_rates))
-    occurring = np.append(rates[:-1] - rates[1:], rates[-1])
-    middles = np.append((edges[1:] + edges[:-1]) / 2, edges[-1])
-
-    tried = np.isfinite(fragility.probability)
-    pooled = np.interp(levels, levels[tried], fragility.probability[tried])
-    curves = _curves_of_stations(fragility, pooled)
-    of_stations = np.array([np.interp(middles, levels, each, left=0.0) @ occurring for each in curves])
-    rate = float(of_stations.mean())
-    low, high = rate_interval(of_stations)
-
-    above = (1 - pooled[-1]) * occurring[middles >= levels[-1]].sum()
-    slope = (log_rates[0] - log_rates[1]) / (logs[1] - logs[0])
-    lower = np.linspace(min(levels[0], logs[0]), logs[0], _STEPS + 1)
-    continued = np.exp(log_rates[0] + slope * (logs[0] - lower))
-    below = np.interp((lower[1:] + lower[:-1]) / 2, levels, pooled, left=0.0) @ -np.diff(continued)
-    return AnnualRate(
-        value=rate,
-        low=min(low, rate),
-        high=max(rate, min(high, points[0].annual_rate)),
-        remainder=float(above + below),
-    )
-
-
-def _curves_of_stations(fragility: Fragility, pooled: np.ndarray) -> np.ndarray:
-    """The curve of each station, (s, k): the mean of its records, and where none was tried the pooled one (k,)."""
-    stations = np.asarray(fragility.stations)
-    curves = []
-    for name in dict.fromkeys(fragility.stations):
-        own = fragility.exceedance[stations == name]
-        tried = np.isfinite(own)
-        count = tried.sum(axis=0)
-        mean = np.where(tried, own, 0.0).sum(axis=0) / np.maximum(count, 1)
-        curves.append(np.where(count > 0, mean, pooled))
-    return np.array(curves)
-
-
-def rate_interval(of_stations: np.ndarray) -> tuple[float, float]:
-    """Return the 90 % interval of the mean of the rates (s,) of stations.
-
-    Rates scatter by orders of magnitude, as the hazard curve raises a level to a power of 2 to 4. Resampling of 8 to 35
-    stations seldom meets the few that make up the mean, and its interval holds the truth in 56 to 92 % only
-    (docs/pages/fragility.md). The interval is therefore that of the mean of a lognormal, by Student's law for few
-    stations (Cox's method: Zhou & Gao 1997, Confidence intervals for the log-normal mean, Stat. Med. 16, 783-790),
-    times the share of the stations that have a rate at all. Where rates are no lognormal, that mean is not theirs; the
-    interval therefore also holds that of the mean itself, by Student's law for its logarithm.
-    """
-    positive = np.log(of_stations[of_stations > 0])
-    count = positive.size
-    if count < 2:
-        return 0.0, math.inf
-    share = count / of_stations.size
-    variance = float(positive.var(ddof=1))
-    middle = math.log(share) + float(positive.mean()) + variance / 2
-    error = math.sqrt((1 - share) / count + variance / count + variance**2 / (2 * (count - 1)))
-    reach = float(stdtrit(count - 1, 0.95)) * error
-
-    mean = float(of_stations.mean())
-    relative_error = float(of_stations.std(ddof=1)) / mean / math.sqrt(of_stations.size)
-    own_reach = float(stdtrit(of_stations.size - 1, 0.95)) * relative_error
-
-    low = min(middle - reach, math.log(mean) - own_reach)
-    high = max(middle + reach, math.log(mean) + own_reach)
-    return math.exp(low), math.exp(min(high, 700.0))
 
 
 @dataclass(frozen=True)
@@ -306,12 +181,12 @@ def fragility_rows(
 class SummarisedCurve(DrawnCurve):
     """One curve with the hazard curve of its intensity measure, where there is one."""
 
-    hazard: Sequence[HazardRow] | None
+    hazard: Hazard | None
 
     @cached_property
     def rate(self) -> AnnualRate | None:
         """The annual rate of exceedance; None without a hazard curve."""
-        return annual_rate(self.curve, self.hazard) if self.hazard else None
+        return self.curve.annual_rate(self.hazard) if self.hazard else None
 
     @property
     def largest_scale_factor(self) -> float:
@@ -382,6 +257,23 @@ class FragilitySummaryRow(CurveRow[SummarisedCurve]):
         lambda of: of.rate.remainder if of.rate else math.nan,
         unit="1/year",
     )
+
+
+def curve_rows(
+    structure: str,
+    records: Sequence[str],
+    analysis: IncrementalDynamicAnalysis,
+    hazard: Hazard | None,
+    support_period: float | None = None,
+) -> Iterator[IdaRow | FragilityRow | FragilitySummaryRow]:
+    """Yield the rows of the responses of a structure, and of its curve for each of ROTATION_RATIOS."""
+    yield from ida_rows(structure, records, analysis, support_period)
+    for threshold in ROTATION_RATIOS:
+        for governing in (True, False) if analysis.governing_ratios is not None else (False,):
+            curve = analysis.fragility(threshold, governing=governing)
+            summarised = SummarisedCurve(structure, curve, governing, hazard, support_period=support_period)
+            yield from fragility_rows(structure, curve, governing, support_period)
+            yield FragilitySummaryRow.of(summarised)
 
 
 @dataclass(frozen=True)

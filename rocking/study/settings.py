@@ -58,7 +58,8 @@ class StudyFragility:
         le=1e6,
     )
     hazard: str | None = described(
-        None, "CSV of a hazard curve with the columns intensity and annual_rate, ascending, or null"
+        None,
+        "CSV of a hazard curve: of OpenQuake, or with the columns intensity and annual_rate, ascending; or null",
     )
     in_every_run: bool = described(False, "whether every run measures the fragility")
 

@@ -176,9 +176,12 @@ def write_fragility(
     # A quarter of a second that a summary has no need of.
     from rocking.fragility import rows
     from rocking.fragility.curves import fragility
+    from rocking.fragility.hazard import Hazard
 
     settings = study.settings.fragility
-    hazard = rows.read_hazard(Path(settings.hazard)) if settings.hazard else None
+    hazard = Hazard.read(settings.hazard) if settings.hazard else None
+    if hazard:
+        hazard.check_measure(settings.intensity_measure)
     if all(never_lets_go(each.structure) for each in study.scenes.values()):
         raise ConfigurationError(
             "no structure of the list can overturn, so that none has a fragility; give ties a tie_strength at which "
@@ -214,13 +217,8 @@ def write_fragility(
                 reasons.append(f"{name}: {error}")
                 break
             assert analysis is not None
-            tables[rows.IdaRow] += rows.ida_rows(name, names, analysis, period)
-            for threshold in rows.ROTATION_RATIOS:
-                for governing in (True, False) if analysis.governing_ratios is not None else (False,):
-                    curve = analysis.fragility(threshold, governing=governing)
-                    summarised = rows.SummarisedCurve(name, curve, governing, hazard, support_period=period)
-                    tables[rows.FragilityRow] += rows.fragility_rows(name, curve, governing, period)
-                    tables[rows.FragilitySummaryRow].append(rows.FragilitySummaryRow.of(summarised))
+            for each in rows.curve_rows(name, names, analysis, hazard, period):
+                tables[type(each)].append(each)
             try:
                 of_measures = rows.intensity_measure_rows(name, mechanism, accelerograms, analysis, period)
                 tables[rows.IntensityMeasureRow] += list(of_measures)

@@ -15,8 +15,9 @@ from rocking.assessment.settings import EnsembleSettings
 from rocking.errors import ConfigurationError
 from rocking.fragility import curves
 from rocking.fragility.curves import Fragility, IncrementalDynamicAnalysis, fragility, fragility_of
+from rocking.fragility.hazard import Hazard, rate_interval
 from rocking.fragility.measures import INTENSITY_MEASURES
-from rocking.fragility.rows import HazardRow, annual_rate, ida_rows, rate_interval
+from rocking.fragility.rows import ida_rows
 from rocking.motion import integrate
 from rocking.motion.batch import integrate_batch
 from rocking.quantities import GRAVITY
@@ -266,8 +267,8 @@ def test_the_interval_of_a_share_is_that_of_jeffreys_for_the_scatter_of_the_stat
         assert (curve.probability_low[0], curve.probability_high[0]) == pytest.approx(tuple(ends), rel=1e-9)
 
 
-def _points(levels, rates) -> list[HazardRow]:
-    return [HazardRow(intensity=level, annual_rate=rate) for level, rate in zip(levels, rates, strict=True)]
+def _points(levels, rates) -> Hazard:
+    return Hazard(np.asarray(levels), np.asarray(rates))
 
 
 def test_the_rate_is_that_of_the_closed_form():
@@ -276,7 +277,7 @@ def test_the_rate_is_that_of_the_closed_form():
     levels = np.geomspace(0.02, 50.0, 400)
     thresholds = median * np.exp(dispersion * norm.ppf((np.arange(300) + 0.5) / 300))
     curve = fragility_of(levels, (thresholds[:, None] < levels).astype(float), _names(300))
-    rates = annual_rate(curve, _points(levels[[0, -1]], scale * levels[[0, -1]] ** -slope))
+    rates = curve.annual_rate(_points(levels[[0, -1]], scale * levels[[0, -1]] ** -slope))
     exact = scale * median**-slope * math.exp(slope**2 * dispersion**2 / 2)
     # Steps of 2 % in the level, half a step of lag in a curve that is counted: 2.5 x 1 % of the rate.
     assert rates.value == pytest.approx(exact, rel=0.03)
@@ -323,15 +324,15 @@ def test_what_curve_and_hazard_leave_out_is_said():
     """One half of a rate that occurs at and above the level where a curve ends at one half; all below the hazard."""
     curve = _counted([1.0, 2.0], [0.0, 0.5], 200)
     points = _points([0.5, 8.0], [0.16, 0.01])  # rate 0.08/x
-    rates = annual_rate(curve, points)
+    rates = curve.annual_rate(points)
     # above 2.0 there occurs 0.04 a year, of which the curve counts a half; the steps of the integral are 0.7 %
     assert rates.remainder == pytest.approx(0.02, rel=0.02)
     # the same where the hazard curve ends at the last level: all that is rarer occurs beyond it
-    ended = annual_rate(curve, _points([0.5, 2.0], [0.16, 0.04]))
+    ended = curve.annual_rate(_points([0.5, 2.0], [0.16, 0.04]))
     assert ended.remainder == pytest.approx(0.02, rel=1e-9)
     falling = fragility_of(np.array([0.1, 0.2]), np.ones((4, 2)), list("abcd"))
     # between 0.1 and 0.5, which the hazard curve does not reach, there occurs 0.8 − 0.16
-    assert annual_rate(falling, points).remainder == pytest.approx(0.64, rel=0.02)
+    assert falling.annual_rate(points).remainder == pytest.approx(0.64, rel=0.02)
 
 
 def test_of_statics_or_of_what_governs_as_it_is_asked():

@@ -100,12 +100,12 @@ def test_a_lock_is_a_file_of_its_own(tmp_path: Path) -> None:
 
 
 def test_a_pipe_in_place_of_hashes_or_of_a_hazard_curve_keeps_nobody_waiting(tmp_path: Path) -> None:
-    from rocking.fragility.rows import read_hazard
+    from rocking.fragility.hazard import Hazard
 
     os.mkfifo(tmp_path / "pipe")
     assert ContentHashes(tmp_path / "pipe").of(tmp_path / "pipe") == ""
     with pytest.raises(RockingError, match="no regular file"):
-        read_hazard(tmp_path / "pipe")
+        Hazard.read(tmp_path / "pipe")
 
 
 def test_results_of_a_study_may_be_looked_through(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -181,7 +181,7 @@ def _by_hand(curve: list[tuple[float, float]], scale: float, slope: float) -> fl
 
 def test_the_rate_of_each_period_of_a_support_is_the_one_by_hand(tmp_path):
     """Who falls where is followed on floors of scipy's, and what a year brings of it is a sum of closed integrals."""
-    scale, slope, lowest, highest = 2e-4, 2.5, 0.02, 10.0
+    scale, slope, lowest, highest = 2e-5, 2.5, 0.02, 10.0
     hazard = tmp_path / "hazard.csv"
     points = [f"{level},{scale * level**-slope}" for level in (lowest, highest)]
     hazard.write_text("\n".join(["intensity,annual_rate", *points]))

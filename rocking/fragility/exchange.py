@@ -1,0 +1,93 @@
+"""A fragility in the files of other programs: NRML 0.5 of OpenQuake, and CSV."""
+
+import csv
+import io
+import math
+from typing import Protocol
+from xml.etree import ElementTree
+
+import numpy as np
+
+from rocking.errors import ConfigurationError
+from rocking.fragility.measures import of_openquake
+from rocking.quantities import UNPRINTABLE
+
+_NRML = "http://openquake.org/xmlns/nrml/0.5"
+_COLUMNS = ("probability", "probability_low", "probability_high", "lognormal")
+
+
+class Curve(Protocol):
+    """What these files hold of a Fragility."""
+
+    @property
+    def measure(self) -> str: ...
+    @property
+    def unit(self) -> str: ...
+    @property
+    def threshold(self) -> float: ...
+    @property
+    def independent(self) -> int: ...
+    @property
+    def levels(self) -> np.ndarray: ...
+    @property
+    def probability(self) -> np.ndarray: ...
+    @property
+    def lognormal_median(self) -> float: ...
+    @property
+    def dispersion(self) -> float: ...
+
+
+def nrml(curve: Curve, name: str, lognormal: bool) -> bytes:
+    """Return the fragility model of one curve, NRML 0.5; levels where nothing was tried are left out.
+
+    A lognormal of median m and dispersion β has the mean m exp(β²/2) and the standard deviation mean √(exp(β²) − 1),
+    which are what OpenQuake asks for.
+    """
+    if not name or UNPRINTABLE.search(name):
+        raise ConfigurationError(f"name is {name!r}, but must be printable and not empty.")
+    imt, scale = of_openquake(curve.measure)
+    state = "overturning" if math.isinf(curve.threshold) else f"rotation_{curve.threshold:g}"
+    tried = np.isfinite(curve.probability)
+    levels = curve.levels[tried] * scale
+    root = ElementTree.Element("nrml", xmlns=_NRML)
+    model = ElementTree.SubElement(
+        root, "fragilityModel", id="rocking", assetCategory="buildings", lossCategory="structural"
+    )
+    ElementTree.SubElement(
+        model, "description"
+    ).text = f"{state} over {curve.measure}, {curve.independent} stations"
+    ElementTree.SubElement(model, "limitStates").text = state
+    form = {"format": "continuous", "shape": "logncdf"} if lognormal else {"format": "discrete"}
+    function = ElementTree.SubElement(model, "fragilityFunction", {"id": name, **form})
+    least = f"{levels[0]:.9g}"
+    if lognormal:
+        mean = curve.lognormal_median * math.exp(curve.dispersion**2 / 2) * scale
+        deviation = mean * math.sqrt(math.expm1(curve.dispersion**2))
+        # No damage below a millionth of the median: the lognormal itself has no least level.
+        edges = {
+            "noDamageLimit": f"{mean * 1e-6:.9g}",
+            "minIML": f"{mean * 1e-6:.9g}",
+            "maxIML": f"{levels[-1]:.9g}",
+        }
+        ElementTree.SubElement(function, "imls", {"imt": imt, **edges})
+        ElementTree.SubElement(function, "params", ls=state, mean=f"{mean:.9g}", stddev=f"{deviation:.9g}")
+    else:
+        imls = ElementTree.SubElement(function, "imls", imt=imt, noDamageLimit=least)
+        imls.text = " ".join(f"{level:.9g}" for level in levels)
+        poes = ElementTree.SubElement(function, "poes", ls=state)
+        poes.text = " ".join(f"{each:.9g}" for each in curve.probability[tried])
+    ElementTree.indent(root)
+    content: bytes = ElementTree.tostring(root, encoding="utf-8")
+    return b"<?xml version='1.0' encoding='utf-8'?>\n" + content + b"\n"
+
+
+def fragility_csv(curve: Curve) -> bytes:
+    """Return the curve as a CSV; a level where nothing was tried has empty cells."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(("intensity_measure", "unit", "threshold", "level", *_COLUMNS))
+    values = zip(curve.levels.tolist(), *(getattr(curve, each).tolist() for each in _COLUMNS), strict=True)
+    for row in values:
+        cells = ["" if math.isnan(each) else repr(each) for each in row]
+        writer.writerow((curve.measure, curve.unit, repr(curve.threshold), *cells))
+    return stream.getvalue().encode()

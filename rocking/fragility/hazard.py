@@ -1,0 +1,311 @@
+"""Hazard curves, of OpenQuake or plain, and the annual rate at which a fragility is exceeded under one."""
+
+import csv
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from scipy.special import stdtrit
+
+from rocking.errors import ConfigurationError
+from rocking.fragility.measures import of_openquake
+from rocking.tables import Row, column, read_rows, read_whole, row
+
+_STEPS = 400
+"""Steps of the integral over the hazard curve, in equal parts of the logarithm of the level."""
+_LARGEST_HAZARD = 1_000_000
+"""Bytes of a hazard curve; fifty points take about one thousand."""
+_SAME_PLACE = 1e-4
+"""Degrees within which a site is the one that is asked for: ten metres."""
+
+
+@row("hazard")
+class HazardRow(Row):
+    """One row per level of the intensity measure, ascending."""
+
+    intensity: float = column("Level, in the unit of the intensity measure")
+    annual_rate: float = column("Annual rate of exceedance of the level", unit="1/year")
+
+
+@dataclass(frozen=True, eq=False)
+class Hazard:
+    """A hazard curve of one site: the annual rate at which levels of an intensity measure are exceeded.
+
+    levels: (k,) ascending, in our unit of the measure. annual_rates: (k,) 1/year, not rising, above 0. measure: by
+    OpenQuake's name; "" where a plain file does not say it. quantiles: rates (k,) by the share of the hazard model's
+    branches that lie below.
+
+    >>> hazard = rocking.Hazard(np.array([0.1, 1.0]), np.array([1e-2, 1e-4]))
+    >>> hazard.annual_rates.tolist()
+    [0.01, 0.0001]
+    """
+
+    levels: np.ndarray
+    annual_rates: np.ndarray
+    measure: str = ""
+    quantiles: Mapping[float, np.ndarray] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for rates in (self.annual_rates, *self.quantiles.values()):
+            _check("the hazard curve", self.levels, rates)
+
+    @classmethod
+    def read(
+        cls, path: str | Path, *quantiles: str | Path, site: tuple[float, float] | None = None
+    ) -> "Hazard":
+        """Return the hazard curve of a CSV of OpenQuake, with its quantiles, or of a plain one.
+
+        A plain file has the columns intensity, in our unit of its measure, and annual_rate. One of OpenQuake says the
+        intensity measure and the time of its probabilities in its first line; its levels of a probability of 0 or 1
+        tell no rate and are left out. quantiles: files of OpenQuake for the same measure, site and levels. site:
+        longitude and latitude, degrees, where a file holds several. Raises ConfigurationError for what is no hazard
+        curve, in one sentence.
+        """
+        path = Path(path)
+        text = read_whole(path, _LARGEST_HAZARD, ConfigurationError).decode("utf-8-sig", errors="replace")
+        if not text.startswith("#"):
+            points = list(read_rows(HazardRow, path))
+            levels = np.array([point.intensity for point in points])
+            rates = np.array([point.annual_rate for point in points])
+            _check(str(path), levels, rates)
+            if rates[0] >= 1:
+                raise ConfigurationError(
+                    f"{path} says {rates[0]:g} a year at {levels[0]:g}, but annual_rate must be below 1 where no time "
+                    "is said; divide what is of more years by them, or give the file of OpenQuake."
+                )
+            return cls(levels, rates)
+        mean = _OfOpenQuake.read(path, text, site)
+        others = [
+            _OfOpenQuake.read(
+                Path(each),
+                read_whole(Path(each), _LARGEST_HAZARD, ConfigurationError).decode(errors="replace"),
+                site,
+            )
+            for each in quantiles
+        ]
+        for each in others:
+            is_alike = each.imt == mean.imt and np.array_equal(each.levels, mean.levels)
+            if not (each.quantile and is_alike):
+                raise ConfigurationError(
+                    f"{each.path} is {each.kind!r} of {each.imt}, but must be a quantile of {mean.imt} at the levels "
+                    f"of {path}."
+                )
+        measure, scale = _measure(mean)
+        # A probability of 1 has no rate, and one of 0 no logarithm.
+        telling = np.all([(each.rates > 0) & np.isfinite(each.rates) for each in (mean, *others)], axis=0)
+        levels = mean.levels[telling] / scale
+        _check(str(path), levels, mean.rates[telling])
+        return cls(
+            levels,
+            mean.rates[telling],
+            measure,
+            {each.quantile: each.rates[telling] for each in others if each.quantile},
+        )
+
+    def check_measure(self, name: str) -> None:
+        """Raise ConfigurationError where the curve says that it is of another measure than `name`."""
+        if self.measure and of_openquake(name)[0] != self.measure:
+            raise ConfigurationError(
+                f"the hazard curve is of {self.measure}, but the intensity measure is {name}; take one for the other."
+            )
+
+
+def _check(name: str, levels: np.ndarray, rates: np.ndarray) -> None:
+    """Raise ConfigurationError unless levels ascend and rates do not rise, all above 0, and there are two at least."""
+    if len(levels) < 2:
+        raise ConfigurationError(f"{name} holds {len(levels)} points, but must hold at least 2.")
+    before: tuple[float, float] | None = None
+    for level, rate in zip(levels.tolist(), rates.tolist(), strict=True):
+        at = f"{rate:g} a year at {level:g}"
+        if not (0 < level < math.inf and 0 < rate < math.inf):
+            raise ConfigurationError(f"{name} holds {at}, but both must be above 0 and finite.")
+        if before and level <= before[0]:
+            raise ConfigurationError(
+                f"{name} holds {level:g} after {before[0]:g}, but intensity must ascend; sort it."
+            )
+        if before and rate > before[1]:
+            raise ConfigurationError(
+                f"{name} says {at}, more than {before[1]:g} at {before[0]:g}, but annual_rate must not rise."
+            )
+        before = level, rate
+
+
+@dataclass(frozen=True)
+class _OfOpenQuake:
+    """One file of hazard curves: a first line of facts, and a row for each site, of probabilities in a time."""
+
+    path: Path
+    kind: str
+    imt: str
+    levels: np.ndarray
+    rates: np.ndarray
+
+    @property
+    def quantile(self) -> float:
+        """The share of a file of a quantile; 0 of another."""
+        found = re.fullmatch(r"quantile-([0-9.]+)", self.kind)
+        return float(found[1]) if found else 0.0
+
+    @classmethod
+    def read(cls, path: Path, text: str, site: tuple[float, float] | None) -> "_OfOpenQuake":
+        first, *lines = text.splitlines()
+        facts = dict(re.findall(r"(\w+)='?([^',\"]+(?:,[^='\"]*\))?)'?", first))
+        for fact in ("investigation_time", "imt"):
+            if fact not in facts:
+                raise ConfigurationError(
+                    f"{path} does not say {fact} in its first line, but must, as OpenQuake's do."
+                )
+        rows = list(csv.DictReader(lines))
+        columns = [name for name in (rows[0] if rows else {}) if name and name.startswith("poe-")]
+        try:
+            years = float(facts["investigation_time"])
+            levels = np.array([float(name.removeprefix("poe-")) for name in columns])
+            places = [(float(each["lon"]), float(each["lat"])) for each in rows]
+            probabilities = np.array([[float(each[name]) for name in columns] for each in rows])
+        except (KeyError, TypeError, ValueError):
+            raise ConfigurationError(
+                f"{path} is no hazard curve of OpenQuake: it must hold lon, lat and probabilities poe-LEVEL as numbers."
+            ) from None
+        chosen = [
+            place
+            for place, (longitude, latitude) in enumerate(places)
+            if site is None or max(abs(longitude - site[0]), abs(latitude - site[1])) <= _SAME_PLACE
+        ]
+        if len(chosen) != 1:
+            asked = f" at {site[0]:g}, {site[1]:g}" if site else ""
+            raise ConfigurationError(
+                f"{path} holds {len(chosen)} sites{asked}, but one is needed; give site=(longitude, latitude)."
+            )
+        own = probabilities[chosen[0]]
+        if not (years > 0 and own.size and np.all((own >= 0) & (own <= 1))):
+            raise ConfigurationError(
+                f"{path} holds probabilities in {years:g} years that are none; they must lie from 0 to 1, and the time "
+                "above 0."
+            )
+        with np.errstate(divide="ignore"):
+            rates = -np.log1p(-own) / years
+        return cls(path, facts.get("kind", ""), facts["imt"], levels, rates)
+
+
+def _measure(of: _OfOpenQuake) -> tuple[str, float]:
+    try:
+        return of_openquake(of.imt)
+    except ConfigurationError as error:
+        raise ConfigurationError(f"{of.path}: {error}") from None
+
+
+@dataclass(frozen=True)
+class AnnualRate:
+    """The annual rate of exceedance with its 90 % interval, and the most that it may lack, 1/year.
+
+    of_quantiles: the rate under each quantile of the hazard, which the interval does not hold: it tells the records.
+
+    >>> f"{rocking.AnnualRate(2e-3, 1e-3, 4e-3, 0.0).probability(50)[0]:.3f}"
+    '0.095'
+    """
+
+    value: float
+    low: float
+    high: float
+    remainder: float
+    of_quantiles: Mapping[float, float] = field(default_factory=dict)
+
+    def probability(self, years: float) -> tuple[float, float, float]:
+        """Return the probability of at least one exceedance in so many years, with its interval (a Poisson process)."""
+        value, low, high = (-math.expm1(-rate * years) for rate in (self.value, self.low, self.high))
+        return value, low, high
+
+
+def annual_rate(
+    levels: np.ndarray,
+    probability: np.ndarray,
+    exceedance: np.ndarray,
+    stations: Sequence[str],
+    hazard: Hazard,
+) -> AnnualRate:
+    """Return ∫ P dν over the hazard curve ν; both are linear in the logarithm of the level between their points.
+
+    levels: (k,). probability: (k,) of all stations. exceedance: (r, k) of each record. stations: (r,). The rate is the
+    mean over the stations of the rate of each. Below its levels a station's curve counts as 0, above them as its last
+    value, and where it was not tried as the share of the others; beyond the last point of the hazard curve all is
+    counted there. The interval is that of `rate_interval`. The remainder is the most that the rate may lack: because
+    the curve ends below a probability of 1, and because levels below the first point of the hazard curve are left out,
+    which occur as often as the hazard curve, continued by its first slope, says.
+    """
+    places = np.log(levels)
+    logs = np.log(hazard.levels)
+    log_rates = np.log(hazard.annual_rates)
+    edges = np.linspace(logs[0], logs[-1], _STEPS + 1)
+    middles = np.append((edges[1:] + edges[:-1]) / 2, edges[-1])
+
+    def occurring(annual_rates: np.ndarray) -> np.ndarray:
+        rates = np.exp(np.interp(edges, logs, np.log(annual_rates)))
+        return np.append(rates[:-1] - rates[1:], rates[-1])
+
+    tried = np.isfinite(probability)
+    pooled = np.interp(places, places[tried], probability[tried])
+    curves = _curves_of_stations(exceedance, stations, pooled)
+    at_middles = np.array([np.interp(middles, places, each, left=0.0) for each in curves])
+    of_stations = at_middles @ occurring(hazard.annual_rates)
+    rate = float(of_stations.mean())
+    low, high = rate_interval(of_stations)
+
+    above = (1 - pooled[-1]) * occurring(hazard.annual_rates)[middles >= places[-1]].sum()
+    slope = (log_rates[0] - log_rates[1]) / (logs[1] - logs[0])
+    lower = np.linspace(min(places[0], logs[0]), logs[0], _STEPS + 1)
+    continued = np.exp(log_rates[0] + slope * (logs[0] - lower))
+    below = np.interp((lower[1:] + lower[:-1]) / 2, places, pooled, left=0.0) @ -np.diff(continued)
+    return AnnualRate(
+        value=rate,
+        low=min(low, rate),
+        high=max(rate, min(high, float(hazard.annual_rates[0]))),
+        remainder=float(above + below),
+        of_quantiles={
+            share: float((at_middles @ occurring(rates)).mean()) for share, rates in hazard.quantiles.items()
+        },
+    )
+
+
+def _curves_of_stations(exceedance: np.ndarray, stations: Sequence[str], pooled: np.ndarray) -> np.ndarray:
+    """The curve of each station, (s, k): the mean of its records, and where none was tried the pooled one (k,)."""
+    names = np.asarray(stations)
+    curves = []
+    for name in dict.fromkeys(stations):
+        own = exceedance[names == name]
+        tried = np.isfinite(own)
+        count = tried.sum(axis=0)
+        mean = np.where(tried, own, 0.0).sum(axis=0) / np.maximum(count, 1)
+        curves.append(np.where(count > 0, mean, pooled))
+    return np.array(curves)
+
+
+def rate_interval(of_stations: np.ndarray) -> tuple[float, float]:
+    """Return the 90 % interval of the mean of the rates (s,) of stations.
+
+    Rates scatter by orders of magnitude, as the hazard curve raises a level to a power of 2 to 4. Resampling of 8 to 35
+    stations seldom meets the few that make up the mean, and its interval holds the truth in 56 to 92 % only
+    (docs/pages/fragility.md). The interval is therefore that of the mean of a lognormal, by Student's law for few
+    stations (Cox's method: Zhou & Gao 1997, Confidence intervals for the log-normal mean, Stat. Med. 16, 783-790),
+    times the share of the stations that have a rate at all. Where rates are no lognormal, that mean is not theirs; the
+    interval therefore also holds that of the mean itself, by Student's law for its logarithm.
+    """
+    positive = np.log(of_stations[of_stations > 0])
+    count = positive.size
+    if count < 2:
+        return 0.0, math.inf
+    share = count / of_stations.size
+    variance = float(positive.var(ddof=1))
+    middle = math.log(share) + float(positive.mean()) + variance / 2
+    error = math.sqrt((1 - share) / count + variance / count + variance**2 / (2 * (count - 1)))
+    reach = float(stdtrit(count - 1, 0.95)) * error
+
+    mean = float(of_stations.mean())
+    relative_error = float(of_stations.std(ddof=1)) / mean / math.sqrt(of_stations.size)
+    own_reach = float(stdtrit(of_stations.size - 1, 0.95)) * relative_error
+
+    low = min(middle - reach, math.log(mean) - own_reach)
+    high = max(middle + reach, math.log(mean) + own_reach)
+    return math.exp(low), math.exp(min(high, 700.0))

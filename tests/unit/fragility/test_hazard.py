@@ -1,0 +1,179 @@
+"""Hazard curves of OpenQuake and plain ones, the rate under them by a closed form, and files for OpenQuake."""
+
+import csv
+import math
+from dataclasses import replace
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from scipy.stats import lognorm, norm
+
+import rocking
+from rocking.errors import ConfigurationError
+from rocking.fragility.curves import Fragility, fragility_of
+from rocking.fragility.hazard import Hazard
+
+LEVELS = np.geomspace(0.02, 50.0, 400)
+MEDIAN, DISPERSION = 1.2, 0.4
+NRML = "{http://openquake.org/xmlns/nrml/0.5}"
+HEAD = (
+    "#,,,,,\"generated_by='OpenQuake engine 3.23.2', start_date='2025-04-01T10:00:00', checksum=1234567890, "
+    "kind='{kind}', investigation_time={time}, imt='{imt}'\"\n"
+)
+
+
+def _lognormal(measure: str = "pgv", unit: str = "m/s") -> Fragility:
+    """The curve of four stations, each of which has the same lognormal."""
+    shares = np.tile(norm.cdf(np.log(LEVELS / MEDIAN) / DISPERSION), (4, 1))
+    return replace(fragility_of(LEVELS, shares, list("abcd")), measure=measure, unit=unit)
+
+
+def _file(folder, name, levels, rows, *, kind="mean", imt="PGV", time="50.0"):
+    columns = ",".join(f"poe-{level:.7f}" for level in levels)
+    sites = "".join(
+        f"{place},{latitude},0.00000," + ",".join(f"{poe:.6E}" for poe in poes) + "\n"
+        for (place, latitude), poes in rows.items()
+    )
+    path = folder / name
+    path.write_text(HEAD.format(kind=kind, imt=imt, time=time) + f"lon,lat,depth,{columns}\n{sites}")
+    return path
+
+
+@pytest.mark.parametrize("slope", [1.5, 2.5, 3.5])
+def test_the_rate_of_a_lognormal_under_a_power_law_is_the_closed_form(slope):
+    """ν = k₀ x⁻ᵏ and a lognormal of median m and dispersion β: rate = k₀ m⁻ᵏ exp(k²β²/2) (Cornell 1996)."""
+    ends = LEVELS[[0, -1]]
+    rate = _lognormal().annual_rate(Hazard(ends, 1e-3 * ends**-slope))
+    exact = 1e-3 * MEDIAN**-slope * math.exp(slope**2 * DISPERSION**2 / 2)
+    assert rate.value == pytest.approx(exact, rel=1e-3)
+    assert rate.probability(50)[0] == pytest.approx(1 - math.exp(-50 * exact), rel=1e-3)
+
+
+def test_a_curve_of_openquake_gives_rates_in_our_unit_with_its_quantiles(tmp_path):
+    """Of a Poisson process p = 1 − exp(−νt); PGV is in cm/s there. Probabilities of 0 and 1 tell no rate."""
+    levels = np.array([1.0, 5.0, 20.0, 100.0, 500.0])
+    rates = np.array([np.inf, 2e-2, 1e-3, 5e-5, 0.0])
+    probabilities = -np.expm1(-50 * rates)
+    site = (12.5, 41.9)
+    mean = _file(tmp_path, "mean.csv", levels, {site: probabilities})
+    halves = [
+        _file(
+            tmp_path, f"{share}.csv", levels, {site: -np.expm1(-50 * rates * scale)}, kind=f"quantile-{share}"
+        )
+        for share, scale in ((0.15, 0.5), (0.85, 1.5))
+    ]
+    hazard = Hazard.read(mean, *halves)
+    assert hazard.measure == "PGV"
+    assert hazard.levels.tolist() == pytest.approx([0.05, 0.2, 1.0], rel=1e-12)
+    # the file prints seven digits of a probability, of which the rarest has lost none
+    assert hazard.annual_rates.tolist() == pytest.approx([2e-2, 1e-3, 5e-5], rel=1e-5)
+    found = _lognormal().annual_rate(hazard)
+    assert found.of_quantiles == pytest.approx({0.15: found.value / 2, 0.85: 1.5 * found.value}, rel=1e-5)
+
+
+def test_one_site_of_several_is_asked_for(tmp_path):
+    rows = {(12.5, 41.9): [0.5, 0.1], (13.0, 42.0): [0.4, 0.05]}
+    path = _file(tmp_path, "two.csv", [1.0, 2.0], rows)
+    hazard = Hazard.read(path, site=(13.0, 42.0))
+    assert hazard.annual_rates == pytest.approx(-np.log([0.6, 0.95]) / 50, rel=1e-6)
+    with pytest.raises(ConfigurationError, match=r"holds 2 sites, but one is needed; give site="):
+        Hazard.read(path)
+    with pytest.raises(ConfigurationError, match=r"holds 0 sites at 1, 2, but one is needed"):
+        Hazard.read(path, site=(1.0, 2.0))
+
+
+@pytest.mark.parametrize(
+    ("changed", "sentence"),
+    [
+        (
+            {"rows": {(1, 2): [0.1, 0.2]}},
+            "a year at 0.02, more than .* at 0.01, but annual_rate must not rise",
+        ),
+        ({"rows": {(1, 2): [0.1, -0.2]}}, "that are none; they must lie from 0 to 1"),
+        ({"rows": {(1, 2): [1.0, 0.1]}}, "holds 1 points, but must hold at least 2"),
+        ({"imt": "MMI"}, "intensity_measure is 'MMI', but must be one of pgv"),
+        ({"imt": "SA(0)"}, "SA must have a period in s above 0"),
+        ({"time": "0"}, "probabilities in 0 years that are none"),
+    ],
+)
+def test_a_file_of_openquake_that_is_none_is_one_sentence(tmp_path, changed, sentence):
+    rows = changed.pop("rows", {(1, 2): [0.2, 0.1]})
+    path = _file(tmp_path, "bad.csv", [1.0, 2.0], rows, **changed)
+    with pytest.raises(ConfigurationError, match=sentence):
+        Hazard.read(path)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("intensity,annual_rate\n0.1,0.01\n0.2,0.02\n", "0.02 a year at 0.2, more than 0.01 at 0.1"),
+        ("intensity,annual_rate\n0.1,2\n0.2,0.02\n", "must be below 1 where no time is said"),
+        ("#,,\"kind='mean', imt='PGA'\"\nlon,lat,depth,poe-1\n", "does not say investigation_time"),
+        ("#,,\"investigation_time=50.0, imt='PGA'\"\nlon,lat\n1,2\n", "must lie from 0 to 1"),
+        ("#,,\"investigation_time=50.0, imt='PGA'\"\nlat,poe-1\n1,2\n", "is no hazard curve of OpenQuake"),
+    ],
+)
+def test_a_plain_file_that_is_none_is_one_sentence(tmp_path, text, sentence):
+    path = tmp_path / "hazard.csv"
+    path.write_text(text)
+    with pytest.raises(ConfigurationError, match=sentence):
+        Hazard.read(path)
+
+
+def test_a_hazard_of_another_measure_is_refused():
+    hazard = Hazard(np.array([0.1, 1.0]), np.array([1e-2, 1e-4]), "SA(0.5)")
+    with pytest.raises(ConfigurationError, match=r"is of SA\(0.5\), but the intensity measure is pgv"):
+        _lognormal().annual_rate(hazard)
+    assert _lognormal("SA(0.5)", "g").annual_rate(hazard).value > 0
+    of_range = replace(hazard, measure="AvgSA")
+    assert _lognormal("AvgSA(0.2,2.0)", "g").annual_rate(of_range).value > 0
+
+
+def test_the_discrete_nrml_holds_the_curve_in_units_of_openquake(tmp_path):
+    curve = _lognormal()
+    curve.to_nrml(tmp_path / "pier.xml", name="stone pier & wall")
+    (model,) = ElementTree.parse(tmp_path / "pier.xml").getroot()
+    function = model.find(f"{NRML}fragilityFunction")
+    assert (function.get("id"), function.get("format")) == ("stone pier & wall", "discrete")
+    imls, poes = function
+    assert (
+        imls.get("imt") == "PGV" and poes.get("ls") == model.find(f"{NRML}limitStates").text == "overturning"
+    )
+    assert [float(each) for each in imls.text.split()] == pytest.approx(
+        (100 * curve.levels).tolist(), rel=1e-8
+    )
+    assert [float(each) for each in poes.text.split()] == pytest.approx(curve.probability.tolist(), abs=1e-9)
+
+
+def test_the_lognormal_of_nrml_is_that_of_the_curve(tmp_path):
+    """OpenQuake takes mean and standard deviation of the level itself, and makes μ and σ of its logarithm of them."""
+    curve = _lognormal("FIV3(0.7)")
+    curve.to_nrml(tmp_path / "pier.xml", lognormal=True)
+    params = ElementTree.parse(tmp_path / "pier.xml").getroot().find(f".//{NRML}params")
+    mean, deviation = float(params.get("mean")), float(params.get("stddev"))
+    sigma = math.sqrt(math.log(1 + (deviation / mean) ** 2))
+    law = lognorm(sigma, scale=mean / math.sqrt(1 + (deviation / mean) ** 2))
+    assert law.cdf(100 * LEVELS) == pytest.approx(curve.lognormal, abs=1e-7)
+
+
+def test_nrml_says_the_range_of_an_average_and_refuses_what_openquake_lacks(tmp_path):
+    _lognormal("AvgSA(0.2,2.0)", "g").to_nrml(tmp_path / "pier.xml")
+    (model,) = ElementTree.parse(tmp_path / "pier.xml").getroot()
+    assert "AvgSA(0.2,2.0)" in model.find(f"{NRML}description").text
+    assert model.find(f".//{NRML}imls").get("imt") == "AvgSA"
+    with pytest.raises(ConfigurationError, match="is 'p_pgv', which OpenQuake lacks"):
+        _lognormal("p_pgv", "").to_nrml(tmp_path / "other.xml")
+    assert not (tmp_path / "other.xml").exists()
+
+
+def test_the_csv_holds_the_curve(tmp_path):
+    curve = _lognormal()
+    curve.to_csv(tmp_path / "pier.csv")
+    with (tmp_path / "pier.csv").open(newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    assert [float(row["probability"]) for row in rows] == curve.probability.tolist()
+    assert {(row["intensity_measure"], row["unit"], row["threshold"]) for row in rows} == {
+        ("pgv", "m/s", "inf")
+    }
+    assert rocking.Hazard is Hazard
