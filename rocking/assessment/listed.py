@@ -1,13 +1,15 @@
-"""The list of structures in a file: a YAML list of structures and of supports, read into scenes.
+"""The list of structures in a file: a YAML list of structures, of their variants and of supports, read into scenes.
 
-The list is read safely, all defects stand in one message, and each size is remembered as it was typed.
+A variant is a structure with some values changed, and stands behind the one that it is of. The list is read safely, all
+defects stand in one message, and each size is remembered as it was typed.
 """
 
 import json
 import warnings
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import yaml
 
@@ -24,6 +26,17 @@ from rocking.tables.yaml_file import read_yaml
 _LONGEST_NAME = 200
 """Characters of the name of a structure: what a table and a page still show."""
 _HEAD = "# Written from rocking/structures by `make schema`; edit the structure's own file instead.\n"
+_VARIANTS = {
+    "type": "array",
+    "minItems": 1,
+    "items": {
+        "type": "object",
+        "required": ["name"],
+        "minProperties": 2,
+        "properties": {"name": {**NAME, "description": "Name behind that of the structure and a colon"}},
+    },
+    "description": "The same structure with other values: of each a name and the keys that change; null takes one away",
+}
 _STANDS_ON = {
     "type": "string",
     "minLength": 1,
@@ -33,7 +46,7 @@ _STANDS_ON = {
 
 def scenes_schema() -> dict[str, object]:
     """Return the JSON schema (draft 7) of a list; a definition for each form of each type, and one of a support."""
-    of_entries = definitions({**check_terms_schema(), "stands_on": _STANDS_ON})
+    of_entries = definitions({**check_terms_schema(), "stands_on": _STANDS_ON, "variants": _VARIANTS})
     of_entries[TYPE_NAME] = place_schema(NAME)
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
@@ -56,18 +69,16 @@ def load_scenes(path: str | Path) -> dict[str, Scene]:
     """Return the scenes that a YAML file lists, by name, in its order.
 
     The file is a list of mappings, each with a `name` of its own; those of type support carry others, which name them
-    by `stands_on`. Raises ConfigurationError with every defect at once, one a line; warns with a StructureWarning of a
-    size beyond its plausible range.
+    by `stands_on`. The variants of a structure follow it, each as "structure: variant". Raises ConfigurationError with
+    every defect at once, one a line; warns with a StructureWarning of a size beyond its plausible range.
     """
-    entries, texts_of = _entries(Path(path))
     defects: list[str] = []
+    entries = _entries(Path(path), defects)
     places: dict[str, Place | None] = {}
     scenes: dict[str, Scene] = {}
     names: list[object] = []
-    numbered = list(enumerate(zip(entries, texts_of, strict=True), start=1))
-    for number, (entry, texts) in sorted(numbered, key=lambda each: not _is_support(each[1][0])):
+    for where, entry, texts, base in sorted(entries, key=lambda each: not _is_support(each.values)):
         name = entry.get("name") if isinstance(entry, Mapping) else None
-        where = f"{path}: structure {number}" + (f" ({_repeated(name)})" if name else "")
         if not isinstance(name, str) or not name.strip():
             hint = "give it" if name is None else "write it in quotation marks"
             defects.append(f"{where}: name is {shown(name)}, but must be a text of its own; {hint}.")
@@ -83,10 +94,14 @@ def load_scenes(path: str | Path) -> dict[str, Scene]:
                 places[str(name)] = None  # known, though it has a defect of its own
                 places[str(name)] = place_from_config(entry)
             else:
-                scenes[str(name)] = _scene(str(name), entry, texts, places, where)
+                scene = scenes[str(name)] = _scene(str(name), entry, texts, places, where)
+                if base in scenes and replace(scene, name=base) == scenes[base]:
+                    defects.append(
+                        f"{where}: it changes nothing; give a key with another value, or remove it."
+                    )
         except (ConfigurationError, StructureError) as error:
             defects.append(f"{where}: {error}")
-    carrying = {str(entry.get("stands_on")) for entry in entries if isinstance(entry, Mapping)}
+    carrying = {str(each.values.get("stands_on")) for each in entries if isinstance(each.values, Mapping)}
     for idle in places.keys() - carrying:
         defects.append(
             f"{path}: support {_repeated(idle)} carries nothing; name it by stands_on, or remove it."
@@ -104,8 +119,20 @@ def _repeated(name: object) -> str:
     return str(name) if is_short else shown(name)
 
 
-def _entries(path: Path) -> tuple[list[Any], list[Mapping[str, str]]]:
-    """The entries of a structure list, and the text of each of their values as it was typed."""
+class _Entry(NamedTuple):
+    """One entry of a list: where it stands in words, its values and their texts as typed.
+
+    base: the name of the structure that it is a variant of; "" of one that is none.
+    """
+
+    where: str
+    values: Any
+    texts: Mapping[str, str]
+    base: str = ""
+
+
+def _entries(path: Path, defects: list[str]) -> list[_Entry]:
+    """The entries of a structure list, the variants of each behind it. What is no variant is added to the defects."""
     entries, node = read_yaml(path, ConfigurationError, "structure list")
     if entries == []:
         raise ConfigurationError(f"{path}: the list is empty, but must hold one structure at least.")
@@ -114,7 +141,41 @@ def _entries(path: Path) -> tuple[list[Any], list[Mapping[str, str]]]:
             f"{path}: the file holds {kind_in_words(entries)}, but must hold a list of structures, each "
             "behind a dash, as in - {name: pier, type: block, breadth_m: 2, height_m: 9}."
         )
-    return entries, [_texts(each) for each in node.value]
+    found = []
+    for number, (entry, of_entry) in enumerate(zip(entries, node.value, strict=True), start=1):
+        name = entry.get("name") if isinstance(entry, Mapping) else None
+        where = f"{path}: structure {number}" + (f" ({_repeated(name)})" if name else "")
+        texts = _texts(of_entry)
+        if not isinstance(entry, Mapping) or "variants" not in entry or _is_support(entry):
+            found.append(_Entry(where, entry, texts))
+            continue
+        variants = entry["variants"]
+        entry = {key: value for key, value in entry.items() if key != "variants"}
+        texts.pop("variants", None)
+        found.append(_Entry(where, entry, texts))
+        if not isinstance(variants, list) or not variants:
+            defects.append(
+                f"{where}: variants is {shown(variants)}, but must be a list, each of it a name and the keys that "
+                "change, as in - {name: thicker, thickness_m: 0.4}."
+            )
+            continue
+        (nodes,) = (value.value for key, value in of_entry.value if key.value == "variants")
+        for place, (changes, of_changes) in enumerate(zip(variants, nodes, strict=True), start=1):
+            of_variant = changes.get("name") if isinstance(changes, Mapping) else None
+            if not isinstance(of_variant, str) or not of_variant.strip():
+                defects.append(
+                    f"{where}, variant {place}: it is {shown(changes)}, but must have a name of its own, a text, and "
+                    "the keys that change."
+                )
+                continue
+            changed = {**entry, **changes, "name": f"{name}: {of_variant}"}
+            # What is null is taken away, so that another type may have other keys.
+            values = {key: value for key, value in changed.items() if value is not None}
+            own = {key: text for key, text in (texts | _texts(of_changes)).items() if key in values}
+            found.append(
+                _Entry(f"{where}, variant {place} ({_repeated(of_variant)})", values, own, str(name))
+            )
+    return found
 
 
 def _is_support(entry: object) -> bool:

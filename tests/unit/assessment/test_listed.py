@@ -4,9 +4,14 @@ import pickle
 import warnings
 from itertools import pairwise
 
+import numpy as np
 import pytest
 
+import rocking
+from rocking.assessment.assessor import Assessor
+from rocking.assessment.case import CaseResult
 from rocking.assessment.listed import load_scenes
+from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import ConfigurationError, StructureWarning
 from rocking.floors.place import GROUND, PERIODS, place_from_config
 
@@ -163,3 +168,81 @@ def test_a_heavy_structure_is_warned_of(tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         listed(tmp_path, f"name: a, {BLOCK}, stands_on: roof", roof.format(0.01))
+
+
+FRONT = (
+    "name: front, type: facade, storey_heights_m: [4.0], thicknesses_m: [0.4], unit_weight_kN_m3: 18, "
+    "restitution: 0.8, tie_heights_m: [3.8], tie_stiffness_kN_m2: 5000, tie_strength_kN_m: 5.0"
+)
+
+
+def test_a_variant_is_the_structure_with_its_values_changed(tmp_path):
+    """It equals one that is typed out, stands behind its own, and describes itself as it was typed."""
+    scenes = listed(
+        tmp_path,
+        f"{FRONT}, variants: [{{name: tie 8 kN/m, tie_strength_kN_m: 8.0}}, "
+        "{name: no tie, tie_heights_m: null, tie_stiffness_kN_m2: null, tie_strength_kN_m: null}, "
+        "{name: upstairs, stands_on: roof}]",
+        f"name: pier, {BLOCK}",
+        "name: roof, type: support, period_s: 0.3, participation: 1.3",
+    )
+    assert list(scenes) == ["front", "front: tie 8 kN/m", "front: no tie", "front: upstairs", "pier"]
+    (alone,) = listed(tmp_path, FRONT.replace("strength_kN_m: 5.0", "strength_kN_m: 8.0")).values()
+    stronger = scenes["front: tie 8 kN/m"].structure
+    assert stronger == alone.structure
+    assert stronger.described.entry == alone.structure.described.entry
+    assert "8.0 kN/m" in stronger.description
+    assert scenes["front: no tie"].structure.tie_heights == ()
+    assert scenes["front: upstairs"].structure == scenes["front"].structure
+    assert scenes["front: upstairs"].place.supports and scenes["front"].place is GROUND
+
+
+@pytest.mark.parametrize(
+    ("variants", "sentence"),
+    [
+        ("[{name: same, tie_strength_kN_m: 5}]", "variant 1 (same): it changes nothing"),
+        ("[{name: same}]", "variant 1 (same): it changes nothing"),
+        ("[{name: same, crack_storey: 1}]", "variant 1 (same): it changes nothing"),
+        ("[{tie_strength_kN_m: 8}]", "must have a name of its own"),
+        ("[8]", "variant 1: it is 8, but must have a name"),
+        ("[]", "variants is [], but must be a list"),
+        ("8", "variants is 8, but must be a list"),
+        ("[{name: odd, breadth_m: 3}]", "variant 1 (odd): breadth_m is not a key of a facade"),
+        ("[{name: weak, tie_strength_kN_m: 8}, {name: weak, tie_strength_kN_m: 9}]", "name is already taken"),
+    ],
+)
+def test_what_is_no_variant_is_refused_in_one_sentence(tmp_path, variants, sentence):
+    with pytest.raises(ConfigurationError) as refusal:
+        listed(tmp_path, f"{FRONT}, variants: {variants}")
+    assert sentence in str(refusal.value)
+    assert "\n" not in str(refusal.value)
+    assert "structure 1 (front)" in str(refusal.value)
+
+
+def test_a_variant_that_is_added_computes_no_other_case_again(tmp_path):
+    class Counting(dict):
+        """A store that says what was computed."""
+
+        def find(self, kind, fingerprint):
+            return self.get(fingerprint)
+
+        def durations(self, fingerprint):
+            return {}
+
+        def keep(self, fingerprint, result, durations):
+            self[fingerprint] = result
+
+    store = Counting()
+    pulse = rocking.Pulse(amplitude=2.0, circular_frequency=6.0, start_time=0.5)
+    record = rocking.Accelerogram(pulse.acceleration(np.arange(400) * 0.01), 0.01, component="EW")
+    pier = f"name: pier, {BLOCK}, variants: [{{name: broad, breadth_m: 0.8}}"
+    settings = AssessmentSettings()
+    Assessor(settings, store=store).assess("", [record], listed(tmp_path, f"{pier}]"))
+    before = dict(store)
+    more = listed(tmp_path, f"{pier}, {{name: high, height_m: 2.4}}]")
+    assert list(more) == ["pier", "pier: broad", "pier: high"]
+    Assessor(settings, store=store).assess("", [record], more)
+    cases = [each for key, each in store.items() if key not in before and isinstance(each, CaseResult)]
+    # What is kept has no names, and so the same case may serve structures of two names.
+    assert all(store[key] is before[key] for key in before)
+    assert len(cases) == sum(isinstance(each, CaseResult) for each in before.values()) / 2
