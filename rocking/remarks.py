@@ -43,6 +43,7 @@ class Kind(StrEnum):
     # fmt: off
     # What one degree of freedom does not follow.
     CONTACTS_OPEN = auto(), "contacts open"
+    IMPACT_OPENS = auto(), "an impact that keeps less than 0.3 of the velocity may open contacts", "impact may open"
     COURSES_THROWN = auto(), "courses above a rocking body may be thrown", "courses may be thrown"
 
     # What else makes a decision doubtful.

@@ -204,7 +204,7 @@ class CrackFacts:
         return self.step(risk).badness, -1.0 if math.isnan(self.share) else self.share, farthest
 
 
-CONTACTS = (Kind.CONTACTS_OPEN, Kind.COURSES_THROWN)
+CONTACTS = (Kind.CONTACTS_OPEN, Kind.COURSES_THROWN, Kind.IMPACT_OPENS)
 """Doubts that contact dynamics settles."""
 
 
@@ -340,9 +340,9 @@ def decide(facts: Facts) -> Decision:
     8b   a held wall some chain of which goes beyond BEYOND, and fewer     no safer than probably stands
          than UNANIMOUS runs of contact dynamics
     9    contact dynamics ran                                              the worse of its step and that of the members
-    10   contacts open or courses may be thrown and contact dynamics did   cannot be told
-         not run, or a component is missing; and it does not (probably)
-         overturn
+    10   contacts open, an impact may open them or courses may be thrown   cannot be told
+         and contact dynamics did not run, or a component is missing; and
+         it does not (probably) overturn
     11   else                                                              the step
     ===  ================================================================  =============================================
 

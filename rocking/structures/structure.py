@@ -398,6 +398,12 @@ class Structure(ABC):
         own: Restitution = getattr(self, "restitution", None)
         return own
 
+    @property
+    def restitution_is_typed(self) -> bool:
+        """Whether its restitution is a number of the description, not that of a balance of momentum."""
+        own = self._given_restitution
+        return not isinstance(self._usual_restitution if own is None else own, str)
+
     def _impact(self, mirrored: bool) -> float:
         """η of the impact that ends rocking on one side: the number, or that of a balance where it is a name."""
         own = self._given_restitution

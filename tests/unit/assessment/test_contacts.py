@@ -13,6 +13,7 @@ from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.one_case import assess_case
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.contacts.dynamics import STEP, follow_stack
+from rocking.errors import MotionError
 from rocking.quantities import GRAVITY
 from rocking.remarks import Kind, Remark
 from rocking.structures.alone import as_structure
@@ -159,3 +160,32 @@ def test_what_is_no_stack_says_so():
     share = contact_share(frame, GroundMotions.of(sine(2.0)))
     assert share.runs == 0
     assert "no stack of courses" in share.words
+
+
+def test_an_impact_that_keeps_little_by_balance_is_doubted_and_a_typed_one_is_not():
+    """By hand: what stands on the hinge rises on both sides, so that a flat load of W h₁²/(3 (1+ψ)² t²) leaves 0."""
+    height, hinge, thickness = 3.2, 1.6, 0.25
+    weight = 20e3 * height * thickness
+    nothing_kept = weight * hinge**2 / (3 * 2**2 * thickness**2)
+    motions = GroundMotions.of(sine(0.5, 0.1))
+    kinds = {}
+    for share in (0.3, 0.9):
+        wall = LoadedWall.hinged_at(
+            height, hinge, thickness, 20e3, top_load=share * nothing_kept, top_slab="flat", crack="known"
+        )
+        kept = wall.mechanism().restitution
+        remark = doubt(wall, motions, 0.05)
+        kinds[kept < 0.3] = remark and remark.kind
+        assert doubt(replace(wall, restitution=kept), motions, 0.05) is None
+    assert kinds == {False: None, True: Kind.IMPACT_OPENS}
+
+
+def test_what_cannot_be_followed_may_open(monkeypatch):
+    def lost(*_, **__):
+        raise MotionError("the integration ends at 0.2 s.")
+
+    motions = GroundMotions.of(sine(1.5, 0.3))
+    wall = Wall(1.6, 1.6, 0.25)
+    assert doubt(wall, motions, 0.05) is None
+    monkeypatch.setattr("rocking.assessment.contacts.integrate", lost)
+    assert doubt(wall, motions, 0.05) == Remark(Kind.CONTACTS_OPEN)
