@@ -14,7 +14,7 @@ SaidBy = Literal["", "header", "name", "file"]
 _VERTICAL = {
     "UP", "DOWN", "DN", "DWN", "V", "Z", "UD", "U-D", "U", "VER", "VERT", "VERTICAL", "UPDO", "U/D", "UPWARD",
     "UP-DOWN", "UP/DOWN", "VERT.", "VER.", "VRT", "VRTL", "UPP", "UPWD", "DWNW", "VERTICAL UP", "VERTICAL DOWN", "V-UP",
-    "DÜŞEY", "上下", "鉛直",
+    "DÜŞEY", "DUSEY", "DIKEY", "DİKEY", "U_D", "上下", "鉛直",
     "400", "500", "600",  # codes of vertical, up and down in the headers of USC, SMC and COSMOS
 }  # fmt: skip
 _NAMED = {
@@ -23,7 +23,9 @@ _NAMED = {
     "NORTH-SOUTH": 0.0, "NORTH SOUTH": 0.0, "EAST-WEST": 90.0, "EAST WEST": 90.0,
     "NORTE": 0.0, "NORTE-SUR": 0.0, "SUR": 180.0, "ESTE": 90.0, "OESTE": 270.0, "E-O": 90.0, "EO": 90.0, "E/O": 90.0,
     "ESTE-OESTE": 90.0, "NORD": 0.0, "NORD-SUD": 0.0, "SUD": 180.0, "EST": 90.0, "EST-OUEST": 90.0, "EST-OVEST": 90.0,
-    "OUEST": 270.0, "OVEST": 270.0, "OST": 90.0, "KUZEY-GÜNEY": 0.0, "DOĞU-BATI": 90.0, "南北": 0.0, "東西": 90.0,
+    "OUEST": 270.0, "OVEST": 270.0, "OST": 90.0, "KUZEY-GÜNEY": 0.0, "DOĞU-BATI": 90.0,
+    "KUZEY-GUNEY": 0.0, "DOGU-BATI": 90.0, "KUZEY": 0.0, "DOĞU": 90.0, "DOGU": 90.0, "K-G": 0.0, "D-B": 90.0,
+    "南北": 0.0, "東西": 90.0,
 }  # fmt: skip
 _RELATIVE = {
     **{word: word for word in ("L", "T", "R", "X", "Y", "1", "2", "3", "H1", "H2", "FN", "FP", "SN", "SP")},
@@ -282,7 +284,7 @@ def angle_between(first: Channel, second: Channel) -> float | None:
 
 _ENDING = re.compile(r"\.(at2|txt|csv|asc|dat|acc|prn|out|th|tcl|gz|time_\w+|g3)$", re.I)
 _WORDS = (
-    r"NS|EW|SN|WE|EO|N-S|E-W|S-N|W-E|E-O|N|E|S|W|NORTH|EAST|SOUTH|WEST|UD|UP|DN|DWN|DOWN|V|Z|VER|VERT|VERTICAL|"
+    r"NS|EW|SN|WE|EO|N-S|E-W|S-N|W-E|E-O|N|E|S|W|NORTH|EAST|SOUTH|WEST|UD|UP|DN|DWN|DOWN|V|\+V|V\+|Z|VER|VERT|VERTICAL|"
     r"[A-Z][HNGL][NEZ]"
 )
 _IN_NAME = (
@@ -292,6 +294,7 @@ _IN_NAME = (
     re.compile(r"^(.*[A-Za-z]\d{2})(\d{3})$"),
     re.compile(r"^(.+)[-_. ](\d{1,3})(?:deg)?$", re.I),
     re.compile(r"^(.*[a-z\d])(NS|EW|UD|UP)$"),
+    re.compile(r"^(.*\d)([NEVZ])$"),
 )
 """A direction at the end of a file's name: a word, a bearing or three digits, or one to three after a sign.
 

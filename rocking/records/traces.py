@@ -142,7 +142,7 @@ def _by_response(trace: Any, inventory: Any) -> Calibrated:
     nyquist = trace.stats.sampling_rate / 2
     band = (_CORNERS[0], _CORNERS[1], _CORNERS[2] * nyquist, _CORNERS[3] * nyquist)
     try:
-        with warnings.catch_warnings(), _printed() as lines:
+        with warnings.catch_warnings(), printed() as lines:
             warnings.simplefilter("ignore")
             how = {"output": "ACC", "pre_filt": band, "water_level": None}
             clean = trace.copy().remove_response(inventory=inventory, **how)
@@ -156,7 +156,7 @@ def _by_response(trace: Any, inventory: Any) -> Calibrated:
 
 
 @contextmanager
-def _printed() -> Iterator[list[str]]:
+def printed() -> Iterator[list[str]]:
     """Collect the lines that a library of C writes to the error output of the process, which name no file."""
     lines: list[str] = []
     try:

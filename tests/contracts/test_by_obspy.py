@@ -121,3 +121,22 @@ def test_text_in_place_of_samples_is_refused() -> None:
     content = of_obspy("mseed/tests/data/encoding/smallASCII_bigEndian.mseed")
     with pytest.raises(RecordError, match="holds text and no samples"):
         read_content(content, "f", Options(unit="m/s2"))
+
+
+def test_a_line_that_would_end_the_process_is_refused() -> None:
+    """The decoder of compressed samples copies lines whole: two that have become one are longer than its place."""
+    content = of_obspy("gse2/tests/data/loc_RJOB20050831023349.z")
+    lines = content.split(b"\n")
+    lines[20] += lines.pop(21) + lines.pop(21)
+    with pytest.raises(RecordError, match="at most 80"):
+        read_content(b"\n".join(lines), "f", Options(unit="nm/s2"))
+
+
+@pytest.mark.parametrize("place", range(4, 10))
+def test_a_time_of_win_that_is_none_is_refused(place: int) -> None:
+    content = bytearray(made_files.win())
+    second_block = len(content) // 4
+    content[second_block + place] = 0xDE
+    content[2 * second_block + place] = 0xDE
+    with pytest.raises(RecordError):
+        read_content(bytes(content), "f", Options(unit="mm/s2"))

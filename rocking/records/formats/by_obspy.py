@@ -26,7 +26,7 @@ from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.header import Layout
 from rocking.records.formats.text import LARGEST_SERIES
 from rocking.records.instrument import refuse_other_quantity
-from rocking.records.traces import calibrated, first_line, joined, names, site
+from rocking.records.traces import calibrated, first_line, joined, names, printed, site
 from rocking.remarks import Kind, Remark
 from rocking.tables import read_whole
 
@@ -42,14 +42,15 @@ def _stream(content: bytes, form: str, **options: Any) -> Any:
         warnings.simplefilter("always")
         try:
             notes = _check_blocks(content) if form == "MSEED" else []
-            result = obspy.read(io.BytesIO(content), format=form, check_compression=False, **options)
+            with printed() as lines:
+                result = obspy.read(io.BytesIO(content), format=form, check_compression=False, **options)
         except RecordError:
             raise
         except Exception as error:
             reason, _, _ = first_line(error).partition(": <_io")  # what an address in memory follows
             reason = re.sub(r" '/[^']*'", "", reason)  # nor a name of our own
             raise RecordError(f"damaged {form} file, {reason}; fetch it again.") from error
-    messages = [first_line(each.message) for each in caught]
+    messages = [first_line(each.message) for each in caught] + [first_line(line) for line in lines]
     if form == "MSEED" and (damage := [text for text in messages if _DAMAGE.search(text)]):
         raise RecordError(f"damaged {form} file, {damage[0]}; fetch it again.")
     samples = sum(trace.stats.npts for trace in result)
@@ -62,7 +63,10 @@ def _stream(content: bytes, form: str, **options: Any) -> Any:
         if length < 0:
             of = f"{station} {channel}"
             notes.append(Remark.of(Kind.BLOCKS_OVERLAP, of, overlap_s=float(-length), time=str(begin)))
-    return joined(result), tuple(sorted(set(notes), key=str))
+    whole = joined(result)
+    if not whole:
+        raise RecordError(f"the {form} file holds no samples.")
+    return whole, tuple(sorted(set(notes), key=str))
 
 
 def _check_blocks(content: bytes) -> list[Remark]:
@@ -318,7 +322,22 @@ def _read_counts(form: str, content: bytes, options: Options) -> list[Accelerogr
     return records
 
 
+_GSE_LINE = 81
+"""Characters of the longest line of compressed samples (GSE 2.0: 80), with its end."""
+_GSE_HEADS = b"WID", b"STA"
+"""With which the lines of a header begin, which may be longer."""
+
+
 def _read_gse(content: bytes, options: Options) -> list[Accelerogram]:
+    """The decoder that obspy calls copies each line into a place of 83 characters: a longer one ends the process."""
+    is_compressed = re.search(rb"(?m)^WID[12].*CMP?6", content) is not None
+    lines = content.split(b"\n") if is_compressed else []
+    bodies = (line for line in lines if not line.startswith(_GSE_HEADS))
+    if longest := next((line for line in bodies if len(line) > _GSE_LINE), b""):
+        raise RecordError(
+            f"a line of the samples has {len(longest)} characters, but must have at most 80: the file is damaged; "
+            "fetch it again."
+        )
     return _read_counts("GSE2" if content.lstrip().startswith(b"WID2") else "GSE1", content, options)
 
 
@@ -453,14 +472,17 @@ def _is_win(content: bytes) -> bool:
 def _seconds_of_win(content: bytes) -> int:
     """Return how many seconds a file holds. Raises RecordError where it leaves some out: obspy joins what is left."""
     at = 0
-    times = []
+    times: list[float] = []
     while (
         at + _WIN_HEAD <= len(content) and (length := int.from_bytes(content[at : at + 4], "big")) > _WIN_HEAD
     ):
-        year, month, day, hour, minute, second = (
-            int(f"{octet:x}") for octet in content[at + 4 : at + _WIN_HEAD]
-        )
-        times.append(datetime(2000 + year, month, day, hour, minute, second).timestamp())
+        time = content[at + 4 : at + _WIN_HEAD].hex()
+        try:
+            times.append(datetime.strptime(time, "%y%m%d%H%M%S").timestamp())
+        except ValueError:
+            raise RecordError(
+                f"the block at byte {at} has the time {time!r}, which is none; fetch the file again."
+            ) from None
         at += length
     if at > len(content) or content[at:].strip(b"\0") or (np.diff(times) != 1).any():
         raise RecordError(

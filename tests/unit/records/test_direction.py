@@ -17,13 +17,16 @@ class Channel:
     vertical: bool = False
 
 
-@pytest.mark.parametrize("name", ["+V", "-V", "V+", "+UP", "Ver.", "ver", "L Z", "V", "U-D", "HNZ", "-Up"])
+@pytest.mark.parametrize(
+    "name", ["+V", "-V", "V+", "+UP", "Ver.", "ver", "L Z", "Düşey", "Dikey", "U_D", "V", "U-D", "HNZ", "-Up"]
+)
 def test_verticals(name: str) -> None:
     assert Direction.of(name) == Direction(vertical=True, said_by="name")
 
 
 @pytest.mark.parametrize(("name", "along"), [
-    ("E-O", 90.0), ("EO", 90.0), ("Oeste", 270.0), ("N90O", 270.0), ("S14O", 194.0), ("N45O", 315.0), ("Az 90", 90.0),
+    ("E-O", 90.0), ("Kuzey-Güney", 0.0), ("D-B", 90.0),
+    ("EO", 90.0), ("Oeste", 270.0), ("N90O", 270.0), ("S14O", 194.0), ("N45O", 315.0), ("Az 90", 90.0),
     ("AZ=135", 135.0), ("azimuth: 270", 270.0), ("N120", 120.0), ("S E", 90.0), ("S N", 0.0), ("N05", None),
 ])  # fmt: skip
 def test_azimuths(name: str, along: float | None) -> None:
@@ -70,6 +73,7 @@ def test_what_is_said_first_counts_and_who_said_it() -> None:
 
 @pytest.mark.parametrize(("file", "found"), [
     ("H-E12140.AT2", ("H-E12", "140")), ("C02090.txt", ("C02", "090")), ("site_N90O.csv", ("site", "N90O")),
+    ("TCU052E.txt", ("TCU052", "E")), ("TCU052V.txt", ("TCU052", "V")), ("EQ1_V+.txt", ("EQ1", "V+")),
     ("rec20161113.csv", ("", "")), ("motion000123.txt", ("", "")), ("ELC-EO.txt", ("ELC", "EO")),
 ])  # fmt: skip
 def test_the_end_of_a_file_s_name(file: str, found: tuple[str, str]) -> None:

@@ -178,3 +178,13 @@ def test_a_row_whose_last_cell_is_empty_is_refused(tmp_path: Path) -> None:
 def test_small_letters_in_the_titles_of_the_mexican_standard(tmp_path: Path) -> None:
     text = made_files.unam().replace("ESTANDAR DE ACEL", "ESTANDAR De ACEL").replace("DATOS DE", "DATOS De")
     assert len(opened(tmp_path, text)) == 2
+
+
+def test_one_letter_behind_a_station_s_digits_is_its_direction(tmp_path: Path) -> None:
+    """TCU052E, N and V as Taiwan's collections call them: bare columns whose direction only the name says."""
+    for letter, series in zip("ENV", (MOTION, np.roll(MOTION, 60), 0.5 * np.roll(MOTION, 120)), strict=True):
+        (tmp_path / f"TCU052{letter}.txt").write_text(rows(TIMES, series, parted=" "))
+    _, (row,) = list_folder(tmp_path, unit="m/s2")
+    assert (row["file"], row["component"]) == ("TCU052E.txt;TCU052N.txt;TCU052V.txt", "E;N;V")
+    (upwards,) = read(tmp_path / "TCU052V.txt", unit="m/s2")
+    assert upwards.vertical and [each.kind for each in upwards.warnings] == [Kind.VERTICAL_BY_NAME]
