@@ -4,7 +4,7 @@ import base64
 import json
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rocking.assessment.case import RecordResult, StationResult
-from rocking.assessment.conclusion import worst_cases
+from rocking.assessment.conclusion import conclusion_in_words, worst_cases
 from rocking.assessment.cracks import cracked
-from rocking.assessment.decide import Verdict
+from rocking.assessment.decide import Verdict, worse
 from rocking.assessment.over_periods import placed
 from rocking.assessment.rows import ComparisonRow, RecordRows
 from rocking.assessment.verdict import NEGLIGIBLE
@@ -40,6 +40,8 @@ PULSE_BINS = 60
 """Points of a pulse."""
 FRAMES = 24
 """Drawings of a structure for each side; between two of them the page interpolates."""
+_NONE = [-9]
+"""The severity of a case without a result."""
 _HERE = Path(__file__).parent
 _MOST = 32767
 _BEYOND = 3.0
@@ -56,7 +58,7 @@ def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[s
     worst = worst_cases(rows.comparison)
     components = {row.component for row in worst.values()}
     failure = " ".join(["no result.", *(each.message for each in rows.failures)])
-    nothing = {"verdict": Verdict.CANNOT_BE_TOLD, "cell": cell_text(None), "text": failure, "severity": [-9]}
+    nothing = {"verdict": Verdict.CANNOT_BE_TOLD, "cell": cell_text(None), "text": failure, "severity": _NONE}
     cases = {
         station.structure: _case(
             station,
@@ -107,6 +109,7 @@ def explore_page(records: Iterable[Content], structures: Mapping[str, Structure]
     legend = (f'<span class="cell {_css(word)}">{sign}</span> {word}' for word, (sign, *_) in LOOKS.items())
     pieces = {
         "title": escape(title or "Rocking of structures under recorded earthquakes"),
+        "conclusion": escape(_conclusion(of_records)),
         "count": f"{counted(len(of_records), 'record')}, {counted(len(structures), 'structure')}",
         "verdicts": "".join(f"<option>{verdict}</option>" for verdict in LOOKS),
         "legend": "\n".join(legend),
@@ -117,6 +120,19 @@ def explore_page(records: Iterable[Content], structures: Mapping[str, Structure]
     }
     page = (_HERE / "explore.html").read_text(encoding="utf-8")
     return re.sub(r"{{ (\w+) }}", lambda name: pieces[name[1]], page).encode()
+
+
+def _conclusion(records: Sequence[Content]) -> str:
+    """The sentence on all structures, each by its worst verdict under a record that gave one."""
+    words: dict[str, Verdict] = {}
+    judged = [
+        {name: each for name, each in record["cases"].items() if each["severity"] != _NONE}
+        for record in records
+    ]
+    for cases in judged:
+        for name, each in cases.items():
+            words[name] = worse(Verdict(each["verdict"]), words.get(name, Verdict.CANNOT_OVERTURN))
+    return conclusion_in_words(words, sum(map(bool, judged)))
 
 
 def _css(verdict: Verdict) -> str:

@@ -56,7 +56,7 @@ FEWEST_POINTS = 3
 """Cases from which on the closed form is drawn against the integration; fewer are read from the tables."""
 MOST_MAPPED = 48
 """Records of the map, the worst first; verdicts.csv holds all."""
-MOST_ON_PAGE_ONE = 16
+MOST_ON_PAGE_ONE = 12
 """Of these those on the first page, above the scatter."""
 MOST_STRUCTURES = 20
 """Structures of the map, likewise."""
@@ -64,6 +64,10 @@ MOST_LISTED = 20
 """Rows of the lists of unsafe cases and of failures; the CSV tables hold all."""
 MOST_RECORDS = 200
 """Rows of the list of the records, likewise."""
+MOST_HIGH = 12
+"""Structures up to which the rows of the matrix and the scatter below it are high."""
+_HIGH, _LOW = 118.0, 84.0
+"""Heights of the scatter, mm."""
 _BESIDE = 30
 """Letters of a name beside a bar."""
 _HEAD = 26
@@ -127,7 +131,7 @@ def _data(
         "title": "Summary over the records",
         **printing.settings_texts(settings),
         "subtitle": f"{counted(records['record'].nunique(), 'record')}, "
-        f"{counted(len(tables['structures']), 'structure')}, {counted(len(comparison), 'case')}",
+        f"{counted(len(tables['structures']), 'structure')}, {counted(len(shown), 'verdict')}",
         "conclusion": conclusion_in_words(words_of_all, len(judged)),
         "matrix": matrix(made, records, tables["pulses"]),
         "notices": [notice.data for notice in _notices(records, comparison, len(failures))],
@@ -145,7 +149,9 @@ def _data(
         ),
         "methods": method_table(tables),
         "structures": structure_table(shown),
-        "scatter": _scatter(tables) if drawable else [],
+        "scatter": _scatter(tables, _LOW if many or len(words_of_all) > MOST_HIGH else _HIGH)
+        if drawable
+        else [],
         "agreement": table_of(rows_of(AgreementRow, tables["agreement"]), *AGREEMENT_COLUMNS),
         "unsafe": table_of(rows_of(ComparisonRow, unsafe.head(MOST_LISTED)), *UNSAFE_COLUMNS),
         "unsafe-note": remainder(len(unsafe) - MOST_LISTED, "case", "comparison.csv"),
@@ -159,13 +165,15 @@ def _data(
     }
 
 
-def _scatter(tables: Mapping[str, "DataFrame"]) -> list[dict[str, str]]:
-    """The scatter of all cases, with what the closed form saw of the falls as its heading."""
+def _scatter(tables: Mapping[str, "DataFrame"], height: float) -> list[dict[str, str]]:
+    """The scatter of all cases, so many mm high, with what the closed form saw of the falls as its heading."""
     of_all = next(rows_of(AgreementRow, tables["agreement"]))
     falls = f"{of_all.overturning_hits} of {counted(of_all.overturning, 'fall')}"
-    heading = f"The closed form sees {falls}, and falsely {of_all.overturning_false_alarms} more"
+    more = of_all.overturning_false_alarms
+    heading = f"The closed form sees {falls}, and {f'falsely {more} more' if more else 'none falsely'}"
     alt = "Scatter of the rotation ratio by closed form against that by integration, in four quadrants."
-    return [{**picture(prediction_scatter(tables["comparison"], tables["pulses"]), alt), "heading": heading}]
+    figure = prediction_scatter(tables["comparison"], tables["pulses"], height)
+    return [{**picture(figure, alt), "heading": heading}]
 
 
 def _fragility(summary: "DataFrame", ida: "DataFrame") -> list[dict[str, object]]:

@@ -89,7 +89,7 @@ def summarise(job: Job) -> list[Path]:
         files += _report(target, study, shown, spectra, fragility)
         write_whole(target / "study.html", explore_page(pages, study.structures, study.settings.study or ""))
         sheets = {each: rows for each, rows in shown.items() if each not in _NOT_IN_THE_WORKBOOK}
-        write_whole(target / WORKBOOK, workbook(sheets, study.settings.study or ""))
+        write_whole(target / WORKBOOK, workbook(sheets, study.settings.study or "", opens_on=VerdictRow))
         files += [target / "study.html", target / WORKBOOK]
     remove_others(job.results, [record.id for record in job.records])
     return files

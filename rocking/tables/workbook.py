@@ -20,11 +20,14 @@ _MADE = datetime(2000, 1, 1)
 """Stands in the file as its date, so that two runs of a study give the same bytes."""
 
 
-def workbook(tables: Mapping[type[Row], Sequence[Row]], title: str = "") -> bytes:
+def workbook(
+    tables: Mapping[type[Row], Sequence[Row]], title: str = "", opens_on: type[Row] | None = None
+) -> bytes:
     """Return a workbook of the rows of `tables`, one sheet each, behind a sheet that says what every column means.
 
     A number is a number, a truth a truth, overturning (inf) the text INF, and what is missing an empty cell. A table of
-    more rows than a sheet holds is left out, and the first sheet says so.
+    more rows than a sheet holds is left out, and the first sheet says so. opens_on: the table that is shown first; None
+    for the sheet of the columns.
     """
     from xlsxwriter import Workbook  # takes 0.1 s, and few commands write a workbook
 
@@ -46,7 +49,9 @@ def workbook(tables: Mapping[type[Row], Sequence[Row]], title: str = "") -> byte
             about.write_string(line, 0, f"{kind.table.name} has more rows than a sheet holds; read {file}.")
             line += 1
             continue
-        _add_sheet(book, bold, kind, rows)
+        sheet = _add_sheet(book, bold, kind, rows)
+        if kind is opens_on:
+            sheet.activate()
         for each in kind.table.columns:
             for place, text in enumerate((kind.table.name, _head(each), each.name, each.unit, each.meaning)):
                 about.write_string(line, place, text)
@@ -60,7 +65,7 @@ def _head(column: Described) -> str:
     return f"{column.attribute} [{column.unit}]" if column.unit else column.attribute
 
 
-def _add_sheet(book: Any, bold: Any, kind: type[Row], rows: Sequence[Row]) -> None:
+def _add_sheet(book: Any, bold: Any, kind: type[Row], rows: Sequence[Row]) -> Any:
     columns = kind.table.columns
     sheet = book.add_worksheet(kind.table.name[:31])
     for place, each in enumerate(columns):
@@ -71,6 +76,7 @@ def _add_sheet(book: Any, bold: Any, kind: type[Row], rows: Sequence[Row]) -> No
     for number, row in enumerate(rows, start=1):
         _write_row(sheet, number, (getattr(row, each.name) for each in columns))
     sheet.autofilter(0, 0, len(rows), len(columns) - 1)
+    return sheet
 
 
 def _write_row(sheet: Any, number: int, values: Iterable[object]) -> None:

@@ -101,3 +101,12 @@ def test_a_table_that_no_sheet_holds_is_left_out_and_named(monkeypatch: pytest.M
     assert "cases has more rows than a sheet holds; read cases.csv." in _cells(content, 1)["A2"][1]
     with zipfile.ZipFile(BytesIO(content)) as book:
         assert "xl/worksheets/sheet2.xml" not in book.namelist()
+
+
+def test_it_opens_on_the_sheet_that_is_asked_for() -> None:
+    """The sheets count from 0, that of the columns first."""
+    for opens_on, place in ((None, None), (CaseRow, "1")):
+        with zipfile.ZipFile(BytesIO(workbook({CaseRow: ROWS}, opens_on=opens_on))) as book:
+            root = ElementTree.fromstring(book.read("xl/workbook.xml"))
+        (view,) = root.iter(f"{SPACE}workbookView")
+        assert view.get("activeTab") == place

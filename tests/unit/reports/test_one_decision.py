@@ -13,7 +13,7 @@ from rocking.assessment.decide import Verdict
 from rocking.assessment.rows import VerdictRow, rows_of_record
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.remarks import Kind, Remark
-from rocking.reports.explore import record_content
+from rocking.reports.explore import explore_page, record_content
 from rocking.reports.printing import LOOKS, cell_text
 from rocking.reports.record import RecordReport
 from rocking.reports.structures import structures_data
@@ -145,7 +145,11 @@ def test_the_summary_says_it(report, decisions):
 
 
 def test_the_page_to_explore_says_it(report, decisions):
-    cases = record_content(report.result, report.tables, report.structures)["cases"]
+    content = record_content(report.result, report.tables, report.structures)
+    sentence = "2 of 5 structures overturn or probably do; 1 cannot be told."
+    assert sentence in explore_page([content], report.structures).decode()
+    assert report.data()["conclusion"] == sentence, "as on page one"
+    cases = content["cases"]
     for name, decision in decisions.items():
         assert cases[name]["verdict"] == decision.word
         assert cases[name]["cell"] == cell_text(decision)

@@ -155,7 +155,7 @@ def test_of_many_records_each_has_a_line_of_the_map_and_the_worst_stand_on_the_f
     judged = [verdict(f"record {number}", "pier", math.inf, number) for number in range(40)]
     data = summary_data(summary_tables(CASES, verdicts=judged), SETTINGS)
     assert data["matrix"]["rows"] == []
-    assert [row["record"] for row in data["map"]["rows"]] == [f"record {39 - number}" for number in range(16)]
+    assert [row["record"] for row in data["map"]["rows"]] == [f"record {39 - number}" for number in range(12)]
     assert len(data["whole-map"]["rows"]) == 40
     few = summary_data(summary_tables(CASES, verdicts=judged[:10]), SETTINGS)
     assert len(few["map"]["rows"]) == 10 and few["whole-map"]["rows"] == []
