@@ -182,8 +182,8 @@ _TOLD = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence in (
     (rb"BEGIN (GSE|IMS)|DATA_TYPE WAVEFORM", "this is a message of GSE or IMS; cut off what stands above its line "
      "WID2, and it is read."),
     (rb"(\*.*\n)*\s*(ZEROS|POLES|CONSTANT)\s+-?\d", "this is a SAC file of poles and zeros, which holds a response "
-     "and no motion: read the SAC file of the samples, with the StationXML of the station beside it (inventory), or "
-     "rocking.from_obspy(obspy.read(path, format='SAC').simulate(paz_remove=...), unit='m/s2')."),
+     "and no motion: read the file of the samples, with the StationXML of its station beside it, which the data centre "
+     "of the poles and zeros serves as well (inventory)."),
     (rb"\s*<\?xml|\s*<(FDSNStationXML|q:quakeml)", "this is an XML file, which holds no motion; read the record."),
     (rb"\s*<(!doctype html|html)", "this is a web page, and no record: the download failed; fetch the file again."),
     (rb"%PDF|\x89HDF|7z\xbc\xaf|Rar!", "this is a PDF, an archive or a data base; export the record as text."),
