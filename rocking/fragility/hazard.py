@@ -105,9 +105,13 @@ class Hazard:
             {each.quantile: each.rates[telling] for each in others if each.quantile},
         )
 
+    def is_of(self, name: str) -> bool:
+        """Return whether it is of the measure `name`, as far as it says."""
+        return not self.measure or of_openquake(name)[0] == self.measure
+
     def check_measure(self, name: str) -> None:
         """Raise ConfigurationError where the curve says that it is of another measure than `name`."""
-        if self.measure and of_openquake(name)[0] != self.measure:
+        if not self.is_of(name):
             raise ConfigurationError(
                 f"the hazard curve is of {self.measure}, but the intensity measure is {name}; take one for the other."
             )

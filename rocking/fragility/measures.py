@@ -34,12 +34,11 @@ CORNER = 0.85
 """β of Dávalos and Miranda (2019): corner of the low-pass times the period."""
 RANGE_BY_PERIOD = (0.18, 1.30)
 """Range of AvgSA over 2π/p."""
-RANGE_OF_ONE_SWING = (0.2, 2.0)
-"""s; range of AvgSA for a structure that one swing decides."""
-ONE_SWING = (0.15, 0.7)
-"""Largest λ and η of a structure that one swing decides. What lifts early and loses half of its speed or more at an
-impact starts every swing nearly from rest: no motion builds up at the long periods of 2π/p, and the velocity of the
-strongest single pulse of the ground decides, which lies within RANGE_OF_ONE_SWING whatever the size."""
+ONE_SWING_MULTIPLIER = 0.3
+ONE_SWING_RESTITUTION = 0.8
+"""Largest λ, and the η below which such a structure keeps PGV: it lifts early and loses much at each impact, so that
+every swing starts nearly from rest. One that rocks to one side alone is thrown back at each impact, and likewise never
+swings up. What decides is the strongest single pulse of the ground, of any period, which PGV tells."""
 FIV3_BY_PERIOD = 0.30
 """Period of FIV3 over 2π/p."""
 
@@ -251,7 +250,8 @@ _BY_OPENQUAKE = {each.openquake: each for each in INTENSITY_MEASURES.values() if
 
 
 def intensity_measure(name: str, structure: Structure | Mechanism | None = None) -> IntensityMeasure:
-    """Return the measure of that name, ours or OpenQuake's. AvgSA and FIV3 without periods take those of `structure`.
+    """Return the measure of that name, ours or OpenQuake's. AvgSA and FIV3 without periods take those of `structure`,
+    and are PGV where one swing decides about it.
 
     Raises ConfigurationError for a measure that there is not, a period that is none, or none of a structure.
 
@@ -264,8 +264,11 @@ def intensity_measure(name: str, structure: Structure | Mechanism | None = None)
     known = INTENSITY_MEASURES.get(stem) or _BY_OPENQUAKE.get(stem)
     if known:
         return known
-    made = WITH_PERIODS[stem][1]
-    return made(*(periods or _periods_of(stem, structure)))
+    if periods:
+        return WITH_PERIODS[stem][1](*periods)
+    mechanism = structure.mechanism() if isinstance(structure, Structure) else structure
+    measure = _from_structure(stem, mechanism)
+    return INTENSITY_MEASURES["pgv"] if mechanism and _is_one_swing(mechanism) else measure
 
 
 def of_openquake(name: str) -> tuple[str, float]:
@@ -287,7 +290,7 @@ def check_name(name: str) -> None:
     """Raise ConfigurationError unless it is the name of a measure; one that takes its periods from a structure is."""
     stem, periods = _parsed(name)
     if stem in WITH_PERIODS and not periods and stem not in FROM_STRUCTURE:
-        _periods_of(stem, None)
+        _from_structure(stem, None)
 
 
 def _parsed(name: str) -> tuple[str, tuple[float, ...]]:
@@ -312,26 +315,24 @@ def _parsed(name: str) -> tuple[str, tuple[float, ...]]:
     return stem, tuple(periods)
 
 
-def _periods_of(stem: str, structure: Structure | Mechanism | None) -> tuple[float, ...]:
-    """The periods of AvgSA or FIV3 that follow from a structure alone, s, to three digits."""
-    if structure is None or stem not in FROM_STRUCTURE:
-        count = WITH_PERIODS[stem][0]
+def _from_structure(stem: str, mechanism: Mechanism | None) -> IntensityMeasure:
+    """AvgSA or FIV3 at the periods that follow from a structure alone, to three digits."""
+    count, made = WITH_PERIODS[stem]
+    if mechanism is None or stem not in FROM_STRUCTURE:
         raise ConfigurationError(
             f"intensity_measure is {stem!r}, but must say its {'period' if count == 1 else 'periods'} here, as in "
             f"{stem}({'0.5' if count == 1 else '0.2,2.0'})."
         )
-    mechanism = structure.mechanism() if isinstance(structure, Structure) else structure
-    rest = mechanism.equivalent_block("rest")
-    period = 2 * math.pi / rest.frequency_parameter
-    if stem == "FIV3":
-        return (_three_digits(FIV3_BY_PERIOD * period),)
-    largest_multiplier, largest_restitution = ONE_SWING
-    is_one_swing = (
-        mechanism.uplift_multiplier <= largest_multiplier and mechanism.restitution <= largest_restitution
+    period = 2 * math.pi / mechanism.equivalent_block("rest").frequency_parameter
+    shares = RANGE_BY_PERIOD if stem == "AvgSA" else (FIV3_BY_PERIOD,)
+    return made(*(_three_digits(share * period) for share in shares))
+
+
+def _is_one_swing(mechanism: Mechanism) -> bool:
+    loses_much = (
+        mechanism.uplift_multiplier <= ONE_SWING_MULTIPLIER and mechanism.restitution < ONE_SWING_RESTITUTION
     )
-    if is_one_swing:
-        return RANGE_OF_ONE_SWING
-    return tuple(_three_digits(share * period) for share in RANGE_BY_PERIOD)
+    return mechanism.one_sided or loses_much
 
 
 def _three_digits(value: float) -> float:
@@ -339,6 +340,6 @@ def _three_digits(value: float) -> float:
 
 
 def compared(mechanism: Mechanism) -> tuple[IntensityMeasure, ...]:
-    """Return the measures whose scatter is told of a structure: all without a period, and four with."""
-    with_periods = ("SA(1.0)", "AvgSA", "FIV3")
-    return *INTENSITY_MEASURES.values(), *(intensity_measure(each, mechanism) for each in with_periods)
+    """Return the measures whose scatter is told of a structure: all without a period, and three with."""
+    from_structure = (_from_structure(each, mechanism) for each in FROM_STRUCTURE)
+    return *INTENSITY_MEASURES.values(), _spectral(1.0), *from_structure

@@ -185,8 +185,10 @@ class SummarisedCurve(DrawnCurve):
 
     @cached_property
     def rate(self) -> AnnualRate | None:
-        """The annual rate of exceedance; None without a hazard curve."""
-        return self.curve.annual_rate(self.hazard) if self.hazard else None
+        """The annual rate of exceedance; None without a hazard curve of the measure."""
+        if self.hazard is None or not self.hazard.is_of(self.curve.measure):
+            return None
+        return self.curve.annual_rate(self.hazard)
 
     @property
     def largest_scale_factor(self) -> float:

@@ -188,7 +188,6 @@ def write_fragility(
             "they let go, or leave the fragility out."
         )
     opened, reasons = _opened(records, study)
-    refused: list[ConfigurationError] = []
     tables: dict[type[Row], list[Row]] = {each: [] for each in rows.FRAGILITY_TABLES.values()}
     for count, (name, scene) in enumerate(study.scenes.items(), start=1):
         structure = scene.structure
@@ -210,13 +209,16 @@ def write_fragility(
                     tolerance=study.settings.tolerance,
                     support=support,
                 ).analysis
-            except (
-                ConfigurationError
-            ) as error:  # a measure at periods of the structure that few records can tell
-                refused.append(error)
+            # Periods of one structure may be such that few records can tell the measure.
+            except ConfigurationError as error:
                 reasons.append(f"{name}: {error}")
                 break
             assert analysis is not None
+            if hazard and not hazard.is_of(analysis.measure.name):
+                reasons.append(
+                    f"{name}: it has no annual rate, since its levels are of {analysis.measure.name}, but the hazard "
+                    f"curve is of {hazard.measure}."
+                )
             for each in rows.curve_rows(name, names, analysis, hazard, period):
                 tables[type(each)].append(each)
             try:
@@ -231,8 +233,8 @@ def write_fragility(
                     f"rocking ({type(error).__name__}: {error}); the log holds its traceback; please report it."
                 )
         tell(f"{count} of {len(study.scenes)}: {name}")
-    if refused and not tables[rows.FragilityRow]:
-        raise refused[0]
+    if not tables[rows.FragilityRow]:
+        raise ConfigurationError(reasons[-1])
     write_tables(tables, folder, "rocking-fragility")
     return list(dict.fromkeys(reasons))
 

@@ -134,8 +134,13 @@ def test_periods_follow_from_the_structure_alone():
     # p is that of the linear block on the arc of the block: α by sin α, 0.3 % here
     found = intensity_measure("AvgSA", BLOCK).periods
     assert found == pytest.approx((first, last), rel=5e-3)
-    one_swing = Block.of_size(0.6, 6.0, one_sided=True, restitution=0.5)
-    assert intensity_measure("AvgSA", one_swing).name == "AvgSA(0.2,2.0)"
+    one_swing = (
+        Block.of_size(0.6, 6.0, one_sided=True, restitution=0.9),
+        Block.of_size(0.75, 3.0, restitution=0.79),
+    )
+    for structure in one_swing:
+        assert {intensity_measure(each, structure).name for each in ("AvgSA", "FIV3")} == {"pgv"}
+    assert intensity_measure("AvgSA", Block.of_size(1.2, 3.0, restitution=0.5)).name.startswith("AvgSA(")
     assert [each.name for each in compared(MECHANISM)][: len(INTENSITY_MEASURES)] == list(INTENSITY_MEASURES)
 
 

@@ -142,6 +142,36 @@ def test_a_hazard_curve_gives_annual_rates(tmp_path):
     assert by_threshold == sorted(by_threshold, reverse=True), "the larger the rotation the rarer"
 
 
+def test_each_structure_has_the_measure_that_follows_from_it(tmp_path):
+    """A record that cannot tell the periods of a large structure is left out of it alone, and no hazard is misread."""
+    hazard = tmp_path / "hazard.csv"
+    facts = "#,,,\"kind='mean', investigation_time=50.0, imt='AvgSA'\"\n"
+    hazard.write_text(facts + "lon,lat,depth,poe-0.01,poe-10\n1,2,0,0.9,0.0001\n")
+    structures = {
+        "slender": STRUCTURES["slender"],
+        "one-sided": Block.of_size(0.6, 3.0, one_sided=True, restitution=0.6),
+        "huge": Block.of_size(10.0, 200.0),
+    }
+    study = _study(hazard=str(hazard), intensity_measure="AvgSA")
+    records = _records(tmp_path, 3)
+    for place, record in enumerate(records):
+        records[place] = replace(record, high_pass=0.1)
+    reasons = write_fragility(records, replace(study, scenes=on_the_ground(structures)), tmp_path / "out")
+    rows = list(read_rows(FragilitySummaryRow, tmp_path / "out" / "fragility_summary.csv"))
+    assert {row.structure for row in rows} == {"slender", "one-sided"}
+    for row in rows:
+        assert row.intensity_measure.startswith("AvgSA(" if row.structure == "slender" else "pgv")
+        assert math.isnan(row.annual_rate) == (row.structure == "one-sided")
+    assert [reason.partition(":")[0] for reason in reasons] == [
+        "one-sided",
+        "made0",
+        "made1",
+        "made2",
+        "huge",
+    ]
+    assert "it needs a period of" in reasons[1] and "come from 0 station" in reasons[4]
+
+
 DAMPING, PARTICIPATION = 0.05, 1.3
 PERIODS = (0.25, 0.6)
 FINER = 5
