@@ -274,6 +274,8 @@ def strengthen(
     >>> few.value, few.needed_stations
     (nan, 13.0)
     """
+    if isinstance(records, Accelerogram | str | bytes) or not isinstance(records, Sequence):
+        raise ConfigurationError(f"records is {kind_of(records)}, but must be a list of accelerograms.")
     if odd := [each for each in records if not isinstance(each, Accelerogram)]:
         raise ConfigurationError(f"records hold a {type(odd[0]).__name__}, but must hold accelerograms.")
     if not isinstance(structure, Structure):

@@ -227,6 +227,12 @@ def test_bad_input_is_refused_in_one_sentence(structure, key, options, sentence)
     assert "\n" not in str(refusal.value)
 
 
+@pytest.mark.parametrize("records", [_records(6)[0], "records", [*_records(5), "a file"]])
+def test_what_is_no_list_of_records_is_refused(records):
+    with pytest.raises(ConfigurationError, match="accelerograms"):
+        rocking.strengthen(records, PARAPET, "breadth", between=(0.3, 1.0))
+
+
 def test_a_list_of_one_value_is_a_size_and_one_of_several_is_not():
     two = Facade((3.5, 3.0), (0.6, 0.5), unit_weight=20e3)
     assert "thicknesses" in {each.name for each in sizes(TIED)}
