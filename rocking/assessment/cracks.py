@@ -27,8 +27,8 @@ class Crack:
     """A mechanism that may form.
 
     description: what opens, in words; "" of a structure with one mechanism. position: its height [m]; nan without one.
-    friction: the largest friction coefficient that a joint needs as it lifts; 0 of a mechanism without joints. counts:
-    as of `CrackFacts`. bulges: whether it is the bulge of a held wall.
+    friction: the largest friction coefficient that a joint needs as it lifts; 0 of a mechanism without joints. counts,
+    bulges: as of `CrackFacts`.
     """
 
     description: str
@@ -52,7 +52,7 @@ class Crack:
 class FollowedCrack:
     """The ensemble of one crack; description and position [m] as those of `Crack`.
 
-    slides: whether it slides before it lifts, under a motion that reaches so far. counts: as of `CrackFacts`.
+    slides: whether it slides before it lifts, under a motion that reaches so far. counts, bulges: as of `CrackFacts`.
     """
 
     description: str
@@ -60,11 +60,13 @@ class FollowedCrack:
     ensemble: Ensemble
     slides: bool = False
     counts: bool = True
+    bulges: bool = False
 
     @cached_property
     def facts(self) -> CrackFacts:
         """What the decision asks of it."""
-        return self.ensemble.facts(self.description, self.slides, self.counts)
+        of_members = self.ensemble.facts(self.description)
+        return replace(of_members, slides=self.slides, counts=self.counts, bulges=self.bulges)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -198,7 +200,7 @@ def ensemble_over_cracks(
         first.mechanism, motions, settings.ensemble, tolerance=settings.tolerance, verdict_only=verdict_only
     )
     name = first.description if len(several) > 1 else ""
-    statics = FollowedCrack(name, first.position, of_statics, first in sliding)
+    statics = FollowedCrack(name, first.position, of_statics, first in sliding, bulges=first.bulges)
     if not others or statics.facts.step(settings.ensemble.risk) is Verdict.OVERTURNS:
         return CrackEnsembles((statics,))
     doubtful = others
@@ -208,7 +210,12 @@ def ensemble_over_cracks(
         doubtful = always + screened(rest, of_statics, motions, settings, first.mechanism.uplift_multiplier)
     mechanisms = {
         FollowedCrack(
-            each.description, each.position, _alone(each, motions, settings), each in sliding, each.counts
+            each.description,
+            each.position,
+            _alone(each, motions, settings),
+            each in sliding,
+            each.counts,
+            each.bulges,
         ): each.mechanism
         for each in doubtful
     }

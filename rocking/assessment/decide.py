@@ -131,7 +131,8 @@ class CrackFacts:
     name: of the crack; "" where only one may form. falls: of those `followed`, that overturn. failed: members that
     could not be followed. farthest: largest rotation ratio of those followed; nan without any. slides: whether its
     joint slides before it lifts, under a motion that reaches so far. counts: whether it takes part in the word;
-    otherwise it is told beside the crack that is given. Raises ValueError.
+    otherwise it is told beside the crack that is given. bulges: whether it is the bulge of a held wall, which may form
+    wherever that is cracked. Raises ValueError.
     """
 
     name: str
@@ -141,6 +142,7 @@ class CrackFacts:
     farthest: float = math.nan
     slides: bool = False
     counts: bool = True
+    bulges: bool = False
 
     def __post_init__(self) -> None:
         if not 0 <= self.falls <= self.followed or self.failed < 0:
@@ -333,7 +335,8 @@ def decide(facts: Facts) -> Decision:
     6    cracks that count                                                 step of the worst one, but no worse than
                                                                            uncertain where the first (probably) stands,
                                                                            no worse than probably overturns where the
-                                                                           first does not overturn
+                                                                           first does not overturn; of a held wall the
+                                                                           worse of that and the step of its bulge
     7    a crack without one member, or only with the members that failed  cannot be told
          does it (probably) overturn
     8    the step is overturns                                             overturns
@@ -392,14 +395,16 @@ def decide(facts: Facts) -> Decision:
             interval = share, share
     else:
         # 6: the worst crack; statics' own keeps a word in it.
-        word = _over_cracks([each.step(risk) for each in followed])
+        word = _envelope((each, each.step(risk)) for each in followed)
         tells = facts.remarks
         share = governing.share
         why = _counted(facts, worse_beside)
-        ends = {governing, followed[0]} if governing.step(risk) is not followed[0].step(risk) else {governing}
+        first = next((each for each in followed if not each.bulges), governing)
+        disagree = not governing.bulges and governing.step(risk) is not first.step(risk)
+        ends = {governing, first} if disagree else {governing}
         interval = min(each.lowest_share for each in ends), max(each.share for each in ends)
         # 7: failed members count as falling, but alone they make nothing fall.
-        falls_without = _over_cracks([each.step_of_followed(risk) for each in followed])
+        falls_without = _envelope((each, each.step_of_followed(risk)) for each in followed)
         open_ = word.badness >= Verdict.PROBABLY_OVERTURNS.badness or not all(
             each.followed for each in followed
         )
@@ -434,6 +439,13 @@ def decide(facts: Facts) -> Decision:
     # 11
     told = math.nan if word is Verdict.CANNOT_BE_TOLD else share
     return Decision(word, told, interval, why, beside, tells)
+
+
+def _envelope(words: Iterable[tuple[CrackFacts, Verdict]]) -> Verdict:
+    """The word of all that may form: of the cracks only one does, but a held wall may bulge with any of them."""
+    each_with_word = list(words)
+    of_cracks = _over_cracks([word for each, word in each_with_word if not each.bulges])
+    return worse(of_cracks, *(word for each, word in each_with_word if each.bulges))
 
 
 def _over_cracks(steps: Sequence[Verdict]) -> Verdict:

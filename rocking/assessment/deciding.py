@@ -47,7 +47,7 @@ class Deciding:
 def deciding(ensembles: CrackEnsembles) -> list[Deciding]:
     """Return what the outcome depends on, the largest share first; [] where all members agree.
 
-    The causes are those of the crack that governs; which crack opens is asked of those that count.
+    The causes are those of the crack that governs; which crack opens is asked of those that count, of which one forms.
     """
     governing = ensembles.governing.ensemble
     falls = np.isinf(governing.rotation_ratios)
@@ -58,7 +58,7 @@ def deciding(ensembles: CrackEnsembles) -> list[Deciding]:
         if cause.name in governing.causes
         for groups in [_groups(governing.causes[cause.name])]
     ]
-    counting = [each for each in ensembles.followed if each.counts]
+    counting = [each for each in ensembles.followed if each.counts and not each.bulges]
     if len(counting) > 1:
         shares.append(Deciding(CRACK, _explained_by_crack(counting), Origin.IGNORANCE))
     some = [each for each in shares if each.share > 0]

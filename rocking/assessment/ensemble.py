@@ -96,16 +96,14 @@ class Ensemble:
         place = np.clip(share * self.members - 0.5, 0, self.members - 1)
         return float(np.interp(place, places, np.sort(self._followed)))
 
-    def facts(self, name: str = "", slides: bool = False, counts: bool = True) -> CrackFacts:
-        """Return what the decision asks of these members. name: of their crack; slides, counts: as `CrackFacts`."""
+    def facts(self, name: str = "") -> CrackFacts:
+        """Return what the decision asks of these members. name: of their crack."""
         return CrackFacts(
             name=name,
             falls=self.overturning_members,
             followed=self.members,
             failed=self.failed_members,
             farthest=float(self._followed.max()) if self.members else np.nan,
-            slides=slides,
-            counts=counts,
         )
 
     @property

@@ -165,13 +165,15 @@ def test_6_a_given_crack_decides_alone_and_a_worse_one_is_a_doubt_beside_it():
 
 
 def test_6_a_bulge_counts_beside_a_given_crack():
-    """Weaker by statics it comes first, and its word is that of the wall; else the crack keeps a word in it."""
-    bulge = crack(64, name="bulge")
+    """It forms wherever the wall is cracked, so that the worse of the two is that of the wall, in whatever order."""
+    bulge, stands = (replace(crack(each, name="bulge"), bulges=True) for each in (64, 0))
     beside = crack(64, name="upper", counts=False)
-    assert word(cracks=(bulge, crack(0), beside)) == "overturns"
-    decision = decide(Facts(cracks=(crack(0), bulge, beside)))
-    assert (str(decision.word), decision.interval) == ("uncertain", (0.0, 1.0))
-    assert kinds(decision.doubts) == []
+    for cracks in ((bulge, crack(0), beside), (crack(0), bulge, beside)):
+        decision = decide(Facts(cracks=cracks))
+        assert (str(decision.word), decision.interval) == ("overturns", (1.0, 1.0))
+        assert kinds(decision.doubts) == []
+    assert word(cracks=(stands, crack(64))) == "overturns"
+    assert word(cracks=(stands, crack(0), crack(64, name="upper"))) == "uncertain"
 
 
 def test_7_failed_members_count_as_falling():
@@ -306,6 +308,9 @@ def drawn(chance):
         cracks.append(crack(falls, members, failed, farthest, f"crack {place}", slides=chance() < 0.1))
     if chance() < 0.2:  # one is given, beside which a bulge may count
         cracks = [replace(each, counts=not place or chance() < 0.3) for place, each in enumerate(cracks)]
+    if cracks and chance() < 0.2:
+        bulge = int(chance() * len(cracks))
+        cracks[bulge] = replace(cracks[bulge], counts=True, bulges=True)
     runs = one_of(6, 24, 64)
     fallen = one_of(0, 1, runs, int(chance() * runs))
     return Facts(
@@ -353,7 +358,11 @@ def oracle(facts):
         word = word_of(each.falls, each.followed, each.farthest <= 0.3)
         return min(word, 3) if each.failed and each.falls <= 4 else word
 
-    def of_all(words):
+    def of_all(way):
+        words = [way(each) for each in count if not each.bulges]
+        return max([of_cracks(words) if words else 1, *(way(each) for each in count if each.bulges)])
+
+    def of_cracks(words):
         if words[0] <= 2:
             return min(max(words), 3)
         return max(words) if words[0] == 6 else min(max(words), 5)
@@ -367,8 +376,8 @@ def oracle(facts):
     if facts.slides_at == 0.6 and not [each for each in count if not each.slides]:
         return SAFEST_FIRST[4]
     if count:
-        borne_out = of_all([without_failed(each) for each in count])
-        place = of_all([with_failed(each) for each in count])
+        borne_out = of_all(without_failed)
+        place = of_all(with_failed)
         if borne_out < 5 and (place >= 5 or any(each.followed == 0 for each in count)):
             place = 4
     elif facts.settled is not None:
@@ -413,7 +422,7 @@ def worsened(facts, chance):
             left = each.farthest if followed > 1 else math.nan
             worse += [(falls, followed - 1, failed + 1, left), (falls + 1, followed, failed, math.inf)]
         for counts in worse:
-            other = CrackFacts(each.name, *counts, each.slides, each.counts)
+            other = CrackFacts(each.name, *counts, each.slides, each.counts, each.bulges)
             ways.append({"cracks": (*facts.cracks[:place], other, *facts.cracks[place + 1 :])})
     return replace(facts, **ways[int(chance() * len(ways))])
 
