@@ -21,6 +21,8 @@ _LARGEST_HAZARD = 1_000_000
 _SAME_PLACE = 1e-4
 """Degrees within which a site is the one that is asked for: ten metres."""
 
+_FACT = re.compile(r"""(\w+)=('[^']*'|"[^"]*"|[^,'"]+)""")
+
 
 @row("hazard")
 class HazardRow(Row):
@@ -156,7 +158,8 @@ class _OfOpenQuake:
     @classmethod
     def read(cls, path: Path, text: str, site: tuple[float, float] | None) -> "_OfOpenQuake":
         first, *lines = text.splitlines()
-        facts = dict(re.findall(r"(\w+)='?([^',\"]+(?:,[^='\"]*\))?)'?", first))
+        comment = next(reversed(next(csv.reader([first]))))  # the last cell, with its quotes taken off
+        facts = {name: value.strip("'\"") for name, value in _FACT.findall(comment)}
         for fact in ("investigation_time", "imt"):
             if fact not in facts:
                 raise ConfigurationError(

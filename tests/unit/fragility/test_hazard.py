@@ -72,6 +72,18 @@ def test_a_curve_of_openquake_gives_rates_in_our_unit_with_its_quantiles(tmp_pat
     assert found.of_quantiles == pytest.approx({0.15: found.value / 2, 0.85: 1.5 * found.value}, rel=1e-5)
 
 
+@pytest.mark.parametrize("imt", ["SA(0.5)", "Sa_avg2(1.0)", "FIV3(0.7)", "AvgSA"])
+@pytest.mark.parametrize("quote", ["'", '""'])
+def test_the_first_line_is_read_as_engines_quote_it(tmp_path, imt, quote):
+    """Former engines wrote texts in double quotes, which a CSV doubles."""
+    path = _file(tmp_path, "curve.csv", [1.0, 2.0], {(1.0, 2.0): [0.2, 0.1]}, imt=imt)
+    head, *rest = path.read_text().splitlines(keepends=True)
+    path.write_text("".join([head.replace("'", quote), *rest]))
+    hazard = Hazard.read(path)
+    assert hazard.measure == imt
+    assert hazard.levels.tolist() == pytest.approx([0.01, 0.02] if imt.startswith("FIV3") else [1.0, 2.0])
+
+
 def test_one_site_of_several_is_asked_for(tmp_path):
     rows = {(12.5, 41.9): [0.5, 0.1], (13.0, 42.0): [0.4, 0.05]}
     path = _file(tmp_path, "two.csv", [1.0, 2.0], rows)
