@@ -146,6 +146,8 @@ def conclusion_in_words(words: Mapping[str, Verdict], records: int = 1) -> str:
         return f"All {every} structures stand{each}."
     falling = sum(word in FALLING for word in words.values())
     untold = sum(word is Verdict.CANNOT_BE_TOLD for word in words.values())
+    if untold == every:
+        return f"What becomes of all {every} structures cannot be told."
     of_them = f"All {every}" if falling == every else f"{falling or 'None'} of {every}"
     does = "overturns or probably does" if falling <= 1 else "overturn or probably do"
     under = some.replace("some", "any") if not falling else some

@@ -103,8 +103,8 @@ def explore_page(records: Iterable[Content], structures: Mapping[str, Structure]
     both = {"records": of_records, "structures": of_structures}
     content = json.dumps(both, allow_nan=False, separators=(",", ":"))
     colours = "".join(
-        f".{_css(verdict)} {{ background: {fill}; color: {ink}; }}\n"
-        for verdict, (_, fill, ink, _) in LOOKS.items()
+        f".{_css(verdict)} {{ background: {fill}; color: {ink};{' border-style: dashed;' if hatch else ''} }}\n"
+        for verdict, (_, fill, ink, hatch) in LOOKS.items()
     )
     legend = (f'<span class="cell {_css(word)}">{sign}</span> {word}' for word, (sign, *_) in LOOKS.items())
     pieces = {

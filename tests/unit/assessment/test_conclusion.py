@@ -80,6 +80,7 @@ def test_of_equal_shares_the_one_of_less_reserve_is_worse():
     [
         ((), "No structure was assessed."),
         (("overturns", "overturns"), "All 2 structures overturn or probably do."),
+        (("cannot be told", "cannot be told"), "What becomes of all 2 structures cannot be told."),
         (("uncertain", "stands"), "None of 2 structures overturns or probably does."),
         (("cannot be told", "stands"), "None of 2 structures overturns or probably does; 1 cannot be told."),
         (
