@@ -5,6 +5,7 @@ defects stand in one message, and each size is remembered as it was typed.
 """
 
 import json
+import re
 import warnings
 from collections.abc import Mapping
 from dataclasses import replace
@@ -79,9 +80,15 @@ def load_scenes(path: str | Path) -> dict[str, Scene]:
     names: list[object] = []
     for where, entry, texts, base in sorted(entries, key=lambda each: not _is_support(each.values)):
         name = entry.get("name") if isinstance(entry, Mapping) else None
+        if run_together := _run_together(entry):
+            key, _, value = run_together.partition(":")
+            defects.append(f"{where}: {run_together} has no blank behind its colon; write {key}: {value}.")
+            names.append(name)
+            continue
         if not isinstance(name, str) or not name.strip():
             hint = "give it" if name is None else "write it in quotation marks"
-            defects.append(f"{where}: name is {shown(name)}, but must be a text of its own; {hint}.")
+            given = "missing" if name is None else shown(name)
+            defects.append(f"{where}: name is {given}, but must be a text of its own; {hint}.")
         elif len(name) > _LONGEST_NAME:
             defects.append(
                 f"{where}: name has {len(name)} characters, but may have {_LONGEST_NAME}; shorten it."
@@ -111,6 +118,14 @@ def load_scenes(path: str | Path) -> dict[str, Scene]:
     if defects:
         raise ConfigurationError("\n".join(defects))
     return scenes
+
+
+def _run_together(entry: object) -> str:
+    """The first key of an entry that YAML read with its value, for want of a blank behind the colon; "" for none."""
+    if not isinstance(entry, Mapping):
+        return ""
+    keys = (str(key) for key, value in entry.items() if value is None)
+    return next((key for key in keys if re.fullmatch(r"\w+:\S.{,60}", key)), "")
 
 
 def _repeated(name: object) -> str:

@@ -183,8 +183,8 @@ class StructureCheck:
     damage_level: the least a_g [m/s²] at which a mechanism starts, that of SLD.
 
     >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
-    >>> len(rocking.check(rocking.Block.of_size(breadth=0.6, height=2.0), spectrum).checks)
-    2
+    >>> rocking.check(rocking.Block.of_size(breadth=0.6, height=2.0), spectrum)
+    StructureCheck(SLV: C8.7.1.2.1.7 met, ratio 2.18; C8.7.1.2.1.8 met, ratio 1.90; starts at a_g = 2.18 m/s²)
     """
 
     limit_state: str
@@ -195,6 +195,17 @@ class StructureCheck:
     mechanisms: tuple[LocalMechanism, ...] = field(repr=False)
     governing: LocalMechanism = field(repr=False)
     remark: Remark | None = None
+
+    def __repr__(self) -> str:
+        """The verdict and the ratio of each check, and what the limit state leaves to say."""
+        told = [
+            f"{each.clause} {each.refusal or each.outcome}, ratio {each.ratio_in_words}"
+            for each in self.checks
+        ]
+        if self.remark:
+            told.append(str(self.remark))
+        told.append(f"starts at a_g = {self.damage_level:.3g} m/s²")
+        return f"StructureCheck({self.limit_state}: {'; '.join(told)})"
 
     @property
     def checks(self) -> tuple[Check, ...]:

@@ -79,8 +79,9 @@ class Structure(ABC):
                 object.__setattr__(self, each.name, each.in_si(value))
         restitution = self._given_restitution
         if self.one_sided and not isinstance(restitution, float):
+            given = "missing" if restitution is None else repr(restitution)
             raise StructureError(
-                f"restitution is {restitution!r}, but a one-sided body needs its own number between 0 and 1, as what "
+                f"restitution is {given}, but a one-sided body needs its own number between 0 and 1, as what "
                 "it leans on takes part in the impact; give it."
             )
 

@@ -54,7 +54,8 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
     if not isinstance(kind, str) or kind not in TYPES:
         known = _OTHER_NAMES.get(str(kind).replace("_", " ").lower())
         hint = f" (it is described as {article(known)}, type: {known})" if known else nearest(kind, TYPES)
-        raise ConfigurationError(f"type is {shown(kind)}, but must be one of {', '.join(TYPES)}{hint}.")
+        given = "missing" if kind is None else shown(kind)
+        raise ConfigurationError(f"type is {given}, but must be one of {', '.join(TYPES)}{hint}.")
     values = {
         key: value for key, value in mapping.items() if key not in ("type", "name") and value is not None
     }

@@ -83,7 +83,7 @@ def _show(message: Warning | str, *_: object, **__: object) -> None:
     print(f"rocking: {message}", file=sys.stderr)
 
 
-# Whole on purpose: a list, the verbs in the order of `rocking --help`, each with its arguments.
+# Whole on purpose: a list, the verbs in the order in which a user comes to them, each with its arguments.
 def _parser() -> argparse.ArgumentParser:
     declarations = argparse.ArgumentParser(add_help=False)
     declarations.add_argument(
@@ -121,6 +121,20 @@ def _parser() -> argparse.ArgumentParser:
     add(
         "snakemake", nargs="*", help="a target such as trade; what follows -- goes to snakemake: -- --dry-run"
     )
+    add = verb(_tables, "write the tables of single records of a finished study")
+    add("results", type=Path, help="folder of the results of a study")
+    add("record", nargs="+", help="identifier of a record in the catalogue")
+    add = verb(_assess, "assess structures under an accelerogram", channels)
+    add("structures", type=Path, help="YAML file that lists structures")
+    add("name", nargs="?", help="name of one structure in the list (default: all)")
+    add("--output", type=Path, help="folder for report.pdf and its tables")
+    add = verb(_read, "read an accelerogram and print its header and peak", one_file)
+    of_each = "name what each reader looked for in a file that none recognised"
+    add("--details", action="store_true", help=of_each)
+    verb(_pulse, "print the dominant sine pulse of an accelerogram", channels)
+    add = verb(_spectrum, "print the rocking spectrum of an accelerogram as CSV", channels)
+    add("--restitution", type=float, default=0.9, help="velocity ratio of an impact, 0 to 1 (default: 0.9)")
+    add("--output", type=Path, default=Path("spectrum.csv"), help="CSV file")
     add = verb(
         _select, "select records for the design spectrum of a study, and write a catalogue with their factors"
     )
@@ -144,20 +158,6 @@ def _parser() -> argparse.ArgumentParser:
         type=Path,
         help="folder for the table and the figure (default: strengthening in the results)",
     )
-    add = verb(_tables, "write the tables of single records of a finished study")
-    add("results", type=Path, help="folder of the results of a study")
-    add("record", nargs="+", help="identifier of a record in the catalogue")
-    add = verb(_read, "read an accelerogram and print its header and peak", one_file)
-    of_each = "name what each reader looked for in a file that none recognised"
-    add("--details", action="store_true", help=of_each)
-    verb(_pulse, "print the dominant sine pulse of an accelerogram", channels)
-    add = verb(_assess, "assess structures under an accelerogram", channels)
-    add("structures", type=Path, help="YAML file that lists structures")
-    add("name", nargs="?", help="name of one structure in the list (default: all)")
-    add("--output", type=Path, help="folder for report.pdf and its tables")
-    add = verb(_spectrum, "print the rocking spectrum of an accelerogram as CSV", channels)
-    add("--restitution", type=float, default=0.9, help="velocity ratio of an impact, 0 to 1 (default: 0.9)")
-    add("--output", type=Path, default=Path("spectrum.csv"), help="CSV file")
     return parser
 
 

@@ -341,6 +341,32 @@ def commented_yaml(settings: Settings) -> str:
     return "\n".join([*lines, ""])
 
 
+CHANGED_FIRST = (
+    *("study", "catalogue", "structures", "scale_to", "vertical", "friction_coefficient"),
+    *("design_spectrum.ag_g", "design_spectrum.f0", "design_spectrum.tc_star_s", "design_spectrum.soil"),
+)
+"""The settings that a study of one's own changes first, as config.yaml names them."""
+
+
+def first_yaml(settings: Settings) -> str:
+    """Return the settings that a user changes first as a config.yaml that says where all others stand."""
+    lines = [
+        "# The settings that studies change most. Every other one keeps its default until it is written here: all"
+    ]
+    lines += [
+        "# stand on the page Settings of the documentation (docs/pages/settings.md), each with its unit."
+    ]
+    lines += ["# Paths are relative to the folder in which the study runs.", ""]
+    names = [name for name in CHANGED_FIRST if "." not in name]
+    lines += _yaml_lines(settings, names)
+    below: dict[str, list[str]] = {}
+    for top, _, key in (name.partition(".") for name in CHANGED_FIRST if "." in name):
+        below.setdefault(top, []).append(key)
+    for top, keys in below.items():
+        lines += [f"{top}:", *_yaml_lines(getattr(settings, top), keys, "  ")]
+    return "\n".join([*lines, ""])
+
+
 def _yaml_lines(section: Any, names: Iterable[str] = (), indent: str = "") -> Iterator[str]:
     entries = _entries(section)
     for key in names or entries:

@@ -20,7 +20,7 @@ from rocking.records.read import read
 from rocking.study.job import Study, assess_catalogued, rows_of, write_report
 from rocking.study.made_from import settings_sha256
 from rocking.study.plan import workflow_folder
-from rocking.study.settings import Settings, commented_yaml
+from rocking.study.settings import Settings, first_yaml
 from rocking.tables import Row, write_tables, write_whole
 
 
@@ -30,7 +30,7 @@ def start(folder: Path) -> list[Path]:
     Raises ConfigurationError, before anything is written, when one of the files stands there already.
     """
     contents = {
-        folder / "config.yaml": commented_yaml(Settings()).encode(),
+        folder / "config.yaml": first_yaml(Settings()).encode(),
         folder / "structures.yaml": (workflow_folder() / "workflow" / "structures.yaml").read_bytes(),
     }
     for path in contents:

@@ -403,3 +403,11 @@ def test_what_cannot_be_checked_is_refused_in_a_sentence():
         rocking.check(block, 2.0)
     with pytest.raises(ConfigurationError, match=r"records is a dict, but must be sets of records, as"):
         rocking.check(block, SPECTRUM, records={})
+
+
+def test_a_check_prints_the_verdict_and_the_ratio_of_each_clause():
+    spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
+    for breadth, word in ((0.6, "met"), (0.15, "not met")):
+        found = rocking.check(rocking.Block.of_size(breadth=breadth, height=2.0), spectrum)
+        for each in found.checks:
+            assert f"{each.clause} {word}, ratio {each.capacity / each.demand:#.3g}" in repr(found)

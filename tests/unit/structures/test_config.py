@@ -57,7 +57,7 @@ SLIM = {"type": "block", "breadth_m": 1, "height_m": 4}
     "mapping, message",
     [
         ({"type": "arc"}, r"type is 'arc', but must be one of block, wall, arch.*did you mean arch\?"),
-        ({}, "type is None"),
+        ({}, "type is missing"),
         ([1], "must be a mapping"),
         ({"type": "arch", "radius": 1}, r"radius is not a key of an arch \(did you mean radius_m\?"),
         ({"type": "wall", "height_m": 3, "hinge_height_m": 1}, "a wall needs thickness_m; give it"),
@@ -95,7 +95,7 @@ def test_all_defects_of_a_list_stand_in_one_message(load):
     lines = str(caught.value).splitlines()
     assert [line.split(": ")[1].split(" (")[0] for line in lines] == [f"structure {n}" for n in (2, 3, 4, 5)]
     assert "already taken" in lines[0]
-    assert "name is None" in lines[1]
+    assert "name is missing" in lines[1]
     assert "less than twice the radius" in lines[2]
     assert "did you mean hinge_height_m?" in lines[3]
 
@@ -109,7 +109,7 @@ def test_all_defects_of_a_list_stand_in_one_message(load):
             "- {name: 12, type: block}",
             "name is 12, but must be a text of its own; write it in quotation marks",
         ),
-        ("- {type: block}", "name is None, but must be a text of its own; give it"),
+        ("- {type: block}", "name is missing, but must be a text of its own; give it"),
         ("[]", "the list is empty, but must hold one structure at least"),
         ("", "holds nothing, but must hold a list"),
         ("- {name: a, type: block, height_m: 1, height_m: 4}", "key 'height_m' is given twice"),
@@ -197,3 +197,23 @@ def test_what_is_not_usual_is_a_warning_and_not_a_refusal(load):
     said = [str(each.message) for each in caught]
     assert len(said) == 3
     assert "structure 1 (w): height_m is 3200 m, but is usually between 0.5 and 60 m" in said[0]
+
+
+@pytest.mark.parametrize(
+    ("entry", "said"),
+    [
+        (
+            "{name:a, type: block, breadth_m: 1, height_m: 6}",
+            "name:a has no blank behind its colon; write name: a.",
+        ),
+        (
+            "{name: a, type:block, breadth_m: 1, height_m: 6}",
+            "type:block has no blank behind its colon; write type: b",
+        ),
+        ("{name: a, breadth_m: 1, height_m: 6}", "type is missing, but must be one of"),
+    ],
+)
+def test_a_blank_that_was_forgotten_and_what_is_missing_are_one_sentence(load, entry, said):
+    with pytest.raises(ConfigurationError) as refused:
+        load(f"- {entry}")
+    assert said in str(refused.value) and str(refused.value).count("\n") == 0

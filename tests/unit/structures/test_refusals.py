@@ -18,7 +18,10 @@ def facade(**changes):
 @pytest.mark.parametrize(
     "make, message",
     [
-        (lambda: Block(1.0, 0.2, one_sided=True), "restitution is None, but a one-sided body needs its own"),
+        (
+            lambda: Block(1.0, 0.2, one_sided=True),
+            "restitution is missing, but a one-sided body needs its own",
+        ),
         (lambda: Block(1.0, 0.2, restitution="magic"), "restitution is 'magic'"),
         (lambda: Wall(2.0, 1.0, float("nan")), "thickness is nan"),
         (lambda: Wall.hinged_at(3.0, 3.5, 0.3), "hinge_height is 3.5 m, but must lie inside the wall.*3.0 m"),

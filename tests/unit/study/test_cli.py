@@ -21,7 +21,8 @@ from rocking.assessment.over_periods import placed
 from rocking.errors import ConfigurationError
 from rocking.remarks import Kind, Remark
 from rocking.study.cli import main
-from rocking.study.plan import check_config_file, make_plan, workflow_folder
+from rocking.study.plan import check_config_file, make_plan
+from rocking.study.settings import Settings, read_settings
 from rocking.tables.yaml_file import scalar_value
 
 ROOT = Path(rocking.__file__).parents[1]
@@ -235,11 +236,14 @@ def test_a_catalogue_keeps_what_was_typed_in_and_adds_what_is_new(study, capsys)
     assert after[0] == dict.fromkeys(after[0], "") | first
 
 
-def test_start_writes_the_shipped_settings_and_points_to_its_own_structures(tmp_path):
+def test_start_writes_the_ten_settings_changed_first_and_where_the_others_stand(tmp_path):
     assert main(["start", str(tmp_path)]) == 0
-    shipped = yaml.safe_load((workflow_folder() / "workflow" / "config.yaml").read_text(encoding="utf-8"))
-    own = yaml.safe_load((tmp_path / "config.yaml").read_text(encoding="utf-8"))
-    assert own == shipped | {"structures": "structures.yaml"}
+    text = (tmp_path / "config.yaml").read_text(encoding="utf-8")
+    own = yaml.safe_load(text)
+    assert read_settings(own) == Settings()
+    assert len(own.pop("design_spectrum")) + len(own) == 10
+    assert "docs/pages/settings.md" in text and (ROOT / "docs" / "pages" / "settings.md").exists()
+    assert all(not line or line.endswith(":") or "#" in line for line in text.splitlines())
     assert (tmp_path / own["structures"]).exists()
 
 
