@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from rocking.errors import MotionError, RockingError
-from rocking.quantities import shown
+from rocking.quantities import percent, shown
 from rocking.reports.drawings import draw_dimensions, draw_structure
 from rocking.reports.style import (
     MOST_POINTS,
@@ -379,7 +379,9 @@ def _plot_strengthening(strengthening: "Strengthening", axes: Axes) -> None:
         values, low, high, color="C0", alpha=0.2, linewidth=0, label="one-sided 90 % bounds, by station"
     )
     axes.plot(values, [each.share for each in tried], ".-", color="C0", linewidth=0.9, label=label)
-    axes.axhline(strengthening.target, color="0.4", linestyle=":", label=f"target {strengthening.target:.0%}")
+    axes.axhline(
+        strengthening.target, color="0.4", linestyle=":", label=f"target {percent(strengthening.target)} %"
+    )
     if strengthening.chosen is not None:
         shown_to_hold = f"shown to hold: {strengthening.as_typed(strengthening.value)}"
         axes.axvline(outward(strengthening.value), color="C2", label=shown_to_hold)
@@ -390,7 +392,7 @@ def _plot_strengthening(strengthening: "Strengthening", axes: Axes) -> None:
     axes.set_ylim(-0.02, 1.02)
     unit = f" [{strengthening.field.unit}]"
     axes.set(xlabel=strengthening.key.replace("_", " ") + unit, ylabel="share that overturns [-]")
-    axes.legend()
+    axes.legend(frameon=True, framealpha=0.85, edgecolor="none")  # the lines of the values may pass behind it
 
 
 def _plot_response_spectrum(spectrum: "ResponseSpectrum", axes: Axes) -> None:
