@@ -44,6 +44,11 @@ TARGETS_OF_RESEARCH = {
         REAL_RECORDS,
         ["fronts.csv"],
     ),
+    "halves": (
+        "Choose what holds on one half of the stations, and state it on the other",
+        REAL_RECORDS[1:],
+        [],
+    ),
     "code_check": (
         "Hold the formulas of the Italian code beside records of the design level",
         REAL_RECORDS,
