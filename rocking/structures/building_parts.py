@@ -16,6 +16,7 @@ from rocking.structures.structure import Structure
 
 Sizes = Mapping[str, Any]
 """Sizes in SI by name: height, thickness, breadth and, of a chimney, wall_thickness; None where left out."""
+_SIZES = ("height", "thickness", "breadth", "wall_thickness")
 
 
 @dataclass(frozen=True)
@@ -111,9 +112,6 @@ def _pyramid(sizes: Sizes) -> dict[str, object]:
     return {"width": sizes["thickness"], "height": sizes["height"], "plan": "square"}
 
 
-_SIZES = ("height", "thickness", "breadth", "wall_thickness")
-
-
 def _part(
     name: str,
     meaning: str,
@@ -184,7 +182,7 @@ PARTS: dict[str, BuildingPart] = {
             height=(2.0, 0.3, 20),
             thickness=(0.3, 0.05, 3),
             breadth=(3.0, 0.2, 200),
-            others=("boundary wall", "garden wall", "freestanding wall", "fence", "retaining wall"),
+            others=("boundary wall", "garden wall", "freestanding wall"),
         ),
         _part(
             "parapet",
@@ -194,7 +192,7 @@ PARTS: dict[str, BuildingPart] = {
             height=(1.0, 0.2, 4),
             thickness=(0.25, 0.05, 1),
             breadth=(3.0, 0.2, 200),
-            others=("balustrade", "battlement", "attic"),
+            others=("balustrade", "battlement"),
         ),
         _part(
             "chimney",
@@ -206,7 +204,7 @@ PARTS: dict[str, BuildingPart] = {
             breadth=(0.9, 0.1, 5),
             breadth_meaning="Outer length across, of which the walls about the flue are a part; left out: square",
             more=(_FLUE,),
-            others=("stack", "chimney stack", "flue"),
+            others=("chimney stack",),
         ),
         _part(
             "gable",
@@ -217,7 +215,7 @@ PARTS: dict[str, BuildingPart] = {
             thickness=(0.4, 0.05, 2),
             breadth=(7.0, 0.5, 40),
             front="triangle",
-            others=("gable wall", "pediment", "tympanum"),
+            others=("gable wall", "pediment"),
         ),
         _part(
             "buttress",
@@ -239,7 +237,7 @@ PARTS: dict[str, BuildingPart] = {
             breadth=(0.7, 0.1, 5),
             crack=1.0,
             front="triangle",
-            others=("finial", "obelisk"),
+            others=("finial",),
         ),
     )
 }

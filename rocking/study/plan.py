@@ -177,7 +177,8 @@ def check_config_file(path: Path) -> dict[str, Any]:
     if not isinstance(content or {}, dict):
         kind = kind_in_words(content)
         raise ConfigurationError(
-            f"{path}: the file holds {kind}, but must hold settings, as tolerance: 1e-6."
+            f"{path}: the file holds {kind}, but must hold settings, as tolerance: 1e-6, with a blank behind each "
+            "colon."
         )
     return content or {}
 
