@@ -114,3 +114,23 @@ def test_the_summary_is_well_laid(example, count, records):
     rows = [sum(word[4] == "transept," for word in page) for page in document]
     assert sum(rows) >= 2 * count + records, "in the fates and the agreement; in the list of records"
     assert (len(document) > 1) == (count * records > 1), "one case takes one page"
+
+
+@pytest.mark.process
+def test_the_first_page_of_the_summary_holds_matrix_and_scatter_in_at_most_250_words(example):
+    """Of twelve structures under two records."""
+    kinds = [*example.structures] * 3
+    kind = {f"{name} {place}": name for place, name in enumerate(kinds[:12])}
+    rows = [of_structures(example, kind, record).tables for record in ("one", "two")]
+    tables = RecordRows(
+        **{table: [row for each in rows for row in getattr(each, table)] for table in SUMMARISED}
+    )
+    structures = {name: example.structures[each] for name, each in kind.items()}
+    page = pages(summary_report(summarised(tables, structures), SETTINGS))[0]
+    assert covered(page) == []
+    first = [word[4] for word in page]
+    assert len(first) <= 250
+    text = " ".join(first)
+    assert "2 records, 12 structures, 24 verdicts" in text
+    seen = [text.index(words) for words in ("under some record", "to know", "The closed form sees", "missed")]
+    assert seen == sorted(seen), "the answer, the matrix, then the scatter with its counts"
