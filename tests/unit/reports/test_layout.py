@@ -118,9 +118,9 @@ def test_the_summary_is_well_laid(example, count, records):
 
 @pytest.mark.process
 def test_the_first_page_of_the_summary_holds_matrix_and_scatter_in_at_most_250_words(example):
-    """Of twelve structures under two records."""
+    """Of twelve structures with names of two words, under two records."""
     kinds = [*example.structures] * 3
-    kind = {f"{name} {place}": name for place, name in enumerate(kinds[:12])}
+    kind = {f"structure {place}": name for place, name in enumerate(kinds[:12])}
     rows = [of_structures(example, kind, record).tables for record in ("one", "two")]
     tables = RecordRows(
         **{table: [row for each in rows for row in getattr(each, table)] for table in SUMMARISED}
