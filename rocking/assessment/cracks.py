@@ -15,7 +15,7 @@ from rocking.motion.forcing import forcing_of
 from rocking.quantities import GRAVITY
 from rocking.structures import Mechanism, Structure
 from rocking.structures.contacts import UnknownContacts
-from rocking.structures.structure import CRACKS
+from rocking.structures.structure import CRACKS, Candidate
 from rocking.structures.tied import Tied
 
 IN_DOUBT = 0.3
@@ -28,7 +28,8 @@ class Crack:
 
     description: what opens, in words; "" of a structure with one mechanism. position: its height [m]; nan without one.
     friction: the largest friction coefficient that a joint needs as it lifts; 0 of a mechanism without joints. counts,
-    bulges: as of `CrackFacts`.
+    bulges: as of `CrackFacts`. of_geometry: whether it is the first one once more, with the restitution of the geometry
+    in place of a lower one that is typed.
     """
 
     description: str
@@ -37,6 +38,7 @@ class Crack:
     friction: float = 0.0
     counts: bool = True
     bulges: bool = False
+    of_geometry: bool = False
 
     def slides_at(self, friction_coefficient: float) -> float:
         """Return the acceleration [g] at which a joint slides before this lifts; nan where none does.
@@ -53,6 +55,7 @@ class FollowedCrack:
     """The ensemble of one crack; description and position [m] as those of `Crack`.
 
     slides: whether it slides before it lifts, under a motion that reaches so far. counts, bulges: as of `CrackFacts`.
+    of_geometry: as of `Crack`.
     """
 
     description: str
@@ -61,6 +64,7 @@ class FollowedCrack:
     slides: bool = False
     counts: bool = True
     bulges: bool = False
+    of_geometry: bool = False
 
     @cached_property
     def facts(self) -> CrackFacts:
@@ -125,10 +129,40 @@ def cracks(structure: Structure) -> tuple[Crack, ...]:
             each.structure.mechanism(),
             _friction(each.structure),
             each.counts,
-            bulges=isinstance(each.structure, Tied) and each.structure.opening is not None,
+            bulges=_bulges(each),
+            of_geometry=each.description.endswith(_OF_GEOMETRY),
         )
-        for each in structure.candidates(CRACKS)
+        for each in _forms(structure)
     )
+
+
+def _bulges(candidate: Candidate) -> bool:
+    return isinstance(candidate.structure, Tied) and candidate.structure.opening is not None
+
+
+_OF_GEOMETRY = "of its geometry"
+
+
+@lru_cache(maxsize=256)
+def _forms(structure: Structure) -> tuple[Candidate, ...]:
+    """The candidates, and where a restitution is typed far below that of the geometry the first crack with that one.
+
+    A typed number that kills more energy than the geometry tells is no finding before somebody has measured it.
+    """
+    several = structure.candidates(CRACKS)
+    first = next((each for each in several if each.counts and not _bulges(each)), None)
+    own = None if first is None else first.structure.restitution_of_geometry
+    if first is None or own is None:
+        return several
+    livelier = replace(
+        first,
+        description=f"restitution {own:.2f} {_OF_GEOMETRY}",
+        structure=first.structure.with_restitution_of_geometry(),
+    )
+    if len(several) == 1:
+        typed = first.structure.mechanism().restitution
+        several = (replace(first, description=f"restitution {typed:.2f} as typed"),)
+    return (*several, livelier)
 
 
 def counting_cracks(structure: Structure) -> tuple[Crack, ...]:
@@ -147,7 +181,7 @@ def never_lets_go(structure: Structure) -> str:
 
 def cracked(structure: Structure, description: str) -> Structure:
     """Return the structure with the crack of this description; itself where none of its cracks has it."""
-    forms = (each.structure for each in structure.candidates(CRACKS) if each.description == description)
+    forms = (each.structure for each in _forms(structure) if each.description == description)
     return next(forms, structure) if description else structure
 
 
@@ -216,6 +250,7 @@ def ensemble_over_cracks(
             each in sliding,
             each.counts,
             each.bulges,
+            each.of_geometry,
         ): each.mechanism
         for each in doubtful
     }

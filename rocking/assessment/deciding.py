@@ -58,7 +58,11 @@ def deciding(ensembles: CrackEnsembles) -> list[Deciding]:
         if cause.name in governing.causes
         for groups in [_groups(governing.causes[cause.name])]
     ]
-    counting = [each for each in ensembles.followed if each.counts and not each.bulges]
+    cracked = [each for each in ensembles.followed if each.counts and not each.bulges]
+    counting = [each for each in cracked if not each.of_geometry]
+    if len(cracked) > len(counting):
+        typed_or_not = _explained_by_crack([counting[0], cracked[-1]])
+        shares.append(Deciding("restitution", typed_or_not, Origin.IGNORANCE))
     if len(counting) > 1:
         shares.append(Deciding(CRACK, _explained_by_crack(counting), Origin.IGNORANCE))
     some = [each for each in shares if each.share > 0]
@@ -87,6 +91,9 @@ def would_tell(ensembles: CrackEnsembles, restitution_is_typed: bool = False) ->
 
     restitution_is_typed: whether whoever described the structure gave its range, and so knows it no better.
     """
+    governing = ensembles.governing
+    if governing.of_geometry and governing.ensemble.overturning_share > 0 and not restitution_is_typed:
+        return (Remark(Kind.RESTITUTION),)
     worth = (
         Remark(_KINDS[each.name])
         for each in deciding(ensembles)

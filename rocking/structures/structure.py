@@ -32,6 +32,8 @@ _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 CRACKS = 11
 """Number of mechanisms that are followed where more than one may form."""
+TYPED_LOWER = 0.05
+"""Difference by which a typed restitution may lie below that of the geometry before both are followed."""
 HIGHEST_SHARE = 0.95
 """Share of the height up to which a hinge or a crack is moved; a wall's hinge also stays that far above its base."""
 
@@ -404,6 +406,23 @@ class Structure(ABC):
         """Whether its restitution is a number of the description, not that of a balance of momentum."""
         own = self._given_restitution
         return not isinstance(self._usual_restitution if own is None else own, str)
+
+    @cached_property
+    def restitution_of_geometry(self) -> float | None:
+        """η by its balance of momentum, where the number that is typed lies lower by more than TYPED_LOWER; else None.
+
+        None of what leans on something, which takes part in the impact, and of what has no such balance.
+        """
+        typed = self._given_restitution
+        if self.one_sided or not isinstance(typed, float) or not isinstance(self._usual_restitution, str):
+            return None
+        own = min(self._momentum_balance(mirrored) for mirrored in (False, True))
+        return own if own - typed > TYPED_LOWER else None
+
+    def with_restitution_of_geometry(self) -> Self:
+        """Return it with the restitution of its balance of momentum in place of the one that is typed."""
+        names = {each.name for each in fields(self)} & {"restitution", "inward_restitution"}
+        return replace(self, **dict.fromkeys(names))
 
     def _impact(self, mirrored: bool) -> float:
         """η of the impact that ends rocking on one side: the number, or that of a balance where it is a name."""

@@ -181,8 +181,8 @@ class Tied(CrackedAtHeight):
     def _ranked_candidates(self, count: int) -> tuple[Candidate, ...]:
         """The cracks, and the bulge of least λ whose motion can be followed (theory: section 12.6).
 
-        Statics chooses by limit analysis: ties pull with the force at which they yield, and what they keep shut for
-        good is left out unless it is given.
+        It comes first where limit analysis, in which ties pull with the force at which they yield, finds it weaker than
+        every crack. A crack that ties keep shut for good is left out then, unless it is given.
         """
         cracked = super()._ranked_candidates(count)
         bulge = next((each for each in self._bulges if not each.refusal), None)
@@ -197,9 +197,16 @@ class Tied(CrackedAtHeight):
             ]
         elif bulge.structure.mechanism().can_overturn:
             counting = [each for each in counting if each.structure.mechanism().can_overturn]
-        counting.append(bulge)
-        counting.sort(key=lambda each: float(f"{each.uplift_multiplier:.9g}"))
+        is_weakest = all(bulge.uplift_multiplier < each.uplift_multiplier for each in counting)
+        counting.insert(0 if is_weakest else len(counting), bulge)
         return (*counting, *(each for each in cracked if not each.counts))
+
+    @cached_property
+    def static_multiplier(self) -> float:
+        """The least λ of its candidates by limit analysis, g; ties pull with the force at which they yield."""
+        if not self._bulges:
+            return super().static_multiplier
+        return min(each.uplift_multiplier for each in self.candidates())
 
     def _limited(self, candidate: Candidate) -> Candidate:
         """A crack with its λ by limit analysis, in which each tie pulls with the force at which it yields."""

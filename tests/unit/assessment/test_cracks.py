@@ -235,3 +235,30 @@ def test_a_held_wall_that_turns_far_only_probably_stands():
             words[farthest > 0.4] = assessed.verdict, [each.kind for each in assessed.decision.doubts]
     assert words[False][0] is Verdict.STANDS
     assert words[True][0] is Verdict.PROBABLY_STANDS and Kind.HELD_BEYOND in words[True][1]
+
+
+def test_a_restitution_typed_far_below_that_of_the_geometry_is_followed_beside_it():
+    """Where the two differ the share is a range, and a measurement of the restitution would tell."""
+    typed = Block.of_size(0.5, 4.0, restitution=0.6)
+    own = replace(typed, restitution=None)
+    assert own.mechanism().restitution == pytest.approx(
+        1 - 1.5 * np.sin(np.arctan2(0.5, 4.0)) ** 2, rel=1e-12
+    )
+    times = np.arange(0, 12, STEP)
+    wave = np.sin(2 * np.pi * times / 1.2) * np.exp(-(((times - 5) / 2.5) ** 2))
+    verdicts = set()
+    for amplitude in (1.0, 2.0, 3.0, 5.0):
+        motion = Accelerogram(amplitude * wave, STEP)
+        both, livelier = (rocking.assess(motion, each) for each in (typed, own))
+        verdicts.add(both.verdict)
+        if livelier.overturning_members:
+            assert both.crack == "restitution 0.98 of its geometry"
+            assert both.overturning_members == livelier.overturning_members
+            assert [each.kind for each in both.decision.tells] == [Kind.RESTITUTION]
+            assert both.decision.interval[0] < both.decision.interval[1] == livelier.overturning_share
+        else:
+            assert both.verdict is livelier.verdict
+    assert Verdict.UNCERTAIN in verdicts
+    near = replace(typed, restitution=own.mechanism().restitution - 0.049)
+    leans = replace(typed, one_sided=True)
+    assert [len(cracks(each)) for each in (near, leans)] == [1, 1]
