@@ -100,7 +100,7 @@ def closing_lines(
     if worst:
         words = {each.structure: each.decision.word for each in worst}
         count = f"{counted(records, 'record')}, {counted(len(worst), 'structure')}"
-        yield f"{count}. {conclusion_in_words(words, records)}"
+        yield from wrap(f"{count}. {conclusion_in_words(words, records)}", _WIDTH)
         yield "Largest rotation, 1 = critical, of the worst, each under its worst record:"
         yield f"{'':<17}  {'record':<22}  closed form   block  integrated  members that overturn"
     own = (row for row in verdicts if (row.record, row.structure) in shown)
@@ -119,9 +119,11 @@ def closing_lines(
         most, count_of_most = missed.most_common(1)[0]
         where = f" ({count_of_most} of them in {_cut(most, 24)})" if records > 1 and count_of_most else ""
         found = f"{seen} of {counted(falls, 'fall')} seen, {missed.total()} missed{where}"
-        yield f"Closed form against integration: {found}, {counted(false, 'false alarm')}"
+        text = f"Closed form against integration: {found}, {counted(false, 'false alarm')}"
+        yield from wrap(text, _WIDTH, subsequent_indent=" " * 8)
     if failed := sorted({failure.record for failure in failures}):
-        yield f"{counted(len(failed), 'record')} failed, wholly or in part: {_few(failed)}"
+        text = f"{counted(len(failed), 'record')} failed, wholly or in part: {_few(failed)}"
+        yield from wrap(text, _WIDTH, subsequent_indent=" " * 8)
 
 
 def _rotation(ratio: float) -> str:
