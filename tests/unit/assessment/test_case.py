@@ -117,7 +117,7 @@ def test_cracks_that_disagree_have_a_range_in_every_table():
     (row,) = verdicts([result])
     assert row.decision == result.decision
     assert (row.verdict, row.decision.share_in_words) == ("uncertain", "0–100\u00a0%")
-    assert cell_text(row.decision) == "? 0–100\u00a0%"
+    assert cell_text(row.decision) == "≈ 0–100\u00a0%"
 
 
 @pytest.mark.parametrize("falls", [None, 0, 12, 64])
