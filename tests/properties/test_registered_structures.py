@@ -253,7 +253,9 @@ def test_candidates_stand_and_the_weakest_comes_first(structure):
     turning = [each for each in found if getattr(each.structure, "opening", None) is None]
     assert found[: len(turning)] == turning and len(found) - len(turning) <= 1
     multipliers = [each.structure.mechanism().uplift_multiplier for each in turning]
-    assert fixed.static_multiplier == fixed.candidates()[0].multiplier
+    # Of a held wall by limit analysis, in which ties pull with the force at which they yield.
+    least = min(each.uplift_multiplier for each in fixed.candidates())
+    assert fixed.static_multiplier == pytest.approx(least, rel=1e-9), "but for rounding"
     assert (np.diff(multipliers) > -1e-8 * multipliers[-1]).all()
     assert multipliers[0] > 0
     given = fixed.mechanism().uplift_multiplier
