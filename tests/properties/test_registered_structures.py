@@ -242,7 +242,7 @@ def test_contacts_are_finite_or_refused_in_words(structure):
 
 @registered
 def test_candidates_stand_and_the_weakest_comes_first(structure):
-    """Of the same kind, each with its own crack, that which was given among them; a bulge of a held wall is no crack."""
+    """Of the same kind, each with its own crack, that which was given among them; a bulge is no crack."""
     fixed = dataclasses.replace(structure, restitution=0.9, restitution_range=0.03)
     if structure.crack_name and structure.crack_is_given and structure.crack != "known":
         decides, *_ = fixed.candidates(5)
