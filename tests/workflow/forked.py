@@ -54,8 +54,11 @@ def _become(arguments: list[str], cwd: str, env: dict[str, str], output: str) ->
 def _server() -> subprocess.Popen[str]:
     """The process that is forked, of which each worker has one; it ends with its standard input."""
     command = [sys.executable, "-c", "from tests.workflow.forked import _serve; _serve()"]
+    root = Path(__file__).parents[2]
+    # Not by the folder it stands in, which a test may have closed (PYTHONSAFEPATH).
+    surroundings = os.environ | {"PYTHONPATH": str(root)}
     streams = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
-    server = subprocess.Popen(command, cwd=Path(__file__).parents[2], start_new_session=True, **streams)
+    server = subprocess.Popen(command, cwd=root, env=surroundings, start_new_session=True, **streams)
     atexit.register(server.communicate)
     return server
 

@@ -72,6 +72,10 @@ def _replaced(old: str, new: str) -> Callable[[str], str]:
     return lambda text: text.replace(old, new, 1)
 
 
+def _added(lines: str) -> Callable[[str], str]:
+    return lambda text: f"{text}{lines}\n"
+
+
 MISTAKES: dict[str, tuple[str, Callable[[str], str], tuple[str, ...]]] = {
     "decimal comma": ("structures.yaml", _replaced("height_m: 3.9", "height_m: 3,9"), ("attic wall", "3.9")),
     "decimal comma in a block": (
@@ -99,22 +103,22 @@ MISTAKES: dict[str, tuple[str, Callable[[str], str], tuple[str, ...]]] = {
         _replaced("height_m: 3.9", "height_m: 3.9, height_m: 4.9"),
         ("'height_m' is given twice",),
     ),
-    "decimal comma in a setting": ("config.yaml", _replaced("risk: 0.05", "risk: 0,05"), ("risk", "0.05")),
-    "misspelt setting": ("config.yaml", _replaced("tolerance:", "tollerance:"), ("tollerance", "tolerance?")),
+    "decimal comma in a setting": ("config.yaml", _added("ensemble: {risk: '0,05'}"), ("risk", "0.05")),
+    "misspelt setting": ("config.yaml", _added("tollerance: 1.0e-5"), ("tollerance", "tolerance?")),
     "unit in a setting": (
         "config.yaml",
-        _replaced("high_pass_hz: 0.1", "high_pass_hz: 0.1 Hz"),
+        _added("processing: {high_pass_hz: 0.1 Hz}"),
         ("high_pass_hz", "'0.1 Hz'", "number"),
     ),
     "setting twice": (
         "config.yaml",
-        lambda text: text + "tolerance: 1.0e-5\n",
+        _added("tolerance: 1.0e-5\ntolerance: 1.0e-5"),
         ("'tolerance' is given twice",),
     ),
-    "semicolons in the catalogue": (
+    "two hashes of one file": (
         "records/catalogue.csv",
-        lambda text: text.replace(";", "|").replace(",", ";"),
-        ("catalogue.csv", "column"),
+        lambda text: text.replace(";", "|"),
+        ("catalogue.csv", "sha256", "64 hexadecimal digits"),
     ),
 }
 
