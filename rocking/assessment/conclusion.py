@@ -151,7 +151,12 @@ def conclusion_in_words(words: Mapping[str, Verdict], records: int = 1) -> str:
     of_them = f"All {every}" if falling == every else f"{falling or 'None'} of {every}"
     does = "overturns or probably does" if falling <= 1 else "overturn or probably do"
     under = some.replace("some", "any") if not falling else some
-    return f"{of_them} structures {does}{under}" + (f"; {untold} cannot be told." if untold else ".")
+    uncertain = sum(word is Verdict.UNCERTAIN for word in words.values())
+    verb = "is" if uncertain == 1 else "are"
+    # Unsaid, a structure of which half the members fall would be read as one that stands.
+    open_ = [f"{uncertain} {verb} uncertain"] if uncertain else []
+    open_ += [f"{untold} cannot be told"] if untold else []
+    return f"{of_them} structures {does}{under}" + (f"; {', '.join(open_)}." if open_ else ".")
 
 
 def _or_least(value: float) -> float:

@@ -81,7 +81,11 @@ def test_of_equal_shares_the_one_of_less_reserve_is_worse():
         ((), "No structure was assessed."),
         (("overturns", "overturns"), "All 2 structures overturn or probably do."),
         (("cannot be told", "cannot be told"), "What becomes of all 2 structures cannot be told."),
-        (("uncertain", "stands"), "None of 2 structures overturns or probably does."),
+        (("uncertain", "stands"), "None of 2 structures overturns or probably does; 1 is uncertain."),
+        (
+            ("uncertain", "uncertain", "cannot be told"),
+            "None of 3 structures overturns or probably does; 2 are uncertain, 1 cannot be told.",
+        ),
         (("cannot be told", "stands"), "None of 2 structures overturns or probably does; 1 cannot be told."),
         (
             ("overturns", "probably overturns", "cannot be told", "cannot be told", "stands"),

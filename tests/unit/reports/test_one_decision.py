@@ -134,7 +134,9 @@ def test_page_one_says_it(report, decisions):
 
 def test_the_summary_says_it(report, decisions):
     data = summary_data(summarised(report.tables, report.structures), SETTINGS)
-    assert data["conclusion"] == "2 of 5 structures overturn or probably do; 1 cannot be told."
+    assert (
+        data["conclusion"] == "2 of 5 structures overturn or probably do; 1 is uncertain, 1 cannot be told."
+    )
     cells = {row["name"]: row["cells"][0] for row in data["matrix"]["rows"]}
     table = {line[0]["text"]: line for line in data["structures"]["rows"]}
     for name, decision in decisions.items():
@@ -146,7 +148,7 @@ def test_the_summary_says_it(report, decisions):
 
 def test_the_page_to_explore_says_it(report, decisions):
     content = record_content(report.result, report.tables, report.structures)
-    sentence = "2 of 5 structures overturn or probably do; 1 cannot be told."
+    sentence = "2 of 5 structures overturn or probably do; 1 is uncertain, 1 cannot be told."
     assert sentence in explore_page([content], report.structures).decode()
     assert report.data()["conclusion"] == sentence, "as on page one"
     cases = content["cases"]
