@@ -14,7 +14,7 @@ from docs.paper.figures import arch_response, panels, pulse_map
 from docs.paper.response import example_arch, response_curves
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
-from rocking.reports.document import compile_document
+from rocking.reports.printing import compile_document
 from rocking.reports.style import plain_logarithmic, svg
 from rocking.sine_pulse import pulse_spectrum
 from rocking.structures.mechanism import Scale, Side

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from docs.research.scores import HAPPENED, STATED, Score
 from docs.research.sites import NamedRecord, Records
 from rocking.reports import printing
-from rocking.reports.document import compile_document
+from rocking.reports.printing import compile_document
 from rocking.reports.style import new_figure, picture, styled
 from rocking.structures import Structure
 from rocking.tables import Row, write_tables, write_whole

@@ -15,7 +15,6 @@ from rocking.assessment.case import (
     SceneResult,
     StationResult,
 )
-from rocking.assessment.clock import Clock
 from rocking.assessment.component import (
     Component,
     ComponentPulses,
@@ -26,6 +25,7 @@ from rocking.assessment.component import (
 )
 from rocking.assessment.cracks import cracked, cracks
 from rocking.assessment.one_case import (
+    Clock,
     assess_case,
     assess_directions,
     ground_motions,
@@ -33,8 +33,7 @@ from rocking.assessment.one_case import (
     prediction_of,
     with_variations,
 )
-from rocking.assessment.reserve import Reserve
-from rocking.assessment.reserve_search import reserve
+from rocking.assessment.reserve import Reserve, reserve
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.verdict import BOTH_COMPONENTS, Method

@@ -17,9 +17,8 @@ from rocking.assessment.deciding import decided_by, would_tell
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer, Estimate
 from rocking.assessment.ground_motions import GroundMotions
-from rocking.assessment.over_periods import periods_in_words
 from rocking.assessment.reserve import Reserve
-from rocking.assessment.scene import Scene
+from rocking.assessment.scene import Scene, periods_in_words
 from rocking.assessment.variations import Variation
 from rocking.assessment.verdict import BOTH_COMPONENTS, POLARITIES, Method
 from rocking.floors.support import Support

@@ -14,7 +14,7 @@ from rocking.assessment.settings import AssessmentSettings
 from rocking.motion.forcing import forcing_of
 from rocking.quantities import GRAVITY
 from rocking.structures import Mechanism, Structure
-from rocking.structures.contacts import UnknownContacts
+from rocking.structures.linkage import UnknownContacts
 from rocking.structures.structure import CRACKS, Candidate
 from rocking.structures.tied import Tied
 

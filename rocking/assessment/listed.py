@@ -14,9 +14,8 @@ from typing import Any, NamedTuple
 
 import yaml
 
-from rocking.assessment.check_terms import KEYS as CHECK_KEYS
-from rocking.assessment.check_terms import check_terms, check_terms_schema
-from rocking.assessment.scene import Scene
+from rocking.assessment.scene import KEYS as CHECK_KEYS
+from rocking.assessment.scene import Scene, check_terms, check_terms_schema
 from rocking.described import kind_in_words
 from rocking.errors import ConfigurationError, StructureError, StructureWarning
 from rocking.floors.place import GROUND, TYPE_NAME, Place, place_from_config, place_schema

@@ -1,11 +1,13 @@
 """One case: one structure under one motion, predicted, integrated and followed by its ensemble and its contacts."""
 
-from collections.abc import Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache, partial
+from time import process_time
 
 from rocking.assessment.case import CaseResult, Failure, Motion, Prediction
-from rocking.assessment.clock import Clock
 from rocking.assessment.component import Component
 from rocking.assessment.contacts import contact_share, doubt
 from rocking.assessment.cracks import counting_cracks, cracks, ensemble_over_cracks, slides_first
@@ -22,6 +24,27 @@ from rocking.pulses import PulseEvidence, predicting_pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum, printed_maximum
 from rocking.structures import Mechanism, Structure
+
+
+class Clock:
+    """The CPU time of each stage, s, added up."""
+
+    def __init__(self) -> None:
+        self.durations: dict[str, float] = defaultdict(float)
+
+    @contextmanager
+    def stage(self, name: str) -> Iterator[None]:
+        """Add the CPU time of what is done within to that of a stage."""
+        started = process_time()
+        try:
+            yield
+        finally:
+            self.durations[name] += process_time() - started
+
+    def add(self, durations: Mapping[str, float]) -> None:
+        """Add what was measured elsewhere, also in the run that computed what a store has kept."""
+        for name, duration in durations.items():
+            self.durations[name] += duration
 
 
 def predict(

@@ -1,13 +1,33 @@
-"""Reserve: by how much a record may be stronger before a structure falls under it, as a result and as words.
+"""Reserve: by how much a record may be stronger before a structure falls under it, as a result, as words and sought.
 
 There is no first factor at which a structure falls: most stand again at a somewhat larger one, so that it would move
 with the step of the search. The share of the members of an ensemble that overturn is smooth, and the reserve is the
-factors on the record at which it reaches 5, 50 and 95 %. `reserve_search` looks for them, of a structure on a support
-on the ground and at the worst of its periods.
+factors on the record at which it reaches 5, 50 and 95 %. It is sought of a structure on the ground, and on a support at
+the worst of its periods.
+
+A run of a member at a factor depends on the product of that factor and the member's own amplitude, and on its other
+causes. So every run tells of all factors whose range of amplitudes holds its product. Runs therefore stand on rungs of
+a ladder of amplitudes, evenly spaced in their logarithm, from the one at which the structure lifts up to the limit; the
+rung k has the other causes of the point k of a lattice, which goes on periodically. The share of the members that
+overturn at a factor is the mean over the amplitudes of the ensemble there, each run standing for those nearest to it.
+
+Few rungs are followed first, then those beside the factors at which the share crosses 5, 50 and 95 %, and beside runs
+that fall or stand where most do not: never by bisection. The curve is the rising one nearest to the shares (isotonic
+regression over factors evenly spaced in their logarithm).
 """
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from rocking.assessment.causes import CAUSES, Situation, draw
+from rocking.assessment.ensemble import followed_at
+from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.settings import EnsembleSettings
+from rocking.motion.forcing import forcing_of
+from rocking.structures import Mechanism
 
 SHARES = (0.05, 0.5, 0.95)
 """Shares of the members that overturn at the low, the median and the high factor."""
@@ -55,3 +75,179 @@ class Reserve:
         if math.isnan(self.high):
             return f"{words}, fewer than 95 % up to {self.limit:g} ×"
         return f"{words}, 95 % at {self.high:.2g} ×"
+
+
+RUNGS = 1024
+"""Rungs within a factor of e: 102 within an amplitude of ± 5 %."""
+LATTICE = 1024
+"""Points of the lattice that the rungs take their other causes from, one after the other and again from the first."""
+COARSE = 16
+"""Every so many rungs are followed first, over the whole ladder: a structure may stand again where it fell before."""
+LEAST_WIDTH = 0.03
+"""The amplitudes that tell of a factor reach at least so far to both sides, as a share of it, also where the ensemble
+has but one amplitude."""
+FACTORS = 0.02
+"""Step, in the logarithm, of the factors at which the share is looked at."""
+TOLERANCE = 1e-4
+"""Tolerance of the integration, relative to the largest rotation: that of an outcome, far below a step of FACTORS."""
+ROUNDS = 3
+"""Rounds of each stage at the most: a crossing may move when more rungs are followed."""
+
+
+class Stage(NamedTuple):
+    """One stage of the search: the rungs that are followed beside what is known.
+
+    spacing: every so many of them. beside: how far beyond the amplitudes that tell of a crossing, and around: how far
+    from a run that falls below the median factor or stands above it, both in the logarithm of the amplitude. shares:
+    the places in SHARES of those whose crossings count.
+    """
+
+    spacing: int
+    beside: float
+    around: float
+    shares: tuple[int, ...] = (0, 1, 2)
+
+
+STAGES = (Stage(8, 0.1, 0.2), Stage(2, 0.05, 0.0), Stage(1, 0.05, 0.0, shares=(2,)))
+"""The high factor asks for twice the rungs: there the share rises most slowly, and a few runs that stand move it."""
+
+
+def reserve(
+    mechanism: Mechanism,
+    motions: GroundMotions,
+    settings: EnsembleSettings | None = None,
+    *,
+    shift: np.ndarray | None = None,
+) -> Reserve:
+    """Return the reserve of one mechanism under `motions`, the vertical one scaled with the horizontal ones.
+
+    settings: ranges of the causes, and the largest factor that is tried. shift: (c,) in [0, 1), one for each of CAUSES,
+    by which the points of the lattice are moved, for another sample of the same ensemble; none by default. A member
+    that cannot be followed counts as one that overturns. Raises MotionError as `integrate` does.
+    """
+    settings = settings or EnsembleSettings()
+    lowest = _lowest(mechanism, motions, settings.reserve)
+    if not lowest < settings.reserve:
+        return Reserve(math.nan, math.nan, math.nan, settings.reserve)
+    ladder = _Ladder(mechanism, motions, settings, lowest, np.zeros(len(CAUSES)) if shift is None else shift)
+    ladder.follow_coarsely()
+    for stage in STAGES:
+        for _ in range(ROUNDS):
+            if not ladder.follow(ladder.worth_following(stage)):
+                break
+    low, median, high = ladder.crossings()
+    return Reserve(low, median, high, settings.reserve)
+
+
+def _lowest(mechanism: Mechanism, motions: GroundMotions, limit: float) -> float:
+    """The amplitude below which nothing lifts; inf on still ground."""
+    excitations = [forcing_of(motion, motions.vertical).excitation for motion in motions.horizontal.values()]
+    strongest = max(excitations)
+    if not strongest > 0:
+        return math.inf
+    return mechanism.uplift_multiplier / strongest if math.isfinite(strongest) else limit / 100
+
+
+class _Ladder:
+    """The runs from which a reserve is read.
+
+    amplitudes: (n,) ascending factors on the motion. falls: (n,) whether the run of a rung overturns, 1 or 0; nan where
+    it was not followed.
+    """
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        motions: GroundMotions,
+        settings: EnsembleSettings,
+        lowest: float,
+        shift: np.ndarray,
+    ) -> None:
+        self.mechanism = mechanism
+        self.motions = motions
+        self.lowest = lowest
+        self.width = max(settings.amplitude_range, LEAST_WIDTH)
+        highest = settings.reserve * (1 + self.width)
+        rungs = np.arange(math.ceil(RUNGS * math.log(highest / lowest)) + 1)
+        self.logs = math.log(lowest) + (rungs + shift[0]) / RUNGS
+        self.amplitudes = np.exp(self.logs)
+        self.falls = np.full(rungs.size, np.nan)
+
+        generator = np.array([cause.generator % LATTICE for cause in CAUSES])
+        points = (rungs[:, None] * generator % LATTICE / LATTICE + 0.5 / LATTICE + shift) % 1.0
+        of_causes = draw(Situation.of(mechanism, motions, settings), points)
+        self.values = {**of_causes, "amplitude": self.amplitudes}
+
+        first = math.log(lowest / (1 + self.width))
+        last = math.log(settings.reserve)
+        self.log_factors = np.append(np.arange(first, last, FACTORS), last)
+
+    def follow(self, wanted: np.ndarray) -> bool:
+        """Follow the rungs that are wanted (n,) and were not followed yet; return whether there were any."""
+        places = np.flatnonzero(wanted & np.isnan(self.falls))
+        if not places.size:
+            return False
+        values = {name: each[places] for name, each in self.values.items()}
+        followed = followed_at(self.mechanism, self.motions, values, np.ones(1), tolerance=TOLERANCE)
+        ratios = followed.rotation_ratios[0]
+        self.falls[places] = np.isinf(ratios) | np.isnan(ratios)
+        return True
+
+    def follow_coarsely(self) -> None:
+        """Follow every COARSE rung, and the last one."""
+        wanted = np.arange(self.falls.size) % COARSE == 0
+        wanted[-1] = True
+        self.follow(wanted)
+
+    def worth_following(self, stage: Stage) -> np.ndarray:
+        """Return which rungs (n,) a stage asks for."""
+        wanted = np.zeros(self.falls.size, dtype=bool)
+        crossings = self.crossings()
+        for crossing in (crossings[place] for place in stage.shares):
+            if not math.isnan(crossing):
+                first = math.log(crossing * (1 - self.width)) - stage.beside
+                last = math.log(crossing * (1 + self.width)) + stage.beside
+                wanted |= (self.logs > first) & (self.logs < last)
+        if stage.around:
+            median = crossings[1]
+            above = np.zeros(self.falls.size, dtype=bool) if math.isnan(median) else self.amplitudes > median
+            unlike = np.where(above, self.falls == 0, self.falls == 1)
+            for place in np.flatnonzero(unlike):
+                wanted |= np.abs(self.logs - self.logs[place]) < stage.around
+        asked: np.ndarray = wanted & (np.arange(self.falls.size) % stage.spacing == 0)
+        return asked
+
+    def crossings(self) -> list[float]:
+        """Return the factors at which the rising curve nearest to the shares reaches SHARES; nan where it does not."""
+        from scipy.optimize import (
+            isotonic_regression,  # half a second, which who asks for no reserve would pay
+        )
+
+        rising = isotonic_regression(self._shares()).x
+        return [_crossing(self.log_factors, rising, share) for share in SHARES]
+
+    def _shares(self) -> np.ndarray:
+        """The share of the members that overturn at each of the factors."""
+        followed = np.flatnonzero(np.isfinite(self.falls))
+        between = (self.logs[followed][1:] + self.logs[followed][:-1]) / 2
+        edges = np.exp([math.log(self.lowest), *between, self.logs[followed[-1]]])
+        # The amplitudes up to each edge at which it overturns: those within a range are a difference of two.
+        overturning = np.append(0.0, np.cumsum(self.falls[followed] * np.diff(edges)))
+        factors = np.exp(self.log_factors)
+        low, high = (
+            np.interp(factors * side, edges, overturning) for side in (1 - self.width, 1 + self.width)
+        )
+        shares: np.ndarray = (high - low) / (2 * self.width * factors)
+        return shares
+
+
+def _crossing(logs: np.ndarray, rising: np.ndarray, share: float) -> float:
+    """The level at which a curve that rises at `logs` reaches `share`, linear in between; nan where it does not."""
+    above = int(np.searchsorted(rising, share - 1e-9))  # but for rounding
+    if above == rising.size:
+        return math.nan
+    if above == 0:
+        return math.exp(logs[0])
+    rise = rising[above] - rising[above - 1]
+    part = (share - rising[above - 1]) / rise
+    return math.exp(logs[above - 1] + part * (logs[above] - logs[above - 1]))

@@ -190,7 +190,7 @@ class _Ringing:
 
     @classmethod
     def under(cls, mode: Mode, record: Accelerogram) -> "_Ringing":
-        from rocking.records.oscillator import accumulate  # numba takes long to import
+        from rocking.records.filters import accumulate  # numba takes long to import
 
         step = record.time_step
         pole = mode.circular_frequency * complex(-mode.damping_ratio, math.sqrt(1 - mode.damping_ratio**2))

@@ -10,8 +10,7 @@ import numpy as np
 from scipy.special import ndtri
 
 from rocking.assessment.fidelity import peak_velocity
-from rocking.assessment.rows import Placed, PlacedRow
-from rocking.assessment.rows.meanings import RECORD
+from rocking.assessment.rows import RECORD, Placed, PlacedRow
 from rocking.errors import ConfigurationError
 from rocking.fragility.curves import Explanation, Fragility, IncrementalDynamicAnalysis, explanation
 from rocking.fragility.hazard import AnnualRate, Hazard

@@ -118,7 +118,7 @@ def _largest_displacement(accelerogram: Accelerogram, period: float, damping: fl
     Over a step in which a is linear, q is exactly e^z q + φ₁ a₀ + φ₂ (a₁ − a₀) but for its sign, with z = λ dt,
     φ₁ = (e^z − 1)/λ and φ₂ = (φ₁ − dt)/z (Nigam & Jennings 1969 in complex form).
     """
-    from rocking.records.oscillator import largest_imaginary  # numba takes long to import
+    from rocking.records.filters import largest_imaginary  # numba takes long to import
 
     finer = max(1, math.ceil(STEPS_PER_PERIOD * accelerogram.time_step / period))
     step = accelerogram.time_step / finer

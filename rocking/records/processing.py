@@ -150,7 +150,7 @@ def _butterworth(
     values: np.ndarray, time_step: float, kind: str, corner: float, order: int, margin: int
 ) -> np.ndarray:
     """Return `values` (n,) run both ways through a filter, its end values continued over `margin` samples."""
-    from rocking.records.butterworth import run_both_ways  # numba takes long to import
+    from rocking.records.filters import run_both_ways  # numba takes long to import
 
     nyquist = 0.5 / time_step
     if not corner < nyquist:

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rocking.assessment.over_periods import placed
+from rocking.assessment.scene import placed
 from rocking.fragility.measures import INTENSITY_MEASURES, intensity_measure
 from rocking.fragility.rows import (
     ROTATION_RATIOS,
@@ -19,9 +19,8 @@ from rocking.fragility.rows import (
     IntensityMeasureRow,
 )
 from rocking.quantities import counted
-from rocking.reports.document import compile_document
 from rocking.reports.panels import draw_probability
-from rocking.reports.printing import Column, number, plain, table_of, words
+from rocking.reports.printing import Column, compile_document, number, plain, table_of, words
 from rocking.reports.style import elided, new_figure, picture, styled, svg
 from rocking.tables import frame, rows_of, write_whole
 

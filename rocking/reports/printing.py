@@ -1,15 +1,25 @@
-"""The printed form of a value of a row: rounded, with a real minus, never changed otherwise; and that of a verdict."""
+"""Printing: the printed form of a value of a row, of a unit and of a verdict; and the PDF of a whole document.
 
+A number is rounded and gets a real minus, and is never changed otherwise.
+"""
+
+import csv
+import json
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
+
+import typst
 
 from rocking.assessment.decide import Verdict
 from rocking.assessment.verdict import NEGLIGIBLE, Method, rests
-from rocking.quantities import counted
-from rocking.reports.units import unit_of, units_in_words
+from rocking.quantities import GRAVITY, counted
+from rocking.reports.style import FONT_FOLDER, glyphs
 from rocking.tables import Row
 
 if TYPE_CHECKING:
@@ -47,6 +57,7 @@ METHODS = {
     Method.MECHANISM_ON_RECORD: "Mechanism, record",
 }
 """Headings of the methods, from the plainest to the full integration."""
+_FOLDER = Path(__file__).parent
 _LARGEST_PLAIN = 1e6
 """Numbers up to here are printed without a power of ten."""
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -229,3 +240,91 @@ def _typeset(text: str) -> str:
     mantissa, _, exponent = text.partition("e")
     mantissa = mantissa.replace("-", "−")
     return f"{mantissa}×10{str(int(exponent)).translate(_SUPERSCRIPTS)}" if exponent else mantissa
+
+
+SI = "SI"
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit as it is printed; size: one of it, in SI units."""
+
+    name: str
+    size: float
+
+
+_UNITS_IN_WORDS = {
+    SI: "SI units and radians",
+    "g and cm": "Accelerations in g, velocities in cm/s, displacements in cm; sizes in m, angles in radians",
+}
+_IN_PLACE_OF: dict[str, dict[str, Unit]] = {
+    SI: {},
+    "g and cm": {
+        "m/s²": Unit("g", GRAVITY),
+        "m/s": Unit("cm/s", 0.01),
+        "m": Unit("cm", 0.01),
+    },
+}
+_DISPLAYED: ContextVar[str] = ContextVar("display units", default=SI)
+
+
+def unit_of(si: str) -> Unit:
+    """Return the unit that the report at hand shows in place of the SI unit "m/s²", "m/s", "m", or any other."""
+    return _IN_PLACE_OF[_DISPLAYED.get()].get(si, Unit(si, 1.0))
+
+
+def units_in_words() -> str:
+    """Return the units of the report at hand, for the foot of a page."""
+    return _UNITS_IN_WORDS[_DISPLAYED.get()]
+
+
+@contextmanager
+def displaying(settings: Mapping[str, Any]) -> Iterator[None]:
+    """Show in the units that "display_units" of the settings of a study names; without it, in SI units."""
+    token = _DISPLAYED.set(settings.get("display_units", SI))
+    try:
+        yield
+    finally:
+        _DISPLAYED.reset(token)
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A figure as it is printed. page: of the documents, that explains it. source: the campaign that measured it."""
+
+    figure: str
+    page: str
+    source: str
+
+
+with (_FOLDER / "measured.csv").open(encoding="utf-8", newline="") as _stream:
+    MEASURED = {row.pop("name"): Measured(**row) for row in csv.DictReader(_stream)}
+"""The figures that campaigns measured and that reports print, of measured.csv, by name."""
+
+
+def compile_document(template: str | Path, data: Mapping[str, object]) -> bytes:
+    """Set `template` with `data` and return the PDF. template: a .typ file of this folder, by its name; or a path
+    anywhere else, whose content then stands as if it were in this folder.
+
+    Every text in `data` is printed as it is: it reaches the template as JSON and is never parsed as markup. The date
+    of the document is fixed, because PDF/A asks for one and the same input must give the same bytes.
+    """
+    text = json.dumps(data, ensure_ascii=False)
+    foreign = not glyphs().issuperset(map(ord, set(text)))
+    carried = _fonts(False).families()
+    families = [each for each in _fonts(foreign).families() if each not in carried]
+    return typst.compile(  # type: ignore[call-overload,no-any-return]  # its stub wants input and root of one type
+        template.read_bytes() if isinstance(template, Path) else _FOLDER / template,
+        root=_FOLDER,
+        font_paths=_fonts(foreign),
+        ignore_system_fonts=True,
+        sys_inputs={"data": text, "families": json.dumps(families)},
+        pdf_standards="a-2a",
+        timestamp=0,
+    )
+
+
+@cache
+def _fonts(system: bool) -> typst.Fonts:
+    """The fonts that typst and matplotlib carry, and the machine's where another script needs them."""
+    return typst.Fonts(include_system_fonts=system, font_paths=[FONT_FOLDER])

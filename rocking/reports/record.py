@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 from rocking.assessment.case import RecordResult, StationResult
 from rocking.assessment.conclusion import Conclusion, conclusion_in_words, conclusions, worst_cases
 from rocking.assessment.cracks import cracked
-from rocking.assessment.over_periods import placed
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
     ComparisonRow,
@@ -21,6 +20,7 @@ from rocking.assessment.rows import (
     VerdictRow,
     structure_rows,
 )
+from rocking.assessment.scene import placed
 from rocking.assessment.verdict import NEGLIGIBLE, Agreement, agreement
 from rocking.quantities import GRAVITY, counted, percent
 from rocking.records.dates import day_of
@@ -28,14 +28,15 @@ from rocking.remarks import Remark
 from rocking.reports import printing
 from rocking.reports import record_figures as figures
 from rocking.reports.design_figure import design_figure
-from rocking.reports.document import compile_document
-from rocking.reports.measured import MEASURED
 from rocking.reports.page_one import page_one
 from rocking.reports.panels import rotation_ratios
 from rocking.reports.printing import (
+    MEASURED,
     Column,
     Notice,
     columns_of,
+    compile_document,
+    displaying,
     number,
     plain,
     remainder,
@@ -46,7 +47,6 @@ from rocking.reports.printing import (
 from rocking.reports.record_figures import History, Trace
 from rocking.reports.style import pictures
 from rocking.reports.supports import SupportPanel, floor_sentences, support_panels, supports_figure
-from rocking.reports.units import displaying
 from rocking.structures import Structure
 
 if TYPE_CHECKING:

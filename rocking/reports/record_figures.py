@@ -12,18 +12,17 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator
 
 from rocking.assessment.case import StationResult
-from rocking.assessment.over_periods import placed
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import RATIO_COLUMNS, ComparisonRow
+from rocking.assessment.scene import placed
 from rocking.assessment.verdict import Agreement, Method
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.measures import record_measures
 from rocking.reports.panels import draw_energy_map, draw_motion, draw_rotation, moving_span
-from rocking.reports.printing import LOOKS, number, ratio
+from rocking.reports.printing import LOOKS, number, ratio, unit_of
 from rocking.reports.style import PREDICTED, PULSE, TEXT_WIDTH, elided, new_figure, panel_at, styled, wrapped
-from rocking.reports.units import unit_of
 
 _POINTS = 1200
 """Points of a trace: no printer shows more on the width of a page."""

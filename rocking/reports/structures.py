@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rocking.assessment.decide import ORDER, Verdict
-from rocking.assessment.over_periods import placed
 from rocking.assessment.reserve import Reserve
+from rocking.assessment.scene import placed
 from rocking.codes.check import Check, StructureCheck
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
@@ -22,12 +22,20 @@ from rocking.floors.support import Support
 from rocking.quantities import counted, percent
 from rocking.remarks import Kind, Remark
 from rocking.reports import printing
-from rocking.reports.document import compile_document
 from rocking.reports.drawings import draw_dimensions, draw_structure
 from rocking.reports.panels import ZERO, plot
-from rocking.reports.printing import Cell, number, plain, quantity, table, words
+from rocking.reports.printing import (
+    Cell,
+    compile_document,
+    displaying,
+    number,
+    plain,
+    quantity,
+    table,
+    unit_of,
+    words,
+)
 from rocking.reports.style import PREDICTED, PULSE, new_figure, panel_at, picture, room_for_texts, styled
-from rocking.reports.units import displaying, unit_of
 from rocking.structures import Structure
 
 _FIGURE_HEIGHT = 112.0

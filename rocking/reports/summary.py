@@ -10,7 +10,6 @@ from matplotlib.ticker import MaxNLocator
 
 from rocking.assessment.conclusion import conclusion_in_words, conclusions, worst_of_each
 from rocking.assessment.decide import ORDER, Verdict, worst_first
-from rocking.assessment.over_periods import placed
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
     AgreementRow,
@@ -22,29 +21,31 @@ from rocking.assessment.rows import (
     VerdictRow,
     worst_period_each,
 )
+from rocking.assessment.scene import placed
 from rocking.assessment.verdict import Agreement, Method, agreement, within_factor_two
 from rocking.quantities import GRAVITY, counted
 from rocking.reports import printing
 from rocking.reports.design_figure import design_summary_figure
-from rocking.reports.document import compile_document
 from rocking.reports.matrix import MOST_RECORDS as MOST_RECORDS_BESIDE
 from rocking.reports.matrix import matrix
 from rocking.reports.printing import (
     Column,
     Notice,
     columns_of,
+    compile_document,
+    displaying,
     number,
     plain,
     ratio,
     remainder,
     strong,
     table_of,
+    unit_of,
     words,
 )
 from rocking.reports.scatter import prediction_scatter
 from rocking.reports.style import elided, new_figure, picture, pictures, styled, wrapped
 from rocking.reports.supports import shares_by_period_figure
-from rocking.reports.units import displaying, unit_of
 from rocking.tables import rows_of
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from rocking.assessment.rows import TradeMethod, TradeRow
 from rocking.reports import printing
-from rocking.reports.document import compile_document
+from rocking.reports.printing import compile_document
 from rocking.reports.style import new_figure, picture, plain_logarithmic, powers_of_ten, styled, svg
 from rocking.tables import read_table, write_whole
 

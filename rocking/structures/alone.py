@@ -6,8 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
-from rocking.structures.contacts import Contacts, UnknownContacts
-from rocking.structures.linkage import Linkage
+from rocking.structures.linkage import Contacts, Linkage, UnknownContacts
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.stack import Stack
 from rocking.structures.structure import Structure

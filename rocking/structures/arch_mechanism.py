@@ -17,8 +17,7 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.structures.arch_ring import CONTINUOUS_SECTIONS, EXTRADOS, INTRADOS, PATTERN, Bars, Ring
-from rocking.structures.contacts import Contacts, MotionState
-from rocking.structures.linkage import Linkage, Motion, cross, keeps_last
+from rocking.structures.linkage import Contacts, Linkage, Motion, MotionState, cross, keeps_last
 
 
 class FourBar(Linkage):

@@ -6,8 +6,16 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.structures.contacts import Contacts, MotionState, UnknownContacts
-from rocking.structures.linkage import Hung, Linkage, Motion, cross, keeps_last
+from rocking.structures.linkage import (
+    Contacts,
+    Hung,
+    Linkage,
+    Motion,
+    MotionState,
+    UnknownContacts,
+    cross,
+    keeps_last,
+)
 
 _MARGIN = 0.9
 """Share of the reach of either body that the motion may use: where one of them lies flat the linkage locks."""

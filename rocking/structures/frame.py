@@ -7,11 +7,20 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.structures.block import Block
-from rocking.structures.contacts import Contacts, MotionState, UnknownContacts
 from rocking.structures.crushing import inset
 from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import OptionalUnitWeight, Value, count, length, restitution_value
-from rocking.structures.linkage import Hung, Motion, PointMotion, Restitution, Turning, keeps_last
+from rocking.structures.linkage import (
+    Contacts,
+    Hung,
+    Motion,
+    MotionState,
+    PointMotion,
+    Restitution,
+    Turning,
+    UnknownContacts,
+    keeps_last,
+)
 from rocking.structures.structure import Crushable
 
 Columns = Annotated[int, count("How many columns", 4, 2, 1000)]

@@ -16,11 +16,17 @@ from rocking.quantities import within
 from rocking.remarks import Remark
 from rocking.structures.capacity import CapacityCurve as CapacityCurve
 from rocking.structures.capacity import StaticCapacity
-from rocking.structures.contacts import Contacts, MotionState
-from rocking.structures.description import Description, Given
 from rocking.structures.drawing import Dimension, Mark, Path, plane, span
-from rocking.structures.fields import CompressiveStrength, Form, Value, constructor, forms
-from rocking.structures.linkage import STILL, Linkage, Motion, Restitution, momentum_balance
+from rocking.structures.fields import CompressiveStrength, Description, Form, Given, Value, constructor, forms
+from rocking.structures.linkage import (
+    STILL,
+    Contacts,
+    Linkage,
+    Motion,
+    MotionState,
+    Restitution,
+    momentum_balance,
+)
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.stack import Stack
 

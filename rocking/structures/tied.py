@@ -13,11 +13,10 @@ from numpy.typing import ArrayLike
 from rocking.errors import DoesNotStandError, StructureError, StructureWarning
 from rocking.quantities import GRAVITY
 from rocking.structures.chain import Chain
-from rocking.structures.contacts import MotionState
 from rocking.structures.drawing import Mark, plane
 from rocking.structures.fields import OneSided, Value
 from rocking.structures.held_wall import HeldWall, Opening
-from rocking.structures.linkage import STILL, Hung, Linkage
+from rocking.structures.linkage import STILL, Hung, Linkage, MotionState
 from rocking.structures.mechanism import Tie
 from rocking.structures.structure import Candidate, CrackedAtHeight
 

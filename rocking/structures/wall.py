@@ -13,12 +13,20 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, finite
-from rocking.structures.contacts import Contacts, MotionState
 from rocking.structures.crushing import inset
 from rocking.structures.drawing import Mark, Path, rectangle, span
 from rocking.structures.fields import OneSided, OptionalUnitWeight, Value, length, restitution_value
 from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
-from rocking.structures.linkage import Hung, Linkage, Motion, Restitution, cross, keeps_last
+from rocking.structures.linkage import (
+    Contacts,
+    Hung,
+    Linkage,
+    Motion,
+    MotionState,
+    Restitution,
+    cross,
+    keeps_last,
+)
 from rocking.structures.stack import Course, Held, Stack, counted_courses, course_at, courses_between, slab
 from rocking.structures.structure import HIGHEST_SHARE, CrackedAtHeight, free_to_both_sides
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity

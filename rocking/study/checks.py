@@ -6,9 +6,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
 from rocking.assessment.decide import Verdict, worse
-from rocking.assessment.over_periods import placed
 from rocking.assessment.rows import RecordRow, VerdictRow, verdicts_at
-from rocking.assessment.scene import Scene
+from rocking.assessment.scene import Scene, placed
 from rocking.codes.check import StructureCheck
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.dynamic_check import check

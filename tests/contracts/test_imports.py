@@ -35,14 +35,7 @@ FLOORS = [
 ONLY_IN = {
     "pydantic": ("described.py",),
     "obspy": ("records/",),
-    "numba": (
-        "motion/",
-        "pulses/",
-        "sine_pulse/",
-        "contacts/",
-        "records/butterworth.py",
-        "records/oscillator.py",
-    ),
+    "numba": ("motion/", "pulses/", "sine_pulse/", "contacts/", "records/filters.py"),
     "matplotlib": ("reports/",),
     "typst": ("reports/",),
     "snakemake": ("study/",),

@@ -18,7 +18,7 @@ from rocking.errors import StructureError
 from rocking.motion import integrate
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
-from rocking.structures.contacts import UnknownContacts
+from rocking.structures.linkage import UnknownContacts
 from rocking.structures.structure_list import TYPES, structure_from_config
 
 UNCHECKED = [HealthCheck.too_slow, HealthCheck.filter_too_much]

@@ -5,6 +5,7 @@ imported from their files, for they ask the methods themselves, which take a qua
 """
 
 from rocking.assessment.rows.of_record import RATIO_COLUMNS as RATIO_COLUMNS
+from rocking.assessment.rows.of_record import RECORD as RECORD
 from rocking.assessment.rows.of_record import RECORD_TABLES as RECORD_TABLES
 from rocking.assessment.rows.of_record import ComparedCase as ComparedCase
 from rocking.assessment.rows.of_record import ComparisonRow as ComparisonRow

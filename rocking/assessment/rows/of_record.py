@@ -9,15 +9,6 @@ from typing import TYPE_CHECKING, TypeVar
 
 from rocking.assessment.decide import Decision, Verdict
 from rocking.assessment.reserve import Reserve
-from rocking.assessment.rows.meanings import (
-    COMPONENT,
-    PEAK_SIDE,
-    RECORD,
-    RECORD_SHA256,
-    SCALE_FACTOR,
-    STRUCTURE,
-    SUPPORT_PERIOD,
-)
 from rocking.assessment.verdict import (
     BOTH_COMPONENTS,
     Agreement,
@@ -43,6 +34,16 @@ if TYPE_CHECKING:  # else who reads a table would load numba
     from rocking.assessment.fidelity import Answer, Estimate
     from rocking.assessment.variations import Variation
     from rocking.motion.response import ModelCheck, Response
+
+RECORD = "Identifier of the record in the catalogue"
+COMPONENT = "Component of the ground motion, as the file names it"
+STRUCTURE = "Name of the structure in the structure list"
+SUPPORT_PERIOD = (
+    "First period of the support below the structure; 0: its ground, to compare with; empty: it has none"
+)
+SCALE_FACTOR = "Factor of the catalogue on the accelerations of the file"
+RECORD_SHA256 = "SHA-256 of the file the record was read from"
+PEAK_SIDE = "Side of the largest rotation or of the overturning: 1, -1, or 0 without uplift"
 
 
 @dataclass(frozen=True)

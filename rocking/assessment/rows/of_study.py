@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 
 from rocking.assessment.rows import of_record as rows
-from rocking.assessment.rows.meanings import COMPONENT, RECORD_SHA256, SCALE_FACTOR, STRUCTURE, SUPPORT_PERIOD
 from rocking.assessment.verdict import Agreement, agreement, ratio, rests
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism, Side, Structure
@@ -44,7 +43,7 @@ of_named = Columns(Named)
 class StructureNameRow(RowOf[N]):
     """A row about one structure of the list."""
 
-    structure: str = of_named(STRUCTURE, lambda named: named.structure)
+    structure: str = of_named(rows.STRUCTURE, lambda named: named.structure)
 
 
 @dataclass(frozen=True)
@@ -65,7 +64,7 @@ of_placed = Columns(Placed)
 class PlacedRow(StructureNameRow[L]):
     """A row about one structure of the list where it stands."""
 
-    support_period_s: float | None = of_placed(SUPPORT_PERIOD, lambda placed: placed.support_period)
+    support_period_s: float | None = of_placed(rows.SUPPORT_PERIOD, lambda placed: placed.support_period)
 
 
 @dataclass(frozen=True)
@@ -249,7 +248,7 @@ class AgreementRow(RowOf[CountedCases]):
     structure: str = of_cases(
         "Name of the structure in the structure list; empty for all together", lambda of: of.structure
     )
-    support_period_s: float | None = of_cases(SUPPORT_PERIOD, lambda of: of.support_period)
+    support_period_s: float | None = of_cases(rows.SUPPORT_PERIOD, lambda of: of.support_period)
     records: int = of_cases("Number of records", lambda of: int(of.cases["record"].nunique()))
     cases: int = of_cases("Number of cases with a prediction and an integration", lambda of: len(of.cases))
     both_rock: int = of_cases("Number of cases in which both rock", lambda of: int(of.ratios.count()))
@@ -307,7 +306,7 @@ of_spectrum = Columns(BlockUnderRecord)
 class SpectrumRow(RowOf[BlockUnderRecord]):
     """One row per component and equivalent block under the whole record; written by rocking spectrum."""
 
-    component: str = of_spectrum(COMPONENT, lambda of: of.accelerogram.component)
+    component: str = of_spectrum(rows.COMPONENT, lambda of: of.accelerogram.component)
     frequency_parameter_rad_s: float = of_spectrum(_P, lambda of: of.frequency_parameter, equation="Eq. 11")
     uplift_multiplier: float = of_spectrum(
         "Uplift acceleration of the equivalent block in g",
@@ -318,8 +317,8 @@ class SpectrumRow(RowOf[BlockUnderRecord]):
     rotation_ratio: float = of_spectrum(
         "Largest rotation over critical rotation; INF if it overturns", lambda of: of.rotation_ratio
     )
-    scale_factor: float = of_spectrum(SCALE_FACTOR, lambda of: of.accelerogram.scale_factor)
-    record_sha256: str = of_spectrum(RECORD_SHA256, lambda of: of.accelerogram.source.sha256)
+    scale_factor: float = of_spectrum(rows.SCALE_FACTOR, lambda of: of.accelerogram.scale_factor)
+    record_sha256: str = of_spectrum(rows.RECORD_SHA256, lambda of: of.accelerogram.source.sha256)
 
 
 def spectrum_rows(

@@ -15,7 +15,6 @@ from rocking.records.formats.dialect import Dialect
 from rocking.records.formats.format import Format, Options
 from rocking.records.formats.labels import ColumnLabel
 from rocking.records.formats.remarks import Declarations, factor_warnings, speaks_of_factor
-from rocking.records.formats.stamps import in_seconds
 from rocking.records.formats.titled import LONGEST_STEP, heading_of
 from rocking.records.instrument import refuse_by_name, refuse_other_quantity
 from rocking.remarks import Kind, Remark
@@ -270,7 +269,30 @@ def _are_columns(content: bytes) -> bool:
 def _pointed(content: bytes) -> bytes | None:
     """Return a table as Python writes its numbers, times of day as seconds; None where a comma may be two things."""
     plain = Dialect.of(content).plain(content)
-    return None if plain is None else in_seconds(plain)
+    return None if plain is None else _in_seconds(plain)
+
+
+_STAMP = re.compile(
+    rb"(?m)^[ \t]*\"?(?:\d{1,4}[-/.]\d{1,2}[-/.]\d{1,4}[T ][ \t]*)?"
+    rb"(\d{1,2}):(\d{2}):(\d{2}(?:\.\d*)?)(?:Z|[+-]\d{2}:?\d{2})?\"?(?=[ \t,;])"
+)
+_STAMPS_IN = 8_000
+"""Bytes at the beginning of a table in which rows with times of day stand, if it has any."""
+_FEWEST_STAMPS = 12
+"""Stamped rows from which on they are rows of a table, and no dates of a header."""
+_DAY = 86_400.0
+"""s."""
+
+
+def _in_seconds(content: bytes) -> bytes:
+    """Return a table whose rows begin with times of day with seconds after the first in their place, else `content`."""
+    if len(_STAMP.findall(content[:_STAMPS_IN])) < _FEWEST_STAMPS:
+        return content
+    stamps = np.array(_STAMP.findall(content)).astype(float)
+    seconds = stamps @ np.array([3600.0, 60.0, 1.0])
+    seconds += _DAY * np.cumsum(np.diff(seconds, prepend=seconds[0]) < -_DAY / 2)  # past midnight
+    written = iter(np.round(seconds - seconds[0], 6).tolist())
+    return _STAMP.sub(lambda _: b"%.6f" % next(written), content)
 
 
 def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:

@@ -9,7 +9,7 @@ from rocking.errors import StructureError
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.structures.alone import as_structure
-from rocking.structures.contacts import UnknownContacts
+from rocking.structures.linkage import UnknownContacts
 
 BLOCK = rocking.Block(2.0, 0.2)
 SHAKEN = Accelerogram(Pulse(3.0, 5.0, 0.5).acceleration(np.arange(600) * 0.01), 0.01)

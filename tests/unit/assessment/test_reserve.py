@@ -11,8 +11,7 @@ from rocking.assessment.assessor import Assessor
 from rocking.assessment.case import StationResult
 from rocking.assessment.causes import CAUSES, lattice
 from rocking.assessment.ground_motions import GroundMotions
-from rocking.assessment.reserve import Reserve
-from rocking.assessment.reserve_search import reserve
+from rocking.assessment.reserve import Reserve, reserve
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.store import RecordStore

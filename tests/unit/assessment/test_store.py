@@ -13,7 +13,7 @@ from rocking.assessment import assessor as assessing
 from rocking.assessment import store
 from rocking.assessment.assessor import Assessor, with_histories
 from rocking.assessment.case import RecordResult
-from rocking.assessment.clock import Clock
+from rocking.assessment.one_case import Clock
 from rocking.assessment.rows import TimingRow, rows_of_record
 from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings

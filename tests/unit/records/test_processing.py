@@ -11,7 +11,7 @@ from scipy.interpolate import CubicHermiteSpline
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
 from rocking.records import processing as steps
-from rocking.records.butterworth import run_both_ways
+from rocking.records.filters import run_both_ways
 from rocking.records.processing import Processing, adaptive_baseline, displacement, process, velocity
 from rocking.records.synthetic import SHIPPED, synthetic_record
 

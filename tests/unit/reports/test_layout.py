@@ -5,7 +5,7 @@ import itertools
 import pytest
 
 from rocking.assessment.rows import RecordRows
-from rocking.reports.document import compile_document
+from rocking.reports.printing import compile_document
 from rocking.reports.summary import summary_report
 
 from .conftest import SETTINGS, SUMMARISED, Word, detailed, of_structures, pages, summarised

@@ -14,7 +14,7 @@ from rocking.assessment.verdict import Agreement
 from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Kind, Remark
 from rocking.reports import printing
-from rocking.reports.measured import MEASURED
+from rocking.reports.printing import MEASURED
 from rocking.reports.record import RecordReport, failure_report
 from rocking.structures import Block, Facade, Spire
 from rocking.tables import cell

@@ -17,7 +17,7 @@ import yaml
 
 import rocking
 from rocking.assessment.listed import load_scenes
-from rocking.assessment.over_periods import placed
+from rocking.assessment.scene import placed
 from rocking.errors import ConfigurationError
 from rocking.remarks import Kind, Remark
 from rocking.study.cli import main

@@ -3,7 +3,7 @@
 import pytest
 
 from rocking.assessment.decide import Verdict
-from rocking.assessment.over_periods import periods_in_words, placed
+from rocking.assessment.scene import periods_in_words, placed
 
 S, O, U, X = Verdict.STANDS, Verdict.OVERTURNS, Verdict.UNCERTAIN, Verdict.CANNOT_BE_TOLD
 PERIODS = (0.0, 0.13, 0.218, 0.367, 0.617)
