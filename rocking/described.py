@@ -111,6 +111,8 @@ class Described:
         """Return the end of the sentence on a `value` that is not allowed."""
         unit = f" {self.unit}" if self.unit and type(value) in (int, float) else ""
         hint = number_hint(value) if "number" in self.must else ""
+        if self.must.startswith("a list") and type(value) in (int, float):
+            hint = f"; write [{value:g}]"
         return f"{shown(value)}{unit}, but must be {self.must}{hint}."
 
 

@@ -70,7 +70,9 @@ class Kind(StrEnum):
 
     # What explains a decision of which nothing more would tell.
     OTHER_PERIODS = auto(), "at other periods {share} overturn", "other T_b: {share}"
-    CONTACT_SLIDES = auto(), "a contact slides if μ < {friction:.2g}", "slides if μ < {friction:.2g}"
+    CONTACT_SLIDES = auto(), (
+        "a contact needs a friction of {lifting:.2g} as it lifts and up to {largest:.2g} as it rocks"
+    ), "needs μ {lifting:.2g} to {largest:.2g}"
     FALLS_AS_RECORDED = auto(), "as recorded it falls"
     STANDS_AS_RECORDED = auto(), "as recorded it stands"
     STRENGTHEN = auto(), "strengthen or tie it", "strengthen"
@@ -228,6 +230,10 @@ class Kind(StrEnum):
     # A structure, and where it stands.
     SIZE_UNUSUAL = auto(), (
         "{about} is {value:.6g}{unit}, but is usually between {low:g} and {high:g}{unit} for {type}; check the unit."
+    )
+    BROADER_THAN_TALL = auto(), (
+        "{about} is {across_m:.6g} m and {height} {height_m:.6g} m: so broad a body slides before it rocks; check "
+        "which is which."
     )
     HELD_AT_CEILING = auto(), (
         "{about} of type wall: held at floor and ceiling, it moves at neither; a wall that stands free at its top, as "

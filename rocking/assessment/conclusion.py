@@ -70,7 +70,10 @@ class Conclusion:
         if shares and (low := percent(min(shares))) != (high := percent(max(shares))):
             return Remark.of(Kind.OTHER_PERIODS, share=f"{low}–{high}\u00a0%")
         if self.case is not None and self.case.slides:
-            return Remark.of(Kind.CONTACT_SLIDES, friction=self.case.required_friction)
+            largest = self.case.required_friction
+            if largest == math.inf:
+                return Remark(Kind.CONTACTS_OPEN)
+            return Remark.of(Kind.CONTACT_SLIDES, lifting=self.case.lifting_friction, largest=largest)
         falls = self.integrated == math.inf
         if word is Verdict.PROBABLY_OVERTURNS and not falls:
             return Remark(Kind.STANDS_AS_RECORDED)

@@ -12,9 +12,8 @@ from rocking.assessment.ensemble import Ensemble, design, drawn, ensemble, grown
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.motion.forcing import forcing_of
-from rocking.quantities import GRAVITY
+from rocking.motion.response import lifting_friction
 from rocking.structures import Mechanism, Structure
-from rocking.structures.linkage import UnknownContacts
 from rocking.structures.structure import CRACKS, Candidate
 from rocking.structures.tied import Tied
 
@@ -127,7 +126,7 @@ def cracks(structure: Structure) -> tuple[Crack, ...]:
             each.description,
             each.position,
             each.structure.mechanism(),
-            _friction(each.structure),
+            lifting_friction(each.structure),
             each.counts,
             bulges=_bulges(each),
             of_geometry=each.description.endswith(_OF_GEOMETRY),
@@ -183,26 +182,6 @@ def cracked(structure: Structure, description: str) -> Structure:
     """Return the structure with the crack of this description; itself where none of its cracks has it."""
     forms = (each.structure for each in _forms(structure) if each.description == description)
     return next(forms, structure) if description else structure
-
-
-def _friction(structure: Structure) -> float:
-    """The largest friction that a joint needs as it lifts, to the side to which it does so first.
-
-    λ, the mean over all joints on the ground, where the mechanism alone does not tell the forces of each; 0 where no
-    joint is known.
-    """
-    if not structure.linkages:
-        return 0.0
-    sides = structure.mechanism().sides
-    side = min(sides, key=lambda each: each.uplift_multiplier)
-    sign = 1.0 if side is sides[0] else -1.0
-    ground = np.array([-sign * side.uplift_multiplier * GRAVITY])
-    least = np.array([1e-12 * side.end_rotation])
-    try:
-        contacts = structure.contact_forces(sign * least, np.zeros(1), None, ground, np.zeros(1), least)
-    except UnknownContacts:
-        return side.uplift_multiplier
-    return float(np.nanmax(contacts.required_friction))
 
 
 def ensemble_over_cracks(

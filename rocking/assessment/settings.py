@@ -87,7 +87,9 @@ class AssessmentSettings:
     )
     pulse: PredictingPulse = PredictingPulse()
     ensemble: EnsembleSettings = EnsembleSettings()
-    friction_coefficient: float = described(0.6, "friction coefficient beyond which a contact slides", gt=0)
+    friction_coefficient: float = described(
+        0.6, "friction coefficient beyond which a contact slides", gt=0, le=10
+    )
     fidelity: Literal["full", "auto", "contact"] = described(
         "full",
         "full runs every method, to compare them; auto runs what settles the verdict of a case, where no PDFs are "

@@ -8,7 +8,7 @@ import numpy as np
 
 from rocking.drawn import Drawn
 from rocking.errors import MotionError
-from rocking.quantities import counted, four_digits
+from rocking.quantities import GRAVITY, counted, four_digits
 from rocking.records import Accelerogram
 from rocking.remarks import Remark
 from rocking.structures import Outcome, Structure
@@ -93,15 +93,16 @@ class ModelCheck:
     """The contacts of a structure along one response, up to its critical rotation.
 
     required_friction: largest friction coefficient that any contact needs while it rocks; inf where one is not pressed,
-    nan where `reason` says why nothing is known of it. bounces: whether a contact would open, or None.
-    reason: why nothing is known, in words; "" where it is. ties: which ties yield or break on the way to the largest
-    rotation to the positive side, in words; "" where none does.
+    nan where `reason` says why nothing is known of it. bounces: whether a contact would open, or None. reason: why
+    nothing is known, in words; "" where it is. ties: which ties yield or break on the way to the largest rotation to
+    the positive side, in words; "" where none does. lifting_friction: what a contact needs as the structure lifts.
     """
 
     required_friction: float = math.nan
     bounces: bool | None = None
     reason: str = ""
     ties: str = ""
+    lifting_friction: float = math.nan
 
     def slides(self, friction_coefficient: float) -> bool | None:
         """Whether a contact needs more friction than `friction_coefficient`; None where the forces are not known."""
@@ -147,7 +148,33 @@ def check_model(
         float(np.max(contacts.required_friction)),
         bool(contacts.opens.any()),
         ties=structure.tie_events(largest),
+        lifting_friction=lifting_friction(structure),
     )
+
+
+def lifting_friction(structure: Structure) -> float:
+    """Return the largest friction that a joint needs as it lifts, to the side to which it does so first.
+
+    λ, the mean over all joints on the ground, where the mechanism alone does not tell the forces of each; 0 where no
+    joint is known.
+
+    >>> from rocking import Block
+    >>> from rocking.motion.response import lifting_friction
+    >>> round(lifting_friction(Block.of_size(breadth=1.0, height=4.0)), 12)
+    0.25
+    """
+    if not structure.linkages:
+        return 0.0
+    sides = structure.mechanism().sides
+    side = min(sides, key=lambda each: each.uplift_multiplier)
+    sign = 1.0 if side is sides[0] else -1.0
+    ground = np.array([-sign * side.uplift_multiplier * GRAVITY])
+    least = np.array([1e-12 * side.end_rotation])
+    try:
+        contacts = structure.contact_forces(sign * least, np.zeros(1), None, ground, np.zeros(1), least)
+    except UnknownContacts:
+        return side.uplift_multiplier
+    return float(np.nanmax(contacts.required_friction))
 
 
 def _lifted(rotation: np.ndarray, least: float) -> np.ndarray:

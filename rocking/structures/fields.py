@@ -270,6 +270,10 @@ def article(kind: str) -> str:
     return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
 
 
+_ROCKS_OVER = ("thickness", "breadth", "width", "column_breadth")
+"""The names of the size over which a body rocks, the first that it has; the breadth of a wall is its length across."""
+
+
 class Given(NamedTuple):
     """One value of a description: its field, the value in the unit of a file, and how it would be typed."""
 
@@ -307,9 +311,19 @@ class Description:
 
     @property
     def remarks(self) -> tuple[Remark, ...]:
-        """A remark on each size beyond its plausible range."""
+        """A remark on each size beyond its plausible range, and on a body that is broader than it is tall."""
         remarks = (given.field.remark(self.type_name, given.value) for given in self.values)
-        return tuple(remark for remark in remarks if remark)
+        return (*(remark for remark in remarks if remark), *self._stocky)
+
+    @property
+    def _stocky(self) -> tuple[Remark, ...]:
+        sizes = {given.field.name: given for given in self.values}
+        heights = [sizes[name] for name in ("height", "column_height") if name in sizes]
+        across = [sizes[name] for name in _ROCKS_OVER if name in sizes]
+        if not (heights and across and across[0].value > heights[0].value):
+            return ()
+        names = {"height": heights[0].field.key, "height_m": heights[0].value, "across_m": across[0].value}
+        return (Remark.of(Kind.BROADER_THAN_TALL, across[0].field.key, **names),)
 
     @property
     def front(self) -> np.ndarray:

@@ -77,8 +77,9 @@ def _by_key(sentence: str, form: Form, values: Mapping[str, object], arguments: 
     """Return a sentence on an attribute as one on the key of the file, and its value as it was typed."""
     for key, value in values.items():
         field = form.keys[key]
-        begin = f"{field.name} is {shown(arguments[field.name])}"
-        if field.is_as_typed and sentence.startswith(begin):
+        told = arguments[field.name] if field.is_as_typed else value
+        begin = f"{field.name} is {shown(told)}"
+        if sentence.startswith(begin):
             return f"{key} is {shown(value)}{sentence.removeprefix(begin)}"
     return sentence
 

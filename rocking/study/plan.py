@@ -2,8 +2,9 @@
 
 import math
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from difflib import get_close_matches
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any, TypeVar
@@ -13,6 +14,7 @@ from rocking.assessment.scene import Scene
 from rocking.described import kind_in_words
 from rocking.errors import ConfigurationError, RockingError
 from rocking.hashes import sha256_of_bytes
+from rocking.quantities import shown
 from rocking.records.catalogue import CatalogueRecord, load_catalogue, repeated
 from rocking.records.files import fill_hashes, local_files, with_hashes
 from rocking.records.folder import unlisted
@@ -129,15 +131,44 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
             return None
 
     settings = attempt(read_settings, config) or named_files(config)
-    catalogue = attempt(load_catalogue, settings.catalogue) or ()
-    scenes = attempt(load_scenes, settings.structures) or {}
+    missing = dict(missing_files(settings))
+    defects += missing.values()
+    catalogue = () if "catalogue" in missing else attempt(load_catalogue, settings.catalogue) or ()
+    scenes = {} if "structures" in missing else attempt(load_scenes, settings.structures) or {}
     attempt(_check_results, settings)
-    attempt(settings.design_spectrum.spectrum)
+    if "design_spectrum.points" not in missing:
+        attempt(settings.design_spectrum.spectrum)
     if defects:
         raise ConfigurationError("\n".join(defects))
     records = {record.id: with_hashes(record, settings.mirror) for record in catalogue}
     contents = ContentHashes(Path(settings.results) / MADE_FROM / "contents.json", LARGEST_FILE)
     return Plan(settings, records, scenes, contents)
+
+
+def missing_files(settings: Settings) -> Iterator[tuple[str, str]]:
+    """Yield each setting that names a file that is not there, and the sentence that says so."""
+    design = settings.design_spectrum
+    named = {
+        "catalogue": settings.catalogue,
+        "structures": settings.structures,
+        "design_spectrum.points": design.points,
+        "design_spectrum.pool": design.pool,
+        "fragility.hazard": settings.fragility.hazard,
+    }
+    for name, value in named.items():
+        if not value or os.path.lexists(value):
+            continue
+        folder, file = os.path.split(Path.cwd() / value)
+        beside = os.listdir(folder) if os.path.isdir(folder) else []
+        near = [
+            each for each in get_close_matches(file, beside, n=1) if Path(each).suffix == Path(file).suffix
+        ]
+        hint = "write its path from the folder of the study"
+        if near:
+            hint = f"did you mean {Path(value).with_name(near[0])}?"
+        elif name == "catalogue":
+            hint = f"there is no catalogue yet: put records into {folder}, then: rocking catalogue {folder}"
+        yield name, f"setting {name} is {shown(value)}, but no such file is in {Path.cwd()}; {hint}"
 
 
 def plan_of_job(config: Mapping[str, Any], product: str) -> Plan:

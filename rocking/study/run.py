@@ -20,7 +20,6 @@ from rocking.quantities import counted, shown
 from rocking.study import close_doors
 from rocking.study.folder import REMEMBERED, locked, new_log
 from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_plan, workflow_folder
-from rocking.study.settings import named_files
 from rocking.study.terminal import Progress, closing_lines, fitting, paths_to_read
 from rocking.tables import read_rows, read_table
 
@@ -158,6 +157,10 @@ def _in_a_sentence(reason: str, folder: Path, log: Path) -> str:
 
 
 def _plan(folder: Path) -> Plan:
+    if folder.is_file():
+        raise ConfigurationError(
+            f"{folder} is a file, but a study is a folder: rocking run {folder.absolute().parent}"
+        )
     config = config_file(folder)
     if config is None:
         raise ConfigurationError(
@@ -169,11 +172,6 @@ def _plan(folder: Path) -> Plan:
             "a study runs with snakemake, which is not installed: pip install rocking[workflow]"
         )
     settings = check_config_file(config)
-    catalogue = folder / named_files(settings).catalogue
-    if not catalogue.is_file():
-        raise ConfigurationError(
-            f"{catalogue}: there is no catalogue yet; put records beside it, then: rocking catalogue {catalogue.parent}"
-        )
     with contextlib.chdir(folder):
         return make_plan(settings)
 

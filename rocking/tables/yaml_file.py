@@ -34,6 +34,15 @@ def read_yaml(
         raise error(f"{path}: the {what} is not valid YAML{_where_and_why(defect)}.") from None
 
 
+_OF_AN_INDENT = (
+    "mapping values are not allowed here",
+    "did not find expected",
+    "expected <block end>",
+    "could not find expected ':'",
+)
+"""How yaml tells of a line that is indented otherwise than the entry to which it belongs."""
+
+
 def _where_and_why(defect: yaml.YAMLError | ValueError) -> str:
     """Return the line of a defect and the defect itself, as the end of a sentence."""
     mark = getattr(defect, "problem_mark", None)
@@ -41,6 +50,11 @@ def _where_and_why(defect: yaml.YAMLError | ValueError) -> str:
     where = "" if mark is None else f" in line {mark.line + 1}"
     if r"'\t'" in problem:
         return f"{where}: a tab stands where only blanks may; write blanks"
+    if problem.startswith(_OF_AN_INDENT):
+        return (
+            f"{where}: it does not begin where the lines around it do; begin all keys of one entry in the same column, "
+            "each behind blanks, and put a text that holds a colon into quotation marks"
+        )
     if "codec can't decode" in problem:
         return ": its letters are not those of UTF-8; save it as UTF-8"
     if "<stream end>" in problem:

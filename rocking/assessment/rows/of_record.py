@@ -560,6 +560,9 @@ class ComparisonRow(DecidedRow[ComparedCase]):
         "Tolerance of the integration: a fragile run is repeated at 1e-9; 0: exact",
         lambda of: of.response.tolerance if of.response else math.nan,
     )
+    lifting_friction: float = of_case(
+        "Friction that a contact needs as the structure lifts", lambda of: of.check.lifting_friction
+    )
     required_friction: float = of_case(
         "Largest friction that a contact needs; INF without pressure", lambda of: of.check.required_friction
     )

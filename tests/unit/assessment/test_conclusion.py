@@ -1,6 +1,7 @@
 """The conclusion on a structure: its order, its remark, and the sentence on all of them."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -32,6 +33,15 @@ def of(word: Verdict, integrated: float = 0.5, **changed) -> Conclusion:
 )
 def test_what_to_do_comes_before_what_explains_the_word(conclusion, kind):
     assert conclusion.remark.kind is kind
+
+
+def test_a_contact_that_slides_is_told_by_what_it_needs_as_it_lifts_and_at_most():
+    """The largest alone is of an instant, and would call a slender pier one that slides."""
+    made = of(Verdict.STANDS)
+    slides = replace(compared("EW", 0.5), slides=True, lifting_friction=0.22, required_friction=1.84)
+    assert replace(made, case=slides).remark.brief == "needs μ 0.22 to 1.8"
+    lost = replace(slides, required_friction=math.inf)
+    assert replace(made, case=lost).remark.kind is Kind.CONTACTS_OPEN
 
 
 def test_the_worst_period_stands_for_a_support_and_the_others_are_its_remark():

@@ -26,6 +26,8 @@ def test_a_block_needs_at_least_the_friction_that_lifts_it(slenderness):
     # At uplift, φ = 0, the ground pushes with λ m g = tan α · m g and the weight presses with m g
     check = _check(Block(2.0, slenderness), RECORD.scaled(slenderness / 0.2))
     assert check.required_friction >= math.tan(slenderness) * (1 - 1e-9)
+    # what lifts it lies at its edge: the reaction leans by tan α
+    assert check.lifting_friction == pytest.approx(math.tan(slenderness), rel=1e-9)
     assert check.slides(check.required_friction * 1.01) is False
     assert check.slides(check.required_friction * 0.99) is True
 

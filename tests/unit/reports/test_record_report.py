@@ -237,12 +237,13 @@ def test_a_failure_is_one_page_that_says_why(message):
 @pytest.mark.usefixtures("undrawn")
 def test_a_contact_that_fails_is_told(example):
     comparison = [
-        replace(row, slides=True, bounces=True, required_friction=0.7) for row in example.tables.comparison
+        replace(row, slides=True, bounces=True, lifting_friction=0.2, required_friction=0.7)
+        for row in example.tables.comparison
     ]
     data = with_tables(detailed(example), comparison=comparison)
     failing = f"{next(iter(example.structures))} (slides and bounces)"
     assert any(failing in sentence for sentence in data["sentences"])
-    slides = Remark.of(Kind.CONTACT_SLIDES, friction=0.7).brief
+    slides = Remark.of(Kind.CONTACT_SLIDES, lifting=0.2, largest=0.7).brief
     assert slides in {row["remark"] for row in data["rows"]}
     assert data["details"][0]["methods"]["rows"][0][-2:] == ["yes", "yes"]
 

@@ -1,6 +1,7 @@
 """Structures from mappings and files: degrees at the door, nearest key named, all defects at once."""
 
 import dataclasses
+import warnings
 from pathlib import Path
 
 import jsonschema
@@ -119,6 +120,18 @@ def test_all_defects_of_a_list_stand_in_one_message(load):
             "- {name: a,\n   type: block, height_m: 1,\n   height_m: 4}",
             "in line 3: key 'height_m' is given twice",
         ),
+        (
+            "- name: a\n   type: block\n",
+            "in line 2: it does not begin where the lines around it do; begin all",
+        ),
+        (
+            "- name: a\n  type: block\n height_m: 4\n",
+            "in line 3: it does not begin where the lines around it do",
+        ),
+        (
+            "- name: a\n  note: wall: old\n",
+            "in line 2: .* put a text that holds a colon into quotation marks",
+        ),
         ("- name: a\n\ttype: block\n", "in line 2: a tab stands where only blanks may; write blanks"),
         ("[" * 1000 + "]" * 1000, "nested too deeply"),
         *((f'- {{name: "a{mark}b"}}', "printable") for mark in ("\u202e", r"\u202e", r"\0", r"\ud800")),
@@ -153,6 +166,39 @@ def test_a_file_that_is_no_list_is_refused(load, text, message):
 def test_a_value_is_refused_by_the_key_and_as_it_was_typed(load, value, said):
     with pytest.raises(ConfigurationError, match=rf"structure 1 \(w\): {said}"):
         load(f"- {{name: w, type: wall, height_m: {value}, thickness_m: 0.4}}")
+
+
+def test_a_list_is_asked_for_in_brackets_and_an_angle_by_its_key(load):
+    facade = "thicknesses_m: [0.5], unit_weight_kN_m3: 18"
+    with pytest.raises(
+        ConfigurationError, match=r"storey_heights_m is 3\.5 m, but must be a list.*; write \[3\.5\]"
+    ):
+        load(f"- {{name: f, type: facade, storey_heights_m: 3.5, {facade}}}")
+    with pytest.raises(
+        ConfigurationError, match=r"embrace_angle_deg is 2\.75 °, but must be a number from 5"
+    ):
+        load("- {name: a, type: arch, radius_m: 10, thickness_m: 1.5, embrace_angle_deg: 2.75}")
+
+
+@pytest.mark.parametrize(
+    ("sizes", "told"),
+    [
+        (
+            "type: block, breadth_m: 6, height_m: 1",
+            "breadth_m is 6 m and height_m 1 m: so broad a body slides",
+        ),
+        ("type: block, breadth_m: 1, height_m: 1", None),
+        ("type: free_wall, thickness_m: 0.3, height_m: 2, breadth_m: 10", None),
+        ("type: parapet, thickness_m: 0.9, height_m: 0.8", "thickness_m is 0.9 m and height_m 0.8 m"),
+        ("type: wall, height_m: 0.6, thickness_m: 0.7", "thickness_m is 0.7 m and height_m 0.6 m"),
+    ],
+)
+def test_a_body_that_is_broader_than_tall_gets_a_remark(load, sizes, told):
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        load(f"- {{name: w, {sizes}}}")
+    said = [str(each.message) for each in caught]
+    assert not told if not said else told in said[-1]
 
 
 def test_a_file_in_other_letters_says_how_to_save_it(tmp_path):

@@ -278,7 +278,11 @@ def _bad_inputs():
     yield "no folder", ["catalogue", "absent"], "this is no folder"
     yield "a folder with a study", ["start", "started"], "exists already"
     yield "no study", ["run", "nothing"], "config.yaml"
-    yield "no catalogue", ["run", "started"], "there is no catalogue yet"
+    yield "no catalogue", ["run", "empty_study"], "there is no catalogue yet"
+    yield "a catalogue misspelt", ["run", "misspelt"], "setting catalogue is 'records/catalog.csv'"
+    yield "a list misspelt", ["run", "started"], "setting structures is 'structure.yml'"
+    yield "a near name", ["run", "misspelt"], "did you mean records/catalogue.csv?"
+    yield "a file for a folder", ["run", "started/config.yaml"], "is a file, but a study is a folder"
     yield "settings that are no mapping", ["run", "broken"], "must hold settings"
 
 
@@ -292,10 +296,16 @@ def test_bad_input_is_one_sentence_and_nothing_written(arguments, said, tmp_path
     Path("empty").touch()
     Path("letter").write_text("Dear Sir or Madam\n", encoding="utf-8")
     Path("list").write_text(BLOCKS, encoding="utf-8")
-    for name in ("nothing", "started", "broken"):
+    for name in ("nothing", "started", "broken", "empty_study"):
         Path(name).mkdir()
-    Path("started/config.yaml").write_text("catalogue: records/catalogue.csv\n", encoding="utf-8")
+    Path("started/config.yaml").write_text(
+        f"catalogue: {ROOT / 'records' / 'catalogue.csv'}\nstructures: structure.yml\n"
+    )
+    Path("empty_study/config.yaml").write_text("structures: ../list\n")
     Path("broken/config.yaml").write_text("- catalogue\n", encoding="utf-8")
+    Path("misspelt/records").mkdir(parents=True)
+    Path("misspelt/records/catalogue.csv").touch()
+    Path("misspelt/config.yaml").write_text("catalogue: records/catalog.csv\nstructures: ../list\n")
     before = files(tmp_path)
     assert main(arguments) in (1, 2)
     told = capsys.readouterr()
