@@ -11,15 +11,20 @@ from functools import cached_property
 
 from rocking.assessment.component import Component, component_names
 from rocking.assessment.contacts import ContactShare
-from rocking.assessment.cracks import CrackEnsembles, FollowedCrack, counting_cracks, never_lets_go
+from rocking.assessment.cracks import (
+    CrackEnsembles,
+    FollowedCrack,
+    counting_cracks,
+    decided_by,
+    never_lets_go,
+    would_tell,
+)
 from rocking.assessment.decide import BEYOND, Decision, Facts, Verdict, decide
-from rocking.assessment.deciding import decided_by, would_tell
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer, Estimate
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.scene import Scene, periods_in_words
-from rocking.assessment.variations import Variation
 from rocking.assessment.verdict import BOTH_COMPONENTS, POLARITIES, Method
 from rocking.floors.support import Support
 from rocking.hashes import sha256_of
@@ -131,6 +136,20 @@ class Prediction:
         if side.rotation_map is None or not math.isfinite(ratio):
             return ratio
         return side.rotation_map.arc(ratio * side.critical_rotation) / side.critical_arc
+
+
+@dataclass(frozen=True)
+class Variation:
+    """A case with another crack or another processing of the record: its rotation ratios under record and pulse.
+
+    predicted_rotation_ratio: nan without a pulse. crack, position: what opens, in words, and its height, m.
+    """
+
+    integrated_rotation_ratio: float
+    predicted_rotation_ratio: float = math.nan
+    crack: str = ""
+    position: float = math.nan
+    processing: str = ""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -1,26 +1,27 @@
 """One case: one structure under one motion, predicted, integrated and followed by its ensemble and its contacts."""
 
+import math
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import lru_cache, partial
 from time import process_time
 
-from rocking.assessment.case import CaseResult, Failure, Motion, Prediction
+from rocking.assessment.case import CaseResult, Failure, Motion, Prediction, Variation
 from rocking.assessment.component import Component
 from rocking.assessment.contacts import contact_share, doubt
 from rocking.assessment.cracks import counting_cracks, cracks, ensemble_over_cracks, slides_first
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
-from rocking.assessment.ground_motions import GroundMotions, processed
+from rocking.assessment.ground_motions import AS_IT_IS, GroundMotions, processed
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.variations import candidates, processed_variants
 from rocking.assessment.verdict import BOTH_COMPONENTS, Method
 from rocking.errors import RockingError
+from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import integrate, strict
 from rocking.motion.response import UNKNOWN, Response, check_model
-from rocking.pulses import PulseEvidence, predicting_pulse
+from rocking.pulses import Pulse, PulseEvidence, predicting_pulse
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum, printed_maximum
 from rocking.structures import Mechanism, Structure
@@ -266,6 +267,71 @@ def _cheapest(
     return replace(answer, outcome=whole.outcome, response=whole)
 
 
+def other_cracks(
+    structure: Structure,
+    accelerogram: Accelerogram,
+    pulse: Pulse | None,
+    count: int,
+    settings: AssessmentSettings,
+    vertical: Accelerogram | None = None,
+) -> list[Variation]:
+    """Return `count` candidates of a structure, the lowest crack first; [] where there is one mechanism.
+
+    vertical: acts with the accelerogram. Raises RockingError where one of them cannot be followed.
+    """
+    others = sorted(structure.candidates(count) if count else (), key=lambda each: each.position)
+    if len(others) < 2:
+        return []
+    integrated = _rotation_ratios([each.structure for each in others], accelerogram, settings, vertical)
+    variations = []
+    for each, ratio in zip(others, integrated, strict=True):
+        if math.isnan(ratio):
+            # Raises the reason.
+            integrate(each.structure, accelerogram, strict(settings.tolerance), vertical=vertical)
+        mechanism = each.structure.mechanism()
+        predicted = math.nan
+        if pulse and mechanism.can_overturn:
+            block = mechanism.equivalent_block(settings.acceleration_scale)
+            predicted = predict_maximum(block, pulse).rotation_ratio
+        variations.append(Variation(ratio, predicted, each.description, each.position))
+    return variations
+
+
+def other_processings(
+    structure: Structure,
+    records: Mapping[str, Accelerogram],
+    settings: AssessmentSettings,
+    as_it_is: float = math.nan,
+    vertical: Accelerogram | None = None,
+) -> list[Variation]:
+    """Return a structure under each of `records`; one under which it cannot be followed is left out.
+
+    records: as `processed` gives them. as_it_is: the ratio under the record itself, which needs no integration; nan
+    where it is not known. vertical: acts with each.
+    """
+    variations = []
+    for processing, record in records.items():
+        ratio = as_it_is if processing == AS_IT_IS else math.nan
+        if math.isnan(ratio):
+            with suppress(RockingError):
+                (ratio,) = _rotation_ratios([structure], record, settings, vertical)
+        if not math.isnan(ratio):
+            variations.append(Variation(ratio, processing=processing))
+    return variations
+
+
+def _rotation_ratios(
+    structures: Sequence[Structure],
+    record: Accelerogram,
+    settings: AssessmentSettings,
+    vertical: Accelerogram | None = None,
+) -> list[float]:
+    """The largest rotation ratio of each, nan where it cannot be followed; one thread, as a job has one core."""
+    tolerance = strict(settings.tolerance)
+    ratios = integrate_batch(structures, record, tolerance=tolerance, vertical=vertical, workers=1)
+    return [float(ratio) for ratio in ratios[:, 0]]
+
+
 def with_variations(
     case: CaseResult,
     structure: Structure,
@@ -283,16 +349,14 @@ def with_variations(
     pulse = case.prediction.pulse if case.prediction else None
     record = component.accelerogram
     try:
-        of_cracks = candidates(structure, record, pulse, crack_heights, settings, component.vertical)
+        of_cracks = other_cracks(structure, record, pulse, crack_heights, settings, component.vertical)
         case = replace(case, variations=tuple(of_cracks))
     except RockingError as error:
         case = replace(case, failures=(*case.failures, Failure("variations", str(error))))
     if not processing_variants:
         return case
     motions, vertical = _processings(component)
-    of_processings = processed_variants(
-        structure, motions, settings, case.integrated_rotation_ratio, vertical
-    )
+    of_processings = other_processings(structure, motions, settings, case.integrated_rotation_ratio, vertical)
     return replace(case, variations=(*case.variations, *of_processings))
 
 

@@ -17,7 +17,6 @@ from rocking.hashes import sha256_of_bytes
 from rocking.quantities import shown
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.archive import archive_of, is_archive, member_bytes, members
-from rocking.records.damage import damage_warnings, repeated_rows
 from rocking.records.direction import (
     contradiction,
     doubts_of_channel,
@@ -29,7 +28,7 @@ from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
 from rocking.records.formats.text import is_number, lines
 from rocking.records.instrument import channel_warnings, site_warnings
-from rocking.records.plausibility import pass_limits
+from rocking.records.plausibility import damage_warnings, pass_limits, repeated_rows
 from rocking.records.sheet import is_workbook, table_of_workbook
 from rocking.remarks import Kind, Remark
 from rocking.tables import read_whole

@@ -26,11 +26,10 @@ from rocking.structures.arch_mechanism import (
     static_onset,
 )
 from rocking.structures.arch_ring import EXTRADOS, INTRADOS, PATTERN, Bars, Fill, Piers, Ring
-from rocking.structures.crushing import PRESSED
 from rocking.structures.drawing import Path, plane, span, swept
 from rocking.structures.fields import OptionalUnitWeight, Value, count, length, restitution_value
 from rocking.structures.linkage import STILL, Restitution, momentum_balance
-from rocking.structures.structure import Candidate, Crackable
+from rocking.structures.structure import PRESSED, Candidate, Crackable
 
 _CRUSHINGS = 60
 _CRUSHED_ALIKE = 1e-14

@@ -7,12 +7,19 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.structures.crushing import PRESSED, check_pressed, inset
 from rocking.structures.drawing import Path, rectangle, span, swept
 from rocking.structures.fields import OneSided, OptionalUnitWeight, Value, count, length, restitution_value
 from rocking.structures.linkage import STILL, Restitution, Turning
 from rocking.structures.stack import MOST_COURSES, Course, Stack, counted_courses, courses_between
-from rocking.structures.structure import CrackedAtHeight, Crushable, Structure, free_to_both_sides
+from rocking.structures.structure import (
+    PRESSED,
+    CrackedAtHeight,
+    Crushable,
+    Structure,
+    check_pressed,
+    free_to_both_sides,
+    inset,
+)
 
 Balanced = Annotated[Restitution, restitution_value("momentum", "housner")]
 

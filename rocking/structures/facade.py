@@ -15,7 +15,6 @@ import numpy as np
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, whole
 from rocking.remarks import Kind, Remark
-from rocking.structures.crushing import inset
 from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import Value, restitution_value
 from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
@@ -32,7 +31,7 @@ from rocking.structures.stack import (
     loaded,
     slab,
 )
-from rocking.structures.structure import free_to_both_sides
+from rocking.structures.structure import free_to_both_sides, inset
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity, check_inside
 
 _MOST_STOREYS = 50

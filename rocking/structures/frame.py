@@ -7,7 +7,6 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.structures.block import Block
-from rocking.structures.crushing import inset
 from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import OptionalUnitWeight, Value, count, length, restitution_value
 from rocking.structures.linkage import (
@@ -21,7 +20,7 @@ from rocking.structures.linkage import (
     UnknownContacts,
     keeps_last,
 )
-from rocking.structures.structure import Crushable
+from rocking.structures.structure import Crushable, inset
 
 Columns = Annotated[int, count("How many columns", 4, 2, 1000)]
 BeamMassRatio = Annotated[

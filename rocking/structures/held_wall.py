@@ -15,9 +15,9 @@ from typing import NamedTuple
 import numpy as np
 
 from rocking.structures.chain import Chain
-from rocking.structures.crushing import inset
 from rocking.structures.drawing import rectangle
 from rocking.structures.linkage import STILL, Hung, Linkage, Turning
+from rocking.structures.structure import inset
 
 _JOINTS = 12
 """Joints between two heights at which something changes; hinges move to where λ is least between them."""

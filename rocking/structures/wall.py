@@ -13,7 +13,6 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, finite
-from rocking.structures.crushing import inset
 from rocking.structures.drawing import Mark, Path, rectangle, span
 from rocking.structures.fields import OneSided, OptionalUnitWeight, Value, length, restitution_value
 from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
@@ -28,7 +27,7 @@ from rocking.structures.linkage import (
     keeps_last,
 )
 from rocking.structures.stack import Course, Held, Stack, counted_courses, course_at, courses_between, slab
-from rocking.structures.structure import HIGHEST_SHARE, CrackedAtHeight, free_to_both_sides
+from rocking.structures.structure import HIGHEST_SHARE, CrackedAtHeight, free_to_both_sides, inset
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity
 
 _BEARING = 0.02

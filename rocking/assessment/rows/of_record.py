@@ -29,10 +29,16 @@ from rocking.structures import EquivalentBlock
 from rocking.tables import Columns, Row, RowOf, row, write_tables, written_together
 
 if TYPE_CHECKING:  # else who reads a table would load numba
-    from rocking.assessment.case import CaseResult, Failure, Prediction, RecordResult, StationResult
+    from rocking.assessment.case import (
+        CaseResult,
+        Failure,
+        Prediction,
+        RecordResult,
+        StationResult,
+        Variation,
+    )
     from rocking.assessment.component import Component
     from rocking.assessment.fidelity import Answer, Estimate
-    from rocking.assessment.variations import Variation
     from rocking.motion.response import ModelCheck, Response
 
 RECORD = "Identifier of the record in the catalogue"

@@ -6,9 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rocking.assessment.case import Motion
+from rocking.assessment.case import Motion, Variation
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
-from rocking.assessment.variations import Variation
 from rocking.records import Accelerogram
 from rocking.remarks import Kind, Remark
 from rocking.reports.printing import cell_text

@@ -12,11 +12,10 @@ from rocking.assessment.cracks import cracks, ensemble_over_cracks
 from rocking.assessment.decide import Verdict
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.ground_motions import GroundMotions, processed
-from rocking.assessment.one_case import assess_case, predict
+from rocking.assessment.one_case import assess_case, other_cracks, other_processings, predict
 from rocking.assessment.rows import rows_of_record
 from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.assessment.variations import candidates, processed_variants
 from rocking.fragility.curves import fragility
 from rocking.motion import integrate
 from rocking.pulses import Pulse
@@ -122,7 +121,7 @@ def test_the_governed_fragility_is_never_below_that_of_statics():
 
 
 def test_the_middle_candidate_is_the_wall_itself():
-    variations = candidates(LOW_WALL, SINE, PULSE, 5, AssessmentSettings())
+    variations = other_cracks(LOW_WALL, SINE, PULSE, 5, AssessmentSettings())
     middle = variations[2]
     assert middle.position == pytest.approx(2.0)
     assert middle.integrated_rotation_ratio == integrate(LOW_WALL, SINE, 1e-9).rotation_ratio
@@ -134,15 +133,15 @@ def test_variations_are_followed_at_the_tolerance_at_which_a_fragile_run_is_repe
     at_settings, strictly = (integrate(LOW_WALL, motion, each).rotation_ratio for each in (1e-3, 1e-9))
     assert at_settings != strictly
     settings = AssessmentSettings(tolerance=1e-3)
-    assert candidates(LOW_WALL, motion, None, 5, settings)[2].integrated_rotation_ratio == strictly
-    (processing,) = processed_variants(LOW_WALL, {"high-pass 0.2 Hz": motion}, settings)
+    assert other_cracks(LOW_WALL, motion, None, 5, settings)[2].integrated_rotation_ratio == strictly
+    (processing,) = other_processings(LOW_WALL, {"high-pass 0.2 Hz": motion}, settings)
     assert processing.integrated_rotation_ratio == strictly
 
 
 def test_the_vertical_component_acts_on_every_candidate():
     vertical = record(3.0, 0.4)
     motion = record(12.0, 0.5)
-    middle = candidates(LOW_WALL, motion, None, 5, AssessmentSettings(), vertical)[2]
+    middle = other_cracks(LOW_WALL, motion, None, 5, AssessmentSettings(), vertical)[2]
     with_it, without = (integrate(LOW_WALL, motion, 1e-9, vertical=each) for each in (vertical, None))
     assert middle.integrated_rotation_ratio == with_it.rotation_ratio
     assert 0 < with_it.rotation_ratio != without.rotation_ratio
@@ -150,7 +149,7 @@ def test_the_vertical_component_acts_on_every_candidate():
 
 def test_a_higher_hinge_lifts_earlier():
     # λ = 2 tan α₁ falls as the lower block grows, so a shaking that leaves low hinges shut opens high ones.
-    variations = candidates(LOW_WALL, SINE.scaled(0.8), None, 9, AssessmentSettings())
+    variations = other_cracks(LOW_WALL, SINE.scaled(0.8), None, 9, AssessmentSettings())
     lifted = [each.integrated_rotation_ratio > 0 for each in variations]
     assert lifted == sorted(lifted)
     assert lifted[-1]
@@ -161,7 +160,7 @@ def test_processing_that_changes_nothing_changes_no_answer():
     records = processed(SINE)
     block = Block(2.0, 0.2)
     assert "unchanged" in records
-    variations = processed_variants(block, records, AssessmentSettings())
+    variations = other_processings(block, records, AssessmentSettings())
     ratios = {each.processing: each.integrated_rotation_ratio for each in variations}
     assert ratios["unchanged"] == integrate(block, SINE, 1e-9).rotation_ratio
     assert ratios["high-pass 0.2 Hz"] != ratios["unchanged"]

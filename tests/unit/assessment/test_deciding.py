@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
-from rocking.assessment.deciding import decided_by, deciding, explained
+from rocking.assessment.cracks import CrackEnsembles, FollowedCrack, decided_by, deciding, explained
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.settings import EnsembleSettings
 

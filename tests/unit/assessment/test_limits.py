@@ -9,8 +9,8 @@ import pytest
 from motion_cases import bisected, noise
 from scipy.constants import g
 
+from rocking.assessment.one_case import other_processings
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.variations import processed_variants
 from rocking.motion import Response, integrate
 from rocking.records import Accelerogram
 from rocking.structures import Block, Outcome, Structure, Wall
@@ -93,5 +93,5 @@ def test_the_strict_side_of_a_limit_is_the_true_one(count):
 @of_cases
 def test_a_run_with_another_processing_ends_on_the_strict_side(count):
     for case in map(made_case, range(count)):
-        (other,) = processed_variants(case.structure, {"other": case.motion}, AssessmentSettings())
+        (other,) = other_processings(case.structure, {"other": case.motion}, AssessmentSettings())
         assert math.isinf(other.integrated_rotation_ratio) is case.strictly

@@ -6,8 +6,7 @@ from scipy.signal import lfilter
 
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.records.damage import damage_warnings, repeated_rows
-from rocking.records.plausibility import agree_with_velocity
+from rocking.records.plausibility import agree_with_velocity, damage_warnings, repeated_rows
 from rocking.records.processing import integral
 from rocking.remarks import Kind, Remark
 
