@@ -22,8 +22,8 @@ from rocking.assessment.cracks import CrackEnsembles, FollowedCrack, cracks, ens
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.ensemble import drawn, ensemble
 from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.assessment.verdict import NEGLIGIBLE
 from rocking.records import Accelerogram
 from rocking.records.rotation import rotate
 from rocking.structures import Structure

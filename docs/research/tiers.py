@@ -28,8 +28,8 @@ from rocking.assessment.fidelity import (
     stays_at_rest,
 )
 from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.methods import Method
 from rocking.assessment.settings import EnsembleSettings
-from rocking.assessment.verdict import Method
 from rocking.hashes import sha256_of_bytes
 from rocking.structures import Structure
 from rocking.tables import write_whole

@@ -10,9 +10,9 @@ import numpy as np
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.case import StationResult
 from rocking.assessment.cracks import cracked, cracks
+from rocking.assessment.methods import Method, ratio_in_words
 from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.assessment.verdict import Method, ratio_in_words
 from rocking.drawn import Drawn, in_a_notebook
 from rocking.errors import ConfigurationError, RecordError, RockingError
 from rocking.motion.response import Response

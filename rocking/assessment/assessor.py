@@ -24,6 +24,7 @@ from rocking.assessment.component import (
     horizontal_motions,
 )
 from rocking.assessment.cracks import cracked, cracks
+from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.one_case import (
     Clock,
     assess_case,
@@ -36,7 +37,6 @@ from rocking.assessment.one_case import (
 from rocking.assessment.reserve import Reserve, reserve
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.verdict import BOTH_COMPONENTS, Method
 from rocking.errors import RockingError
 from rocking.floors.support import Support
 from rocking.hashes import sha256_of

@@ -23,9 +23,9 @@ from rocking.assessment.decide import BEYOND, Decision, Facts, Verdict, decide
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer, Estimate
 from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.methods import BOTH_COMPONENTS, POLARITIES, Method
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.scene import Scene, periods_in_words
-from rocking.assessment.verdict import BOTH_COMPONENTS, POLARITIES, Method
 from rocking.floors.support import Support
 from rocking.hashes import sha256_of
 from rocking.motion.response import UNKNOWN, ModelCheck, Response

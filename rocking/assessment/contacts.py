@@ -12,8 +12,8 @@ from typing import Protocol
 import numpy as np
 
 from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.verdict import NEGLIGIBLE
 from rocking.contacts.dynamics import STEP, follow_stack
 from rocking.errors import RockingError
 from rocking.motion.integration import integrate, strict

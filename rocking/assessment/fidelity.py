@@ -25,7 +25,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from rocking.assessment.verdict import Method
+from rocking.assessment.methods import Method
 from rocking.errors import StructureError
 from rocking.motion.forcing import forcing_of
 from rocking.motion.integration import integrate

@@ -15,8 +15,8 @@ from rocking.assessment.cracks import counting_cracks, cracks, ensemble_over_cra
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
 from rocking.assessment.ground_motions import AS_IT_IS, GroundMotions, processed
+from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.settings import AssessmentSettings
-from rocking.assessment.verdict import BOTH_COMPONENTS, Method
 from rocking.errors import RockingError
 from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import integrate, strict

@@ -16,9 +16,9 @@ from rocking.assessment.case import RecordResult, StationResult
 from rocking.assessment.conclusion import conclusion_in_words, worst_cases
 from rocking.assessment.cracks import cracked
 from rocking.assessment.decide import Verdict, worse
+from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.rows import ComparisonRow, RecordRows
 from rocking.assessment.scene import placed
-from rocking.assessment.verdict import NEGLIGIBLE
 from rocking.motion.response import Response
 from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import typst
 
 from rocking.assessment.decide import Verdict
-from rocking.assessment.verdict import NEGLIGIBLE, Method, rests
+from rocking.assessment.methods import NEGLIGIBLE, Method, rests
 from rocking.quantities import GRAVITY, counted
 from rocking.reports.style import FONT_FOLDER, glyphs
 from rocking.tables import Row

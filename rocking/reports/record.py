@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from rocking.assessment.case import RecordResult, StationResult
 from rocking.assessment.conclusion import Conclusion, conclusion_in_words, conclusions, worst_cases
 from rocking.assessment.cracks import cracked
+from rocking.assessment.methods import NEGLIGIBLE, Agreement, agreement
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
     ComparisonRow,
@@ -21,7 +22,6 @@ from rocking.assessment.rows import (
     structure_rows,
 )
 from rocking.assessment.scene import placed
-from rocking.assessment.verdict import NEGLIGIBLE, Agreement, agreement
 from rocking.quantities import GRAVITY, counted, percent
 from rocking.records.dates import day_of
 from rocking.remarks import Remark

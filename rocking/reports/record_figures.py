@@ -12,10 +12,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator
 
 from rocking.assessment.case import StationResult
+from rocking.assessment.methods import Agreement, Method
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import RATIO_COLUMNS, ComparisonRow
 from rocking.assessment.scene import placed
-from rocking.assessment.verdict import Agreement, Method
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram

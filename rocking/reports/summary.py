@@ -10,6 +10,7 @@ from matplotlib.ticker import MaxNLocator
 
 from rocking.assessment.conclusion import conclusion_in_words, conclusions, worst_of_each
 from rocking.assessment.decide import ORDER, Verdict, worst_first
+from rocking.assessment.methods import Agreement, Method, agreement, within_factor_two
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
     AgreementRow,
@@ -22,7 +23,6 @@ from rocking.assessment.rows import (
     worst_period_each,
 )
 from rocking.assessment.scene import placed
-from rocking.assessment.verdict import Agreement, Method, agreement, within_factor_two
 from rocking.quantities import GRAVITY, counted
 from rocking.reports import printing
 from rocking.reports.design_figure import design_summary_figure

@@ -18,8 +18,8 @@ from typing import BinaryIO, TextIO
 from rocking.assessment.case import SceneResult
 from rocking.assessment.conclusion import conclusion_in_words, conclusions, worst_of_each
 from rocking.assessment.decide import ORDER, worst_first
+from rocking.assessment.methods import rocks
 from rocking.assessment.rows import ComparisonRow, FailureRow, VerdictRow
-from rocking.assessment.verdict import rocks
 from rocking.errors import RecordError, RockingError, log_fault
 from rocking.quantities import counted, escaped
 from rocking.study.folder import new_log

@@ -37,7 +37,7 @@ from rocking import (
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.listed import load_scenes
-from rocking.assessment.verdict import Method
+from rocking.assessment.methods import Method
 from rocking.codes.static_check import kinematic_check
 from rocking.pulses import extract_pulses
 from rocking.records import load_catalogue, read

@@ -12,7 +12,7 @@ from rocking.assessment.decide import Verdict
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.fidelity import Tier, read_tiers
 from rocking.assessment.ground_motions import GroundMotions
-from rocking.assessment.verdict import Method
+from rocking.assessment.methods import Method
 from rocking.records import Accelerogram
 from rocking.structures import Block
 

@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from rocking.assessment.decide import Decision, Verdict
-from rocking.assessment.reserve import Reserve
-from rocking.assessment.verdict import (
+from rocking.assessment.methods import (
     BOTH_COMPONENTS,
     Agreement,
     Method,
@@ -17,6 +16,7 @@ from rocking.assessment.verdict import (
     ratio_in_words,
     within_factor_two,
 )
+from rocking.assessment.reserve import Reserve
 from rocking.floors.spectrum import FloorMeasures, floor_measures
 from rocking.floors.support import Support
 from rocking.pulses import Pulse, PulseEvidence, VelocityPulse

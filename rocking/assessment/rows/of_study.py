@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
+from rocking.assessment.methods import Agreement, agreement, ratio, rests
 from rocking.assessment.rows import of_record as rows
-from rocking.assessment.verdict import Agreement, agreement, ratio, rests
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism, Side, Structure
 from rocking.structures.capacity import CapacityCurve

@@ -15,6 +15,7 @@ from rocking.assessment.case import CaseResult, Failure, StationResult
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer
+from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.rows import (
     ComparisonRow,
     DecidedStation,
@@ -25,7 +26,6 @@ from rocking.assessment.rows import (
 )
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import EnsembleSettings
-from rocking.assessment.verdict import BOTH_COMPONENTS, Method
 from rocking.errors import StructureError
 from rocking.motion.response import Response
 from rocking.structures import Block, Outcome

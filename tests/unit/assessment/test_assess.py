@@ -12,6 +12,7 @@ from scipy.constants import g
 from rocking.assessment.assessor import Assessor, with_histories
 from rocking.assessment.case import CaseResult, StationResult
 from rocking.assessment.component import Component, HorizontalMotion, component_of, horizontal_motions
+from rocking.assessment.methods import NEGLIGIBLE, Method, agreement, ratio, rests, rocks, within_factor_two
 from rocking.assessment.one_case import assess_case, predict, prediction_of
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
@@ -26,7 +27,6 @@ from rocking.assessment.rows import (
 )
 from rocking.assessment.scene import Scene, on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings, PredictingPulse
-from rocking.assessment.verdict import NEGLIGIBLE, Method, agreement, ratio, rests, rocks, within_factor_two
 from rocking.motion import integrate
 from rocking.pulses import PULSE_METHODS, Pulse, PulseAnalysis, PulseEvidence, extract_pulses
 from rocking.records import Accelerogram

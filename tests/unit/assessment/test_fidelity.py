@@ -20,9 +20,9 @@ from rocking.assessment.fidelity import (
     stays_at_rest,
 )
 from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.methods import Method
 from rocking.assessment.one_case import assess_case
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.assessment.verdict import Method
 from rocking.motion.integration import integrate
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram

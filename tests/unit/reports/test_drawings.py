@@ -9,7 +9,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from rocking.assessment.decide import Verdict
-from rocking.assessment.verdict import Agreement
+from rocking.assessment.methods import Agreement
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.records.measures import record_measures

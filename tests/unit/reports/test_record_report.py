@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from rocking.assessment.decide import ORDER
+from rocking.assessment.methods import Agreement
 from rocking.assessment.rows import rows_of_record, structure_rows
 from rocking.assessment.scene import Scene
-from rocking.assessment.verdict import Agreement
 from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Kind, Remark
 from rocking.reports import printing

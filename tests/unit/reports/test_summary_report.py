@@ -9,6 +9,12 @@ import pandas
 import pytest
 
 import rocking
+from rocking.assessment.methods import (
+    Agreement,
+    agreement,
+    ratio_in_words,
+    within_factor_two,
+)
 from rocking.assessment.rows import (
     ComparisonRow,
     FailureRow,
@@ -18,12 +24,6 @@ from rocking.assessment.rows import (
     TimingRow,
     VerdictRow,
     agreement_rows,
-)
-from rocking.assessment.verdict import (
-    Agreement,
-    agreement,
-    ratio_in_words,
-    within_factor_two,
 )
 from rocking.fragility.measures import compared
 from rocking.fragility.rows import FragilityRow, FragilitySummaryRow, IntensityMeasureRow

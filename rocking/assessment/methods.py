@@ -1,4 +1,4 @@
-"""Outcomes, methods, and how a prediction stands to the integration: each word and threshold is defined here once.
+"""Methods, and how a prediction stands to the integration: each word and threshold is defined here once.
 
 A structure rests, rocks or overturns. It rests up to `NEGLIGIBLE` of its critical rotation, lifted or not: whether a
 rotation is exactly zero hangs on the last digit of the uplift acceleration, and a tremor below a thousandth of the
@@ -15,8 +15,6 @@ NEGLIGIBLE = 1e-3
 """Largest rotation over critical rotation at which a structure counts as resting."""
 CLOSE = 0.1
 """Relative difference up to which the words are "within 10 %"."""
-
-
 BOTH_COMPONENTS = "both"
 """In place of a component: all directions of a record."""
 POLARITIES = {"1.0": "as recorded", "-1.0": "reversed"}
