@@ -31,7 +31,7 @@ TARGETS_OF_RESEARCH = {
     ),
     "stability": (
         "Hold the words of few members against the shares of thousands",
-        REAL_RECORDS,
+        [REAL_RECORDS[1], REAL_RECORDS[0], f"{workflow.basedir}/records/catalogue.csv"],
         ["stability.csv"],
     ),
     "floors": (

@@ -1,5 +1,6 @@
 """Words beside those of many members: what a trial holds, and what its scores count."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +10,7 @@ from docs.research import stability
 from docs.research.stability import KINDS, StabilityTrial, stability_scores, stability_trials
 from rocking.assessment.decide import Verdict, step
 from rocking.records import Accelerogram
-from rocking.structures import Block, Wall
+from rocking.structures import Block, Spire, Wall
 
 TIMES = np.arange(0, 4, 0.01)
 PAIR = [
@@ -21,17 +22,32 @@ PAIR[1] = replace(PAIR[1], acceleration=np.append(PAIR[1].acceleration, 0.0))  #
 
 def test_a_trial_holds_the_word_of_its_own_share(monkeypatch):
     monkeypatch.setattr(stability, "MEMBERS", 256)
-    trials = list(
-        stability_trials("a site", PAIR, {"block": Block(2.0, 0.2), "wall": Wall.of_size(4.0, 0.4)})
-    )
+    structures = {"block": Block(2.0, 0.2), "wall": Wall.of_size(4.0, 0.4)}
+    trials = list(stability_trials("a site", PAIR, structures))
     assert [each.kind for each in trials] == [kind for kind in KINDS for _ in range(2)]
     for trial in trials:
         if trial.structure == "block":
             assert trial.true_verdict is step(round(256 * trial.true_share), 256, np.inf)
             assert abs(trial.share - trial.true_share) <= 4 / 64
             assert trial.members in (16, 64, 256)
-    again = stability_trials("a site", PAIR, {"block": Block(2.0, 0.2), "wall": Wall.of_size(4.0, 0.4)})
-    assert list(again) == trials
+    assert list(stability_trials("a site", PAIR, structures)) == trials
+
+
+def test_what_a_study_cannot_tell_has_no_class(monkeypatch):
+    """The courses of a spire that lifts may be thrown, which no number of members of its mechanisms tells."""
+    monkeypatch.setattr(stability, "MEMBERS", 64)
+    spire = {"spire": Spire(3.0, 15.0, 0.25)}
+    trials = [each for each in stability_trials("a site", PAIR, spire) if not each.share > 0.6]
+    assert trials and {each.verdict for each in trials} == {Verdict.CANNOT_BE_TOLD}
+    assert all(math.isnan(each.true_share) and math.isnan(each.classes_off) for each in trials)
+
+
+def test_a_site_on_which_the_rule_was_chosen_takes_no_part_under_another_name():
+    ew, ns = (replace(each, event="Manjil", station="Abbar") for each in PAIR)
+    renamed = replace(ew, station="Mangil")
+    other = replace(ns, station="Rudbar")
+    left = stability.left_out_of([("a", ew), ("b", ns)], [("c", renamed), ("d", other.scaled(2.0))])
+    assert [each.identifier for each in left] == ["d"]
 
 
 def test_the_scores_count_what_they_name():
@@ -43,18 +59,24 @@ def test_the_scores_count_what_they_name():
     worse = replace(first, site="c", verdict=Verdict.STANDS, true_share=0.4)
     safe = replace(first, site="d", verdict=Verdict.OVERTURNS)
     sure = replace(first, site="e", verdict=Verdict.STANDS, true_verdict=Verdict.STANDS, true_share=0.0)
+    held = replace(sure, site="f", verdict=Verdict.CANNOT_OVERTURN)
+    untold = replace(
+        first, site="g", verdict=Verdict.CANNOT_BE_TOLD, true_verdict=None, share=np.nan, true_share=np.nan
+    )
     found = {
         row.measure: row.value
-        for row in stability_scores([first, unsafe, worse, safe, sure])
+        for row in stability_scores([first, unsafe, worse, safe, sure, held, untold])
         if row.part == "all"
     }
     assert found == pytest.approx(
         {
-            "share in the class of its word (0.95 is asked)": 2 / 5,
+            "share that cannot be told": 1 / 7,
+            "share in the class of its word (0.95 is asked)": 3 / 6,
             "the same where members disagree": 1 / 4,
-            "one class off on the unsafe side": 1 / 5,
-            "two classes off on the unsafe side or more (0 is asked)": 1 / 5,
-            "off on the safe side": 1 / 5,
+            "one class off on the unsafe side": 1 / 6,
+            "two classes off on the unsafe side or more (0 is asked)": 1 / 6,
+            "off on the safe side": 1 / 6,
             "members of all cracks": 64,
         }
     )
+    assert replace(held, true_share=0.1).classes_off == -np.inf
