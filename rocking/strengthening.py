@@ -283,6 +283,11 @@ def strengthen(
             f"structure is {kind_of(structure)}, but must be a structure with sizes, as rocking.Block or "
             "rocking.Facade."
         )
+    if getattr(structure, "opening", None) is not None:
+        raise ConfigurationError(
+            "structure is one of the mechanisms of a wall, but must be the wall itself, which may open elsewhere once "
+            "its sizes change."
+        )
     fields = {each.name: each for each in sizes(structure)}
     if key not in fields:
         raise ConfigurationError(

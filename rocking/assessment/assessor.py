@@ -437,6 +437,7 @@ class Assessor:
         return sha256_of(
             motion.fingerprint,
             structure.described.entry,
+            getattr(structure, "opening", None),  # one of a wall's mechanisms, which no file gives
             own,
             self.crack_heights,
             self.processing_variants,

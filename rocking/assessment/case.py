@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 
 from rocking.assessment.component import Component, component_names
-from rocking.assessment.contacts import ContactShare
+from rocking.assessment.contacts import ContactShare, stackable
 from rocking.assessment.cracks import (
     CrackEnsembles,
     FollowedCrack,
@@ -266,6 +266,7 @@ class CaseResult:
             held=isinstance(body, Tied) and bool(body.held_wall.holds),
             beyond=beyond,
             stacks=stacks,
+            stackable=self.contact is None and stackable(body),
             remarks=would_tell(self.ensembles, typed) if self.ensembles else (),
             failures=failures,
         )

@@ -6,6 +6,7 @@ bounds (theory: section 11). "Stands" is then not said.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import product
 from typing import Protocol
 
@@ -143,6 +144,15 @@ class ContactShare:
             if self.runs
             else self.reason
         )
+
+
+@lru_cache(maxsize=256)
+def stackable(structure: Laid) -> bool:
+    """Whether contact dynamics can follow a structure: it is laid in several courses, between which joints open."""
+    try:
+        return len(_stacks(structure)[0].courses) > 1
+    except RockingError:
+        return False
 
 
 def contact_share(

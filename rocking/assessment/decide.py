@@ -216,13 +216,14 @@ class Facts:
 
     cracks: those that were followed, first the one that is given or that statics chooses. rests: whether nothing can
     lift. run_ratio: largest rotation ratio of single runs, where no members were followed; nan without one. settled:
-    the word of a cheaper method that settled it. never_lets_go: why no motion can overturn it with a crack that
-    counts; "" where one can. slides_at: acceleration [g] at which its joints slide, where the motion reaches it; else
-    nan. doubts: what one degree of freedom does not follow. held: whether it is a wall that is held above its foot,
-    and beyond: whether some chain of it goes beyond BEYOND of its critical rotation in any member. stacks: stacks of
-    courses that fall in contact dynamics, of how many; None where none was followed. remarks: what would tell more of
-    members that disagree. failures: why components gave no result. risk: largest probability of the outcome opposite
-    to "stands" or "overturns". Raises ValueError.
+    the word of a cheaper method that settled it. never_lets_go: why no motion can overturn it with a crack that counts;
+    "" where one can. slides_at: acceleration [g] at which its joints slide, where the motion reaches it; else nan.
+    doubts: what one degree of freedom does not follow. held: whether it is a wall that is held above its foot, and
+    beyond: whether some chain of it goes beyond BEYOND of its critical rotation in any member. stacks: stacks of
+    courses that fall in contact dynamics, of how many; None where none was followed. stackable: whether contact
+    dynamics can follow it and has not been asked yet. remarks: what would tell more of members that disagree. failures:
+    why components gave no result. risk: largest probability of the outcome opposite to "stands" or "overturns". Raises
+    ValueError.
     """
 
     cracks: tuple[CrackFacts, ...] = ()
@@ -235,6 +236,7 @@ class Facts:
     held: bool = False
     beyond: bool = False
     stacks: tuple[int, int] | None = None
+    stackable: bool = True
     remarks: tuple[Remark, ...] = ()
     failures: tuple[str, ...] = ()
     risk: float = 0.05
@@ -360,6 +362,8 @@ def decide(facts: Facts) -> Decision:
     missing = (Remark(Kind.COMPONENT_MISSING),) if facts.failures else ()
     worse_beside = _worse_than_given(facts)
     beside = (*unsettled, *missing, *([Remark(Kind.OTHER_CRACK_WORSE)] if worse_beside else []))
+    asks_for_stacks = facts.stackable and facts.stacks is None
+    contact_dynamics = (Remark(Kind.CONTACT_DYNAMICS),) if asks_for_stacks else ()
     tells: tuple[Remark, ...]
 
     # 1, 2, 3: what no member needs to tell.
@@ -421,7 +425,7 @@ def decide(facts: Facts) -> Decision:
     if facts.held and facts.beyond and (facts.stacks is None or facts.stacks[1] < UNANIMOUS):
         word = worse(word, Verdict.PROBABLY_STANDS)
         beside = (*beside, Remark(Kind.HELD_BEYOND))
-        tells = (*tells, Remark(Kind.CONTACT_DYNAMICS))
+        tells = (*tells, *contact_dynamics)
     if facts.stacks is not None:
         fallen, runs = facts.stacks
         of_stacks = step(fallen, runs, risk=risk)
@@ -432,7 +436,7 @@ def decide(facts: Facts) -> Decision:
     # 10: a mechanism that stands says nothing of what it does not follow.
     if (unsettled or missing) and word.badness < Verdict.PROBABLY_OVERTURNS.badness:
         reasons = [*map(str, unsettled), *facts.failures]
-        tells = (Remark(Kind.CONTACT_DYNAMICS),) if unsettled else ()
+        tells = contact_dynamics if unsettled else ()
         tells += (Remark(Kind.COMPONENT),) if missing else ()
         at_least = interval[0], 1.0
         return Decision(Verdict.CANNOT_BE_TOLD, math.nan, at_least, "; ".join([*reasons, why]), beside, tells)

@@ -255,8 +255,8 @@ class Spire(CrackedAtHeight):
     """A cone (plan "circular") or a square pyramid ("square") that rocks about the edge of a horizontal crack.
 
     width: at the base, diameter or side, m. height: of the whole spire, m. wall_thickness: horizontal thickness of a
-    hollow one, m, the inner surface parallel to the outer; None when it is solid. crack_height: above the base, m; the
-    default of 0 says nothing of where it cracks, unless crack is "given" or "known".
+    hollow one, m, the inner surface parallel to the outer; None when it is solid. crack_height: above the base, m;
+    None: nobody says where it cracks, and the mechanism is that of its foot.
     restitution, one_sided: as for a RigidBody. compressive_strength, unit_weight: as for a Block. courses: their number
     over the whole height, for contact dynamics.
     Raises StructureError when it cannot stand, or the crack lies outside it.
@@ -281,7 +281,9 @@ class Spire(CrackedAtHeight):
         Literal["circular", "square"],
         Value("Shape of a horizontal section", "circular", phrase="{value} plan"),
     ] = "circular"
-    crack_height: Annotated[float, Value("Height of the crack above the base", 5.0, "m", (0, 95), "z")] = 0.0
+    crack_height: Annotated[
+        float | None, Value("Height of the crack above the base", 5.0, "m", (0, 95), "z")
+    ] = None
     restitution: Balanced = None
     one_sided: OneSided = False
     courses: Annotated[
@@ -297,7 +299,7 @@ class Spire(CrackedAtHeight):
                 f"wall_thickness is {self.wall_thickness!r} m, but must be less than half the width, "
                 f"{self.width / 2!r} m; leave it out for a solid spire."
             )
-        if self.crack_height >= self.height:
+        if self.crack_position >= self.height:
             raise StructureError(
                 f"crack_height is {self.crack_height!r} m, but must lie on the spire, "
                 f"from 0 to below its height of {self.height!r} m."
@@ -306,8 +308,8 @@ class Spire(CrackedAtHeight):
 
     @property
     def crack_position(self) -> float:
-        """Height of the crack, m."""
-        return self.crack_height
+        """Height of the crack, m; the foot where none is given."""
+        return 0.0 if self.crack_height is None else self.crack_height
 
     @property
     def total_height(self) -> float:
@@ -316,12 +318,12 @@ class Spire(CrackedAtHeight):
 
     @property
     def _place_is_given(self) -> bool:
-        return self.crack_height > 0
+        return self.crack_height is not None
 
     @property
     def half_width(self) -> float:
         """Half the width at the crack, m."""
-        return self.width / 2 * (1 - self.crack_height / self.height)
+        return self.width / 2 * (1 - self.crack_position / self.height)
 
     def _linkage(self, mirrored: bool) -> Turning:
         """All above the crack, the outer solid less the similar inner one, until the flank lies on the ground."""
@@ -331,9 +333,9 @@ class Spire(CrackedAtHeight):
         mass, first, second, across = solid
         centre = first / mass
         return Turning(
-            self.half_width - self._pressed_inset(mass) + 1j * self.crack_height,
+            self.half_width - self._pressed_inset(mass) + 1j * self.crack_position,
             [1.0],
-            [1j * (self.crack_height + centre)],
+            [1j * (self.crack_position + centre)],
             [(second + across) / mass - centre**2],
             end_rotation=float(np.pi - np.arctan2(2 * self.height, self.width)),
         )
@@ -378,7 +380,7 @@ class Spire(CrackedAtHeight):
         """Return the courses above the crack where it is known, else all of them; their number as given, or its own."""
         free_to_both_sides(self)
         number = counted_courses(self.courses if courses is None else courses)
-        foot = self.crack_height if self.crack == "known" else 0.0
+        foot = self.crack_position if self.crack == "known" else 0.0
         levels = np.linspace(foot, self.height, number + 1)
         return Stack(tuple(self._course(*ends) for ends in pairwise(levels.tolist())))
 
@@ -417,10 +419,10 @@ class Spire(CrackedAtHeight):
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         base = self.width / 2
         half = self.half_width
-        crack = 1j * self.crack_height
+        crack = 1j * self.crack_position
         top = np.array([-half + crack, half + crack, 1j * self.height])
         still = np.array([-base, base, half + crack, -half + crack])
-        return [(STILL, still), (0, top)][0 if self.crack_height else 1 :]
+        return [(STILL, still), (0, top)][0 if self.crack_position else 1 :]
 
     def _dimensions(self) -> dict[str, Path]:
         half = self.width / 2
@@ -429,7 +431,7 @@ class Spire(CrackedAtHeight):
             "width": span([-half, 0.0], [half, 0.0], [0.0, -apart]),
             "height": span([-half, 0.0], [-half, self.height], [-apart, 0.0]),
         }
-        if self.crack_height > 0:
+        if self.crack_height:
             paths["crack_height"] = span([half, 0.0], [half, self.crack_height], [apart, 0.0])
         if self.wall_thickness is not None:
             paths["wall_thickness"] = span([half - self.wall_thickness, 0.0], [half, 0.0])

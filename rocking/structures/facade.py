@@ -98,9 +98,9 @@ class Facade(Tied):
         float | None, Value("Height of the thrust above the ground", 6.0, "m", (0, 60))
     ] = None
     crack_storey: Annotated[
-        int,
+        int | None,
         Value("Storey at whose foot it cracks; 1 is the ground floor", 1, usual=(1, 12), bounds={"ge": 1}),
-    ] = 1
+    ] = None
     crack_height: Annotated[
         float | None,
         Value(
@@ -163,10 +163,14 @@ class Facade(Tied):
                 )
         bearing = [t for load, t in zip(loads, thicknesses, strict=False) if load]
         check_eccentricity(self.eccentricity, min(bearing or thicknesses))
-        object.__setattr__(self, "crack_storey", whole("crack_storey", self.crack_storey, 1, len(heights)))
+        if self.crack_storey is not None:
+            object.__setattr__(
+                self, "crack_storey", whole("crack_storey", self.crack_storey, 1, len(heights))
+            )
         if self.thrust_height is not None:
             check_inside("thrust_height", self.thrust_height, self.height)
-        if self.crack_height is not None and self.crack_storey > 1:
+        # The ground floor beside a height was the default once, and stands in files.
+        if self.crack_height is not None and self.crack_storey not in (None, 1):
             raise StructureError(
                 f"crack_height is {self.crack_height!r} m and crack_storey {self.crack_storey}, but one crack is "
                 "meant; give one of them."
@@ -204,8 +208,10 @@ class Facade(Tied):
 
     @property
     def crack_position(self) -> float:
-        """Height of the crack above the ground, m."""
-        return float(self.levels[self.crack_storey - 1]) if self.crack_height is None else self.crack_height
+        """Height of the crack above the ground, m; where none is given that of the ground floor."""
+        if self.crack_height is not None:
+            return self.crack_height
+        return 0.0 if self.crack_storey is None else float(self.levels[self.crack_storey - 1])
 
     @property
     def total_height(self) -> float:
@@ -214,7 +220,7 @@ class Facade(Tied):
 
     @property
     def _place_is_given(self) -> bool:
-        return self.crack_storey > 1 or self.crack_height is not None
+        return self.crack_storey is not None or self.crack_height is not None
 
     @cached_property
     def _lowest_storey(self) -> int:
@@ -428,7 +434,7 @@ class Facade(Tied):
         foot = np.flatnonzero(self.levels[:-1] == height)
         if foot.size:
             return replace(self, crack_storey=int(foot[0]) + 1, crack_height=None)
-        return replace(self, crack_storey=1, crack_height=height)
+        return replace(self, crack_storey=None, crack_height=height)
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         if self.opening is not None:

@@ -13,7 +13,7 @@ def elastic(structure, stretches):
 
 def facade_lagrangian(facade, sign):
     """The façade in its own coordinates: outer face x = 0, the pivot of the side, rectangles and points."""
-    crack, heights, thicknesses = facade.crack_storey - 1, facade.storey_heights, facade.thicknesses
+    crack, heights, thicknesses = (facade.crack_storey or 1) - 1, facade.storey_heights, facade.thicknesses
     pivot = (mpf(0 if sign > 0 else -thicknesses[crack]), mpf(sum(heights[:crack])))
     still = mpf(GRAVITY)
 

@@ -8,7 +8,7 @@ import pytest
 import rocking
 from rocking import Accelerogram, Block, Frame, LoadedWall, Spire, Verdict, Wall
 from rocking.assessment.component import component_of
-from rocking.assessment.contacts import contact_share, doubt
+from rocking.assessment.contacts import contact_share, doubt, stackable
 from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.one_case import assess_case
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
@@ -102,6 +102,26 @@ def test_what_keeps_its_contacts_or_rests_is_not_doubted():
     assert doubt(Block.of_size(0.8, 4.0), motions, 0.1) is None
     assert doubt(Wall(1.6, 1.6, 0.25), motions, 0.0) is None
     assert doubt(as_structure(Block.of_size(0.8, 4.0).mechanism()), motions, 0.1) is None
+
+
+def test_only_what_contact_dynamics_can_follow_is_advised_to_it():
+    """Where it is asked all the same it follows nothing, and says why."""
+    motions = GroundMotions.of(sine(1.0))
+    facade = rocking.Facade((3.5, 3.0), (0.6, 0.5), 20e3)
+    for structure, can in (
+        (Wall(1.6, 1.6, 0.25), True),
+        (Wall(1.6, 1.6, 0.25, crack="known"), True),
+        (SPIRE, True),
+        (facade, True),
+        (replace(facade, crack="known", crack_storey=2), False),
+        (replace(facade, behind="cross_walls", restitution=0.5), False),
+        (Block.of_size(0.8, 4.0), False),
+        (rocking.Frame(Block.of_size(1.1, 8.0), 4, 0.3), False),
+        (as_structure(Block.of_size(0.8, 4.0).mechanism()), False),
+    ):
+        assert stackable(structure) is can
+        if not can:
+            assert contact_share(structure, motions).runs == 0 and contact_share(structure, motions).reason
 
 
 def test_directions_share_the_steps_and_unlike_sides_meet_both_signs():

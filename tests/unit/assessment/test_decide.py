@@ -212,6 +212,17 @@ def test_8b_a_held_wall_that_turns_far_needs_contact_dynamics_of_many_runs(runs,
     assert word(**far, stacks=(0, runs)) == expected
 
 
+@pytest.mark.parametrize("far", [{"doubts": (OPEN,)}, {"held": True, "beyond": True}])
+def test_contact_dynamics_is_advised_only_where_it_may_still_tell(far):
+    """Not where it ran already, nor of what it cannot follow."""
+    facts = Facts(cracks=(crack(0),), **far)
+    assert kinds(decide(facts).tells) == [Kind.CONTACT_DYNAMICS]
+    cannot = decide(replace(facts, stackable=False))
+    assert cannot.tells == ()
+    assert replace(cannot, tells=decide(facts).tells) == decide(facts)
+    assert decide(replace(facts, stacks=(0, 24))).tells == ()
+
+
 @pytest.mark.parametrize(
     ("members", "fallen", "runs", "expected"),
     [

@@ -202,7 +202,6 @@ def test_a_variant_is_the_structure_with_its_values_changed(tmp_path):
     [
         ("[{name: same, tie_strength_kN_m: 5}]", "variant 1 (same): it changes nothing"),
         ("[{name: same}]", "variant 1 (same): it changes nothing"),
-        ("[{name: same, crack_storey: 1}]", "variant 1 (same): it changes nothing"),
         ("[{tie_strength_kN_m: 8}]", "must have a name of its own"),
         ("[8]", "variant 1: it is 8, but must have a name"),
         ("[]", "variants is [], but must be a list"),

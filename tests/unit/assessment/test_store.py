@@ -20,7 +20,7 @@ from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.store import RecordStore
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
-from rocking.structures import Arch, Block, Wall
+from rocking.structures import Arch, Block, LoadedWall, Wall
 from rocking.tables import cell
 
 TIMES = np.arange(0, 6, 0.01)
@@ -180,3 +180,15 @@ def test_numbers_of_every_kind_come_back():
     ):
         assert store.decoded(kind, store.encoded(value)) == value
     assert math.isnan(store.decoded(float, store.encoded(math.nan)))
+
+
+def test_each_mechanism_of_a_wall_is_kept_by_itself(tmp_path, cases):
+    """No file says in which of them it opens, so that their entries are alike."""
+    wall = LoadedWall.of_size(3.2, 0.35, 20e3, tie_heights=(2.0,), tie_stiffness=5e4, tie_strength=8e3)
+    opened = [each.structure for each in wall.mechanisms() if each.structure.opening and not each.refusal]
+    first, *_, last = opened
+    assert first != last and first.described.entry == last.described.entry
+    of_first = computed(tmp_path / "made.json", structures={"wall": first})
+    cases.clear()
+    of_last = computed(tmp_path / "made.json", structures={"wall": last})
+    assert cases and cells(of_first) != cells(of_last)

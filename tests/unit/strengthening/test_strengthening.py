@@ -217,6 +217,7 @@ def test_a_value_with_which_it_does_not_stand_counts_as_overturning():
         (PARAPET, "breadth", {"stations": ["one"] * 5}, "stations names 5, but must name one for each of 6"),
         (TIED, "tie_strength", {"between": (1.0, 1e40)}, "with tie_strength_kN_m = "),
         (PARAPET.mechanism(), "breadth", {}, "structure is"),
+        (TIED.mechanisms()[0].structure, "tie_strength", {}, "but must be the wall itself"),
     ],
 )
 def test_bad_input_is_refused_in_one_sentence(structure, key, options, sentence):

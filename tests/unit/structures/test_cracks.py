@@ -1,5 +1,7 @@
 """Which crack governs: statics against a dense scan, and dynamics against statics."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -7,6 +9,7 @@ from rocking.motion import Members, integrate_members
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.structures import Block, Facade, LoadedWall, Spire, Wall
+from rocking.structures.structure_list import structure_from_config
 
 
 @pytest.mark.parametrize(
@@ -87,3 +90,24 @@ def test_a_facade_may_open_at_the_foot_of_every_storey_and_between():
     assert (weakest.position, weakest.structure.crack_storey) == (3.5, 2)
     given = Facade((3.5, 3.0), (0.6, 0.2), 20e3, crack_height=1.0)
     assert given.crack_is_given and given.candidates(11)[0].position == 1.0
+
+
+@pytest.mark.parametrize(
+    ("unknown", "typed"),
+    [
+        (Facade((3.5, 3.0), (0.6, 0.2), 20e3), {"crack_storey": 1}),
+        (Facade((3.5, 3.0), (0.6, 0.2), 20e3), {"crack_height": 0.0}),
+        (Spire(3.0, 15.0, wall_thickness=0.25), {"crack_height": 0.0}),
+    ],
+)
+def test_a_crack_that_is_typed_at_the_foot_is_given(unknown, typed):
+    """The value that would be taken where nothing is typed says where it cracks once it is."""
+    given = replace(unknown, **typed)
+    assert not unknown.crack_is_given and given.crack_is_given
+    assert given.mechanism().uplift_multiplier == unknown.mechanism().uplift_multiplier
+    first, *beside = given.candidates()
+    assert first.position == 0 and first.counts and beside and not any(each.counts for each in beside)
+    assert all(each.counts for each in unknown.candidates())
+    again = structure_from_config(given.described.entry)
+    assert again == given and again.crack_is_given
+    assert not structure_from_config(unknown.described.entry).crack_is_given
