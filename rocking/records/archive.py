@@ -11,7 +11,8 @@ from rocking.records.formats.format import plain
 from rocking.tables import read_start
 
 ENDING = ".zip"
-_MARK = b"PK\x03\x04"
+ZIPPED = b"PK\x03\x04"
+"""The begin of a zip file."""
 _MOST_MEMBERS = 1000
 """Members of an archive that are read; a whole event of a large network has fewer."""
 _LARGEST_WHOLE = 2**30
@@ -23,7 +24,7 @@ _ENCRYPTED = 0x1
 
 def is_archive(path: Path) -> bool:
     """Whether a zip file lies at `path`, called so."""
-    return path.suffix.lower() == ENDING and read_start(path, len(_MARK)) == _MARK
+    return path.suffix.lower() == ENDING and read_start(path, len(ZIPPED)) == ZIPPED
 
 
 def archive_of(path: Path) -> Path | None:
@@ -87,7 +88,7 @@ def member_bytes(path: Path, archive: Path, largest: int) -> bytes:
         raise RecordError(f"{called}: the archive is damaged there, {error}; fetch it again.") from None
     if len(content) > largest:
         raise RecordError(f"{called}: the file is larger than {largest} bytes, the most that is read.")
-    if content.startswith(_MARK):
+    if content.startswith(ZIPPED):
         raise RecordError(f"{called}: this is an archive within an archive; unpack it.")
     return content
 

@@ -16,7 +16,7 @@ from rocking.errors import RecordError, UndeclaredError, UnknownFormatError, abo
 from rocking.hashes import sha256_of_bytes
 from rocking.quantities import shown
 from rocking.records.accelerogram import Accelerogram, Source
-from rocking.records.archive import archive_of, is_archive, member_bytes, members
+from rocking.records.archive import ENDING, ZIPPED, archive_of, is_archive, member_bytes, members
 from rocking.records.direction import (
     contradiction,
     doubts_of_channel,
@@ -66,7 +66,7 @@ def read(
         raise RecordError(f"path is {shown(path)}, but must be the path of a file, as a text or a Path.")
     path = Path(path)
     options = Options(unit, time_step, Path(inventory) if inventory else None, path.parent, response)
-    if is_archive(path):
+    if path.suffix.lower() == ENDING and is_archive(path):
         return _read_archive(path, options)
     return read_raw(bytes_of(path), path, options)
 
@@ -239,7 +239,7 @@ def unpack(raw: bytes, name: str) -> bytes:
 
     Raises RecordError when it is damaged or unpacks to too much.
     """
-    if is_workbook(raw):
+    if raw.startswith(ZIPPED) and is_workbook(raw):
         with about(name):
             return table_of_workbook(raw)
     if not raw.startswith(b"\x1f\x8b"):
@@ -268,9 +268,10 @@ def bytes_of(path: Path, largest: int = LARGEST_FILE) -> bytes:
 
     Raises RecordError when it is missing, larger than any accelerogram, or an archive itself.
     """
-    if archive := archive_of(path):
+    in_archive = ENDING in str(path).lower()  # or an archive itself, if it is one at all
+    if in_archive and (archive := archive_of(path)):
         return member_bytes(path, archive, largest)
-    if is_archive(path):
+    if in_archive and is_archive(path):
         with about(printable(path.name)):
             count = len(members(path))
         raise RecordError(

@@ -9,7 +9,6 @@ from typing import Any
 from rocking.errors import RecordError
 from rocking.records.formats.labels import ColumnLabel
 
-_MARK = b"PK\x03\x04"
 _PARTS = "xl/workbook.xml"
 _LARGEST_PART = 64 * 2**20
 """Bytes of a part of a workbook, unpacked."""
@@ -21,9 +20,7 @@ _ADVICE = "save the sheet as CSV, with the names of the columns and their units 
 
 
 def is_workbook(raw: bytes) -> bool:
-    """Whether `raw` is a workbook as spreadsheets have written it since 2007 (.xlsx)."""
-    if not raw.startswith(_MARK):
-        return False
+    """Whether `raw`, a zip file, is a workbook as spreadsheets have written it since 2007 (.xlsx)."""
     try:
         return _PARTS in zipfile.ZipFile(io.BytesIO(raw)).namelist()
     except (zipfile.BadZipFile, ValueError, NotImplementedError):

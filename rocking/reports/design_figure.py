@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.measures import response_spectrum
+from rocking.reports.panels import Trace
 from rocking.reports.printing import unit_of
-from rocking.reports.record_figures import Trace
 from rocking.reports.style import PULSE, new_figure, plain_logarithmic, styled
 
 if TYPE_CHECKING:

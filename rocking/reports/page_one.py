@@ -15,9 +15,8 @@ from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import PulseRow
 from rocking.quantities import percent
 from rocking.reports.drawings import draw_structure
-from rocking.reports.panels import draw_motion
+from rocking.reports.panels import Trace, draw_motion
 from rocking.reports.printing import LOOKS, number
-from rocking.reports.record_figures import Trace
 from rocking.reports.style import new_figure, picture, styled
 from rocking.structures import Structure
 

@@ -29,7 +29,7 @@ from rocking.reports import printing
 from rocking.reports import record_figures as figures
 from rocking.reports.design_figure import design_figure
 from rocking.reports.page_one import page_one
-from rocking.reports.panels import rotation_ratios
+from rocking.reports.panels import Trace, rotation_ratios
 from rocking.reports.printing import (
     MEASURED,
     Column,
@@ -44,7 +44,7 @@ from rocking.reports.printing import (
     table_of,
     words,
 )
-from rocking.reports.record_figures import History, Trace
+from rocking.reports.record_figures import History
 from rocking.reports.style import pictures
 from rocking.reports.supports import SupportPanel, floor_sentences, support_panels, supports_figure
 from rocking.structures import Structure

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -16,18 +15,13 @@ from rocking.assessment.methods import Agreement, Method
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import RATIO_COLUMNS, ComparisonRow
 from rocking.assessment.scene import placed
-from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY, counted
-from rocking.records.accelerogram import Accelerogram
-from rocking.records.measures import record_measures
-from rocking.reports.panels import draw_energy_map, draw_motion, draw_rotation, moving_span
+from rocking.reports.panels import Trace, draw_energy_map, draw_motion, draw_rotation, moving_span
 from rocking.reports.printing import LOOKS, number, ratio, unit_of
 from rocking.reports.style import PREDICTED, PULSE, TEXT_WIDTH, elided, new_figure, panel_at, styled, wrapped
 
 _POINTS = 1200
 """Points of a trace: no printer shows more on the width of a page."""
-_MARGIN = 0.15
-"""Share of the strong shaking that is drawn before and after it."""
 _HISTORIES = 160.0
 """Height of all histories together, mm."""
 _HIGHEST_ROW = 30.0
@@ -44,26 +38,6 @@ _SMALLEST = 1e-3
 """Rotation ratio at the left end of the comparison."""
 _FALLEN = 3.0
 """Rotation ratio at which overturning stands there."""
-
-
-@dataclass(frozen=True, eq=False)
-class Trace:
-    """One component of the ground with its ranked pulses, the dominant one first."""
-
-    accelerogram: Accelerogram
-    pulses: Sequence[Pulse]
-
-    @cached_property
-    def span(self) -> tuple[float, float]:
-        """The time of 5 to 95 % of the Arias intensity with a margin, and of the dominant pulse, s."""
-        begin, end = record_measures(self.accelerogram).significant_times
-        for pulse in self.pulses[:1]:
-            begin = min(begin, pulse.start_time)
-            end = max(end, pulse.end_time)
-        if not end > begin:  # nothing shakes
-            return 0.0, self.accelerogram.duration
-        margin = _MARGIN * (end - begin)
-        return max(0.0, begin - margin), min(self.accelerogram.duration, end + margin)
 
 
 @dataclass(frozen=True, eq=False)

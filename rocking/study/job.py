@@ -71,7 +71,7 @@ class Study:
             self.settings.candidates,
             self.settings.processing_variants,
             motion_measures=True,
-            version=computation_version(),
+            version=computation_version() if store else "",
             store=store,
             clock=clock,
         )

@@ -529,6 +529,7 @@ SAC = Format(
     "SAC header of version 6 or 7 whose number of samples fits the size of the file",
     _is_sac,
     _read_sac,
+    binary=True,
 )
 EVT = Format(
     "Kinemetrics EVT",
@@ -536,6 +537,7 @@ EVT = Format(
     "KMI mark at the start of the file",
     lambda content: content[:1] == b"K" and content[:32].count(b"KMI") == 1,
     _read_evt,
+    binary=True,
 )
 MINISEED = Format(
     "miniSEED",
@@ -543,6 +545,7 @@ MINISEED = Format(
     "miniSEED fixed header (six digits, then D, R, Q or M)",
     lambda content: len(content) >= 128 and bool(_FIXED_HEADER.match(content)),
     partial(_read_counts, "MSEED"),
+    binary=True,
 )
 GSE = Format(
     "GSE",
@@ -564,6 +567,7 @@ WIN = Format(
     "two blocks with their length and time in packed decimals",
     _is_win,
     partial(_read_counts, "WIN"),
+    binary=True,
 )
 SEISAN = Format(
     "SEISAN",
@@ -571,6 +575,7 @@ SEISAN = Format(
     "marks of two lines of 80 characters as Fortran writes them",
     _is_seisan,
     partial(_read_counts, "SEISAN"),
+    binary=True,
 )
 REFTEK = Format(
     "REFTEK 130",
@@ -578,6 +583,7 @@ REFTEK = Format(
     "packets of 1024 bytes, of which the first is EH, DT or AD",
     _is_reftek,
     partial(_read_counts, "REFTEK130"),
+    binary=True,
 )
 CSS = Format(
     "CSS wfdisc",
@@ -599,6 +605,6 @@ STATIONXML = Format(
     "StationXML",
     "FDSN data centres",
     "FDSNStationXML element",
-    lambda content: b"<FDSNStationXML" in content[:2000],
+    re.compile(r"(?s).{,2000}?<FDSNStationXML"),
     _refuse,
 )

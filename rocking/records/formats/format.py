@@ -98,6 +98,7 @@ class Format:
     read: (content, options) to accelerograms; raises RecordError only, whose message need not name the file.
     plugin: its name among obspy's formats, where it is offered to obspy.
     yields: whether another format that recognises a file as well has it: bare numbers below any text.
+    binary: whether its files hold zero bytes, so that of a text nobody asks.
     """
 
     name: str
@@ -107,9 +108,12 @@ class Format:
     read: Callable[[bytes, Options], list[Accelerogram]]
     plugin: str = ""
     yields: bool = False
+    binary: bool = False
 
     def recognise(self, content: bytes) -> bool:
         """Whether `content` is of this format."""
+        if self.binary and b"\0" not in content:
+            return False
         if not isinstance(self.first, re.Pattern):
             return self.first(content)
         return self.first.match(_EMPTY_LINES.sub("", content[:_OPENING].decode("latin-1"))) is not None
