@@ -17,6 +17,7 @@ import numpy as np
 from rocking.structures.chain import Chain
 from rocking.structures.drawing import rectangle
 from rocking.structures.linkage import STILL, Hung, Linkage, Turning
+from rocking.structures.searches import minimum
 from rocking.structures.structure import inset
 
 _JOINTS = 12
@@ -345,8 +346,6 @@ class HeldWall:
         self, opening: Opening, multiplier: float, heights: Sequence[float]
     ) -> tuple[Opening, float]:
         """The opening with its hinge where λ is least between the joints on either side of it."""
-        from scipy.optimize import minimize_scalar  # slow to import, and needed here only
-
         if opening.hinge is None or opening.hold is None:
             return opening, multiplier
         place = heights.index(opening.hinge)
@@ -357,13 +356,10 @@ class HeldWall:
         def moved(hinge: float) -> Opening:
             return replace(opening, hinge=float(hinge))
 
-        sought = minimize_scalar(
-            lambda hinge: self.multiplier(moved(hinge)),
-            bounds=(low, high),
-            method="bounded",
-            options={"xatol": 1e-6 * (high - low)},
+        hinge, lowest = minimum(
+            lambda hinge: self.multiplier(moved(hinge)), low, high, accuracy=1e-6 * (high - low)
         )
-        return min((opening, multiplier), (moved(sought.x), float(sought.fun)), key=itemgetter(1))
+        return min((opening, multiplier), (moved(hinge), lowest), key=itemgetter(1))
 
     def pieces(self, opening: Opening) -> list[Storey]:
         """Return the masonry cut at the joints of `opening`, from the ground up."""
