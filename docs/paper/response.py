@@ -12,6 +12,7 @@ from rocking.reports.style import thinned
 from rocking.sine_pulse import predict_maximum, printed_maximum
 from rocking.structures.arch import Arch
 from rocking.structures.mechanism import Mechanism
+from rocking.tables import Row, column, row
 
 RADII = {"c": 10.0, "d": 15.0}
 """Centreline radius of each panel's arch, m; β = 157.5°, t/r = 0.15, η = 0.9 as in the paper."""
@@ -70,3 +71,56 @@ def predicted_levels(mechanism: Mechanism, pulse: Pulse) -> Mapping[str, float]:
         predict_maximum(mechanism.equivalent_block("rest"), pulse).rotation_ratio,
     )
     return dict(zip(_STYLES, values, strict=True))
+
+
+@row("predictions", "One row per arch of Fig. 8: the closed forms under the dominant pulse of its record")
+class PredictionRow(Row):
+    """What Eq. 15 is fed and says with either block of the paper, beside the block exact at rest and the integration.
+
+    Reports leave Eq. 15 out: the closed form that they print follows the same pulse in every regime.
+    """
+
+    radius_m: float = column("Radius of the centreline of the arch")
+    amplitude_m_s2: float = column("Signed amplitude a_g of the pulse")
+    circular_frequency_rad_s: float = column("Circular frequency of the pulse")
+    frequency_parameter_rad_s: float = column("p of the linearised block", equation="Eq. 11")
+    critical_rotation_rad: float = column("Critical rotation")
+    restitution: float = column("Ratio of angular velocities after and before an impact")
+    acceleration_scale_linearised: float = column("Scale a_sc of the linearised block", equation="Eq. 11")
+    acceleration_scale_uplift: float = column("Scale a_sc,alt of the true uplift", equation="Eq. 13")
+    printed_rotation_ratio: float = column(
+        "Largest rotation over critical rotation as printed, with a_sc; empty where the radicand is negative",
+        equation="Eqs. 11, 15",
+    )
+    printed_uplift_rotation_ratio: float = column("The same with a_sc,alt", equation="Eqs. 13, 15")
+    predicted_rotation_ratio: float = column("That of the block exact at rest; INF if it overturns")
+    integrated_rotation_ratio: float = column("That of the mechanism under the record; INF if it overturns")
+
+
+def prediction_rows(accelerogram: Accelerogram) -> list[PredictionRow]:
+    """Return what the closed forms say of each arch under the dominant pulse of a record."""
+    pulse = extract_pulses(accelerogram).dominant
+    rows = []
+    for radius in RADII.values():
+        mechanism = example_arch(radius).mechanism()
+        linearised = mechanism.equivalent_block("linearised")
+        uplift = mechanism.equivalent_block("uplift")
+        rows.append(
+            PredictionRow(
+                radius_m=radius,
+                amplitude_m_s2=pulse.amplitude,
+                circular_frequency_rad_s=pulse.circular_frequency,
+                frequency_parameter_rad_s=linearised.frequency_parameter,
+                critical_rotation_rad=mechanism.critical_rotation,
+                restitution=linearised.restitution,
+                acceleration_scale_linearised=linearised.acceleration_scale,
+                acceleration_scale_uplift=uplift.acceleration_scale,
+                printed_rotation_ratio=printed_maximum(linearised, pulse),
+                printed_uplift_rotation_ratio=printed_maximum(uplift, pulse),
+                predicted_rotation_ratio=predict_maximum(
+                    mechanism.equivalent_block("rest"), pulse
+                ).rotation_ratio,
+                integrated_rotation_ratio=integrate(mechanism, accelerogram).rotation_ratio,
+            )
+        )
+    return rows

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from docs.paper.report import EquationRow, equation_rows, paper_figures, paper_report
+from docs.paper.response import PredictionRow, prediction_rows
 from rocking.errors import RecordError
 from rocking.records import load_catalogue, open_record, read
 from rocking.reports.style import svg
@@ -15,7 +16,7 @@ SHIPPED = Path(__file__).parents[2] / "records" / "20161113_110259_WTMC_20.V2A"
 
 
 def write_paper(catalogue: Path, mirror: str | None, folder: Path) -> str:
-    """Write the paper's figures (SVG and CSV), the table of its equations and paper.pdf into `folder`.
+    """Write the paper's figures (SVG and CSV), the tables of its equations and predictions and paper.pdf into `folder`.
 
     Fig. 8 needs the Rinaldi record, which may not be shipped: where neither `mirror` nor the network has it, its panels
     are drawn for the shipped record, and its caption says why. Returns a sentence that says so, or that all
@@ -39,6 +40,7 @@ def write_paper(catalogue: Path, mirror: str | None, folder: Path) -> str:
     for figure in figures:
         write_rows(figure.row_class, figure.rows, folder / f"{figure.name}.csv")
         write_whole(folder / f"{figure.name}.svg", svg(figure.figure).encode())
+    write_rows(PredictionRow, prediction_rows(motion), folder / PredictionRow.table.file_name)
     write_rows(EquationRow, equations, folder / EquationRow.table.file_name)
     write_whole(folder / "paper.pdf", paper_report(figures, equations))
     return message

@@ -100,15 +100,12 @@ class Prediction:
     """The closed forms of one structure under one pulse.
 
     block: equivalent block of the settings, under which `maximum` was found. pulse_rank: of the pulse among those that
-    its method offers. printed_rotation_ratio, printed_uplift_rotation_ratio: by Eq. 15 of the source paper with the
-    blocks of that paper, linearised about φ_cr with the scales a_sc (Eq. 11) and a_sc,alt (Eq. 13).
+    its method offers.
     """
 
     block: EquivalentBlock
     pulse: Pulse
     pulse_rank: int
-    printed_rotation_ratio: float
-    printed_uplift_rotation_ratio: float
     maximum: Maximum
 
     @property
@@ -127,15 +124,6 @@ class Prediction:
     def frequency_ratio(self) -> float:
         """Frequency ratio ω_g/p on that side (Eq. 16)."""
         return self.pulse.circular_frequency / self.side.frequency_parameter
-
-    @property
-    def largest_x(self) -> float:
-        """Largest x of the block: its arc over the critical one where it is exact at rest, else φ/φ_cr."""
-        ratio = self.maximum.rotation_ratio
-        side = self.block.sides[-1 if self.maximum.peak_side < 0 else 0]
-        if side.rotation_map is None or not math.isfinite(ratio):
-            return ratio
-        return side.rotation_map.arc(ratio * side.critical_rotation) / side.critical_arc
 
 
 @dataclass(frozen=True)

@@ -24,10 +24,6 @@ POLARITIES = {"1.0": "as recorded", "-1.0": "reversed"}
 class Method(StrEnum):
     """The method by which a largest rotation was computed."""
 
-    PRINTED = "printed"
-    """Eq. 15 of the source paper with its block: linearised about the critical rotation, scale a_sc (Eq. 11)."""
-    PRINTED_UPLIFT = "printed, a_sc,alt"
-    """Eq. 15 with the paper's other block, whose scale a_sc,alt keeps the true uplift (Eq. 13)."""
     CLOSED_FORM = "closed form"
     BLOCK_ON_RECORD = "block on record"
     MECHANISM_ON_PULSE = "mechanism on pulse"

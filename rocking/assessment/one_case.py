@@ -23,7 +23,7 @@ from rocking.motion.integration import integrate, strict
 from rocking.motion.response import UNKNOWN, Response, check_model
 from rocking.pulses import Pulse, PulseEvidence, predicting_pulse
 from rocking.records import Accelerogram
-from rocking.sine_pulse import predict_maximum, printed_maximum
+from rocking.sine_pulse import predict_maximum
 from rocking.structures import Mechanism, Structure
 
 
@@ -63,8 +63,6 @@ def predict(
         block=block,
         pulse=pulse,
         pulse_rank=candidates.index(chosen) + 1,
-        printed_rotation_ratio=printed_maximum(mechanism.equivalent_block("linearised"), pulse),
-        printed_uplift_rotation_ratio=printed_maximum(mechanism.equivalent_block("uplift"), pulse),
         maximum=predict_maximum(block, pulse),
     )
 

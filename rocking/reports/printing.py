@@ -49,11 +49,9 @@ what cannot be told stands apart, hatched.
 LEGEND = ", ".join(f"{sign} {verdict}" for verdict, (sign, *_) in LOOKS.items())
 """The signs of a map."""
 METHODS = {
-    Method.PRINTED: "Eq. 15, paper's block, a_sc",
-    Method.PRINTED_UPLIFT: "Eq. 15, paper's block, a_sc,alt",
-    Method.CLOSED_FORM: "Closed form, our block",
+    Method.CLOSED_FORM: "Closed form, block",
     Method.MECHANISM_ON_PULSE: "Mechanism, pulse",
-    Method.BLOCK_ON_RECORD: "Our block, record",
+    Method.BLOCK_ON_RECORD: "Block, record",
     Method.MECHANISM_ON_RECORD: "Mechanism, record",
 }
 """Headings of the methods, from the plainest to the full integration."""

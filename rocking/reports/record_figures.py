@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator
 
 from rocking.assessment.case import StationResult
-from rocking.assessment.methods import Agreement, Method
+from rocking.assessment.methods import Agreement, Method, ratio_in_words
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import RATIO_COLUMNS, ComparisonRow
 from rocking.assessment.scene import placed
@@ -259,7 +259,7 @@ def comparison_figure(cases: Sequence[ComparisonRow], labels: Mapping[str, str],
         component = f", {_component(case.component)}" if several else ""
         label = placed(labels[case.structure], case.support_period_s)
         names.append(elided(label, _BESIDE_CASES - len(component)) + component)
-        remark = case.prediction_in_words
+        remark = ratio_in_words(case.predicted_rotation_ratio, case.integrated_rotation_ratio)
         panel.text(1.02, place, remark, transform=panel.get_yaxis_transform(), va="center", fontsize=7)
     panel.set(xscale="log", xlim=(0.7 * _SMALLEST, 1.5 * _FALLEN), ylim=(len(cases) - 0.5, -0.5))
     panel.set_yticks(rows, names)

@@ -10,7 +10,7 @@ from matplotlib.ticker import MaxNLocator
 
 from rocking.assessment.conclusion import conclusion_in_words, conclusions, worst_of_each
 from rocking.assessment.decide import ORDER, Verdict, worst_first
-from rocking.assessment.methods import Agreement, Method, agreement, within_factor_two
+from rocking.assessment.methods import Agreement, Method, agreement, ratio_in_words, within_factor_two
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
     AgreementRow,
@@ -387,11 +387,18 @@ AGREEMENT_COLUMNS: list[Column] = [
         "overturning_misses=1 overturning_false_alarms=1",
     ),
 ]
-UNSAFE_COLUMNS = columns_of(
-    ComparisonRow,
-    "record=1.4 component=auto structure=1.4 predicted_rotation_ratio integrated_rotation_ratio regime "
-    "prediction_in_words=1.6",
-)
+UNSAFE_COLUMNS: list[Column] = [
+    *columns_of(
+        ComparisonRow,
+        "record=1.4 component=auto structure=1.4 predicted_rotation_ratio integrated_rotation_ratio regime",
+    ),
+    (
+        "Closed form beside integration",
+        "1.6",
+        "l",
+        lambda row: ratio_in_words(row.predicted_rotation_ratio, row.integrated_rotation_ratio),
+    ),
+]
 FAILURE_COLUMNS = columns_of(FailureRow, "record component=auto structure stage=0.6 message=3")
 
 

@@ -13,7 +13,6 @@ from rocking.assessment.methods import (
     Agreement,
     Method,
     agreement,
-    ratio_in_words,
     within_factor_two,
 )
 from rocking.assessment.reserve import Reserve
@@ -58,7 +57,6 @@ class Identity:
 
     record: str
     component: str
-    scale_factor: float
     record_sha256: str
     settings_sha256: str
 
@@ -68,7 +66,6 @@ class Identity:
         return cls(
             record=record,
             component=accelerogram.component,
-            scale_factor=accelerogram.scale_factor,
             record_sha256=accelerogram.source.sha256,
             settings_sha256=settings_sha256,
         )
@@ -100,7 +97,6 @@ class ComponentRow(RowOf[I]):
 
     record: str = of_identified(RECORD, lambda each: each.identity.record)
     component: str = of_identified(COMPONENT, lambda each: each.identity.component)
-    scale_factor: float = of_identified(SCALE_FACTOR, lambda each: each.identity.scale_factor, last=True)
     record_sha256: str = of_identified(RECORD_SHA256, lambda each: each.identity.record_sha256, last=True)
     settings_sha256: str = of_identified(
         "SHA-256 of settings, structures and package behind the row",
@@ -211,6 +207,7 @@ class RecordRow(ComponentRow[ReadComponent]):
     file: str = of_component("File of the record", lambda read: read.accelerogram.source.path)
     format: str = of_component("Format of the file", lambda read: read.accelerogram.source.format)
     unit: str = of_component("Unit of the numbers in the file", lambda read: read.accelerogram.source.unit)
+    scale_factor: float = of_component(SCALE_FACTOR, lambda read: read.accelerogram.scale_factor)
     licence: str = of_component(
         "Licence of the record, as the catalogue declares it", lambda read: read.licence
     )
@@ -474,9 +471,6 @@ class ComparisonRow(DecidedRow[ComparedCase]):
     integrated_rotation_ratio: float = of_case(
         "Rotation ratio of the mechanism under the record", lambda of: of.case.integrated_rotation_ratio
     )
-    prediction_in_words: str = of_case(
-        "Prediction beside integration, in words", lambda of: ratio_in_words(*of.both)
-    )
     within_factor_two: bool | None = of_case(
         "Whether their ratio lies between 1/2 and 2", lambda of: within_factor_two(*of.both)
     )
@@ -487,35 +481,9 @@ class ComparisonRow(DecidedRow[ComparedCase]):
     regime: Regime | None = of_case(
         "Regime of the closed form", lambda of: of.prediction.maximum.regime if of.prediction else None
     )
-    predicted_arc_ratio: float = of_case(
-        "The same in the x of the block: its arc over the critical one, or the rotation ratio where it is linearised",
-        lambda of: of.prediction.largest_x if of.prediction else math.nan,
-    )
-    block_frequency_parameter_rad_s: float = of_case(
-        "p of the block that predicts, of the side lifted first",
-        lambda of: of.block.frequency_parameter if of.block else math.nan,
-    )
-    block_acceleration_scale: float = of_case(
-        "Acceleration scale φ_cr/λ of the block on that side",
-        lambda of: of.block.acceleration_scale if of.block else math.nan,
-    )
-    block_uplift_multiplier: float = of_case(
-        "Uplift acceleration of the block in g on that side",
-        lambda of: of.block.uplift_multiplier if of.block else math.nan,
-    )
     block_restitution: float = of_case(
         "Ratio of angular velocities of the block after and before an impact",
         lambda of: of.block.restitution if of.block else math.nan,
-    )
-    printed_rotation_ratio: float = of_case(
-        "Rotation ratio by the source paper: its block with the scale a_sc",
-        lambda of: of.prediction.printed_rotation_ratio if of.prediction else math.nan,
-        equation="Eqs. 11, 15",
-    )
-    printed_uplift_rotation_ratio: float = of_case(
-        "Rotation ratio by the source paper: its block with the scale a_sc,alt",
-        lambda of: of.prediction.printed_uplift_rotation_ratio if of.prediction else math.nan,
-        equation="Eqs. 13, 15",
     )
     block_on_record_rotation_ratio: float = of_case(
         "Rotation ratio of the block under the record", lambda of: of.rotation_ratio(Method.BLOCK_ON_RECORD)
@@ -553,7 +521,6 @@ class ComparisonRow(DecidedRow[ComparedCase]):
         "Likewise the mechanism under the record",
         lambda of: of.case.statics.integrated_rotation_ratio if of.case.statics else math.nan,
     )
-    peak_side: int | None = of_case(PEAK_SIDE, lambda of: of.response.peak_side if of.response else None)
     peak_time_s: float = of_case(
         "Time of the largest rotation after the first sample",
         lambda of: of.response.peak_time if of.response else math.nan,
@@ -561,10 +528,6 @@ class ComparisonRow(DecidedRow[ComparedCase]):
     fragile: bool | None = of_case(
         "Whether a change of the ground motion by 1 % decides the outcome, or chaos does",
         lambda of: of.response.fragile if of.response else None,
-    )
-    tolerance: float = of_case(
-        "Tolerance of the integration: a fragile run is repeated at 1e-9; 0: exact",
-        lambda of: of.response.tolerance if of.response else math.nan,
     )
     lifting_friction: float = of_case(
         "Friction that a contact needs as the structure lifts", lambda of: of.check.lifting_friction
@@ -604,8 +567,6 @@ class ComparisonRow(DecidedRow[ComparedCase]):
 
 
 RATIO_COLUMNS = {
-    Method.PRINTED: "printed_rotation_ratio",
-    Method.PRINTED_UPLIFT: "printed_uplift_rotation_ratio",
     Method.CLOSED_FORM: "predicted_rotation_ratio",
     Method.BLOCK_ON_RECORD: "block_on_record_rotation_ratio",
     Method.MECHANISM_ON_PULSE: "mechanism_on_pulse_rotation_ratio",

@@ -101,8 +101,7 @@ def station(*cases: CaseResult, falls_in_directions: int | None = None) -> Stati
 def verdicts(stations: Sequence[StationResult], record: str = "a") -> list[VerdictRow]:
     """Their rows."""
     return [
-        VerdictRow.of(DecidedStation(Identity(record, each.component, 1.0, "", ""), each))
-        for each in stations
+        VerdictRow.of(DecidedStation(Identity(record, each.component, "", ""), each)) for each in stations
     ]
 
 

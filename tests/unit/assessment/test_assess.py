@@ -30,7 +30,7 @@ from rocking.assessment.settings import AssessmentSettings, EnsembleSettings, Pr
 from rocking.motion import integrate
 from rocking.pulses import PULSE_METHODS, Pulse, PulseAnalysis, PulseEvidence, extract_pulses
 from rocking.records import Accelerogram
-from rocking.sine_pulse import predict_maximum, printed_maximum
+from rocking.sine_pulse import predict_maximum
 from rocking.structures import Block, Facade, Outcome
 
 STEP = 0.01
@@ -84,8 +84,6 @@ def test_a_row_of_the_comparison_holds_what_each_method_says(case):
     row = compared(case)
     block = case.prediction.block
     for method, ratio_alone in (
-        (Method.PRINTED, printed_maximum(BLOCK.mechanism().equivalent_block("linearised"), PULSE)),
-        (Method.PRINTED_UPLIFT, printed_maximum(BLOCK.mechanism().equivalent_block("uplift"), PULSE)),
         (Method.CLOSED_FORM, predict_maximum(block, PULSE).rotation_ratio),
         (Method.BLOCK_ON_RECORD, integrate(block, RECORD).rotation_ratio),
         (Method.MECHANISM_ON_PULSE, integrate(BLOCK, PULSE).rotation_ratio),
@@ -94,8 +92,7 @@ def test_a_row_of_the_comparison_holds_what_each_method_says(case):
         # the pulse of the analysis is PULSE but for its sampling
         assert getattr(row, RATIO_COLUMNS[method]) == pytest.approx(ratio_alone, rel=1e-2), method
     assert len({getattr(row, name) for name in RATIO_COLUMNS.values()}) == len(RATIO_COLUMNS)
-    response = integrate(BLOCK, RECORD)
-    assert (row.impacts, row.peak_side) == (response.impacts, response.peak_side)
+    assert row.impacts == integrate(BLOCK, RECORD).impacts
 
 
 def test_a_fragile_case_is_repeated_and_its_row_and_its_history_say_at_which_tolerance():
@@ -107,7 +104,7 @@ def test_a_fragile_case_is_repeated_and_its_row_and_its_history_say_at_which_tol
     result = Assessor(settings).assess("made", [record], on_the_ground({"block": block}))
     (kept,) = result.stations[0].cases.values()
     row = compared(kept)
-    assert (row.fragile, row.tolerance) == (True, 1e-9)
+    assert row.fragile and kept.response.tolerance == 1e-9
     assert row.integrated_rotation_ratio == pytest.approx(1.11640268442, rel=1e-8)
 
     scene = result.scenes["block"]
@@ -116,8 +113,8 @@ def test_a_fragile_case_is_repeated_and_its_row_and_its_history_say_at_which_tol
     (again,) = with_histories(without, settings.tolerance).stations[0].cases.values()
     assert again.response.times is not None
     assert (again.response.rotation_ratio, again.response.fragile) == (row.integrated_rotation_ratio, True)
-    calm = compared(assessed(RECORD, settings))
-    assert (calm.fragile, calm.tolerance) == (False, 1e-6)
+    calm = assessed(RECORD, settings)
+    assert (compared(calm).fragile, calm.response.tolerance) == (False, 1e-6)
 
 
 def test_runs_that_explain_the_closed_form_are_as_strict_as_a_fragile_one_that_is_repeated():

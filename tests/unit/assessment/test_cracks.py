@@ -185,7 +185,8 @@ def test_a_row_of_the_comparison_speaks_of_the_crack_that_governs_alone(several,
         assert row.crack == crack
         assert row.integrated_rotation_ratio == integrate(body, motion).rotation_ratio
         assert row.block_on_record_rotation_ratio == integrate(block, motion, 1e-9).rotation_ratio
-        assert row.block_frequency_parameter_rad_s == block.frequency_parameter
+        omega = component_of(motion, AssessmentSettings().pulse).analysis.dominant.circular_frequency
+        assert row.frequency_ratio == omega / block.frequency_parameter
         assert row.statics_integrated_rotation_ratio == integrate(statics.structure, motion).rotation_ratio
         pulses = component_of(motion, AssessmentSettings().pulse).candidates
         for own, told in (

@@ -61,53 +61,38 @@ def pulse_of(folder: Path, row: dict[str, str]) -> tuple[float, float]:
     return float(pulse["amplitude_m_s2"]), float(pulse["circular_frequency_rad_s"])
 
 
-def test_the_closed_form_follows_from_the_block_in_its_row(folder):
+def block_of(folder: Path, structure: str) -> tuple[float, float]:
+    """Uplift multiplier and p of the block that predicts, by what structures.csv says of the structure."""
+    (row,) = [each for each in cells(folder / "structures.csv") if each["structure"] == structure]
+    critical = float(row["critical_rotation_rad"])
+    linearised = float(row["acceleration_scale_linearised"])
+    uplift = float(row["acceleration_scale_uplift"])
+    p = float(row["frequency_parameter_rad_s"])
+    kinds = {
+        "rest": (float(row["uplift_multiplier"]), float(row["frequency_parameter_at_rest_rad_s"])),
+        "linearised": (critical / linearised, p),
+        "uplift": (critical / uplift, p),
+        "mean": (critical / ((linearised + uplift) / 2), p),
+    }
+    return next(kinds[name] for name in kinds if folder.name.startswith(name))
+
+
+def test_the_closed_form_follows_from_the_tables(folder):
     """x of the block by the flights of an oracle; where the block is linearised, x is the rotation ratio.
 
     1e-7: the search of the oracle for the instant of an impact, and its integral of the arc, carried on.
     """
     for row in cells(folder / "comparison.csv"):
         amplitude, omega = pulse_of(folder, row)
-        names = ("frequency_parameter_rad_s", "acceleration_scale", "uplift_multiplier", "restitution")
-        p, scale, multiplier, eta = (float(row[f"block_{name}"]) for name in names)
-        assert 1 < float(row["amplitude_ratio"]) == pytest.approx(amplitude / (g * multiplier), rel=1e-12)
-        assert float(row["frequency_ratio"]) == pytest.approx(omega / p, rel=1e-12)
-        x = largest_rotation(p, eta, amplitude / (g * multiplier), omega)
+        multiplier, p = block_of(folder, row["structure"])
+        a, w, eta = (float(row[name]) for name in ("amplitude_ratio", "frequency_ratio", "block_restitution"))
+        assert 1 < a == pytest.approx(amplitude / (g * multiplier), rel=1e-12)
+        assert w == pytest.approx(omega / p, rel=1e-12)
+        x = largest_rotation(1.0, eta, a, w)
         assert 0.01 < x < math.inf
-        assert x == pytest.approx(float(row["predicted_arc_ratio"]), rel=1e-7)
         rotation = float(row["predicted_rotation_ratio"])
         if folder.name.startswith("rest"):
             side = STRUCTURES[row["structure"]].mechanism().positive
             assert arc(side, rotation) / arc(side, 1.0) == pytest.approx(x, rel=1e-7)
         else:
             assert rotation == pytest.approx(x, rel=1e-7)
-        (structure,) = [
-            each for each in cells(folder / "structures.csv") if each["structure"] == row["structure"]
-        ]
-        assert multiplier * scale == pytest.approx(float(structure["critical_rotation_rad"]), rel=1e-12)
-
-
-def test_equation_15_is_fed_the_blocks_of_its_paper(folder):
-    """Eqs. 15 and 16 written out, with the paper's p, a_sc and a_sc,alt of structures.csv, whichever block predicts."""
-    of_structure = {each["structure"]: each for each in cells(folder / "structures.csv")}
-    for row in cells(folder / "comparison.csv"):
-        amplitude, omega_g = pulse_of(folder, row)
-        structure = of_structure[row["structure"]]
-        p = float(structure["frequency_parameter_rad_s"])
-        critical = float(structure["critical_rotation_rad"])
-        for scale, printed in (
-            ("acceleration_scale_linearised", "printed_rotation_ratio"),
-            ("acceleration_scale_uplift", "printed_uplift_rotation_ratio"),
-        ):
-            a = amplitude * float(structure[scale]) / (g * critical)
-            w = omega_g / p
-            s = math.sqrt(a**2 - 1)
-            e = math.exp((2 * math.pi - math.asin(1 / a)) / w)
-            bracket = w**2 - 2 * a**2 + 1 + (s + w) * a / e + (s - w) * a * e
-            d0 = (w / (w**2 + 1)) ** 2 * bracket
-            radicand = 1 - float(structure["restitution"]) ** 2 * (1 - d0)
-            expected = 1 - math.sqrt(radicand) if radicand >= 0 else math.nan
-            # 1e-9: the terms of Eq. 16 cancel to a thousandth of themselves.
-            assert float(row[printed] or "nan") == pytest.approx(expected, rel=1e-9, nan_ok=True), row[
-                "structure"
-            ]

@@ -31,3 +31,21 @@ def test_the_counts_and_quantiles_of_rows_are_those_of_the_members():
         assert row.rotation_ratio_high == np.inf  # more than a twentieth of the members overturn
     (verdict,) = tables.verdicts
     assert 0 < verdict.reserve_low < verdict.reserve_median < verdict.reserve_high <= verdict.reserve_limit
+
+
+def test_the_comparison_leads_with_what_is_compared_and_every_row_names_its_input():
+    columns = rows.ComparisonRow.table.column_names
+    assert columns[:7] == (
+        "record",
+        "structure",
+        "predicted_rotation_ratio",
+        "block_on_record_rotation_ratio",
+        "integrated_rotation_ratio",
+        "overturning_share",
+        "verdict",
+    )
+    assert len(columns) <= 35
+    of_record = (rows.RecordRow, rows.PulseRow, rows.ComparisonRow, rows.VerdictRow, rows.VariationRow)
+    for kind in of_record:
+        assert kind.table.column_names[-2:] == ("record_sha256", "settings_sha256")
+    assert sum(len(kind.table.columns) for kind in rows.SUMMARY_TABLES) <= 205

@@ -10,12 +10,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from docs.paper import curves as paper_curves
 from docs.paper.report import equation_rows, equivalence_figures, paper_figures, paper_report
-from docs.paper.response import RADII, example_arch, predicted_levels
+from docs.paper.response import RADII, example_arch, predicted_levels, prediction_rows
 from docs.paper.write import SHIPPED, write_paper
 from rocking.motion import integrate
 from rocking.pulses import Pulse, extract_pulses
 from rocking.quantities import GRAVITY
-from rocking.records import read
+from rocking.records import Accelerogram, read
 from rocking.structures import Outcome
 from rocking.tables import csv_lines
 
@@ -176,3 +176,26 @@ def test_no_legend_hides_a_line(figures):
                 for box in boxes:
                     hidden = (box.x0 < x) & (x < box.x1) & (box.y0 < y) & (y < box.y1)
                     assert not hidden.any(), f"{figure.name}: {line.get_label()}"
+
+
+def test_equation_15_is_fed_the_blocks_of_its_paper():
+    """Eqs. 15 and 16 written out, with the p, a_sc and a_sc,alt of their row."""
+    times = np.arange(1000) * 0.005
+    motion = Pulse(0.45 * GRAVITY, 2 * math.pi / 0.45, 1.0).acceleration(times)
+    for row in prediction_rows(Accelerogram(motion, 0.005)):
+        for scale, printed in (
+            (row.acceleration_scale_linearised, row.printed_rotation_ratio),
+            (row.acceleration_scale_uplift, row.printed_uplift_rotation_ratio),
+        ):
+            a = row.amplitude_m_s2 * scale / (GRAVITY * row.critical_rotation_rad)
+            w = row.circular_frequency_rad_s / row.frequency_parameter_rad_s
+            s = math.sqrt(a**2 - 1)
+            e = math.exp((2 * math.pi - math.asin(1 / a)) / w)
+            bracket = w**2 - 2 * a**2 + 1 + (s + w) * a / e + (s - w) * a * e
+            d0 = (w / (w**2 + 1)) ** 2 * bracket
+            # 1e-9: the terms of Eq. 16 cancel to a thousandth of themselves.
+            expected = 1 - math.sqrt(1 - row.restitution**2 * (1 - d0))
+            assert printed == pytest.approx(expected, rel=1e-9)
+        arch = example_arch(row.radius_m)
+        assert row.critical_rotation_rad == arch.mechanism().critical_rotation
+        assert row.integrated_rotation_ratio == integrate(arch, Accelerogram(motion, 0.005)).rotation_ratio

@@ -199,7 +199,7 @@ def test_assess_opens_a_file_once_and_writes_report_and_tables_like_a_study(
     assert (folder / "report.pdf").read_bytes().startswith(b"%PDF")
     comparison = rows(folder / "comparison.csv")
     assert [row["structure"] for row in comparison] == ["squat"]
-    assert comparison[0]["scale_factor"] == "1.5"
+    assert rows(folder / "record.csv")[0]["scale_factor"] == "1.5"
     assert rows(tmp_path / "out" / "summary" / "structures.csv")[0]["structure"] == "squat"
 
 
