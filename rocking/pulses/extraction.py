@@ -95,7 +95,8 @@ def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None
         )
     ranked = search.ranked(samples, maxima)
     sequence = _pursued(search, samples, maxima, ranked[0])
-    residual = accelerogram.acceleration - ranked[0].pulse.acceleration(accelerogram.times)
+    residual = accelerogram.acceleration.copy()
+    _take_out(ranked[0].pulse, residual, accelerogram.time_step)
     residual.flags.writeable = False
     flags = _raised(searched, search, ranked, sequence)
     return PulseAnalysis(accelerogram, ranked, sequence, residual, flags, search.band)
@@ -182,14 +183,20 @@ class PulseSearch:
         frequencies: np.ndarray | None = None,
         share: float = LEAST_SHARE,
     ) -> Maxima:
-        """Return the maxima of `samples`, (n,) m/s², at `onsets` and `frequencies` (m,) Hz, by default of the band."""
+        """Return the maxima of `samples`, (n,) m/s², at `onsets` and `frequencies` (m,) Hz, by default of the band.
+
+        Of the samples only those are looked at that a cycle with such an onset can meet.
+        """
         from rocking.pulses.scan import local_maxima
 
-        angles = 2 * np.pi * self.time_step * (self.frequencies if frequencies is None else frequencies)
+        sought = self.frequencies if frequencies is None else frequencies
         first, last, _ = onsets.indices(samples.size)
-        places, gains = local_maxima(samples[np.newaxis], self.time_step, angles, first, last, share)
+        begin = max(first - 1, 0)
+        met = samples[np.newaxis, begin : last + math.ceil(1 / (sought[0] * self.time_step)) + 2]
+        angles = 2 * np.pi * self.time_step * sought
+        places, gains = local_maxima(met, self.time_step, angles, first - begin, last - begin, share)
         large = gains >= share * gains.max(initial=0.0)
-        return Maxima(places[large, 0], places[large, 1], gains[large])
+        return Maxima(places[large, 0] + begin, places[large, 1], gains[large])
 
     def renewed(self, maxima: Maxima, samples: np.ndarray, changed: Pulse) -> Maxima:
         """Return `maxima` with those whose cycle can meet `changed`, where alone `samples` differ, sought again."""
@@ -213,18 +220,17 @@ class PulseSearch:
 
     def refined_maxima(self, samples: np.ndarray, maxima: Maxima, count: int) -> list[PulseEvidence]:
         """Return the best `count` maxima that do not cover one another, refined, by refined gain."""
-        order = np.argsort(-maxima.gains, kind="stable")
-        onsets = maxima.onsets[order]
-        frequencies = self.frequencies[maxima.columns[order]]
-        starts = onsets * self.time_step
-        free = np.ones(order.size, bool)
-        ends = starts + 1 / frequencies
+        from rocking.pulses.scan import apart
+
+        starts = maxima.onsets * self.time_step
+        ends = starts + 1 / self.frequencies[maxima.columns]
         energy = self.energy(samples)
-        refined: list[PulseEvidence] = []
-        while len(refined) < count and free.any():
-            best = int(np.argmax(free))
-            refined.append(self.refined(samples, energy, int(onsets[best]), float(frequencies[best])))
-            free &= _shared(starts, ends, starts[best], ends[best]) < SCANNED_OVERLAP
+        refined = [
+            self.refined(
+                samples, energy, int(maxima.onsets[best]), float(self.frequencies[maxima.columns[best]])
+            )
+            for best in apart(starts, ends, maxima.gains, count, SCANNED_OVERLAP)
+        ]
         return sorted(refined, key=lambda evidence: -evidence.gain)
 
     def refined(self, samples: np.ndarray, energy: float, onset: int, frequency: float) -> PulseEvidence:
@@ -281,9 +287,8 @@ def _pursued(
     """Return `first` and the pulses sought in turn in what the ones before left."""
     sequence = [first]
     residual = samples.copy()
-    times = np.arange(samples.size) * search.time_step
     while len(sequence) < search.settings.pursuit:
-        residual -= sequence[-1].pulse.acceleration(times)
+        _take_out(sequence[-1].pulse, residual, search.time_step)
         if search.energy(residual) <= NOTHING_LEFT * search.energy(samples):
             break
         maxima = search.renewed(maxima, residual, sequence[-1].pulse)
@@ -292,6 +297,14 @@ def _pursued(
             break
         sequence.append(refined[0])
     return tuple(sequence)
+
+
+def _take_out(pulse: Pulse, samples: np.ndarray, time_step: float) -> None:
+    """Subtract a pulse from `samples`, of which it meets but a few."""
+    begin = max(math.floor(pulse.start_time / time_step), 0)
+    met = slice(begin, math.ceil(pulse.end_time / time_step) + 1)
+    times = np.arange(begin, min(met.stop, samples.size)) * time_step
+    samples[met] -= pulse.acceleration(times)
 
 
 def _raised(

@@ -5,7 +5,7 @@ only: what allocates and prepares is numpy, for compiling array expressions take
 """
 
 import math
-from functools import partial
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -50,18 +50,28 @@ def _prepared(
     cycle still fits. turning: (4, m), real and imaginary part of e^{iω dt} and of the e^{iω(t − t_j)} of the sample
     that enters. weights: (m,) dt/⟨s, s⟩. sums: (c, 2, m), S_j of each component.
     """
-    lengths = 2 * math.pi / angles
-    counts = (lengths + 1e-9).astype(np.int64) + 1
-    padded = np.zeros((samples.shape[0], samples.shape[1] + counts.max() + 1))
+    steps, counts, turning, norms = _cycles(angles.tobytes())
+    padded = np.zeros((samples.shape[0], samples.shape[1] + counts[0] + 1))
     padded[:, : samples.shape[1]] = samples
-    last = (counts - 1) * angles
-    turning = np.array([np.cos(angles), np.sin(angles), np.cos(last), np.sin(last)])
-    # Σ sin²(kω) over the cycle, in closed form
-    norms = counts / 2 - np.sin(counts * angles) * np.cos(last) / (2 * np.sin(angles))
-    last_onsets = samples.shape[1] - 1 - np.ceil(lengths - 1e-9).astype(np.int64)
     sums = np.empty((samples.shape[0], 2, angles.size))
     _start(padded, first, counts, turning, sums)
-    return padded, counts, last_onsets, turning, time_step / norms, sums
+    return padded, counts, samples.shape[1] - 1 - steps, turning, time_step / norms, sums
+
+
+@lru_cache(maxsize=256)
+def _cycles(angles: bytes) -> tuple[np.ndarray, ...]:
+    """Return of the cycles of so many rad per sample, ascending: steps within, samples, turning, Σ sin².
+
+    Records of one time step ask for the same ones again and again.
+    """
+    own = np.frombuffer(angles)
+    lengths = 2 * math.pi / own
+    counts = (lengths + 1e-9).astype(np.int64) + 1
+    last = (counts - 1) * own
+    turning = np.array([np.cos(own), np.sin(own), np.cos(last), np.sin(last)])
+    # Σ sin²(kω) over the cycle, in closed form
+    norms = counts / 2 - np.sin(counts * own) * np.cos(last) / (2 * np.sin(own))
+    return np.ceil(lengths - 1e-9).astype(np.int64), counts, turning, norms
 
 
 @entry(types.void(_MATRIX, types.int64, _COUNTS, _MATRIX, _CUBE))
@@ -222,6 +232,34 @@ def local_maxima(
         )
         parts.append((places[:k], gains[:k]))
     return np.concatenate([places for places, _ in parts]), np.concatenate([gains for _, gains in parts])
+
+
+def apart(starts: np.ndarray, ends: np.ndarray, gains: np.ndarray, count: int, overlap: float) -> np.ndarray:
+    """Return the places of the `count` largest gains, falling, of spans that share less than `overlap` of their time.
+
+    starts, ends: (k,) s. Of equal gains the first is taken; fewer are returned where no more are left.
+    """
+    places = np.empty(count, np.int64)
+    found = _chosen(starts, ends, gains.copy(), overlap, places)
+    return places[:found]
+
+
+@entry(types.int64(_VECTOR, _VECTOR, _VECTOR, types.float64, types.int64[::1]))
+def _chosen(starts, ends, gains, overlap, places):
+    """Fill places with those of `apart`, and gains with 0 where they are taken or overlap; return how many."""
+    for n in range(places.size):
+        best = -1
+        for i in range(gains.size):
+            if gains[i] > (gains[best] if best >= 0 else 0.0):
+                best = i
+        if best < 0:
+            return n
+        places[n] = best
+        for i in range(gains.size):
+            common = min(ends[i], ends[best]) - max(starts[i], starts[best])
+            if common >= overlap * (max(ends[i], ends[best]) - min(starts[i], starts[best])):
+                gains[i] = 0.0
+    return places.size
 
 
 @entry(types.float64(_SAMPLES, types.int64, types.float64))

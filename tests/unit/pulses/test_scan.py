@@ -8,7 +8,7 @@ import pytest
 from scipy import ndimage, optimize
 
 from rocking.pulses import scan
-from rocking.pulses.scan import PROBES, energy_gains, envelope_phase, local_maxima, refine
+from rocking.pulses.scan import PROBES, apart, energy_gains, envelope_phase, local_maxima, refine
 from tests.parts import callable_parts
 
 STEP = 0.02
@@ -53,6 +53,23 @@ def test_maxima_are_those_of_a_plain_neighbour_search(samples, first, last):
     expected = [place for place in plain_maxima(whole).tolist() if first <= place[0] < last]
     assert places.tolist() == expected
     assert gains == pytest.approx(whole[tuple(places.T)], rel=1e-9, abs=1e-12)
+
+
+def test_of_spans_that_share_their_time_the_largest_are_chosen():
+    rng = np.random.default_rng(3)
+    starts = rng.uniform(0, 10, 200)
+    ends = starts + rng.uniform(0.3, 3, 200)
+    gains = rng.uniform(0.5, 1, 200).round(2)
+    left = sorted(range(200), key=lambda i: -gains[i])
+    expected = []
+    while left:
+        best = left[0]
+        expected.append(best)
+        joint = [max(ends[i], ends[best]) - min(starts[i], starts[best]) for i in left]
+        common = [min(ends[i], ends[best]) - max(starts[i], starts[best]) for i in left]
+        left = [i for i, a, b in zip(left, common, joint, strict=True) if a / b < 0.4]
+    assert apart(starts, ends, gains, 6, 0.4).tolist() == expected[:6]
+    assert apart(starts, ends, gains, 200, 0.4).tolist() == expected, "fewer where no more are left"
 
 
 @pytest.mark.parametrize("onset", [0, 15, 60, 150, 250, 290])
