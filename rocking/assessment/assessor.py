@@ -35,7 +35,7 @@ from rocking.assessment.one_case import (
     with_variations,
 )
 from rocking.assessment.reserve import Reserve, reserve
-from rocking.assessment.scene import Scene
+from rocking.assessment.scene import Scene, on_friction
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import RockingError
 from rocking.floors.support import Support
@@ -150,6 +150,7 @@ class Assessor:
         structure on a support meets the motion there, for as many periods as its verdicts ask for, and for comparison
         that of the ground. The reserve is sought on the ground and at the worst period, which reports print.
         """
+        scenes = on_friction(scenes, self.settings.friction_coefficient)
         grounds = components
         horizontal = [each.accelerogram for each in components]
         failures: list[tuple[str, Failure]] = []

@@ -253,6 +253,9 @@ class CaseResult:
             doubts=(self.doubt,) if self.doubt else (),
             held=isinstance(body, Tied) and bool(body.held_wall.holds),
             beyond=beyond,
+            top=next(
+                (each.remark for each in body.restraints() if each.kind == "top" and each.lets_go), None
+            ),
             stacks=stacks,
             stackable=self.contact is None and stackable(body),
             remarks=would_tell(self.ensembles, typed) if self.ensembles else (),

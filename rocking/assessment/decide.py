@@ -219,11 +219,11 @@ class Facts:
     the word of a cheaper method that settled it. never_lets_go: why no motion can overturn it with a crack that counts;
     "" where one can. slides_at: acceleration [g] at which its joints slide, where the motion reaches it; else nan.
     doubts: what one degree of freedom does not follow. held: whether it is a wall that is held above its foot, and
-    beyond: whether some chain of it goes beyond BEYOND of its critical rotation in any member. stacks: stacks of
-    courses that fall in contact dynamics, of how many; None where none was followed. stackable: whether contact
-    dynamics can follow it and has not been asked yet. remarks: what would tell more of members that disagree. failures:
-    why components gave no result. risk: largest probability of the outcome opposite to "stands" or "overturns". Raises
-    ValueError.
+    beyond: whether some chain of it goes beyond BEYOND of its critical rotation in any member. top: what its top needs
+    and does not get, so that it slips; None where it holds, or there is none. stacks: stacks of courses that fall in
+    contact dynamics, of how many; None where none was followed. stackable: whether contact dynamics can follow it and
+    has not been asked yet. remarks: what would tell more of members that disagree. failures: why components gave no
+    result. risk: largest probability of the outcome opposite to "stands" or "overturns". Raises ValueError.
     """
 
     cracks: tuple[CrackFacts, ...] = ()
@@ -235,6 +235,7 @@ class Facts:
     doubts: tuple[Remark, ...] = ()
     held: bool = False
     beyond: bool = False
+    top: Remark | None = None
     stacks: tuple[int, int] | None = None
     stackable: bool = True
     remarks: tuple[Remark, ...] = ()
@@ -403,6 +404,9 @@ def decide(facts: Facts) -> Decision:
         tells = facts.remarks
         share = governing.share
         why = _counted(facts, worse_beside)
+        if facts.top is not None:
+            why = f"{why}; {facts.top.brief}"
+            tells = (*tells, Remark(Kind.TIE_THE_TOP))
         first = next((each for each in followed if not each.bulges), governing)
         disagree = not governing.bulges and governing.step(risk) is not first.step(risk)
         ends = {governing, first} if disagree else {governing}

@@ -6,7 +6,7 @@ probability.
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import groupby
 from typing import Any
 
@@ -79,6 +79,14 @@ class Scene:
     structure: Structure
     place: Place = GROUND
     terms: CheckTerms = field(default_factory=CheckTerms)
+
+
+def on_friction(scenes: Mapping[str, Scene], coefficient: float) -> dict[str, Scene]:
+    """Return the scenes with structures on joints of this friction coefficient, where these do not state their own."""
+    return {
+        name: replace(scene, structure=scene.structure.with_friction(coefficient))
+        for name, scene in scenes.items()
+    }
 
 
 def on_the_ground(structures: Mapping[str, Structure | Mechanism]) -> dict[str, Scene]:

@@ -8,6 +8,7 @@ from rocking.described import check_described, described
 from rocking.errors import ConfigurationError
 from rocking.pulses import PULSE_METHODS, PulseSettings
 from rocking.structures.equivalent_block import Scale
+from rocking.structures.restraint import FRICTION
 
 
 class Heading(StrEnum):
@@ -88,7 +89,7 @@ class AssessmentSettings:
     pulse: PredictingPulse = PredictingPulse()
     ensemble: EnsembleSettings = EnsembleSettings()
     friction_coefficient: float = described(
-        0.6, "friction coefficient beyond which a contact slides", gt=0, le=10
+        FRICTION, "friction coefficient beyond which a contact slides", gt=0, le=10
     )
     fidelity: Literal["full", "auto", "contact"] = described(
         "full",

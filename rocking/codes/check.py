@@ -8,6 +8,7 @@ from rocking.errors import ConfigurationError
 from rocking.floors.support import Support
 from rocking.quantities import finite, kind_of, positive
 from rocking.remarks import Kind, Remark
+from rocking.structures.restraint import Restraint
 
 CONFIDENCE_FACTOR = 1.35
 """The factor of the level of knowledge LC1, which C8.7.1.2.1 asks for unless crushing enters α, as with a
@@ -180,7 +181,8 @@ class StructureCheck:
 
     linear: None for SLC, of which the code has none. nonlinear: None for SLD, and where nothing can overturn, which
     `remark` then says. dynamic: None without records, and where nonlinear is. mechanisms: all that were checked.
-    damage_level: the least a_g [m/s²] at which a mechanism starts, that of SLD.
+    restraints: what holds the structure sideways. damage_level: the least a_g [m/s²] at which a mechanism starts, that
+    of SLD.
 
     >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
     >>> rocking.check(rocking.Block.of_size(breadth=0.6, height=2.0), spectrum)
@@ -194,6 +196,7 @@ class StructureCheck:
     damage_level: float
     mechanisms: tuple[LocalMechanism, ...] = field(repr=False)
     governing: LocalMechanism = field(repr=False)
+    restraints: tuple[Restraint, ...] = field(default=(), repr=False)
     remark: Remark | None = None
 
     def __repr__(self) -> str:

@@ -20,6 +20,7 @@ from rocking.errors import ConfigurationError, StructureError
 from rocking.quantities import GRAVITY, kind_of, positive
 from rocking.remarks import Kind, Remark
 from rocking.structures import Structure
+from rocking.structures.restraint import FRICTION
 from rocking.structures.tied import Tied
 
 _SAME = 1e-9
@@ -61,6 +62,8 @@ def kinematic_check(
 ) -> StructureCheck:
     """Return the linear and the nonlinear check of `structure`; see `check`."""
     terms = terms or CodeTerms()
+    if isinstance(structure, Structure):
+        structure = structure.with_friction(FRICTION)
     mechanisms = _local_mechanisms(structure, terms)
     floor = FloorDemand(spectrum, terms.support)
     starts = _starts(mechanisms, floor)
@@ -70,7 +73,8 @@ def kinematic_check(
         damage_level=float(starts.levels(np.array([first]))[0]),
         mechanisms=mechanisms,
         governing=mechanisms[first],
-        remark=_must_bear(mechanisms),
+        restraints=structure.restraints(),
+        remark=next((each.remark for each in structure.restraints() if each.ties == math.inf), None),
     )
     if terms.limit_state == "SLD":
         return replace(made, linear=_onset_check(made, spectrum))
@@ -116,33 +120,6 @@ def _level_check(made: StructureCheck, spectrum: DesignSpectrum, clause: str, ca
 def _not_made(mechanism: LocalMechanism) -> Remark:
     """Why checks that need d_0 were not made."""
     return Remark.of(Kind.NO_DISPLACEMENT, why=mechanism.body.mechanism().never_lets_go)
-
-
-def _must_bear(mechanisms: Sequence[LocalMechanism]) -> Remark | None:
-    """The force that a tie without a strength must bear as the weakest bulge that it holds starts; None without."""
-    held = [
-        each
-        for each in mechanisms
-        if isinstance(each.body, Tied) and each.body.opening is not None and each.sign > 0
-    ]
-    for each in sorted(held, key=lambda each: each.onset_multiplier):
-        wall = each.body
-        if (
-            isinstance(wall, Tied)
-            and wall.opening is not None
-            and wall.tie_stiffness
-            and wall.tie_strength is None
-        ):
-            for reaction in wall.reactions():
-                if reaction.kind == "tie" and reaction.height == wall.opening.hold:
-                    name = wall.held_wall.name(wall.opening)
-                    return Remark.of(
-                        Kind.TIE_MUST_BEAR,
-                        name,
-                        height_m=reaction.height,
-                        force_kN_m=float(reaction.force[0]) / 1e3,
-                    )
-    return None
 
 
 def _local_mechanisms(structure: Structure, terms: CodeTerms) -> tuple[LocalMechanism, ...]:
@@ -205,15 +182,19 @@ def _bulges(structure: Tied) -> tuple[Tied, ...]:
     """The wall as it bulges between heights at which it is held; none that cannot be followed.
 
     One that bulges inwards alone comes last, where the same joints do not open outwards. Where statics chooses between
-    two supports and no tie is between them, its candidate is the only bulge.
+    two supports and no tie is between them, its candidate is the only bulge, beside which the top may slip.
     """
-    if structure.statics_chooses and not structure.tie_heights:
+    held = structure.held_wall
+    of_statics = structure.statics_chooses and not structure.tie_heights
+    if of_statics and not held.top_may_slip:
         return ()
     bulges: list[Tied] = []
     spans = set()
     for each in sorted(structure.mechanisms(), key=lambda each: -each.sign):
         wall = each.structure
         if not isinstance(wall, Tied) or wall.opening is None or each.refusal:
+            continue
+        if of_statics and not held.slip(wall.opening):
             continue
         span = wall.opening.foot, wall.opening.hold
         if each.sign > 0 or span not in spans:

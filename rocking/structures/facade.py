@@ -267,10 +267,10 @@ class Facade(Tied):
         if self.behind != "floors":
             floors = []
         holds = [
-            Hold(height, "tie", ties * self._yield_force, height in floors)
+            Hold(height, "tie", ties * self._yield_force, np.inf if height in floors else 0.0)
             for height, ties in Counter(self._tie_levels).items()
         ]
-        holds += [Hold(each, "floor", 0.0, inwards=True) for each in floors if each not in self._tie_levels]
+        holds += [Hold(each, "floor", 0.0, np.inf) for each in floors if each not in self._tie_levels]
         thrust_height = self.height if self.thrust_height is None else self.thrust_height
         return HeldWall(
             tuple(storeys),

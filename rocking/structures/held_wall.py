@@ -91,22 +91,22 @@ class Load(NamedTuple):
 
 
 class Hold(NamedTuple):
-    """A height [m] that cannot move sideways: outwards up to a force [N/m], 0 for none; inwards or not."""
+    """A height [m] that something keeps from moving sideways, outwards and inwards up to a force [N/m], 0 for none."""
 
     height: float
     kind: str
     outwards: float
-    inwards: bool
+    inwards: float
 
     @property
     def gives(self) -> bool:
-        """Whether it may move outwards after all, as a tie that stretches."""
-        return self.kind == "tie"
+        """Whether it may move outwards after all, as a tie that stretches or a top that slips."""
+        return self.kind == "tie" or bool(np.isfinite(self.outwards))
 
     @property
     def both_ways(self) -> bool:
         """Whether it stops the wall to both sides."""
-        return self.outwards > 0 and self.inwards
+        return self.outwards > 0 and self.inwards > 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,8 +186,9 @@ class HeldWall:
             restoring -= force * _moved(kinks, height)
         for hold in self.holds:
             outwards = _moved(kinks, hold.height)
-            if hold.outwards and outwards > _SAME * self.height:
-                restoring += hold.outwards * outwards
+            held = hold.outwards if outwards > 0 else hold.inwards
+            if held and abs(outwards) > _SAME * self.height:
+                restoring += held * abs(outwards)
         return restoring, pushed
 
     def multiplier(self, opening: Opening) -> float:
@@ -198,7 +199,7 @@ class HeldWall:
     def admits(self, kinks: Sequence[tuple[float, float]]) -> bool:
         """Whether what stands behind the wall lets it move so."""
         least = -_SAME * self.height
-        floors = [hold.height for hold in self.holds if hold.inwards]
+        floors = [hold.height for hold in self.holds if hold.inwards == np.inf]
         places = [self.height, *(height for height, _ in kinks)] if self.backed else []
         if any(_moved(kinks, height) < least for height in (*floors, *places)):
             return False
@@ -245,11 +246,25 @@ class HeldWall:
         hold = next((each for each in self.holds if each.height == opening.hold), None)
         if opening.hinge is None or hold is None:
             return opening.hinge is None
-        return hold.outwards > 0 if opening.outwards else hold.inwards
+        return (hold.outwards if opening.outwards else hold.inwards) > 0
 
     def _yields(self, kinks: Sequence[tuple[float, float]]) -> bool:
-        """Whether a tie is drawn out."""
-        return any(hold.outwards and _moved(kinks, hold.height) > _SAME * self.height for hold in self.holds)
+        """Whether a tie is drawn out, or a top slips."""
+        moved = ((hold, _moved(kinks, hold.height)) for hold in self.holds)
+        return any(
+            (hold.outwards if way > 0 else hold.inwards) and abs(way) > _SAME * self.height
+            for hold, way in moved
+        )
+
+    @property
+    def top_may_slip(self) -> bool:
+        """Whether friction alone holds its top to one side at least."""
+        return any(hold.kind == "top" and np.isfinite(hold.inwards) for hold in self.holds)
+
+    def slip(self, opening: Opening) -> float:
+        """Return how far its top slips outwards under what lies on it, as the lowest body turns by 1; 0: it holds."""
+        moved = _moved(opening.kinks, self.height) if self.top_may_slip else 0.0
+        return moved if abs(moved) > _SAME * self.height else 0.0
 
     def other_way(self, opening: Opening) -> Opening | None:
         """Return what the wall does to the other side after an impact, or None where something stands there.
@@ -275,7 +290,8 @@ class HeldWall:
         if opening.hinge is None:
             highest = max((hold.height for hold in self.holds if hold.outwards), default=np.inf)
             if opening.foot == 0:
-                return " ".join(filter(None, ("overturns", side, "about its foot")))
+                slips = ", its top slipping" if self.slip(opening) else ""
+                return " ".join(filter(None, ("overturns", side, "about its foot"))) + slips
             if opening.foot >= highest:
                 return " ".join(filter(None, (side, "above the tie")))
             feet = {storey.low for storey in self.storeys}

@@ -121,10 +121,10 @@ class Hung(NamedTuple):
     """A thing that hangs on a part at a point: a constant force, a tie, or a mass that moves along.
 
     start: the point at rest. part: its number, or STILL. force: towards the side of rocking and upwards, growing and
-    falling with g + ü_v. tie: None where it does not act on this side.
+    falling with g + ü_v. tie: None where it does not act on this side; friction pulls as one that yields at once.
     """
 
-    kind: Literal["load", "thrust", "tie"]
+    kind: Literal["load", "thrust", "tie", "friction"]
     start: complex
     part: int
     force: complex = 0j

@@ -28,6 +28,7 @@ from rocking.structures.linkage import (
     momentum_balance,
 )
 from rocking.structures.mechanism import Mechanism, Side
+from rocking.structures.restraint import Restraint
 from rocking.structures.searches import minimum
 from rocking.structures.stack import Stack
 
@@ -124,6 +125,14 @@ class Structure(ABC):
     def side_names(self) -> tuple[str, str]:
         """To which side it falls, in words: where `peak_side` is +1, and where it is −1."""
         return "to the right", "to the left"
+
+    def restraints(self) -> tuple[Restraint, ...]:
+        """Return what keeps it from moving outwards above its foot, with the forces that this needs and gives."""
+        return ()
+
+    def with_friction(self, coefficient: float) -> "Structure":
+        """Return it on joints of this friction coefficient; itself where friction holds nothing of it, or is given."""
+        return self
 
     @property
     def caution(self) -> Remark | None:

@@ -18,6 +18,7 @@ from rocking.structures.fields import OneSided, Value
 from rocking.structures.held_wall import HeldWall, Opening
 from rocking.structures.linkage import STILL, Hung, Linkage, MotionState
 from rocking.structures.mechanism import Tie
+from rocking.structures.restraint import Restraint
 from rocking.structures.structure import Candidate, CrackedAtHeight
 
 UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"ge": 1e-6})]
@@ -75,10 +76,6 @@ class Reaction(NamedTuple):
             if self.pressing
             else np.where(self.force > 0, np.inf, 0.0)
         )
-
-    def held_by(self, friction: float) -> float:
-        """Return the force that friction of that coefficient gives, N per metre."""
-        return friction * self.pressing
 
 
 @dataclass(frozen=True, repr=False)
@@ -168,24 +165,31 @@ class Tied(CrackedAtHeight):
             return ()
         own = self._described_opening
         span = (own.foot, own.hold) if own else None
-        if span and not self.tie_heights:
+        if span and not self.tie_heights and not self.held_wall.top_may_slip:
             return ()  # it is that bulge itself
         bulges = []
         for each in self._family:
             opening = each.structure.opening if isinstance(each.structure, Tied) else None
-            if opening and opening.hinge is not None and (opening.foot, opening.hold) != span:
+            if opening is None:
+                continue
+            bulges_elsewhere = opening.hinge is not None and (opening.foot, opening.hold) != span
+            if bulges_elsewhere or self.held_wall.slip(opening):
                 bulges.append(each)
         return tuple(bulges)
 
     def _ranked_candidates(self, count: int) -> tuple[Candidate, ...]:
-        """The cracks, and the bulge of least λ whose motion can be followed (theory: section 12.6).
+        """The cracks, the bulge of least λ whose motion can be followed, and what falls as its top slips (theory:
+        section 12.6).
 
-        It comes first where limit analysis, in which ties pull with the force at which they yield, finds it weaker than
-        every crack. A crack that ties keep shut for good is left out then, unless it is given.
+        Either comes first where limit analysis, in which ties pull with the force at which they yield, finds it weaker
+        than every crack. Unless it is given, a crack that ties keep shut for good is left out then, and one below a top
+        that slips before: what would hold it there does not.
         """
         cracked = super()._ranked_candidates(count)
-        bulge = next((each for each in self._bulges if not each.refusal), None)
-        if bulge is None:
+        followed = [each for each in self._bulges if not each.refusal]
+        slipping = [each for each in followed if self._slips(each)][:1]
+        bulging = [each for each in followed if not self._slips(each)][:1]
+        if not followed:
             return cracked
         cracked = tuple(self._limited(each) for each in cracked)
         counting = [each for each in cracked if each.counts]
@@ -194,11 +198,20 @@ class Tied(CrackedAtHeight):
                 replace(each, description=self.crack_in_words, position=self.crack_position)
                 for each in counting
             ]
-        elif bulge.structure.mechanism().can_overturn:
+        elif any(each.structure.mechanism().can_overturn for each in (*bulging, *slipping)):
             counting = [each for each in counting if each.structure.mechanism().can_overturn]
-        is_weakest = all(bulge.uplift_multiplier < each.uplift_multiplier for each in counting)
-        counting.insert(0 if is_weakest else len(counting), bulge)
+        if slipping and not self.crack_is_given:
+            slips_at = slipping[0].uplift_multiplier
+            counting = [each for each in counting if each.uplift_multiplier <= slips_at]
+        for bulge in (*bulging, *slipping):
+            is_weakest = all(bulge.uplift_multiplier < each.uplift_multiplier for each in counting)
+            counting.insert(0 if is_weakest else len(counting), bulge)
         return (*counting, *(each for each in cracked if not each.counts))
+
+    def _slips(self, candidate: Candidate) -> bool:
+        """Whether it is its top that slips."""
+        opening = candidate.structure.opening if isinstance(candidate.structure, Tied) else None
+        return opening is not None and bool(self.held_wall.slip(opening))
 
     @cached_property
     def static_multiplier(self) -> float:
@@ -232,7 +245,8 @@ class Tied(CrackedAtHeight):
                 opened = self.opened(opening)
             sign = 1 if opening.outwards else -1
             name = wall.name(opening)
-            words = f"{what} at {place:.4g} m" + ("" if opening.hinge is None else f" ({name})")
+            is_named = opening.hinge is not None or wall.slip(opening) != 0
+            words = f"{what} at {place:.4g} m" + (f" ({name})" if is_named else "")
             family.append(Candidate(words, place, opened, name, multiplier, sign))
         return tuple(family)
 
@@ -275,6 +289,47 @@ class Tied(CrackedAtHeight):
             first._replace(force=np.where(is_positive, first.force, other.force))
             for first, other in zip(found[0], found[-1], strict=True)
         )
+
+    def restraints(self) -> tuple[Restraint, ...]:
+        """Return the ties and the top, each with what it needs as the weakest mechanism that it holds back starts."""
+        return self._restraints
+
+    @cached_property
+    def _restraints(self) -> tuple[Restraint, ...]:
+        wall = self.held_wall
+        found = []
+        for place, hold in enumerate(wall.holds):
+            held = (each for each in self.mechanisms() if self._holds_back(hold.height, each))
+            weakest = next(held, None)
+            if weakest is None or hold.kind == "floor" or not isinstance(weakest.structure, Tied):
+                continue
+            reaction = weakest.structure.reactions()[place]
+            friction = hold.inwards if hold.kind == "top" else 0.0
+            of_ties = hold.outwards - friction if np.isfinite(friction) else 0.0
+            found.append(
+                Restraint(
+                    hold.kind,
+                    hold.height,
+                    weakest.name if weakest.structure.opening else wall.name(self._opening_of(weakest)),
+                    float(reaction.force[0]),
+                    friction,
+                    friction / reaction.pressing if reaction.pressing else 0.0,
+                    of_ties,
+                    sum(each.weight * (each.high - each.low) for each in wall.storeys),
+                )
+            )
+        return tuple(found)
+
+    def _opening_of(self, candidate: Candidate) -> Opening:
+        """How a candidate opens: as one of the family, or as it is described."""
+        wall = candidate.structure
+        assert isinstance(wall, Tied)
+        return wall.opening or wall._described_opening or Opening(wall.crack_position)
+
+    def _holds_back(self, height: float, candidate: Candidate) -> bool:
+        """Whether what holds the wall at `height` [m] stops the upper body of a mechanism that falls outwards."""
+        opening = self._opening_of(candidate)
+        return opening.outwards and opening.hold == height and not candidate.refusal
 
     def _held_back(self, state: MotionState, mirrored: bool) -> list[Reaction]:
         """What each hold gives on one side, in the order of `held_wall.holds`."""
@@ -358,8 +413,11 @@ class Tied(CrackedAtHeight):
     def tie_events(self, rotation: float) -> str:
         tie = self._tie
         events = []
-        heights = [each.start.imag for each in self.linkages[0].hung if each.tie]
-        for height, side_tie in zip(heights, self.linkages[0].ties, strict=True):
+        tied = [each for each in self.linkages[0].hung if each.tie]
+        for each, side_tie in zip(tied, self.linkages[0].ties, strict=True):
+            if each.kind != "tie":
+                continue
+            height = each.start.imag
             stretch = float(side_tie.stretch(np.asarray(max(rotation, 0.0))))
             if (
                 stretch >= (1 - 1e-9) * tie.rupture_stretch
@@ -377,6 +435,8 @@ class Tied(CrackedAtHeight):
         marks = []
         anchorage = float(np.vstack(self.outline())[:, 0].min()) - 2 * size
         for each in self._hung(mirrored):
+            if each.kind == "friction":
+                continue
             shift = 0j if each.part == STILL else linkage.carried(each.part, each.start, motion).moved
             head = plane(np.asarray(each.start + shift), mirrored)
             tail = {"load": [0.0, size], "thrust": [-size, 0.0], "tie": [anchorage - head[0], 0.0]}[each.kind]

@@ -26,10 +26,20 @@ from rocking.structures.linkage import (
     cross,
     keeps_last,
 )
+from rocking.structures.mechanism import Tie
+from rocking.structures.restraint import Restraint
 from rocking.structures.stack import Course, Held, Stack, counted_courses, course_at, courses_between, slab
-from rocking.structures.structure import HIGHEST_SHARE, CrackedAtHeight, free_to_both_sides, inset
+from rocking.structures.structure import (
+    HIGHEST_SHARE,
+    CrackedAtHeight,
+    free_to_both_sides,
+    inset,
+    remember_as_typed,
+)
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity
 
+_GRIPS = 1e-3
+"""Movement back over which the friction at a top that has slipped comes to nothing, m."""
 _BEARING = 0.02
 """Breadth of a bearing in a stack, over the thickness of the wall: a hinge has none."""
 _LINKAGE_MARGIN = 0.9
@@ -172,6 +182,7 @@ class LoadedWallOptions(TypedDict, total=False):
     one_sided: bool
     restitution_range: float | None
     compressive_strength: float | None
+    top_friction: float | None
 
 
 @dataclass(frozen=True, repr=False)
@@ -321,18 +332,32 @@ class Wall(CrackedWall):
         self._stand_crushed()
 
     def _linkage(self, mirrored: bool) -> Linkage:
-        if self.compressive_strength is None or self.unit_weight is None:
+        if self.compressive_strength is None:
             return super()._linkage(mirrored)
+        return self._masonry.linkage(self._opening, self._opening, ())
+
+    @property
+    def _masonry(self) -> HeldWall:
+        """The wall as limit analysis sees it; of weight 1 per metre where none is given."""
         half = self.thickness / 2
         top = self.height
-        masonry = HeldWall(
-            (Storey(0.0, top, -half, half, self.unit_weight * self.thickness),),
-            (),
-            (Hold(top, "top", np.inf, inwards=True),),
-            strength=self.compressive_strength,
-        )
-        hinge = Opening(0.0, self.lower_height, top)
-        return masonry.linkage(hinge, hinge, ())
+        weight = 1 / top if self.unit_weight is None else self.unit_weight * self.thickness
+        masonry = (Storey(0.0, top, -half, half, weight),)
+        return HeldWall(masonry, (), (Hold(top, "top", np.inf, np.inf),), strength=self.compressive_strength)
+
+    @property
+    def _opening(self) -> Opening:
+        return Opening(0.0, self.lower_height, self.height)
+
+    def restraints(self) -> tuple[Restraint, ...]:
+        """Return the top, with what it needs as the wall starts: R = (λ S_h + M_h⁻)/(H − h), of one hold."""
+        wall = self._masonry
+        _, inner, lever = wall.joint(self.lower_height)
+        moment = wall.multiplier(self._opening) * lever + inner
+        needed = moment / (self.height - self.lower_height)
+        weight = 1.0 if self.unit_weight is None else self.unit_weight * self.thickness * self.height
+        taken = Restraint("top", self.height, wall.name(self._opening), needed, np.inf, np.inf, weight=weight)
+        return (taken,)
 
     @classmethod
     def of_size(
@@ -397,7 +422,9 @@ class LoadedWall(CrackedWall, Tied):
 
     lower_height, upper_height, thickness: m. unit_weight: of the masonry, N/m³. top_load: of floor or walls above,
     N/m, at `eccentricity` inwards from the middle, m, on a "hinged" bearing, or by a slab that stays "flat" and rests
-    on the edge in contact. load_held: only its weight acts; otherwise its mass moves up and down with the top.
+    on the edge in contact. top_friction: coefficient between the two, by which the load holds the top, as ties there
+    do; None: as the settings say, and without any it never slips; a top without a load is held. load_held: only its
+    weight acts; otherwise its mass moves up and down with the top.
     restitution: η in [0, 1] or "momentum" (the default). Ties and one_sided: as `Tied`.
     Raises StructureError when it cannot stand.
 
@@ -422,6 +449,16 @@ class LoadedWall(CrackedWall, Tied):
         ),
     ] = False
     restitution: Balanced = None
+    top_friction: Annotated[
+        float | None,
+        Value(
+            "Friction coefficient between the wall and what lies on it, which holds its top; left out: "
+            "friction_coefficient of the settings",
+            0.6,
+            usual=(0.2, 1.0),
+            bounds={"ge": 0, "le": 10},
+        ),
+    ] = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -472,19 +509,46 @@ class LoadedWall(CrackedWall, Tied):
         top = self.height
         ties = Counter(height for height in self.tie_heights if height < top)
         holds = [
-            Hold(height, "tie", number * self._yield_force, inwards=False)
-            for height, number in sorted(ties.items())
+            Hold(height, "tie", number * self._yield_force, 0.0) for height, number in sorted(ties.items())
         ]
+        # A tie at the top holds what friction does not; a top without a load is held by what the type says.
+        friction = self._friction if self.slips else np.inf
+        at_top = sum(self._yield_force for height in self.tie_heights if height == top)
         slab = self.top_slab == "flat"
         across = 0.0 if slab else -self.eccentricity
         load = Load(across, top, self.top_load, rides=False, slab=self._slab_edge * slab)
         return HeldWall(
             (Storey(0.0, top, -half, half, self.unit_weight * self.thickness),),
             (load,) if self.top_load else (),
-            (*holds, Hold(top, "top", np.inf, inwards=True)),
+            (*holds, Hold(top, "top", friction + at_top, friction)),
             backed=self.one_sided,
             strength=self.compressive_strength,
         )
+
+    def with_friction(self, coefficient: float) -> Self:
+        """Return it with this friction at its top where it states none; it describes itself as it did."""
+        if self.top_friction is not None or not self.top_load:
+            return self
+        described = self.described
+        made = replace(self, top_friction=coefficient)
+        values = {each.field.key: each for each in described.values}
+        remember_as_typed(
+            made,
+            described.form,
+            {key: each.value for key, each in values.items()},
+            {key: each.text for key, each in values.items()},
+        )
+        return made
+
+    @property
+    def slips(self) -> bool:
+        """Whether it is friction that holds its top."""
+        return self.top_friction is not None and self.top_load > 0
+
+    @property
+    def _friction(self) -> float:
+        """The force by which friction holds its top, N per metre."""
+        return (self.top_friction or 0.0) * self.top_load
 
     @property
     def _slab_edge(self) -> float:
@@ -543,10 +607,18 @@ class LoadedWall(CrackedWall, Tied):
         way = self._way(mirrored)
         # The upper body leans back; a slab rests on the edge that rises, the bearing of a hinge lies inwards.
         lean = -outwards if way is None else way.lean_of_top
+        slip = 0.0 if way is None else self.held_wall.slip(way)
         if self.top_load:
             across = -lean * self._slab_edge if self.top_slab == "flat" else -self.eccentricity
             bearing = complex(outwards * across, self.height)
-            hung.append(self._load(bearing, self._part_at(self.height), self.top_load, self.load_held))
+            # What a top slips under stays behind: it is carried, and not moved.
+            stays = self.load_held or bool(slip)
+            hung.append(self._load(bearing, self._part_at(self.height), self.top_load, stays))
+        if self._friction and slip * outwards > 0:
+            # It resists from the first movement on, until the wall has left what lies on it.
+            slides = Tie(self._friction / _GRIPS, self._friction, self._friction, self.thickness)
+            start = complex(outwards * half, self.height)
+            hung.append(Hung("friction", start, self._part_at(self.height), tie=slides))
         for height in self.tie_heights:
             start = complex(outwards * half, height)
             hung.append(Hung("tie", start, self._part_at(height), tie=self._tie_on(height, mirrored)))

@@ -17,7 +17,7 @@ from rocking.assessment.compilation import compile_all
 from rocking.assessment.component import Component
 from rocking.assessment.one_case import Clock
 from rocking.assessment.rows import HistoryRow, RecordRows, history_rows, rows_of_record
-from rocking.assessment.scene import Scene
+from rocking.assessment.scene import Scene, on_friction
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.store import RecordStore, computation_version
 from rocking.errors import ConfigurationError, RockingError, about, fault_in_words
@@ -49,6 +49,10 @@ class Study:
     scenes: Mapping[str, Scene]
     settings: Settings = field(default_factory=Settings)
     settings_sha256: str = ""
+
+    def __post_init__(self) -> None:
+        standing = on_friction(self.scenes, self.settings.friction_coefficient)
+        object.__setattr__(self, "scenes", standing)
 
     @property
     def structures(self) -> dict[str, Structure]:

@@ -15,8 +15,8 @@ class Courses:
     """levels: (n + 1,) of the joints, m, the ground first. left, right: (n,) faces of the courses, m. weight: (n,).
 
     loads: (x, z, weight, rides). slab: (weight, rides) of a flat one on top. ties: (z, force). floors, backs: heights
-    at which something behind pushes outwards. stops: heights that are held both ways. thrusts: (z, force).
-    strength: of the masonry, kPa; joints press at points N/(1.7 f_c) in from their edges.
+    at which something behind pushes outwards. stops: heights that are held both ways, up to `friction`.
+    thrusts: (z, force). strength: of the masonry, kPa; joints press at points N/(1.7 f_c) in from their edges.
     All forces in kN per m. A height belongs to the course below it.
     """
 
@@ -29,6 +29,7 @@ class Courses:
     ties: list = field(default_factory=list)
     floors: list = field(default_factory=list)
     stops: list = field(default_factory=list)
+    friction: float = np.inf
     thrusts: list = field(default_factory=list)
     strength: float = np.inf
 
@@ -96,7 +97,8 @@ class Courses:
         for z in self.floors:
             act(column(0, None), course_of(z), 0, z, 1, 0)
         for z in self.stops:
-            act(column(None, None), course_of(z), 0, z, 1, 0)
+            up_to = None if np.isinf(self.friction) else self.friction
+            act(column(None if up_to is None else -up_to, up_to), course_of(z), 0, z, 1, 0)
         rows = np.array(columns).T
         cost = np.zeros(len(columns))
         cost[0] = -1

@@ -155,7 +155,7 @@ def test_tie_without_a_strength_says_what_it_must_bear():
     )  # fmt: skip
     check = kinematic_check(wall, SPECTRUM)
     assert check.remark.kind is Kind.TIE_MUST_BEAR
-    assert check.remark["force_kN_m"] == pytest.approx(8.858030, abs=5e-6)
+    assert check.remark["needed_kN_m"] == pytest.approx(8.858030, abs=5e-6)
     # what the tie keeps shut is no mechanism of the list
     assert not any("crack at 0 m" in each.description for each in check.mechanisms)
     assert kinematic_check(replace(wall, tie_strength=30e3), SPECTRUM).remark is None

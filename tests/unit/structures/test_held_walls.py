@@ -96,8 +96,11 @@ def drawn_wall(draw):
         tie_stiffness=2e7 if ties else 0.0,
         tie_strength=strength,
         compressive_strength=crushes(draw),
+        top_friction=None if draw.random() < 0.3 else float(draw.uniform(0.0, 0.5)),
     )
     courses = masonry(joints, (0.0, height), (thickness,), 19.0, wall.compressive_strength)
+    if wall.top_friction is not None:
+        courses.friction = wall.top_friction * load / 1e3
     courses.left, courses.right = courses.left + thickness / 2, courses.right + thickness / 2
     if wall.top_slab == "flat":
         courses.slab = load / 1e3, 0.0
@@ -143,13 +146,15 @@ def test_least_multiplier_is_that_of_limit_analysis_over_courses():
             found = min((each[1] for each in own), default=np.inf)
             assert found == pytest.approx(expected, rel=1e-7), (walls, direction)
             if own:
-                name = wall.held_wall.name(min(own, key=lambda each: each[1])[0]).split(",")[0]
+                name = wall.held_wall.name(min(own, key=lambda each: each[1])[0])
                 least_by_name[name] = least_by_name.get(name, 0) + 1
                 compared += 1
     assert compared > 100
     kinds = " ".join(least_by_name)
     for kind in (
         "overturns about its foot",
+        "its top slipping",
+        "sways under the slab",
         "above the tie",
         "bulges between",
         "bulges inwards",
@@ -440,7 +445,6 @@ def test_reaction_at_the_top_at_rest_is_that_of_hand(slab, strength, expected):
     (top,) = LoadedWall(2.4, 1.2, 0.35, 18e3, **values, compressive_strength=strength).reactions()
     assert top.force[0] / 1e3 == pytest.approx(expected, abs=5e-7)
     assert top.needed_friction[0] == pytest.approx(expected / 40.0, rel=1e-6)
-    assert top.held_by(0.6) == pytest.approx(24e3)
 
 
 def test_reaction_of_a_tie_at_rest_is_the_strength_at_which_it_yields_as_it_bulges():

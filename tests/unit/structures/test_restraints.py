@@ -1,0 +1,132 @@
+"""What holds a wall: the force at its top and its ties by hand, and the wall whose top slips against the formulas."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rocking
+from rocking.assessment.settings import AssessmentSettings
+from rocking.quantities import GRAVITY
+from rocking.remarks import Kind
+from rocking.structures import Facade, LoadedWall, Wall
+from rocking.structures.restraint import FRICTION
+
+BY_HAND = 1e-9
+HEIGHT, THICKNESS, FLOOR = 3.6, 0.35, 4e3
+WALL = LoadedWall.hinged_at(HEIGHT, 2.4, THICKNESS, 18e3, top_load=FLOOR, restitution=0.7)
+WEIGHT = 18e3 * HEIGHT * THICKNESS
+
+
+def slipping(wall):
+    return next(
+        each for each in wall.mechanisms() if each.name.endswith("its top slipping") and each.sign > 0
+    )
+
+
+def needed(hinge):
+    """R = (λ S_h + M_h⁻)/(H − h) with the floor in the middle, and λ = G/B, kN (theory: section 12.4)."""
+    share = (HEIGHT - hinge) / HEIGHT
+    ratio = hinge / (HEIGHT - hinge)
+    half = THICKNESS / 2
+    upper = share * WEIGHT
+    inner = (upper + FLOOR) * half
+    lever = upper * (HEIGHT - hinge) / 2
+    outer = (WEIGHT + FLOOR) * half
+    multiplier = (outer + (1 + ratio) * inner) / (WEIGHT * HEIGHT / 2 - (1 + ratio) * lever)
+    return multiplier, (multiplier * lever + inner) / (HEIGHT - hinge)
+
+
+def test_a_light_floor_does_not_hold_the_top():
+    """By hand: R = 3.18 kN/m, .6 of a floor of 4 kN/m gives 2.4; λ of the wall that slips is (M + μ N H)/S."""
+    multiplier, force = needed(2.4)
+    wall = replace(WALL, crack="known").with_friction(0.6)
+    (top,) = wall.restraints()
+    assert wall.mechanism().uplift_multiplier == pytest.approx(multiplier, rel=BY_HAND)
+    assert top.needed == pytest.approx(force, rel=BY_HAND)
+    assert (top.gives, top.friction, top.ties) == pytest.approx((2.4e3, 2.4e3, 0), rel=BY_HAND)
+    assert top.lets_go and top.remark.kind is Kind.TOP_SLIPS
+    assert top.remark["tie_kN_m"] == pytest.approx((force - 2.4e3) / 1e3, rel=BY_HAND)
+    by_hand = ((WEIGHT + FLOOR) * THICKNESS / 2 + 0.6 * FLOOR * HEIGHT) / (WEIGHT * HEIGHT / 2)
+    slips = slipping(wall)
+    assert slips.uplift_multiplier == pytest.approx(by_hand, rel=BY_HAND)
+    assert slips.multiplier == pytest.approx(by_hand, rel=BY_HAND)
+    assert slips.multiplier < multiplier
+
+
+@pytest.mark.parametrize("slab", ["hinged", "flat"])
+def test_the_top_slips_first_where_it_needs_more_than_it_gets_and_nowhere_else(slab):
+    """R ≤ F if and only if λ of the bulge ≤ λ of the wall that slips, for any friction."""
+    wall = replace(WALL, top_slab=slab, crack="unknown").cracked_by_statics()
+    (held,) = wall.restraints()
+    for friction in (0.2, 0.99 * held.needed / FLOOR, 1.01 * held.needed / FLOOR, 3.0):
+        (top,) = wall.with_friction(friction).restraints()
+        first, *_ = wall.with_friction(friction).candidates()
+        assert top.lets_go is (friction * FLOOR < held.needed)
+        assert ("slip" in first.name or "sways" in first.name) is top.lets_go
+        if top.lets_go:  # what would hold the hinges does not
+            assert len(wall.with_friction(friction).candidates()) == 1
+
+
+def test_a_tie_at_the_top_holds_what_friction_does_not():
+    loose = replace(WALL, one_sided=True).with_friction(0.6)
+    missing = loose.restraints()[0].remark["tie_kN_m"] * 1e3
+    for strength, holds in ((0.99 * missing, False), (1.01 * missing, True), (None, True)):
+        tied = replace(loose, tie_heights=(HEIGHT,), tie_stiffness=2e7, tie_strength=strength)
+        (top,) = tied.restraints()
+        assert top.lets_go is not holds
+        assert top.gives == pytest.approx(2.4e3 + (math.inf if strength is None else strength))
+
+
+def test_friction_of_the_study_counts_where_a_wall_states_none():
+    assert WALL.with_friction(0.4).restraints()[0].coefficient == pytest.approx(0.4)
+    assert replace(WALL, top_friction=0.9).with_friction(0.4).restraints()[0].coefficient == pytest.approx(
+        0.9
+    )
+    assert WALL.with_friction(0.4).description == WALL.description
+    bare = replace(WALL, top_load=0.0)
+    assert bare.with_friction(0.4) is bare  # what holds it is no friction
+    assert rocking.Block(2.0, 0.2).with_friction(0.4).restraints() == ()
+
+
+def test_a_wall_at_a_ceiling_says_the_share_of_its_weight_that_its_top_needs():
+    """By hand: λ = 4 t/H and R/W = λ/8 + t/(2 H) of equal halves."""
+    wall = Wall.hinged_at(3.2, 1.6, 0.25)
+    (top,) = wall.restraints()
+    assert top.needed == pytest.approx(4 * 0.25 / 3.2 / 4 + 0.25 / 3.2 / 2, rel=BY_HAND)
+    assert top.remark.kind is Kind.TOP_TAKEN_AS_HELD
+    (of_stone,) = replace(wall, unit_weight=20e3).restraints()
+    assert of_stone.needed == pytest.approx(20e3 * 3.2 * 0.25 * top.needed, rel=BY_HAND)
+    assert of_stone.remark.kind is Kind.TOP_MUST_BE_HELD
+
+
+def test_the_word_is_that_of_the_wall_that_slips():
+    """Under a long pulse just above λ of the wall that slips, and far below that of the held one, which rests."""
+    wall = replace(WALL, top_friction=0.3)
+    slips = slipping(wall)
+    held = wall.mechanism().uplift_multiplier
+    pulse = rocking.Pulse(1.6 * slips.multiplier * GRAVITY, 2.0, 0.2)
+    assert 1.6 * slips.multiplier < held
+    record = rocking.Accelerogram(pulse.acceleration(np.arange(900) * 0.01), 0.01)
+    falls = rocking.assess(record, replace(wall, crack="unknown").cracked_by_statics())
+    assert falls.verdict is rocking.Verdict.OVERTURNS
+    assert "its top slips: of " in falls.why
+    assert rocking.assess(record, replace(wall, top_friction=5.0)).verdict is rocking.Verdict.STANDS
+
+
+def test_ties_say_what_they_bear_and_what_they_give():
+    """Section 12.7: R = 8.858030 kN/m with the hinge where λ is least."""
+    facade = Facade(
+        (3.6,), (0.35,), 18e3, floor_loads=(10e3,), eccentricity=0.05, behind="cross_walls", restitution=0.7,
+        tie_heights=(3.6,), tie_stiffness=2e7,
+    )  # fmt: skip
+    kinds = {None: Kind.TIE_MUST_BEAR, 30e3: Kind.TIE_BEARS, 6e3: Kind.TIE_YIELDS}
+    for strength, kind in kinds.items():
+        (tie,) = replace(facade, tie_strength=strength).restraints()
+        assert tie.needed == pytest.approx(8.858030e3, abs=5e-3)
+        assert tie.remark.kind is kind
+
+
+def test_usual_friction_is_that_of_the_settings():
+    assert AssessmentSettings().friction_coefficient == FRICTION
