@@ -43,6 +43,12 @@ class Impossible:
     def mechanism(self) -> None:
         raise StructureError("it cannot stand.")
 
+    def with_friction(self, coefficient: float) -> "Impossible":
+        return self
+
+    def restraints(self) -> tuple[()]:
+        return ()
+
 
 def filled(row_class: type[R], **values: Any) -> R:
     """A row of `values`; what is left out is empty."""
