@@ -250,7 +250,16 @@ class Kind(StrEnum):
         "more than a per cent, at 0.1 by 11 % in the median, and is left out here."
     )
 
-    # A check of a code.
+    # Why the displacement of a limit state is what it is.
+    LIMIT_SHARE = auto(), "{share:g} d₀"
+    LIMIT_TIE_BREAKS = auto(), "a tie breaks"
+    LIMIT_LOAD_FALLS = auto(), "what it carries falls"
+    LIMIT_NOWHERE = auto(), "a vanishes nowhere"
+
+    # A check of a code, and the conclusion on a structure at its design level.
+    VERIFIED = auto(), "verified by {clause}"
+    NOT_VERIFIED = auto(), "not verified by {clause}", "not verified"
+    OTHER_SETS = auto(), "{share} of sets of other stations would meet it"
     CHECK_NOT_MET = auto(), "not met"
     DISPLACEMENT_EXCEEDED = auto(), "not met: d₀ is exceeded under {exceeding} of {motions} motions"
     SETS_TOO_FEW = auto(), (

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, field
+from enum import StrEnum
 
 from rocking.codes.local_mechanism import LIMIT_STATES, LimitPoint, LocalMechanism
 from rocking.errors import ConfigurationError
@@ -96,8 +97,8 @@ class Check:
 
     @property
     def ratio_in_words(self) -> str:
-        """The ratio to three digits; that of a structure that hardly moves says no more than that it is large."""
-        return f"{self.ratio:#.3g}" if self.ratio <= _LARGE_RATIO else f"> {_LARGE_RATIO:g}"
+        """The ratio as it is printed."""
+        return ratio_in_words(self.ratio)
 
     @property
     def outcome(self) -> str:
@@ -110,6 +111,13 @@ class Check:
             f"{self.demand:.4g} {self.unit}, ratio {self.ratio:.3g}, {self.refusal or self.outcome} "
             f"({self.mechanism})"
         )
+
+
+def ratio_in_words(ratio: float) -> str:
+    """Return a capacity over its demand to three digits: "0.41", "> 100" of what hardly moves, "falls" for 0."""
+    if not ratio:
+        return "falls"
+    return f"{ratio:#.3g}" if ratio <= _LARGE_RATIO else f"> {_LARGE_RATIO:g}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -175,6 +183,16 @@ class DynamicCheck(Check):
         )
 
 
+class Part(StrEnum):
+    """The part that one check has in the conclusion on its structure."""
+
+    DECIDES = "decides"
+    COUNTS_TOO = "counts too"
+    NOT_NEEDED = "not needed"
+    OVERRULED = "overruled"
+    NO_ANSWER = "no answer"
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class StructureCheck:
     """The checks of one structure at one limit state.
@@ -216,7 +234,35 @@ class StructureCheck:
         return tuple(each for each in (self.linear, self.nonlinear, self.dynamic) if each)
 
     @property
+    def decisive(self) -> Check | None:
+        """The check that decides: the most detailed one that has an answer; None where none was made.
+
+        A dynamic check that its chosen set meets has none as long as there are too few other sets to ask.
+        """
+        answered = [each for each in self.checks if not _is_open(each)]
+        return answered[-1] if answered else None
+
+    @property
+    def verified(self) -> bool:
+        """Whether the check that decides is met."""
+        return self.decisive is not None and self.decisive.passed
+
+    def part_of(self, check: Check) -> Part:
+        """Return the part that one of the checks has in whether the structure is verified."""
+        if check is self.decisive:
+            return Part.DECIDES
+        if _is_open(check):
+            return Part.NO_ANSWER
+        if check.passed:
+            return Part.COUNTS_TOO if self.verified else Part.OVERRULED
+        return Part.NOT_NEEDED if self.verified else Part.COUNTS_TOO
+
+    @property
     def limit(self) -> LimitPoint | None:
         """The place of the limit state on the curve of the mechanism that governs; None for SLD."""
         state = LIMIT_STATES.get(self.limit_state)
         return self.governing.limit(state) if state else None
+
+
+def _is_open(check: Check) -> bool:
+    return check.refusal is not None and check.refusal.kind is Kind.SETS_TOO_FEW

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rocking.quantities import GRAVITY
+from rocking.remarks import Kind, Remark
 from rocking.structures import Structure
 from rocking.structures.capacity import StaticCapacity
 
@@ -49,7 +50,7 @@ class LimitPoint:
     displacement: float
     acceleration: float
     period: float
-    reason: str
+    reason: Remark
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,15 +133,15 @@ class LocalMechanism:
         Where a vanishes nowhere and nothing else limits it, the displacement is inf, and the others are nan.
         """
         share = state.displacement_share
-        limits = {share * self.ultimate_displacement: f"{share:g} d₀"}
+        limits = {share * self.ultimate_displacement: Remark.of(Kind.LIMIT_SHARE, share=share)}
         ruptures = self.limiting_ruptures[self.released :] if state.ends_with_ties else ()
         if ruptures:
-            limits[float(self.displacement(ruptures[0] * _JUST_BEFORE))] = "a tie breaks"
+            limits[float(self.displacement(ruptures[0] * _JUST_BEFORE))] = Remark(Kind.LIMIT_TIE_BREAKS)
         if self.support_loss < math.inf:
-            limits[self.support_loss * self.static.displacement_factor] = "what it carries falls"
+            limits[self.support_loss * self.static.displacement_factor] = Remark(Kind.LIMIT_LOAD_FALLS)
         displacement = min(limits)
         if math.isinf(displacement):
-            return LimitPoint(displacement, math.nan, math.nan, "a vanishes nowhere")
+            return LimitPoint(displacement, math.nan, math.nan, Remark(Kind.LIMIT_NOWHERE))
         rotation = self.static.rotation_at(displacement / self.static.displacement_factor)
         acceleration = float(self.acceleration(rotation))
         period = math.nan

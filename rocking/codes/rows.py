@@ -1,13 +1,12 @@
 """The row of a check of the code: its capacity and demand, and where the limit state lies on the capacity curve."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from rocking.assessment.rows import Placed, PlacedRow
-from rocking.codes.check import Check, DynamicCheck, StructureCheck
+from rocking.codes.check import Check, DynamicCheck, Part, StructureCheck
 from rocking.codes.local_mechanism import LimitPoint, LocalMechanism
-from rocking.quantities import counted
 from rocking.tables import Columns, row
 
 KINDS = {
@@ -65,6 +64,12 @@ class CodeCheckRow(PlacedRow[MadeCheck]):
         "Mechanism that decides: what opens, and to which side it falls", lambda of: of.check.mechanism
     )
     passed: bool = of_check("Whether the check is met", lambda of: of.check.passed)
+    part: Part = of_check(
+        "Part of this check in the conclusion: it decides (the most detailed check that has an answer), counts too, is "
+        "not needed (not met, where the one that decides is), overruled (met, where the one that decides is not), or "
+        "has no answer (too few sets)",
+        lambda of: of.checked.part_of(of.check),
+    )
     ratio: float = of_check("Capacity over demand; 1 or more where it is met", lambda of: of.check.ratio)
     level_capacity_m_s2: float = of_check(
         "a_g at which the limit state is reached; empty for the dynamic check", lambda of: of.capacity("m/s²")
@@ -136,73 +141,3 @@ def code_check_rows(
 def _where_it_is(displacement: float) -> float:
     """A displacement of the capacity curve; nan, an empty cell, where the curve has no such point."""
     return displacement if math.isfinite(displacement) else math.nan
-
-
-def disagreement(checked: StructureCheck, overturning_share: float, stations: int) -> str:
-    """Return the sentence on where the formulas and the dynamics disagree, with both figures; "" where they do not.
-
-    overturning_share: of the records of the study; nan where there are none. stations: how many these are of.
-    Formulas that are met disagree with a dynamic check that is not or that depends on the set, or with a structure that
-    overturns under more than a tenth of the records; those that are not met, with a dynamic check that is and a
-    structure that never overturns.
-    """
-    formulas = [each for each in checked.checks if not isinstance(each, DynamicCheck)]
-    met = [each for each in formulas if each.passed]
-    failed = [each for each in formulas if not each.passed]
-    against_met = _against_met(checked.dynamic, overturning_share, stations)
-    against_failed = _against_failed(checked.dynamic, overturning_share, stations)
-    sentences = []
-    if met and against_met:
-        sentences.append(f"{_with_ratios(met, 'met')}, but {against_met}.")
-    if failed and against_failed:
-        sentences.append(f"{_with_ratios(failed, 'not met')}, but {against_failed}.")
-    return " ".join(sentences)
-
-
-def _with_ratios(checks: Sequence[Check], outcome: str) -> str:
-    """The checks of one outcome with their ratios: "The linear check is met with a ratio of 1.08"."""
-    names = " and the ".join(KINDS[each.clause] for each in checks)
-    ratios = " and ".join(f"{each.ratio_in_words}" for each in checks)
-    if len(checks) == 1:
-        return f"The {names} check is {outcome} with a ratio of {ratios}"
-    return f"The {names} check are {outcome} with ratios of {ratios}"
-
-
-def _against_met(dynamic: DynamicCheck | None, overturning_share: float, stations: int) -> str:
-    """The finding of the dynamics that speaks against formulas that are met; "" where there is none.
-
-    That fewer sets were drawn than must be asked is none.
-    """
-    if dynamic is not None and not dynamic.met_by_the_set:
-        return f"the dynamic check is not: {_why(dynamic)}"
-    if dynamic is not None and not dynamic.sets_agree:
-        return f"whether the dynamic check is depends on the records: the chosen set meets it, and {dynamic.sentence}"
-    if overturning_share > _OFTEN:
-        return _of_records(overturning_share, stations)
-    return ""
-
-
-def _against_failed(dynamic: DynamicCheck | None, overturning_share: float, stations: int) -> str:
-    """The finding of the dynamics that speaks against formulas that are not met; "" where there is none."""
-    if dynamic is not None:
-        return f"the dynamic check is with one of {dynamic.ratio_in_words}" if dynamic.passed else ""
-    return _of_records(overturning_share, stations) if overturning_share == 0 else ""
-
-
-def _of_records(overturning_share: float, stations: int) -> str:
-    share = f"{100 * overturning_share:.0f} %"
-    return f"under the records of the study, of {counted(stations, 'station')}, it overturns with a share of {share}"
-
-
-_OFTEN = 0.1
-"""Share of the records beyond which a structure that passes a formula is said to contradict it."""
-
-
-def _why(dynamic: DynamicCheck) -> str:
-    """The reason for which the chosen set does not meet the dynamic check, with the share of the sets that do."""
-    if dynamic.exceeding:
-        return (
-            f"d₀ is exceeded under {dynamic.exceeding} of {dynamic.motions} motions, and {dynamic.sentence}"
-        )
-    allowed = f"{dynamic.capacity:.3g} m are allowed"
-    return f"the mean displacement is {dynamic.demand:.3g} m where {allowed}, and {dynamic.sentence}"

@@ -1,5 +1,6 @@
 """Drawings of structures: at rest, turned, fallen; with dimension lines, loads, thrusts and ties."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -98,10 +99,12 @@ def _draw_mark(axes: Axes, mark: Mark, where: Transform, corner: tuple[float, fl
         axes.text(tail[0], tail[1], f" {mark.text} ", ha=ha, va=va, zorder=4, bbox=_PAPER, transform=where)
 
 
-def draw_dimensions(axes: Axes, structure: Structure, *, values: bool = False) -> None:
+def draw_dimensions(
+    axes: Axes, structure: Structure, *, values: bool = False, written: Callable[[str], str] = str
+) -> None:
     """Draw the front of a structure where it is known, and its dimension lines with their letters.
 
-    values: write the value of each behind its letter.
+    values: write the value of each behind its letter, as `written` writes a number.
     """
     if len(structure.front):
         axes.add_patch(Polygon(structure.front, closed=True, fill=False, edgecolor="0.3", linewidth=0.6))
@@ -111,7 +114,7 @@ def draw_dimensions(axes: Axes, structure: Structure, *, values: bool = False) -
             axes.annotate("", tuple(each.line[end]), tuple(each.line[before]), arrowprops=_HEAD)
             axes.plot(*np.stack([each.feet[end], each.line[end]], axis=1), **_THIN)  # type: ignore[arg-type]
         place, ha, va = _beside(each.line.T, each.feet.T)
-        text = f"{each.letter} = {each.text}" if values else each.letter
+        text = f"{each.letter} = {written(each.text)}" if values else each.letter
         if values and each.line.shape[0] > 2:
             va = "top"  # within the arc, clear of the radius
         axes.text(place[0], place[1], f" {text} ", ha=ha, va=va, zorder=4, bbox=_PAPER)

@@ -1,4 +1,4 @@
-"""The document of the structures at the design level: one page each, which an engineer signs."""
+"""The structures at the design level: of each a page that an engineer signs, and the basis of its checks behind it."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -6,52 +6,46 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.reserve import Reserve
-from rocking.assessment.scene import placed
-from rocking.codes.check import Check, StructureCheck
-from rocking.codes.design_spectrum import DesignSpectrum
+from rocking.codes.check import LEAST_SHARE, Check, DynamicCheck, Part, StructureCheck
+from rocking.codes.conclusion import CodeConclusion, code_conclusions
+from rocking.codes.design_spectrum import DesignSpectrum, NtcSpectrum, PointSpectrum
 from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
-from rocking.codes.rows import KINDS, disagreement
-from rocking.codes.selection import Selection
+from rocking.codes.rows import KINDS, code_check_rows
+from rocking.codes.selection import SETS, Selection
 from rocking.floors.place import GROUND, Place
 from rocking.floors.support import Support
-from rocking.quantities import counted, percent
+from rocking.quantities import GRAVITY, percent
 from rocking.remarks import Kind, Remark
-from rocking.reports import printing
-from rocking.reports.drawings import draw_dimensions, draw_structure
-from rocking.reports.panels import ZERO, plot
 from rocking.reports.printing import (
     Cell,
     compile_document,
     displaying,
-    number,
-    plain,
-    quantity,
+    settings_texts,
+    strong,
     table,
     unit_of,
-    words,
 )
-from rocking.reports.style import PREDICTED, PULSE, new_figure, panel_at, picture, room_for_texts, styled
+from rocking.reports.printing import words as or_a_dash
+from rocking.reports.sentences import Language, Sentences
+from rocking.reports.structure_figures import bars_figure, basis_figure, selection_figure
+from rocking.reports.style import picture
 from rocking.structures import Structure
+from rocking.structures.tied import Tied
 
-_FIGURE_HEIGHT = 112.0
-"""mm; with it the page of a structure is full, and the tallest drawing can still be read."""
-
-_TURNED = 0.5
-"""Share of the critical rotation at which a mechanism is drawn."""
-_POINTS = 200
 _QUANTILE = 1.645
 """The deviation of the normal distribution within which nine tenths lie."""
+_OFTEN = 0.1
+"""Share of the records beyond which a structure that is verified is said to contradict it."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CheckedStructure:
-    """The content of the page of one structure.
+    """The checks of one structure at one place, and what the study says of it there.
 
+    untied: the checks of a structure with ties without them; None where it has none, or cannot stand so.
     place, support: where it stands, and of what stands on a support one along its axis, None on the ground below it.
     checked: None where it could not be checked, and `refusal` then says why. overturning_share: mean over the stations
     of the study, of each the mean over its records, nan without any; records, stations: how many there are, but for
@@ -67,6 +61,7 @@ class CheckedStructure:
     place: Place = GROUND
     support: Support | None = None
     refusal: str = ""
+    untied: StructureCheck | None = None
     overturning_share: float = math.nan
     records: int = 0
     stations: int = 0
@@ -76,18 +71,28 @@ class CheckedStructure:
     reserves: Sequence[Reserve] = ()
     reserve_doubts: Sequence[Kind] = ()
 
+    @property
+    def period(self) -> float | None:
+        """Its place on the axis of a support: a period, s, or 0 of the ground below it; None on the ground itself."""
+        return self.place.period_of(self.support)
+
+    @property
+    def has_ties(self) -> bool:
+        """Whether ties hold it."""
+        return isinstance(self.structure, Tied) and bool(self.structure.tie_heights)
+
 
 def structures_report(
     structures: Sequence[CheckedStructure],
     spectrum: DesignSpectrum,
     settings: Mapping[str, Any],
     selection: Selection | None = None,
-    notices: Sequence[str] = (),
+    without_sets: str = "",
+    unread: Sequence[str] = (),
 ) -> bytes:
-    """Return the PDF. settings: as those of the summary. selection: the sets of the dynamic check, None without."""
-    return compile_document(
-        "structures.typ", structures_data(structures, spectrum, settings, selection, notices)
-    )
+    """Return the PDF. The arguments are those of `structures_data`."""
+    data = structures_data(structures, spectrum, settings, selection, without_sets, unread)
+    return compile_document("structures.typ", data)
 
 
 def structures_data(
@@ -95,46 +100,505 @@ def structures_data(
     spectrum: DesignSpectrum,
     settings: Mapping[str, Any],
     selection: Selection | None = None,
-    notices: Sequence[str] = (),
+    without_sets: str = "",
+    unread: Sequence[str] = (),
 ) -> dict[str, object]:
-    """Return what the template is given."""
+    """Return what the template is given.
+
+    structures: those of one name, at the periods of its support, make one page. settings: as those of the summary, with
+    "language". selection: the sets of the dynamic check, None without; without_sets: why there are none. unread: the
+    records of the pool that could not be read, each with its reason.
+    """
+    language: Language = settings.get("language", "en")
+    words = Sentences(language)
     with displaying(settings):
-        return _data(structures, spectrum, settings, selection, notices)
+        spectra = []
+        motions: dict[str, object] = {"rows": []}
+        if selection is not None:
+            drawn = picture(selection_figure(selection), words("records alt"))
+            spectra = [drawn | {"caption": _selection_words(selection, words)}]
+            motions = _motion_table(selection, words)
+        told = settings_texts(settings)
+        about = dict(settings.get("about", {}))
+        return {
+            "title": words("title"),
+            **told,
+            "language": language,
+            "about": {words(label): text for label, text in about.items()},
+            "units": words(f"units {settings.get('display_units', 'SI')}").rstrip("."),
+            "words": {
+                "made": words("foot"),
+                "page": words("page", page="{page}", pages="{pages}"),
+                "continued": words("continued", page="{page}"),
+                **{
+                    key: words(key.replace("-", " "))
+                    for key in (
+                        *("what-governs", "capacity-over-demand", "how-sure", "assumed", "place-and-date"),
+                        *("signature", "not-to-sign", "next-page", "figure", "table-checks"),
+                        *("table-periods", "records-title", "table-records"),
+                    )
+                },
+            },
+            "notices": [words("no sets", why=without_sets)] if without_sets else [],
+            "unread": words("unread", names="; ".join(unread)) if unread else "",
+            "spectra": spectra,
+            "motions": motions,
+            "pages": _pages(structures, _spectrum_words(spectrum, words), settings, words),
+        }
 
 
-def _data(
-    structures: Sequence[CheckedStructure],
-    spectrum: DesignSpectrum,
-    settings: Mapping[str, Any],
-    selection: Selection | None,
-    notices: Sequence[str],
+def _pages(
+    structures: Sequence[CheckedStructure], spectrum: str, settings: Mapping[str, Any], words: Sentences
+) -> list[dict[str, object]]:
+    """The page of each structure: at the worst period of its support, with the others as lines."""
+    by_name: dict[str, list[CheckedStructure]] = {}
+    for each in structures:
+        by_name.setdefault(each.name, []).append(each)
+    rows = (
+        row
+        for each in structures
+        if each.checked
+        for row in code_check_rows(each.name, each.checked, each.period)
+    )
+    concluded = {each.structure: each for each in code_conclusions(rows)}
+    design = settings.get("design_spectrum", {})
+    pages = []
+    for name, everywhere in by_name.items():
+        conclusion = concluded.get(name)
+        page = next(
+            (each for each in everywhere if conclusion and each.checked and each.period == conclusion.period),
+            everywhere[-1],
+        )
+        checked = page.checked
+        level = words(
+            "level",
+            spectrum=spectrum,
+            state=checked.limit_state if checked else design.get("limit_state", "SLV"),
+            factor=words.plain(
+                checked.governing.confidence_factor if checked else design.get("confidence_factor", 1.35)
+            ),
+        )
+        head = {"name": name, "level": level, "place": _place(page, words)}
+        if checked is None or conclusion is None:
+            refused = {"headline": words("headline refused"), "met": False}
+            pages.append(
+                head | refused | {"details": [words("could not", why=page.refusal)], "signed": False}
+            )
+            continue
+        pages.append(
+            head
+            | _answer(page, checked, conclusion, words)
+            | {"signed": True, "basis": _basis(page, checked, conclusion, everywhere, words)}
+        )
+    return pages
+
+
+def _place(page: CheckedStructure, words: Sentences) -> str:
+    """Where the structure stands on this page, where that is one place of several."""
+    if not page.period:
+        return ""
+    place = words("period", name=page.place.name, period=words.number(page.period))
+    return words("at its worst", place=place) if len(page.place.supports) > 1 else f"{place}."
+
+
+def _answer(
+    page: CheckedStructure, checked: StructureCheck, conclusion: CodeConclusion, words: Sentences
 ) -> dict[str, object]:
-    spectra = []
-    motions: dict[str, object] = {"rows": []}
-    if selection is not None:
-        alt = "Spectra of the set of records and their mean beside the design spectrum."
-        spectra = [picture(_selection_figure(selection), alt) | {"caption": f"{selection.words}."}]
-        motions = _motion_table(selection)
+    """The page that is signed: the conclusion, what governs, how sure it is, and what was assumed."""
+    decisive = conclusion.decisive
+    also = [each.clause for each in conclusion.checks if each.part == Part.COUNTS_TOO]
+    overruled = [words(f"check {each.check}") for each in conclusion.checks if each.part == Part.OVERRULED]
+    needs_its_tie = page.has_ties and not (page.untied and page.untied.verified)
+    if conclusion.verified:
+        headline = words(
+            "headline verified",
+            clause=decisive.clause,
+            also=words("also met", clause=words.listed(also[::-1])) if also else "",
+            tied=words("only with tie") if needs_its_tie else "",
+        )
+    else:
+        headline = _refusal(checked, words)
+    details = []
+    if overruled:
+        details.append(words("overruled", checks=words.listed(overruled), clause=decisive.clause))
+    dynamic = checked.dynamic
+    if conclusion.verified and dynamic:
+        others = _interval(dynamic, words)
+        details.append(words("others may not", share=others))
+    if dynamic is None:
+        remark = checked.remark
+        cannot = remark is not None and remark.kind is Kind.NO_DISPLACEMENT
+        details.append(words("it cannot overturn" if cannot else "no dynamic"))
+    elif checked.part_of(dynamic) is Part.NO_ANSWER:
+        details.append(words("no answer", sets=dynamic.sets, asked=SETS))
+    if page.has_ties:
+        untied = page.untied.decisive if page.untied else None
+        if untied is None:
+            details.append(words("without tie refused"))
+        else:
+            details.append(
+                words("without tie met" if untied.passed else "without tie not met", clause=untied.clause)
+            )
+    if finding := _finding(page, conclusion, words):
+        details.append(finding)
+    figure = bars_figure(checked, page.untied, words)
     return {
-        "title": "Checks at the design level",
-        **printing.settings_texts(settings),
-        "spectrum": spectrum.words,
-        "notices": list(notices),
-        "spectra": spectra,
-        "motions": motions,
-        "pages": [_page(each, spectrum) for each in structures],
+        "headline": headline,
+        "met": conclusion.verified,
+        "details": details,
+        "way": opening_words(checked.governing, words),
+        "bars": [picture(figure, words("bars alt", name=page.name))],
+        "sure": _sure(page, dynamic, words),
+        "assumptions": _assumptions(page, checked.governing, words),
     }
 
 
-def _motion_table(selection: Selection) -> dict[str, object]:
+def _refusal(checked: StructureCheck, words: Sentences) -> str:
+    """The conclusion that it is not verified, with the finding of the check that decides."""
+    decisive = checked.decisive
+    assert decisive is not None
+    if isinstance(decisive, DynamicCheck):
+        if decisive.exceeding:
+            return words(
+                "headline falls",
+                exceeding=decisive.exceeding,
+                motions=decisive.motions,
+                clause=decisive.clause,
+            )
+        if decisive.met_by_the_set:
+            return words(
+                "headline sets disagree",
+                share=f"{words.decimal(percent(decisive.share))}\u00a0%",
+                sets=decisive.sets,
+                clause=decisive.clause,
+                least=f"{100 * LEAST_SHARE:.0f}",
+            )
+    return words("headline not verified", clause=decisive.clause, ratio=ratio_words(decisive, words))
+
+
+def _interval(dynamic: DynamicCheck, words: Sentences) -> str:
+    low, high = (percent(each) for each in dynamic.interval)
+    return words.decimal(f"{low}–{high}\u00a0%" if low != high else f"{low}\u00a0%")
+
+
+def _finding(page: CheckedStructure, conclusion: CodeConclusion, words: Sentences) -> str:
+    """The sentence on a study whose records contradict the conclusion; "" where they do not."""
+    of_records = {
+        "clause": conclusion.decisive.clause,
+        "stations": words.counted(page.stations, "station"),
+        "share": words.decimal(percent(page.overturning_share)) if page.stations else "",
+    }
+    if conclusion.verified and page.overturning_share > _OFTEN:
+        return words("finding overturns", **of_records)
+    if not conclusion.verified and page.overturning_share == 0 and math.isnan(conclusion.decisive.sets_share):
+        return words("finding stands", **of_records)
+    return ""
+
+
+def _sure(page: CheckedStructure, dynamic: DynamicCheck | None, words: Sentences) -> list[dict[str, str]]:
+    """How sure the conclusion is: figures, each with what it is the figure of."""
+    lines: list[tuple[str, str]] = []
+    if dynamic is not None:
+        lines.append(
+            (f"{words.decimal(percent(dynamic.share))}\u00a0%", words("sure sets", sets=dynamic.sets))
+        )
+        lines.append((_interval(dynamic, words), words("sure others")))
+    if page.stations:
+        low, high = (
+            words.decimal(percent(each)) for each in share_interval(page.overturning_share, page.stations)
+        )
+        of_it = {
+            "records": words.counted(page.records, "record"),
+            "stations": words.counted(page.stations, "station"),
+        }
+        share = f"{words.decimal(percent(page.overturning_share))}\u00a0%"
+        lines.append((share, words("sure share", low=low, high=high, **of_it)))
+    if page.reserves:
+        lines.append(_reserve(page, words))
+    return [{"value": value, "text": text} for value, text in lines]
+
+
+def _reserve(page: CheckedStructure, words: Sentences) -> tuple[str, str]:
+    """By how much the records may be stronger, and what there is to say of it: its caveat goes where it goes."""
+    lows = np.array([reserve.low for reserve in page.reserves])
+    reached = lows[~np.isnan(lows)]
+    limit = max(reserve.limit for reserve in page.reserves)
+    doubts = ""
+    of_all = words.counted(lows.size, "record")
+    if lows.size < page.records:  # on a support it is sought at the worst period of each record
+        of_all = words("of worst period", count=of_all, records=page.records)
+    if reached.size and lows.size > 1:
+        middle = float(np.quantile(np.where(np.isnan(lows), np.inf, lows), 0.5, method="lower"))
+        value = f"> {limit:g}\u00a0×" if math.isinf(middle) else f"{words.number(middle, 2)}\u00a0×"
+        doubts += words("reserve median", count=of_all, value=value)
+    if page.reserve_doubts:
+        reasons = words.listed([words.of(Remark(kind)) for kind in page.reserve_doubts])
+        doubts += words("reserve alone", reasons=reasons)
+    if not reached.size:
+        return f"{limit:g}\u00a0×", words("sure reserve beyond", doubts=doubts)
+    return f"{words.number(reached.min(), 2)}\u00a0×", words("sure reserve", doubts=doubts)
+
+
+def _assumptions(page: CheckedStructure, mechanism: LocalMechanism, words: Sentences) -> list[str]:
+    """What the checks take for given, to be confirmed on site."""
+    structure = page.structure
+    given = [each for each in structure.described.values if each.value is not False]
+    sizes = ", ".join(words.described(each) for each in given)
+    lines = [words("assumed sizes", sizes=sizes[:1].upper() + sizes[1:])]
+    restitution = min(each.restitution for each in structure.mechanism().sides)
+    lines.append(words("assumed restitution", restitution=words.number(restitution, 2)))
+    lines.append(words("assumed rigid"))
+    if getattr(structure, "compressive_strength", None) is None:
+        lines.append(words("assumed crushing"))
+    lines.append(words("assumed knowledge", factor=words.plain(mechanism.confidence_factor)))
+    if mechanism.elastic_period:
+        lines.append(words("assumed elastic", period=words.number(mechanism.elastic_period)))
+    if math.isfinite(mechanism.support_loss):
+        lines.append(words("assumed loss", displacement=words.quantity(mechanism.support_loss, "m")))
+    checked = page.checked
+    ties = [tie.tie for each in checked.mechanisms for tie in each.static.side.ties] if checked else []
+    if any(math.isinf(tie.strength) for tie in ties):
+        lines.append(words("assumed ties"))
+    if page.support is not None:
+        modes = [
+            words("mode", period=words.number(mode.period), participation=words.number(mode.participation))
+            for mode in page.support.modes
+        ]
+        lines.append(words("assumed support", name=page.place.name, modes=words.listed(modes)))
+    return lines
+
+
+def _basis(
+    page: CheckedStructure,
+    checked: StructureCheck,
+    conclusion: CodeConclusion,
+    everywhere: Sequence[CheckedStructure],
+    words: Sentences,
+) -> dict[str, object]:
+    """The page behind it: the capacity curve, the checks with their values, the other places, and the study's share."""
+    others = [each for each in everywhere if each is not page]
+    return {
+        "title": words("basis", name=page.name),
+        "figure": [
+            picture(basis_figure(page.structure, checked, words), words("figure alt", name=page.name))
+        ],
+        "checks": _check_table(checked, words),
+        "sentences": _sentences(checked, words),
+        "periods": _period_table(others, conclusion, words) if others else {"rows": []},
+        "share": _share(page, words),
+    }
+
+
+def _check_table(checked: StructureCheck, words: Sentences) -> dict[str, object]:
+    heads = [
+        (words("head check"), "0.9", "l"),
+        (words("head clause"), "auto", "l"),
+        (words("head capacity"), "1.0", "r"),
+        (words("head demand"), "1.0", "r"),
+        (words("head ratio"), "auto", "r"),
+        (words("head result"), "1.0", "l"),
+        (words("head part"), "0.9", "l"),
+        (words("head mechanism"), "1.5", "l"),
+    ]
+    governing = {each.description: each for each in checked.mechanisms}
+    lines: list[list[Cell]] = [
+        [
+            words(KINDS[each.clause]),
+            each.clause,
+            _valued(each, each.capacity, words),
+            _valued(each, each.demand, words),
+            ratio_words(each, words),
+            strong(words(each.outcome)),
+            words(f"part {checked.part_of(each)}"),
+            opening_words(governing[each.mechanism], words),
+        ]
+        for each in checked.checks
+    ]
+    return table(heads, lines)
+
+
+def ratio_words(check: Check, words: Sentences) -> str:
+    """Return capacity over demand as a page prints it."""
+    return words("falls") if not check.ratio else words.decimal(check.ratio_in_words)
+
+
+def _valued(check: Check, value: float, words: Sentences) -> str:
+    letter = "d" if check.unit == "m" else "a_g"
+    return f"{letter} = {words.quantity(value, check.unit)}"
+
+
+def opening_words(mechanism: LocalMechanism, words: Sentences) -> str:
+    """Return what opens, and to which side it falls."""
+    if words.language == "en":
+        return mechanism.description
+    body = mechanism.body
+    opening = body.opening if isinstance(body, Tied) else None
+    position = getattr(body, "crack_position", math.nan)
+    if opening is not None:
+        heights = {
+            name: words.number(value)
+            for name in ("foot", "hinge", "hold")
+            if (value := getattr(opening, name)) is not None
+        }
+        key = "opens held" if "hold" in heights else "opens hinge" if "hinge" in heights else "opens whole"
+        opens = words(key, **heights)
+    elif math.isfinite(position):
+        opens = words("opens at", height=words.number(position))
+    else:
+        opens = words("opens as given")
+    side = "" if body.symmetric else words(f"side {body.side_names[0 if mechanism.sign > 0 else 1]}")
+    return ", ".join(filter(None, (opens, side)))
+
+
+def _sentences(checked: StructureCheck, words: Sentences) -> list[str]:
+    """The basis of the checks, in sentences."""
+    mechanism = checked.governing
+    lines = [
+        words(
+            "governs",
+            mechanism=opening_words(mechanism, words),
+            multiplier=words.number(mechanism.onset_multiplier),
+            mass=words.number(mechanism.participating_mass_ratio),
+            factor=words.plain(mechanism.confidence_factor),
+            displacement=words.quantity(mechanism.ultimate_displacement, "m"),
+            start=words.quantity(checked.damage_level, "m/s²"),
+        )
+    ]
+    for state in LIMIT_STATES.values():
+        point = mechanism.limit(state)
+        if math.isinf(point.displacement):
+            continue
+        lines.append(
+            words(
+                "limit point",
+                state=state.name,
+                displacement=words.quantity(point.displacement, "m"),
+                reason=words.of(point.reason),
+                acceleration=words.quantity(point.acceleration, "m/s²"),
+                period=words.number(point.period),
+            )
+        )
+    if checked.remark:
+        lines.append(words.of(checked.remark))
+    dynamic = checked.dynamic
+    if dynamic is not None:
+        low, high = (words.decimal(percent(each)) for each in dynamic.interval)
+        outcome = words.of(dynamic.refusal) if dynamic.refusal else words(dynamic.outcome)
+        lines.append(
+            words(
+                "dynamic said",
+                motions=words.counted(dynamic.motions, "motion"),
+                sets=dynamic.sets,
+                share=words.decimal(percent(dynamic.share)),
+                low=low,
+                high=high,
+                outcome=outcome,
+            )
+        )
+        if dynamic.caution:
+            lines.append(words.of(dynamic.caution))
+    return lines
+
+
+def _period_table(
+    others: Sequence[CheckedStructure], conclusion: CodeConclusion, words: Sentences
+) -> dict[str, object]:
+    """The lines of the other places of a structure on a support: the ratios, the conclusion, the study's share."""
+    kinds = [each.check for each in conclusion.checks]
+    heads = [(words("head place"), "1.4", "l"), *((words(kind), "0.8", "r") for kind in kinds)]
+    heads += [(words("head conclusion"), "2", "l"), (words("head overturns"), "0.8", "r")]
+    concluded = {each.period: each for each in conclusion.elsewhere}
+    lines: list[list[Cell]] = []
+    for each in others:
+        place = f"T_b {words.number(each.period)} s" if each.period else words("on the ground")
+        share = f"{words.decimal(percent(each.overturning_share))}\u00a0%" if each.stations else "–"
+        there = concluded.get(each.period)
+        if each.checked is None or there is None:
+            lines.append([place, *["–"] * len(kinds), words("could not", why=each.refusal), share])
+            continue
+        ratios = {KINDS[check.clause]: ratio_words(check, words) for check in each.checked.checks}
+        key = "line verified" if there.verified else "line not verified"
+        text = words(key, clause=there.decisive.clause)
+        lines.append([place, *(ratios.get(kind, "–") for kind in kinds), text, share])
+    return table(heads, lines)
+
+
+def _share(page: CheckedStructure, words: Sentences) -> str:
+    """What the study says of the structure there: its words by station, with their doubts."""
+    counts = ", ".join(
+        words(
+            "under",
+            predicate=words(f"predicate {word}"),
+            count=words.counted(page.verdicts[word], "station"),
+        )
+        for word in ORDER
+        if page.verdicts.get(word)
+    )
+    reasons = f" ({'; '.join(words.of(Remark(kind)) for kind in page.doubts)})" if page.doubts else ""
+    if not page.stations:
+        return words("no record tells", told=f"; {counts}{reasons}" if counts else "")
+    sentences = [words("sure words", counts=f"{counts}{reasons}")]
+    if page.followed_beside:
+        sentences.append(words("followed beside", count=words.counted(page.followed_beside, "record")))
+    if not page.reserves:
+        sentences.append(words("no reserve"))
+    text = " ".join(sentences)
+    return text[:1].upper() + text[1:]
+
+
+def _spectrum_words(spectrum: DesignSpectrum, words: Sentences) -> str:
+    damping = words.number(100 * spectrum.damping, 2)
+    if isinstance(spectrum, NtcSpectrum):
+        return words(
+            "spectrum",
+            ag=words.plain(spectrum.ag / GRAVITY),
+            f0=words.plain(spectrum.f0),
+            tc=words.plain(spectrum.tc_star),
+            soil=spectrum.soil,
+            topography=words.plain(spectrum.topography),
+            damping=damping,
+        )
+    assert isinstance(spectrum, PointSpectrum)
+    return words(
+        "points",
+        count=len(spectrum.periods),
+        first=words.plain(spectrum.periods[0]),
+        last=words.plain(spectrum.periods[-1]),
+        level=words.number(spectrum.level / GRAVITY),
+        damping=damping,
+    )
+
+
+def _selection_words(selection: Selection, words: Sentences) -> str:
+    """The deviations and scale factors of the chosen set."""
+    low, high = selection.deviations
+    factors = selection.factors[selection.chosen]
+    return words(
+        "records caption",
+        size=selection.chosen.size,
+        names=len(selection.names),
+        stations=len(set(selection.stations)),
+        low=f"{100 * low:+.0f}",
+        high=f"{100 * high:+.0f}",
+        first=words.number(selection.periods[0]),
+        last=words.number(selection.periods[-1]),
+        least=words.number(factors.min()),
+        most=words.number(factors.max()),
+        median=words.number(float(np.median(factors))),
+        sets=len(selection.sets),
+        drawn=selection.drawn,
+    )
+
+
+def _motion_table(selection: Selection, words: Sentences) -> dict[str, object]:
     """The records of the chosen set, each with its factor and its peak when scaled."""
     peak = unit_of("m/s²")
     heads = [
-        ("Record", "1.6", "l"),
-        ("Earthquake and station", "1.6", "l"),
-        ("Components", "auto", "r"),
-        ("Factor [-]", "auto", "r"),
-        (f"Peak when scaled [{peak.name}]", "auto", "r"),
+        (words("head record"), "1.6", "l"),
+        (words("head place of record"), "1.6", "l"),
+        (words("head components"), "auto", "r"),
+        (words("head factor"), "auto", "r"),
+        (words("head peak", unit=peak.name), "auto", "r"),
     ]
     lines: list[list[Cell]] = []
     for place in selection.chosen:
@@ -143,187 +607,13 @@ def _motion_table(selection: Selection) -> dict[str, object]:
         lines.append(
             [
                 selection.names[place],
-                words(facts),
-                plain(len(motions)),
-                number(float(selection.factors[place])),
-                number(max(each.peak_acceleration for each in motions) / peak.size),
+                or_a_dash(facts),
+                words.plain(len(motions)),
+                words.number(float(selection.factors[place])),
+                words.number(max(each.peak_acceleration for each in motions) / peak.size),
             ]
         )
     return table(heads, lines)
-
-
-def _page(each: CheckedStructure, spectrum: DesignSpectrum) -> dict[str, object]:
-    name = placed(each.name, each.place.period_of(each.support))
-    head = {
-        "name": name,
-        "description": f"{each.structure.description}.",
-        "comparison": _comparison(each),
-    }
-    if each.checked is None:
-        return head | {"refusal": each.refusal, "figure": [], "sentences": [], "finding": "", "share": ""}
-    checked = each.checked
-    alt = f"{name}: drawing with sizes and loads, mechanism, and capacity curve with limit displacements."
-    return head | {
-        "refusal": "",
-        "figure": [picture(_structure_figure(each.structure, checked), alt)],
-        "checks": _check_table(checked),
-        "sentences": [*_support(each), *_sentences(checked)],
-        "share": _share(each),
-        "finding": disagreement(checked, each.overturning_share, each.stations),
-    }
-
-
-def _check_table(checked: StructureCheck) -> dict[str, object]:
-    heads = [
-        ("Check", "0.8", "l"),
-        ("Clause", "auto", "l"),
-        ("Capacity", "1.0", "r"),
-        ("Demand", "1.0", "r"),
-        ("Ratio [-]", "auto", "r"),
-        ("Result", "auto", "l"),
-        ("Mechanism that decides", "1.6", "l"),
-    ]
-    lines: list[list[Cell]] = [
-        [
-            KINDS[each.clause],
-            each.clause,
-            _valued(each, each.capacity),
-            _valued(each, each.demand),
-            each.ratio_in_words,
-            {"text": each.outcome, "strong": True},
-            each.mechanism,
-        ]
-        for each in checked.checks
-    ]
-    return table(heads, lines)
-
-
-def _valued(check: Check, value: float) -> str:
-    letter = "d" if check.unit == "m" else "a_g"
-    return f"{letter} = {quantity(value, check.unit)}"
-
-
-def _sentences(checked: StructureCheck) -> list[str]:
-    """The basis of the checks, in sentences."""
-    mechanism = checked.governing
-    lines = [
-        f"Mechanism that governs: {mechanism.description}; α₀ = {number(mechanism.onset_multiplier)}, "
-        f"e* = {number(mechanism.participating_mass_ratio)}, FC = {number(mechanism.confidence_factor)}, "
-        f"d₀ = {quantity(mechanism.ultimate_displacement, 'm')}; it starts at "
-        f"a_g = {quantity(checked.damage_level, 'm/s²')} (SLD)."
-    ]
-    for state in LIMIT_STATES.values():
-        point = mechanism.limit(state)
-        if math.isinf(point.displacement):
-            continue
-        lines.append(
-            f"d_{state.name} = {quantity(point.displacement, 'm')} ({point.reason}), "
-            f"a = {quantity(point.acceleration, 'm/s²')}, T_{state.name} = {number(point.period)} s."
-        )
-    lines += _terms(checked)
-    dynamic = checked.dynamic
-    if dynamic is not None:
-        said = f"Dynamic check under {counted(dynamic.motions, 'motion')}: {dynamic.sentence}"
-        lines.append(f"{said}; {dynamic.refusal}." if dynamic.refusal else f"{said}. {dynamic.caution}")
-    elif checked.remark:
-        lines.append(str(checked.remark))
-    else:
-        lines.append("The dynamic check was not made: there are no sets of records for it.")
-    return lines
-
-
-def _terms(checked: StructureCheck) -> list[str]:
-    """The terms that the check was given beside the structure, and what it leaves unchecked, in sentences."""
-    mechanism = checked.governing
-    terms = []
-    if mechanism.elastic_period:
-        terms.append(
-            f"It is free to vibrate with T₀ = {number(mechanism.elastic_period)} s, as given (C8.7.1.7)."
-        )
-    if math.isfinite(mechanism.support_loss):
-        terms.append(
-            f"What it carries falls at a displacement of {quantity(mechanism.support_loss, 'm')} of the corner that "
-            "moves farthest, as given."
-        )
-    ties = [tie.tie for each in checked.mechanisms for tie in each.static.side.ties]
-    if any(math.isinf(tie.strength) for tie in ties):
-        terms.append(
-            "A tie has no strength of its own: it is taken never to break, and its force is not checked."
-        )
-    return terms
-
-
-def _support(page: CheckedStructure) -> list[str]:
-    """The sentence on the support on which a structure stands, if it does."""
-    if page.support is None:
-        return []
-    modes = " and ".join(
-        f"{number(mode.period)} s with Γψ = {number(mode.participation)}" for mode in page.support.modes
-    )
-    return [
-        f"It stands on {page.place.name}, a support of period {modes}: the demands are those there (C7.2.5 to "
-        "C7.2.10), and the dynamic check follows the motion there."
-    ]
-
-
-def _comparison(page: CheckedStructure) -> str:
-    """The warning above the page of a structure that stands on a support and is taken on the ground; "" elsewhere."""
-    if page.support is not None or not page.place.supports:
-        return ""
-    return (
-        f"For comparison only: {page.name} stands on a support, and this page takes it on the ground; "
-        "sign the pages of its support."
-    )
-
-
-def _share(each: CheckedStructure) -> str:
-    counts = ", ".join(
-        f"{word.predicate} under {counted(each.verdicts[word], 'station')}"
-        for word in ORDER
-        if each.verdicts.get(word)
-    )
-    reasons = f" ({'; '.join(str(Remark(kind)) for kind in each.doubts)})" if each.doubts else ""
-    if not each.stations:
-        told = f"; it {counts}{reasons}" if counts else ""
-        return f"No record of the study tells whether it overturns{told}."
-    low, high = share_interval(each.overturning_share, each.stations)
-    share = (
-        f"Under the {counted(each.records, 'record')} of {counted(each.stations, 'station')} of the study, uncertain "
-        f"inputs considered, it overturns with a share of {percent(each.overturning_share)} % (90 % interval over "
-        f"stations: {percent(low)} to {percent(high)} %). By the worst record of each it {counts}{reasons}."
-    )
-    if each.followed_beside:
-        share += (
-            f" Under {counted(each.followed_beside, 'record')} this period was not followed, as the periods beside it "
-            "have one verdict: the worse of these counts."
-        )
-    return f"{share} {_reserve(each)}"
-
-
-def _reserve(each: CheckedStructure) -> str:
-    """The sentence on by how much the records may be stronger: the least reserve, the middle one, their doubts."""
-    if not each.reserves:
-        return "No reserve was sought, by how much these records may be stronger."
-    lows = np.array([reserve.low for reserve in each.reserves])
-    reached = lows[~np.isnan(lows)]
-    limit = max(reserve.limit for reserve in each.reserves)
-    of_all = f"all {counted(lows.size, 'record')}" if lows.size > 1 else "that record"
-    if lows.size < each.records:  # on a support it is sought at the worst period of each record
-        of_all = f"the {counted(lows.size, 'record')} of {each.records} of which this is the worst period"
-    if not reached.size:
-        words = f"Under {of_all} fewer than 5 % of its members fall up to {limit:g} times the record"
-    else:
-        words = f"5 % of its members fall at {number(reached.min(), 2)} times the most demanding record"
-        if lows.size > 1:
-            median = float(np.quantile(np.where(np.isnan(lows), np.inf, lows), 0.5, method="lower"))
-            middle = f"beyond {limit:g}" if math.isinf(median) else f"at {number(median, 2)}"
-            words = f"{words}, and {middle} times the record in the median over {of_all.removeprefix('all ')}"
-        elif lows.size < each.records:
-            words = f"{words}, over {of_all}"
-    if each.reserve_doubts:
-        reasons = " and ".join(str(Remark(kind)) for kind in each.reserve_doubts)
-        words = f"{words}; this is the reserve of the mechanism alone, and too high where {reasons}"
-    return f"{words}."
 
 
 def share_interval(share: float, count: int) -> tuple[float, float]:
@@ -332,64 +622,3 @@ def share_interval(share: float, count: int) -> tuple[float, float]:
     centre = (share + squared / 2) / (1 + squared)
     half = math.sqrt(share * (1 - share) * squared + squared**2 / 4) / (1 + squared)
     return max(centre - half, 0.0), min(centre + half, 1.0)
-
-
-@styled
-def _structure_figure(structure: Structure, checked: StructureCheck) -> Figure:
-    """Three panels: the structure with sizes and loads, its mechanism, and the capacity curve."""
-    figure = new_figure(_FIGURE_HEIGHT)
-    mechanism = checked.governing
-    drawn = panel_at(figure, 2, 4, 60, _FIGURE_HEIGHT - 10)
-    draw_structure(drawn, structure, values=True)
-    draw_dimensions(drawn, structure, values=True)
-    turned = panel_at(figure, 62, 4, 36, _FIGURE_HEIGHT - 10)
-    critical = mechanism.static.side.critical_rotation
-    draw_structure(turned, mechanism.body, mechanism.sign * _TURNED * critical)
-    for axes, title in ((drawn, "sizes and loads"), (turned, "mechanism")):
-        axes.set_title(title)
-        axes.set_aspect("equal", adjustable="datalim")
-        axes.margins(0.08)
-        axes.autoscale_view()
-        axes.set_axis_off()
-    room_for_texts(figure, drawn)
-    _draw_capacity(panel_at(figure, 112, 4, 56, _FIGURE_HEIGHT - 13), mechanism)
-    return figure
-
-
-def _draw_capacity(axes: Axes, mechanism: LocalMechanism) -> None:
-    """a against d with its limit displacements and the secants whose periods the check takes."""
-    side = mechanism.static.side
-    bends = np.array(side.bends)
-    steps = np.linspace(0.0, side.critical_rotation, _POINTS)
-    rotations = np.unique([*steps, *bends, *bends * (1 + 1e-9)])
-    length = unit_of("m")
-    force = unit_of("m/s²")
-    displacements = mechanism.displacement(rotations) / length.size
-    accelerations = mechanism.acceleration(rotations) / force.size
-    axes.plot(displacements, accelerations, color="black")
-    for (name, state), colour in zip(LIMIT_STATES.items(), (PREDICTED, PULSE), strict=True):
-        point = mechanism.limit(state)
-        if math.isinf(point.displacement):
-            continue
-        label = f"d_{name} = {quantity(point.displacement, 'm')}, T_{name} = {number(point.period)} s"
-        place = point.displacement / length.size
-        level = point.acceleration / force.size
-        axes.plot([0, place], [0, level], "--", color=colour, linewidth=0.8)
-        axes.plot(place, level, "o", color=colour, markersize=4, label=label)
-    axes.axhline(0, **ZERO)
-    axes.margins(x=0)
-    axes.set_ylim(0, 1.35 * float(accelerations.max()))
-    axes.set(
-        xlabel=f"displacement d [{length.name}]",
-        ylabel=f"acceleration a [{force.name}]",
-        title="capacity curve",
-    )
-    if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc="upper right")
-
-
-@styled
-def _selection_figure(selection: Selection) -> Figure:
-    figure = new_figure(80.0)
-    plot(selection, figure.subplots())
-    return figure

@@ -136,6 +136,17 @@ class Tied(CrackedAtHeight):
     def _hung(self, mirrored: bool) -> list[Hung]:
         """The loads and ties, as seen from one side."""
 
+    def without_ties(self) -> Self:
+        """Return the same structure with no tie. Raises StructureError where it does not stand so."""
+        return replace(
+            self,
+            tie_heights=(),
+            tie_stiffness=0.0,
+            tie_pretension=0.0,
+            tie_strength=None,
+            tie_plastic_elongation=0.0,
+        )
+
     @property
     @abstractmethod
     def held_wall(self) -> HeldWall:

@@ -3,6 +3,8 @@
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
+from functools import partial
 from pathlib import Path
 
 from rocking.assessment.decide import Verdict, worse
@@ -17,6 +19,7 @@ from rocking.errors import ConfigurationError, RockingError
 from rocking.floors.support import Support
 from rocking.records import load_catalogue
 from rocking.reports.structures import CheckedStructure, structures_report
+from rocking.structures.tied import Tied
 from rocking.study.job import Study
 from rocking.study.selection import pool_of, select_for
 from rocking.study.settings import StudyDesign
@@ -42,7 +45,7 @@ def write_checks(
         raise ConfigurationError(
             "setting design_spectrum.ag_g is null, and so is points, but checks need a design level; give one."
         )
-    selection, notices = _sets(study)
+    selection, without_sets, unread = _sets(study)
     station_of = {each.record: _station(each) for each in records}
     pages = []
     for name, scene in study.scenes.items():
@@ -60,7 +63,7 @@ def write_checks(
         for row in code_check_rows(page.name, page.checked, page.place.period_of(page.support))
     )
     write_tables({CodeCheckRow: rows}, folder, "rocking-code-checks", "code_checks.json")
-    report = structures_report(pages, spectrum, study.settings.mapping(), selection, notices)
+    report = structures_report(pages, spectrum, study.settings.mapping(), selection, without_sets, unread)
     write_whole(folder / "structures.pdf", report)
 
 
@@ -78,21 +81,26 @@ def _checked(
     support: one along the axis of its place. station_of: the station of each record, by its identifier.
     """
     checked: StructureCheck | None = None
+    untied: StructureCheck | None = None
     refusal = ""
+    checked_at = partial(
+        check,
+        spectrum=spectrum,
+        limit_state=design.limit_state,
+        confidence_factor=design.confidence_factor,
+        behaviour_factor=design.behaviour_factor,
+        support=support,
+        elastic_period=scene.terms.elastic_period,
+        support_loss=scene.terms.support_loss,
+        records=selection,
+    )
     try:
-        checked = check(
-            scene.structure,
-            spectrum,
-            limit_state=design.limit_state,
-            confidence_factor=design.confidence_factor,
-            behaviour_factor=design.behaviour_factor,
-            support=support,
-            elastic_period=scene.terms.elastic_period,
-            support_loss=scene.terms.support_loss,
-            records=selection,
-        )
+        checked = checked_at(scene.structure)
     except RockingError as error:
-        refusal = f"It could not be checked: {error}"
+        refusal = str(error)
+    if isinstance(scene.structure, Tied) and scene.structure.tie_heights:
+        with suppress(RockingError):  # without its ties it may not stand
+            untied = checked_at(scene.structure.without_ties())
     known = [each for each in verdicts if not math.isnan(each.overturning_share)]
     shares = shares_by_station(known, station_of)
     return CheckedStructure(
@@ -102,6 +110,7 @@ def _checked(
         place=scene.place,
         support=support,
         refusal=refusal,
+        untied=untied,
         overturning_share=sum(shares) / len(shares) if shares else math.nan,
         records=len(known),
         stations=len(shares),
@@ -145,11 +154,10 @@ def _told(checked: StructureCheck | None) -> str:
     return f"{words}. {checked.remark}" if checked and checked.remark else words
 
 
-def _sets(study: Study) -> tuple[Selection | None, list[str]]:
-    """The sets of records for the dynamic check, and what there is to say of them."""
+def _sets(study: Study) -> tuple[Selection | None, str, list[str]]:
+    """The sets of records for the dynamic check, or why there are none; and the records that could not be read."""
     try:
         selection, reasons = select_for(study, load_catalogue(pool_of(study.settings)))
     except RockingError as error:
-        return None, [f"The dynamic check was not made: {error}"]
-    names = ", ".join(reasons)
-    return selection, [f"Not used for the sets, as they could not be read: {names}."] if reasons else []
+        return None, str(error), []
+    return selection, "", list(reasons)

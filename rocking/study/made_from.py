@@ -98,7 +98,7 @@ TABLE: Mapping[str, Line] = {
         documents=False,
     ),
     "checks": Line(
-        (*_NUMBERS, *_TOLD, "design_spectrum"),
+        (*_NUMBERS, *_TOLD, "language", "design_spectrum"),
         files=("design_spectrum.points",),
         pool=True,
         terms=True,

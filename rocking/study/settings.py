@@ -172,6 +172,12 @@ class Settings(AssessmentSettings):
         heading=Heading.OUTPUT,
         changes_numbers=False,
     )
+    language: Literal["en", "it"] = described(
+        "en",
+        "language of structures.pdf, the pages to sign: en or it; all other documents and tables are English",
+        heading=Heading.OUTPUT,
+        changes_numbers=False,
+    )
     histories: bool = described(
         False,
         "whether each record gets histories.csv, the rotation of every response",

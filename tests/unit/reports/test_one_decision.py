@@ -166,7 +166,8 @@ def test_the_page_to_sign_says_it(report, decisions):
         own = [row for row in report.tables.verdicts if row.structure == name]
         page = _checked(report.result.scenes[name].scene, None, StudyDesign(), SPECTRUM, None, own, stations)
         (data,) = structures_data([page], SPECTRUM, SETTINGS)["pages"]
-        assert f"it {decision.word.predicate} under 1 station" in data["share"]
+        share = data["basis"]["share"]
+        assert f"{decision.word.predicate} under 1 station" in share
         if not math.isnan(decision.share):
-            assert f"a share of {100 * decision.share:.0f} %" in data["share"]
-        assert all(f"({doubt})" in data["share"] for doubt in decision.doubts)
+            assert f"{100 * decision.share:.0f}{NO_BREAK}%" in [each["value"] for each in data["sure"]]
+        assert all(f"({doubt})" in share for doubt in decision.doubts)

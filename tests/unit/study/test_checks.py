@@ -15,11 +15,12 @@ from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import RecordRow, VerdictRow
 from rocking.assessment.scene import on_the_ground
 from rocking.codes.check import DynamicCheck
-from rocking.codes.rows import CodeCheckRow, disagreement
+from rocking.codes.conclusion import code_conclusions
+from rocking.codes.rows import CodeCheckRow, code_check_rows
 from rocking.errors import ConfigurationError
 from rocking.motion.response import ModelCheck
 from rocking.remarks import Kind, Remark
-from rocking.reports.structures import share_interval, structures_data
+from rocking.reports.structures import CheckedStructure, share_interval, structures_data
 from rocking.study.checks import shares_by_station, write_checks
 from rocking.study.job import Study
 from rocking.study.settings import Settings, read_settings
@@ -145,51 +146,98 @@ def found(passed, exceeding=0, **others):
     return DynamicCheck(**values | others)
 
 
-def test_formulas_and_dynamics_that_disagree_are_told_with_both_figures():
+FORMULAS = check(Block.of_size(0.6, 2.0), DesignSpectrum.ntc(1.0, 2.5, 0.3))
+WEAK = check(Block.of_size(0.1, 2.0), DesignSpectrum.ntc(1.0, 2.5, 0.3))
+FEW = Remark.of(Kind.SETS_TOO_FEW, sets=72, asked=200)
+UNLIKE = Remark.of(Kind.SETS_DISAGREE, share_percent=44.0, sets=200, least_percent=95.0)
+
+
+@pytest.mark.parametrize(
+    ("formulas", "dynamic", "clause", "verified", "parts"),
+    [
+        (FORMULAS, None, "C8.7.1.2.1.8", True, ["counts too", "decides"]),
+        (WEAK, None, "C8.7.1.2.1.8", False, ["counts too", "decides"]),
+        (FORMULAS, found(True), "C8.7.1.2.1.9", True, ["counts too", "counts too", "decides"]),
+        (WEAK, found(True), "C8.7.1.2.1.9", True, ["not needed", "not needed", "decides"]),
+        (FORMULAS, found(False, 3), "C8.7.1.2.1.9", False, ["overruled", "overruled", "decides"]),
+        (FORMULAS, found(True, refusal=UNLIKE), "C8.7.1.2.1.9", False, ["overruled", "overruled", "decides"]),
+        (FORMULAS, found(True, refusal=FEW), "C8.7.1.2.1.8", True, ["counts too", "decides", "no answer"]),
+    ],
+    ids=["formulas", "neither", "all", "dynamic alone", "falls", "sets disagree", "few sets"],
+)
+def test_the_most_detailed_check_that_has_an_answer_decides(formulas, dynamic, clause, verified, parts):
+    checked = replace(formulas, dynamic=dynamic)
+    assert checked.decisive.clause == clause
+    assert checked.verified == verified
+    assert [checked.part_of(each) for each in checked.checks] == parts
+    (conclusion,) = code_conclusions(code_check_rows("wall", checked))
+    assert str(conclusion.remark) == f"{'verified' if verified else 'not verified'} by {clause}"
+    beside = "sets of other stations would meet it" in str(conclusion)
+    assert beside == (verified and dynamic is not None)
+
+
+def test_of_a_support_the_worst_period_counts_and_never_the_ground_below_it():
+    """At T_b 0.2 s the dynamic check is met, at 0.4 s it is not, and on the ground the ratio is least of all."""
+    places = {0.0: found(False, 9), 0.2: found(True), 0.4: found(False, 3)}
+    rows = [
+        row
+        for period, dynamic in places.items()
+        for row in code_check_rows("parapet", replace(FORMULAS, dynamic=dynamic), period)
+    ]
+    (conclusion,) = code_conclusions(rows)
+    assert conclusion.period == 0.4
+    assert conclusion.name == "parapet, T_b 0.4 s"
+    assert not conclusion.verified
+    assert {each.period for each in conclusion.elsewhere} == {0.0, 0.2}
+    assert conclusion.ratio_in_words["dynamic"] == "0.500"
+
+
+def page_of(checked=FORMULAS, language="en", name="wall", **facts):
+    """What the template is given for one page."""
+    page = CheckedStructure(name=name, structure=Block.of_size(0.6, 2.0), checked=checked, **facts)
+    settings = Settings(language=language).mapping()
+    (data,) = structures_data([page], DesignSpectrum.ntc(1.0, 2.5, 0.3), settings)["pages"]
+    return data
+
+
+def test_a_page_ends_in_a_sentence():
+    met = page_of(replace(FORMULAS, dynamic=found(True, interval=(0.35, 1.0))))
+    assert met["headline"] == "Verified by C8.7.1.2.1.9, and by C8.7.1.2.1.8 and C8.7.1.2.1.7."
+    assert "met by 35–100\u00a0%" in " ".join(met["details"])
+    falls = page_of(replace(FORMULAS, dynamic=found(False, 3)))
+    assert falls["headline"] == "Not verified: d₀ is exceeded under 3 of 40 motions (C8.7.1.2.1.9)."
+    assert "Met: linear check and nonlinear check; but C8.7.1.2.1.9" in " ".join(falls["details"])
+    unlike = page_of(replace(FORMULAS, dynamic=found(True, refusal=UNLIKE, share=0.44)))
+    assert unlike["headline"].startswith("Not verified: 44\u00a0% of 200 sets of records meet C8.7.1.2.1.9")
+    assert page_of(WEAK)["headline"].startswith("Not verified: C8.7.1.2.1.8 gives 0.")
+    assert falls["signed"] and met["signed"], "either is a finding"
+    refused = page_of(None, refusal="the spectrum ends at 1 s.")
+    assert not refused["signed"], "what was not checked is not signed"
+    assert "the spectrum ends at 1 s" in refused["details"][0]
+
+
+def test_a_study_that_contradicts_the_checks_is_told_with_its_figure():
+    often = page_of(overturning_share=0.25, stations=20, records=40)
+    assert "of 20 stations, it overturns with a share of 25 %" in " ".join(often["details"])
+    never = page_of(WEAK, overturning_share=0.0, stations=20, records=40)
+    assert "no member overturns" in " ".join(never["details"])
+    assert "stations" not in " ".join(page_of(overturning_share=0.05, stations=20, records=40)["details"])
+
+
+def test_a_structure_that_only_its_tie_holds_says_so():
+    strength = {"tie_heights": (2.9,), "tie_stiffness": 1e6, "tie_strength": 20e3}
+    tied = Facade((3.0,), (0.5,), unit_weight=20e3, **strength)
     spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
-    formulas = check(Block.of_size(0.6, 2.0), spectrum)
-
-    def said(dynamic, share=0.0, checked=formulas):
-        checks = tuple(each for each in (checked.linear, checked.nonlinear, dynamic) if each)
-        return disagreement(SimpleNamespace(dynamic=dynamic, checks=checks), share, 20)
-
-    ratios = f"{formulas.linear.ratio_in_words} and {formulas.nonlinear.ratio_in_words}"
-    assert said(found(True)) == said(None) == ""
-    assert said(found(False, 3)).startswith(
-        f"The linear and the nonlinear check are met with ratios of {ratios}, but the dynamic check is not: "
-    )
-    assert "3 of 40 motions" in said(found(False, 3)) and "10 % meet it" in said(found(False, 3))
-    assert "0.2 m where 0.1 m are allowed" in said(found(False))
-    assert "overturns with a share of 25 %" in said(None, 0.25)
-    weak = check(Block.of_size(0.1, 2.0), spectrum)
-    assert "are not met with ratios of" in said(found(True), checked=weak)
-    assert "but the dynamic check is with one of 2.00" in said(found(True), checked=weak)
-    one_of_each = check(
-        Block.of_size(0.3, 1.6), DesignSpectrum.ntc(1.2, 2.45, 0.33, "B"), elastic_period=0.11
-    )
-    assert not one_of_each.linear.passed and one_of_each.nonlinear.passed
-    passed = f"{one_of_each.linear.ratio_in_words}, but the dynamic check is with one of 2.00"
-    assert said(found(True), checked=one_of_each) == f"The linear check is not met with a ratio of {passed}."
-
-
-def test_sets_that_are_few_contradict_no_formula_and_sets_that_disagree_do():
-    spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
-    formulas = check(Block.of_size(0.6, 2.0), spectrum)
-
-    def said(dynamic):
-        checks = (formulas.linear, formulas.nonlinear, dynamic)
-        return disagreement(SimpleNamespace(dynamic=dynamic, checks=checks), 0.0, 20)
-
-    few = found(True, refusal=Remark.of(Kind.SETS_TOO_FEW, sets=72, asked=200), sets=72)
-    disagree = Remark.of(Kind.SETS_DISAGREE, share_percent=44.0, sets=200, least_percent=95.0)
-    unlike = found(True, refusal=disagree, share=0.44, interval=(0.1, 0.9))
-    assert few.outcome == unlike.outcome == "not called met"
-    assert found(False).outcome == found(True, 2, refusal=Remark(Kind.CHECK_NOT_MET)).outcome == "not met"
-    assert said(few) == ""
-    assert (
-        "depends on the records: the chosen set meets it, and of 200 sets drawn 44 % meet it (10 to 90 %"
-        in said(unlike)
-    )
+    page = CheckedStructure(name="front", structure=tied, checked=FORMULAS, untied=WEAK)
+    (data,) = structures_data([page], spectrum, Settings().mapping())["pages"]
+    assert data["headline"].endswith(", only with its tie.")
+    assert "Without its tie C8.7.1.2.1.8 is not met." in data["details"]
+    page = replace(page, untied=FORMULAS)
+    (data,) = structures_data([page], spectrum, Settings().mapping())["pages"]
+    assert "only with" not in data["headline"]
+    bare = tied.without_ties()
+    assert not bare.tie_heights and bare.mechanism().positive.ties == ()
+    assert bare == Facade((3.0,), (0.5,), unit_weight=20e3)
 
 
 def test_a_check_that_is_met_tells_how_far_its_stations_speak_for_others():
@@ -221,8 +269,6 @@ def test_records_of_one_station_count_once():
 
 
 def test_the_page_names_the_client_and_what_the_checks_rest_on():
-    from rocking.reports.structures import CheckedStructure
-
     spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
     checked = check(STRUCTURES["parapet"], spectrum)
     page = CheckedStructure(
@@ -237,15 +283,17 @@ def test_the_page_names_the_client_and_what_the_checks_rest_on():
     data = structures_data([page], spectrum, settings)
     assert data["about"]["client"] == "The town"
     (text,) = data["pages"]
-    assert "6 records of 4 stations" in text["share"] and "50 %" in text["share"]
-    assert text["figure"][0]["svg"].startswith("<?xml")
-    assert f"T_SLV = {checked.limit.period:.3g}" in " ".join(text["sentences"])
-    assert [line[0] for line in text["checks"]["rows"]] == ["linear", "nonlinear"]
+    (share,) = text["sure"]
+    assert share["value"] == "50\u00a0%"
+    assert "6 records of 4 stations" in share["text"]
+    assert text["bars"][0]["svg"].startswith("<?xml") and text["basis"]["figure"][0]["svg"].startswith(
+        "<?xml"
+    )
+    assert f"T_SLV = {checked.limit.period:.3g}" in " ".join(text["basis"]["sentences"])
+    assert [line[0] for line in text["basis"]["checks"]["rows"]] == ["linear", "nonlinear"]
 
 
 def test_the_page_tells_a_reserve_that_was_not_sought_from_one_that_was_not_reached():
-    from rocking.reports.structures import CheckedStructure
-
     spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
 
     def share(*reserves: Reserve, doubts: tuple[Kind, ...] = ()) -> str:
@@ -258,18 +306,19 @@ def test_the_page_tells_a_reserve_that_was_not_sought_from_one_that_was_not_reac
             reserves=reserves,
             reserve_doubts=doubts,
         )
-        return structures_data([page], spectrum, Settings().mapping())["pages"][0]["share"]
+        (data,) = structures_data([page], spectrum, Settings().mapping())["pages"]
+        lines = [f"{each['value']} {each['text']}" for each in data["sure"][1:]]
+        return lines[0] if lines else data["basis"]["share"]
 
     never = Reserve(math.nan, math.nan, math.nan, 3.0)
     low = Reserve(0.8, 1.1, math.nan, 3.0)
     high = Reserve(1.6, 2.2, 3.0, 3.0)
     assert "No reserve was sought" in share()
-    assert "Under all 2 records fewer than 5 % of its members fall up to 3 times the record." in share(
-        never, never
-    )
+    assert share(never, never) == "3\u00a0× on any record lets fewer than 5 % of the members overturn."
     both = share(high, low, never)
-    assert "at 0.80 times the most demanding record, and at 1.6 times the record in the median" in both
-    assert "beyond 3 times the record in the median over 3 records" in share(low, never, never)
+    assert both.startswith("0.80\u00a0× on the most demanding record lets 5 %")
+    assert both.endswith("; the median over 3 records is 1.6\u00a0×.")
+    assert "the median over 3 records is > 3\u00a0×" in share(low, never, never)
     assert share(low, doubts=(Kind.CONTACTS_OPEN,)).endswith("too high where contacts open.")
 
 
@@ -289,7 +338,10 @@ def test_the_page_to_sign_carries_the_caveat_of_page_one(study, monkeypatch):
     changed = read_settings(settings | {"design_spectrum": DESIGN})
     write_checks(Study(on_the_ground(STRUCTURES), changed), folder, verdicts, records)
     data = structures_data(pages, DesignSpectrum.ntc(1.0, 2.5, 0.3), Settings().mapping())
-    signed = {page.name: text["share"] for page, text in zip(pages, data["pages"], strict=True)}
+    signed = {
+        page.name: " ".join(each["text"] for each in text["sure"])
+        for page, text in zip(pages, data["pages"], strict=True)
+    }
     caveat = station.reserve_in_words.partition("; ")[2]
     assert caveat
     assert signed["parapet"].endswith(f"{caveat}.")
@@ -315,8 +367,6 @@ def test_a_ratio_of_what_hardly_moves_says_that_it_is_large():
 
 def test_a_page_says_on_what_its_structure_stands_and_what_is_not_checked(tmp_path):
     """On a support its modes; on the ground beside it that the page is no page to sign; of endless ties their force."""
-    from rocking.reports.structures import CheckedStructure
-
     listed = tmp_path / "structures.yaml"
     listed.write_text(
         "- {name: roof, type: support, period_s: 0.25, participation: 1.3}\n"
@@ -339,26 +389,29 @@ def test_a_page_says_on_what_its_structure_stands_and_what_is_not_checked(tmp_pa
     ]
     data = structures_data(pages, spectrum, Settings().mapping())
     page = {each["name"]: each for each in data["pages"]}
-    assert "stands on roof, a support of period 0.25" in " ".join(page["parapet, T_b 0.25 s"]["sentences"])
-    assert page["parapet, on the ground"]["comparison"].startswith("For comparison only: parapet stands on")
-    assert page["plain"]["comparison"] == page["parapet, T_b 0.25 s"]["comparison"] == ""
+    assert list(page) == ["parapet", "plain", "tied"], "the ground of a support is a line of its page"
+    assert "stands on roof, a support of period 0.250" in " ".join(page["parapet"]["assumptions"])
+    assert page["parapet"]["place"] == "roof with T_b 0.250 s."
+    assert page["plain"]["place"] == ""
+    (ground,) = page["parapet"]["basis"]["periods"]["rows"]
+    assert ground[0] == "on the ground (for comparison)"
+    assert ground[1] == pages[0].checked.linear.ratio_in_words
+    assert page["plain"]["basis"]["periods"]["rows"] == []
     (tied,) = [each.checked.remark for each in pages if each.name == "tied"]
     assert tied.kind is Kind.TIE_MUST_BEAR
-    assert str(tied) in " ".join(page["tied"]["sentences"])
-    assert not any("strength" in text for text in page["plain"]["sentences"])
+    assert str(tied) in " ".join(page["tied"]["basis"]["sentences"])
+    assert not any("strength" in text for text in page["plain"]["basis"]["sentences"])
 
 
 @pytest.mark.parametrize("units", ["SI", "g and cm"])
 def test_a_limit_displacement_is_drawn_on_the_capacity_curve_in_every_unit(units, monkeypatch):
-    from rocking.reports.structures import CheckedStructure
-
     figures = []
 
     def kept(figure, alt):
         figures.append(figure)
         return {}
 
-    monkeypatch.setattr("rocking.reports.structures.picture", kept)
+    monkeypatch.setattr("rocking.reports.structures.picture", kept)  # the curve is drawn last
     block = STRUCTURES["parapet"]
     spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
     page = CheckedStructure(name="parapet", structure=block, checked=check(block, spectrum))

@@ -1,0 +1,95 @@
+"""The conclusion on a structure at its design level: made once of its checks, and the same wherever it is printed."""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from rocking.assessment.scene import placed
+from rocking.codes.check import Part, ratio_in_words
+from rocking.codes.rows import CodeCheckRow
+from rocking.quantities import percent
+from rocking.remarks import Kind, Remark
+
+
+@dataclass(frozen=True)
+class CodeConclusion:
+    """Whether a structure is verified at the design level, and by which clause; on a support at its worst period.
+
+    checks: its rows there, from the plainest check to the most detailed one. elsewhere: those at other periods.
+    """
+
+    structure: str
+    checks: Sequence[CodeCheckRow]
+    elsewhere: Sequence["CodeConclusion"] = ()
+
+    @property
+    def period(self) -> float | None:
+        """Period of the support, s: 0 of the ground below one, None on the ground itself."""
+        return self.checks[0].support_period_s
+
+    @property
+    def decisive(self) -> CodeCheckRow:
+        """The check that decides."""
+        return next(each for each in reversed(self.checks) if each.part == Part.DECIDES)
+
+    @property
+    def verified(self) -> bool:
+        """Whether it is met."""
+        return self.decisive.passed
+
+    @property
+    def severity(self) -> tuple[float, ...]:
+        """Key by which the worst comes last: what is not verified, then the least ratio of the most detailed check."""
+        ratios = (-each.ratio for each in reversed(self.checks))
+        return (not self.verified, *ratios)
+
+    @property
+    def remark(self) -> Remark:
+        """The conclusion: "verified by C8.7.1.2.1.9"."""
+        kind = Kind.VERIFIED if self.verified else Kind.NOT_VERIFIED
+        return Remark.of(kind, clause=self.decisive.clause)
+
+    @property
+    def other_sets(self) -> Remark | None:
+        """How many sets of other stations would meet the dynamic check, where one was made."""
+        dynamic = next((each for each in self.checks if not math.isnan(each.sets_share_low)), None)
+        if dynamic is None:
+            return None
+        low, high = percent(dynamic.sets_share_low), percent(dynamic.sets_share_high)
+        share = f"{low}–{high}\u00a0%" if low != high else f"{low}\u00a0%"
+        return Remark.of(Kind.OTHER_SETS, share=share)
+
+    @property
+    def ratio_in_words(self) -> Mapping[str, str]:
+        """Capacity over demand by the kind of check, "falls" where a motion lets it fall."""
+        return {each.check: ratio_in_words(each.ratio) for each in self.checks}
+
+    def __str__(self) -> str:
+        """The conclusion, and beside "verified" what other stations would say of it."""
+        others = self.other_sets
+        beside = f" ({others})" if self.verified and others else ""
+        return f"{self.remark}{beside}"
+
+    @property
+    def name(self) -> str:
+        """Name of the structure, with the period of its support."""
+        return placed(self.structure, self.period)
+
+
+def code_conclusions(rows: Iterable[CodeCheckRow]) -> list[CodeConclusion]:
+    """Return the conclusion on each structure, in the order of the rows, which are those of code_checks.csv.
+
+    Of what stands on a support the worst period counts, and not the ground below it.
+    """
+    places: dict[str, dict[float | None, list[CodeCheckRow]]] = {}
+    for row in rows:
+        places.setdefault(row.structure, {}).setdefault(row.support_period_s, []).append(row)
+    made = []
+    for structure, by_period in places.items():
+        everywhere = [CodeConclusion(structure, checks) for checks in by_period.values()]
+        counting = [each for each in everywhere if each.period != 0] or everywhere
+        worst = max(counting, key=lambda each: each.severity)
+        made.append(
+            CodeConclusion(structure, worst.checks, [each for each in everywhere if each is not worst])
+        )
+    return made

@@ -1,0 +1,215 @@
+"""The figures of the pages to sign: mechanism and bars of the checks, the capacity curve, the set of records."""
+
+import math
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from rocking.codes.check import Check, DynamicCheck, StructureCheck
+from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
+from rocking.codes.rows import KINDS
+from rocking.codes.selection import Selection
+from rocking.reports.drawings import draw_dimensions, draw_structure
+from rocking.reports.panels import ZERO, plot
+from rocking.reports.printing import unit_of
+from rocking.reports.sentences import Sentences
+from rocking.reports.style import PREDICTED, PULSE, new_figure, panel_at, room_for_texts, styled
+from rocking.structures import Structure
+
+_HEIGHT = 102.0
+"""mm; of the mechanism beside its bars, and of the drawing beside its capacity curve."""
+_TURNED = 0.5
+"""Share of the critical rotation at which a mechanism is drawn."""
+_POINTS = 200
+_MET = "#1F3A5F"
+_NOT_MET = "#AF4D1C"
+_SIDE = "#F6E9E2"
+"""Colours of a bar that is met, of one that is not, and of the side on which these lie."""
+_LEAST, _MOST = 0.25, 10.0
+"""Ends of the scale of the bars, which begin at 1; what lies beyond ends there, with its value."""
+_SHORT = 0.62
+"""Ratio from which on a bar that is not met is too short to hold it."""
+_BAR = 0.24
+"""Height of a bar; one check and the next are 1 apart."""
+
+
+@styled
+def bars_figure(checked: StructureCheck, untied: StructureCheck | None, words: Sentences) -> Figure:
+    """Draw the mechanism that governs, turned, and beside it capacity over demand of each check on one scale.
+
+    untied: the checks without ties, whose bars are outlined below the others.
+    """
+    figure = new_figure(_HEIGHT)
+    mechanism = checked.governing
+    drawn = panel_at(figure, 2, 6, 58, _HEIGHT - 10)
+    rotation = mechanism.sign * _TURNED * mechanism.static.side.critical_rotation
+    # The values beside loads and ties are English; on an Italian page they stand among the assumptions alone.
+    draw_structure(drawn, mechanism.body, rotation, values=words.language == "en")
+    drawn.set_aspect("equal", adjustable="datalim")
+    drawn.margins(0.08)
+    drawn.autoscale_view()
+    drawn.set_axis_off()
+    room_for_texts(figure, drawn)
+
+    axes = panel_at(figure, 92, 6, 76, _HEIGHT - 18)
+    axes.axvspan(_LEAST, 1, color=_SIDE, zorder=0)
+    axes.axvline(1, color="black", linewidth=1.2, zorder=4)
+    without = {each.clause: each for each in untied.checks} if untied else {}
+    for place, each in enumerate(checked.checks):
+        colour = _MET if each.passed else _NOT_MET
+        other = without.get(each.clause)
+        _draw_bar(axes, place - (0.15 if other else 0), each, words, {"color": colour})
+        if other:
+            _draw_bar(axes, place + 0.15, other, words, {"facecolor": "white", "edgecolor": "black"})
+        decides = each is checked.decisive
+        _write_beside(axes, place - 0.2, words(KINDS[each.clause]), size=9.5, weight="bold")
+        _write_beside(axes, place, each.clause, size=7.5, color="0.4")
+        _write_beside(
+            axes,
+            place + 0.19,
+            words(f"part {checked.part_of(each)}"),
+            size=8.5,
+            weight="bold" if decides else "normal",
+            color=colour if decides else "0.3",
+        )
+    axes.set(xscale="log", xlim=(_LEAST, _MOST), ylim=(len(checked.checks) - 0.5, -0.5))
+    ticks = (0.25, 0.5, 1, 2, 4, 8)
+    axes.set_xticks(ticks, [words.decimal(f"{each:g}") for each in ticks])
+    axes.minorticks_off()
+    axes.set_yticks([])
+    for side in ("left", "top", "right"):
+        axes.spines[side].set_visible(False)
+    for text, shift, align, colour in (
+        (words("not met"), -5, "right", _NOT_MET),
+        (words("met"), 5, "left", "black"),
+    ):
+        axes.annotate(
+            text,
+            (1, 1),
+            (shift, 4),
+            xycoords=("data", "axes fraction"),
+            textcoords="offset points",
+            ha=align,
+            weight="bold",
+            size=9,
+            color=colour,
+        )
+    if without:
+        axes.legend(
+            handles=[
+                Patch(facecolor=_MET, edgecolor="black", label=words("with tie")),
+                Patch(facecolor="white", edgecolor="black", label=words("without tie")),
+            ],
+            loc="upper left",
+            bbox_to_anchor=(0, -0.08),
+            ncols=2,
+            frameon=False,
+        )
+    return figure
+
+
+def _draw_bar(axes: Axes, place: float, check: Check, words: Sentences, look: dict[str, Any]) -> None:
+    """One bar from 1 on, with its ratio: within it where it is not met, beside it where it is."""
+    end = min(max(check.ratio, _LEAST), _MOST)
+    axes.barh(place, end - 1, _BAR, 1, linewidth=0.8, zorder=3, **look)
+    text = words.decimal(check.ratio_in_words)
+    if isinstance(check, DynamicCheck) and check.exceeding:
+        text = words("falls in", exceeding=check.exceeding, motions=check.motions)
+    outlined = look.get("facecolor") == "white"
+    ink = "black" if outlined or check.ratio >= 1 else "white"
+    is_short = _SHORT < check.ratio < 1  # without room for its ratio, which stands left of it
+    ends_the_scale = end == _MOST
+    if is_short or (ends_the_scale and outlined):
+        ink = "black"
+    elif ends_the_scale:
+        ink = "white"
+    to_the_left = is_short or ends_the_scale
+    axes.annotate(
+        text,
+        (end, place),
+        (-4 if to_the_left else 4, 0),
+        textcoords="offset points",
+        ha="right" if to_the_left else "left",
+        va="center",
+        size=9,
+        weight="normal" if outlined else "bold",
+        color=ink,
+        zorder=5,
+    )
+
+
+def _write_beside(axes: Axes, place: float, text: str, **look: Any) -> None:
+    """Write a line of what a bar is of, left of the scale."""
+    axes.annotate(
+        text,
+        (0, place),
+        (-72, 0),
+        xycoords=("axes fraction", "data"),
+        textcoords="offset points",
+        va="center",
+        **look,
+    )
+
+
+@styled
+def basis_figure(structure: Structure, checked: StructureCheck, words: Sentences) -> Figure:
+    """Draw the structure with its sizes and loads, and the capacity curve of the mechanism that governs."""
+    figure = new_figure(_HEIGHT)
+    drawn = panel_at(figure, 2, 4, 70, _HEIGHT - 10)
+    draw_structure(drawn, structure, values=words.language == "en")
+    draw_dimensions(drawn, structure, values=True, written=words.decimal)
+    drawn.set_title(words("sizes and loads"))
+    drawn.set_aspect("equal", adjustable="datalim")
+    drawn.margins(0.08)
+    drawn.autoscale_view()
+    drawn.set_axis_off()
+    room_for_texts(figure, drawn)
+    _draw_capacity(panel_at(figure, 94, 4, 74, _HEIGHT - 13), checked.governing, words)
+    return figure
+
+
+def _draw_capacity(axes: Axes, mechanism: LocalMechanism, words: Sentences) -> None:
+    """a against d with its limit displacements and the secants whose periods the check takes."""
+    side = mechanism.static.side
+    bends = np.array(side.bends)
+    steps = np.linspace(0.0, side.critical_rotation, _POINTS)
+    rotations = np.unique([*steps, *bends, *bends * (1 + 1e-9)])
+    length = unit_of("m")
+    force = unit_of("m/s²")
+    displacements = mechanism.displacement(rotations) / length.size
+    accelerations = mechanism.acceleration(rotations) / force.size
+    axes.plot(displacements, accelerations, color="black")
+    for (name, state), colour in zip(LIMIT_STATES.items(), (PREDICTED, PULSE), strict=True):
+        point = mechanism.limit(state)
+        if math.isinf(point.displacement):
+            continue
+        label = (
+            f"d_{name} = {words.quantity(point.displacement, 'm')}, T_{name} = {words.number(point.period)} s"
+        )
+        place = point.displacement / length.size
+        level = point.acceleration / force.size
+        axes.plot([0, place], [0, level], "--", color=colour, linewidth=0.8)
+        axes.plot(place, level, "o", color=colour, markersize=4, label=label)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter(lambda value, _: words.decimal(f"{value:.3g}"))
+    axes.axhline(0, **ZERO)
+    axes.margins(x=0)
+    axes.set_ylim(0, 1.35 * float(accelerations.max()))
+    axes.set(
+        xlabel=words("axis displacement", unit=length.name),
+        ylabel=words("axis acceleration", unit=force.name),
+        title=words("capacity curve"),
+    )
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(loc="upper right")
+
+
+@styled
+def selection_figure(selection: Selection) -> Figure:
+    """Draw the spectra of the set of records beside the design spectrum."""
+    figure = new_figure(80.0)
+    plot(selection, figure.subplots())
+    return figure
