@@ -16,7 +16,7 @@ import numpy as np
 from scipy.special import betaincinv, stdtrit
 
 from rocking.assessment.assessor import Assessor
-from rocking.assessment.component import Component, HorizontalMotion
+from rocking.assessment.motions import Component, HorizontalMotion
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings
 from rocking.codes.check import CodeTerms

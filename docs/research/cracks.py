@@ -25,7 +25,7 @@ from rocking import Accelerogram, LoadedWall, Mechanism, RigidBody, Verdict
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.decide import Facts, decide
 from rocking.assessment.ensemble import ensemble
-from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.motions import GroundMotions
 from rocking.contacts.dynamics import follow_stack
 from rocking.errors import StructureWarning
 from rocking.quantities import GRAVITY

@@ -21,8 +21,8 @@ from rocking.assessment.causes import CAUSES, lattice
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack, cracks, ensemble_over_cracks
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.ensemble import drawn, ensemble
-from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.methods import NEGLIGIBLE
+from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.records import Accelerogram
 from rocking.records.rotation import rotate

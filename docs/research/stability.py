@@ -17,12 +17,12 @@ from docs.research import scores, sites
 from docs.research.report import Tables, Target
 from docs.research.sites import Records
 from rocking.assessment.assessor import Assessor
-from rocking.assessment.case import Motion, StationResult
+from rocking.assessment.case import StationResult
 from rocking.assessment.causes import lattice
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack, counting_cracks, slides_first
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.ensemble import drawn
-from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.motions import GroundMotions, Motion, ground_motions
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings
 from rocking.floors.place import GROUND, place_from_config
@@ -125,7 +125,7 @@ def stability_trials(
             true_verdict = None
             true_share = math.nan
             if told.verdict is not Verdict.CANNOT_BE_TOLD:
-                motions = Motion(components, vertical, told.support).ground_motions(processing=True)
+                motions = ground_motions(Motion(components, vertical, told.support), processing=True)
                 true = very_many(structure, motions)
                 true_verdict = decide(true.facts).word
                 true_share = true.governing.ensemble.overturning_share

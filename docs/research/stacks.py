@@ -26,7 +26,7 @@ from rocking import Accelerogram, Facade, LoadedWall, Mechanism, Spire, Verdict,
 from rocking.assessment.contacts import ContactShare, contact_share
 from rocking.assessment.decide import Facts, decide
 from rocking.assessment.fidelity import peak_velocity
-from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.contacts.dynamics import follow_stack
 from rocking.errors import StructureWarning

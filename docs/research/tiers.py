@@ -27,8 +27,8 @@ from rocking.assessment.fidelity import (
     peak_velocity,
     stays_at_rest,
 )
-from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.methods import Method
+from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import EnsembleSettings
 from rocking.hashes import sha256_of_bytes
 from rocking.structures import Structure

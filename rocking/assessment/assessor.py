@@ -9,27 +9,28 @@ from typing import Protocol, TypeVar
 from rocking.assessment.case import (
     CaseResult,
     Failure,
-    Motion,
     Prediction,
     RecordResult,
     SceneResult,
     StationResult,
 )
-from rocking.assessment.component import (
+from rocking.assessment.cracks import cracked, cracks
+from rocking.assessment.methods import BOTH_COMPONENTS, Method
+from rocking.assessment.motions import (
+    Carrier,
     Component,
     ComponentPulses,
     HorizontalMotion,
+    Motion,
     component_names,
     component_of,
+    ground_motions,
     horizontal_motions,
 )
-from rocking.assessment.cracks import cracked, cracks
-from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.one_case import (
     Clock,
     assess_case,
     assess_directions,
-    ground_motions,
     motion_of,
     prediction_of,
     with_variations,
@@ -38,7 +39,6 @@ from rocking.assessment.reserve import Reserve, reserve
 from rocking.assessment.scene import Scene, on_friction
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import RockingError
-from rocking.floors.support import Support
 from rocking.hashes import sha256_of
 from rocking.motion.integration import integrate
 from rocking.records import Accelerogram, aligned
@@ -72,7 +72,7 @@ class _Shaking:
 
     components: tuple[Component, ...]
     vertical: Accelerogram | None
-    support: Support | None = None
+    support: Carrier | None = None
     pair: Motion | None = None
 
     @cached_property
@@ -154,9 +154,9 @@ class Assessor:
         grounds = components
         horizontal = [each.accelerogram for each in components]
         failures: list[tuple[str, Failure]] = []
-        shakings: dict[Support | None, _Shaking] = {}
-        stations: dict[tuple[str, Support | None], StationResult] = {}
-        wanted: dict[Support | None, list[Scene]] = {None: list(scenes.values())}
+        shakings: dict[Carrier | None, _Shaking] = {}
+        stations: dict[tuple[str, Carrier | None], StationResult] = {}
+        wanted: dict[Carrier | None, list[Scene]] = {None: list(scenes.values())}
         while wanted and grounds:
             # By support, so that what its motion stands for is made once for all that it carries.
             for support, carried in wanted.items():
@@ -253,11 +253,11 @@ class Assessor:
             components.append(pulses.beside(accelerogram, lift))
         return tuple(components)
 
-    def _on_support(self, support: Support, grounds: Sequence[Component]) -> tuple[Component, ...]:
+    def _on_support(self, support: Carrier, grounds: Sequence[Component]) -> tuple[Component, ...]:
         """The components as they arrive on a support, with the pulses of the motion there."""
         with self.clock.stage("supports"):
             motions = [
-                Motion((each.accelerogram,), each.vertical, support).ground_motions(processing=False)
+                ground_motions(Motion((each.accelerogram,), each.vertical, support), processing=False)
                 for each in grounds
             ]
         floors = [next(iter(each.horizontal.values())) for each in motions]
@@ -271,7 +271,7 @@ class Assessor:
         self,
         components: tuple[Component, ...],
         vertical: Accelerogram | None,
-        support: Support | None,
+        support: Carrier | None,
         failures: list[tuple[str, Failure]],
     ) -> _Shaking:
         """The motion at one place; why it is no pair, or has no pulse, is added to the failures."""
@@ -447,7 +447,7 @@ class Assessor:
         )
 
 
-def _lost(scene: Scene, support: Support | None, names: Sequence[str], error: RockingError) -> StationResult:
+def _lost(scene: Scene, support: Carrier | None, names: Sequence[str], error: RockingError) -> StationResult:
     """The result of a scene to whose support the record cannot be taken: why. names: of the components."""
     failure = Failure("responses", str(error))
     cases = {name: CaseResult(structure=scene.name, component=name, failures=(failure,)) for name in names}

@@ -6,10 +6,9 @@ explore, the terminal and `rocking.assess` ask for that decision, or read the ro
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from rocking.assessment.component import Component, component_names
 from rocking.assessment.contacts import ContactShare, stackable
 from rocking.assessment.cracks import (
     CrackEnsembles,
@@ -22,12 +21,10 @@ from rocking.assessment.cracks import (
 from rocking.assessment.decide import BEYOND, Decision, Facts, Verdict, decide
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer, Estimate
-from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.methods import BOTH_COMPONENTS, POLARITIES, Method
+from rocking.assessment.motions import Carrier, Component, component_names
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.scene import Scene, periods_in_words
-from rocking.floors.support import Support
-from rocking.hashes import sha256_of
 from rocking.motion.response import UNKNOWN, ModelCheck, Response
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
@@ -39,52 +36,6 @@ from rocking.structures.tied import Tied
 
 DECISIVE = ("responses", "directions")
 """Stages whose failure leaves a structure without a result; the others only leave out what stands beside it."""
-
-
-@dataclass(frozen=True)
-class Motion:
-    """The motion that a structure meets: one horizontal component of the ground or a pair, the vertical one, a support.
-
-    Motions of the same accelerograms on equal supports are equal, so that what they stand for is made once.
-
-    components: one or two, with the same samples where they are two. vertical: sample by sample as the components; None
-    where none acts. support: takes them to where the structure stands; None on the ground.
-    """
-
-    components: tuple[Accelerogram, ...]
-    vertical: Accelerogram | None = None
-    support: Support | None = None
-
-    @property
-    def name(self) -> str:
-        """The component, or `BOTH_COMPONENTS` for a pair."""
-        if len(self.components) == 2:
-            return BOTH_COMPONENTS
-        return self.components[0].component
-
-    @cached_property
-    def fingerprint(self) -> str:
-        """Hash of the samples and of all that is known of them; where the file lies is left out."""
-        motions = [_content(each) for each in (*self.components, self.vertical)]
-        return sha256_of(*motions, self.support)
-
-    def ground_motions(self, processing: bool) -> GroundMotions:
-        """Return the motions that this one stands for. Raises RecordError for components that are no pair."""
-        ground = GroundMotions.of(*self.components, vertical=self.vertical, processing=processing)
-        return ground.on(self.support)
-
-
-def _content(accelerogram: Accelerogram | None) -> str:
-    """Everything that an accelerogram says, its samples by their hash; whether it came from a file, not from which."""
-    if accelerogram is None:
-        return "none\n"
-    facts = {
-        each.name: getattr(accelerogram, each.name)
-        for each in fields(accelerogram)
-        if each.name not in ("acceleration", "source")
-    }
-    from_file = bool(accelerogram.source.path)
-    return f"{accelerogram.sha256} {from_file} {sorted(facts.items())!r}\n"
 
 
 @dataclass(frozen=True)
@@ -302,7 +253,7 @@ class StationResult:
     scene: Scene
     cases: Mapping[str, CaseResult]
     directions: CaseResult | None = None
-    support: Support | None = None
+    support: Carrier | None = None
 
     @property
     def structure(self) -> str:
@@ -317,7 +268,9 @@ class StationResult:
     @property
     def support_period_s(self) -> float | None:
         """First period of the support, s; 0 on the ground below one, None where the place has no support."""
-        return self.scene.place.period_of(self.support)
+        if not self.scene.place.supports:
+            return None
+        return self.support.first_period if self.support else 0.0
 
     @cached_property
     def worst(self) -> CaseResult | None:
@@ -631,7 +584,7 @@ class RecordResult:
     scenes: Mapping[str, SceneResult] = field(default_factory=dict)
     failures: tuple[tuple[str, Failure], ...] = ()
     durations: Mapping[str, float] = field(default_factory=dict)
-    floors: Mapping[Support, tuple[Component, ...]] = field(default_factory=dict)
+    floors: Mapping[Carrier, tuple[Component, ...]] = field(default_factory=dict)
 
     def components_under(self, station: StationResult) -> dict[str, Component]:
         """Return the components as a structure meets them, by the names of the components."""

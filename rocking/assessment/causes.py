@@ -15,7 +15,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import SIZES, EnsembleSettings
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
 

@@ -12,8 +12,8 @@ from typing import Protocol
 
 import numpy as np
 
-from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.methods import NEGLIGIBLE
+from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.contacts.dynamics import STEP, follow_stack
 from rocking.errors import RockingError

@@ -17,7 +17,7 @@ import numpy as np
 from rocking.assessment.causes import CAUSES, Origin
 from rocking.assessment.decide import CrackFacts, Facts, Verdict
 from rocking.assessment.ensemble import Ensemble, design, drawn, ensemble, grown
-from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.motion.forcing import forcing_of
 from rocking.motion.response import lifting_friction

@@ -9,8 +9,8 @@ import numpy as np
 
 from rocking.assessment.causes import CAUSES, Situation, draw, lattice
 from rocking.assessment.decide import FAR, UNANIMOUS, CrackFacts
-from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.methods import NEGLIGIBLE
+from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import EnsembleSettings
 from rocking.errors import MotionError
 from rocking.motion.forcing import forcing_of

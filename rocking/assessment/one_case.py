@@ -8,18 +8,17 @@ from dataclasses import replace
 from functools import lru_cache, partial
 from time import process_time
 
-from rocking.assessment.case import CaseResult, Failure, Motion, Prediction, Variation
-from rocking.assessment.component import Component
+from rocking.assessment.case import CaseResult, Failure, Prediction, Variation
 from rocking.assessment.contacts import contact_share, doubt
 from rocking.assessment.cracks import counting_cracks, cracks, ensemble_over_cracks, slides_first
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
-from rocking.assessment.ground_motions import AS_IT_IS, GroundMotions, processed
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
+from rocking.assessment.motions import AS_IT_IS, Component, GroundMotions, Motion, ground_motions, processed
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import RockingError
-from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import integrate, strict
+from rocking.motion.members import Members, integrate_members
 from rocking.motion.response import UNKNOWN, Response, check_model
 from rocking.pulses import Pulse, PulseEvidence, predicting_pulse
 from rocking.records import Accelerogram
@@ -280,9 +279,9 @@ def other_cracks(
     others = sorted(structure.candidates(count) if count else (), key=lambda each: each.position)
     if len(others) < 2:
         return []
-    integrated = _rotation_ratios([each.structure for each in others], accelerogram, settings, vertical)
     variations = []
-    for each, ratio in zip(others, integrated, strict=True):
+    for each in others:
+        ratio = _rotation_ratio(each.structure, accelerogram, settings, vertical)
         if math.isnan(ratio):
             # Raises the reason.
             integrate(each.structure, accelerogram, strict(settings.tolerance), vertical=vertical)
@@ -311,23 +310,25 @@ def other_processings(
     for processing, record in records.items():
         ratio = as_it_is if processing == AS_IT_IS else math.nan
         if math.isnan(ratio):
-            with suppress(RockingError):
-                (ratio,) = _rotation_ratios([structure], record, settings, vertical)
+            ratio = _rotation_ratio(structure, record, settings, vertical)
         if not math.isnan(ratio):
             variations.append(Variation(ratio, processing=processing))
     return variations
 
 
-def _rotation_ratios(
-    structures: Sequence[Structure],
+def _rotation_ratio(
+    structure: Structure,
     record: Accelerogram,
     settings: AssessmentSettings,
     vertical: Accelerogram | None = None,
-) -> list[float]:
-    """The largest rotation ratio of each, nan where it cannot be followed; one thread, as a job has one core."""
+) -> float:
+    """The largest rotation ratio of a single run, nan where it cannot be followed."""
     tolerance = strict(settings.tolerance)
-    ratios = integrate_batch(structures, record, tolerance=tolerance, vertical=vertical, workers=1)
-    return [float(ratio) for ratio in ratios[:, 0]]
+    with suppress(RockingError):
+        return float(
+            integrate_members(structure, record, Members(), tolerance, vertical=vertical).rotation_ratio[0]
+        )
+    return math.nan
 
 
 def with_variations(
@@ -367,12 +368,6 @@ def _processings(component: Component) -> tuple[Mapping[str, Accelerogram], Acce
     variants = {("", name): each for name, each in processed(ground.accelerogram).items()}
     floors = GroundMotions(variants, ground.vertical).on(component.support)
     return {name: each for (_, name), each in floors.horizontal.items()}, floors.vertical
-
-
-@lru_cache(maxsize=2)
-def ground_motions(motion: Motion, processing: bool) -> GroundMotions:
-    """Return the motions that one motion stands for, made once for all structures and for their reserves."""
-    return motion.ground_motions(processing)
 
 
 def assess_directions(

@@ -24,7 +24,7 @@ import numpy as np
 
 from rocking.assessment.causes import CAUSES, Situation, draw
 from rocking.assessment.ensemble import followed_at
-from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import EnsembleSettings
 from rocking.motion.forcing import forcing_of
 from rocking.structures import Mechanism

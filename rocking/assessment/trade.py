@@ -8,7 +8,7 @@ from time import process_time
 from typing import TypeVar
 
 from rocking.assessment.ensemble import ensemble
-from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.motions import GroundMotions
 from rocking.assessment.rows import TimedAnswer, TradeMethod, TradeRow, TriedMethod
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import PulseError, RockingError

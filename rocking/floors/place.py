@@ -14,8 +14,10 @@ from typing import Any
 import numpy as np
 
 from rocking.errors import ConfigurationError, RecordError
+from rocking.floors.spectrum import FLOOR_DAMPING, floor_spectrum, has_code_spectrum, spectrum_of
 from rocking.floors.support import Mode, Support
 from rocking.quantities import finite
+from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Kind, Remark
 
 TYPE_NAME = "support"
@@ -37,6 +39,21 @@ HEAVY = 0.01
 _MODE_KEYS = {"period_s", "damping_ratio", "participation"}
 _STOREY_KEYS = {"storeys", "height_m", "building_height_m"}
 _KEYS = {"name", "type", "modes", "yielding_masonry", "mass_ratio", *_MODE_KEYS, *_STOREY_KEYS}
+
+
+@dataclass(frozen=True)
+class FloorMeasures:
+    """Measures of the motion that a support makes of one component of the ground.
+
+    peak_acceleration: on the support, m/s². amplification: that over the peak of the ground; nan of still ground.
+    spectral_acceleration: of the motion there at its first period and FLOOR_DAMPING, m/s². code_spectral_acceleration:
+    the same by the code's formula. Both are nan on the ground itself, the last where the formula has no value, too.
+    """
+
+    peak_acceleration: float
+    amplification: float
+    spectral_acceleration: float
+    code_spectral_acceleration: float
 
 
 @dataclass(frozen=True)
@@ -84,7 +101,25 @@ class Place:
         """
         if not self.supports:
             return None
-        return support.modes[0].period if support else 0.0
+        return support.first_period if support else 0.0
+
+    def measures(self, period: float, ground: Accelerogram, there: Accelerogram) -> FloorMeasures:
+        """Return what the support of this first period makes of the ground, as the motion `there`; 0: the ground."""
+        spectral_acceleration = math.nan
+        by_code = math.nan
+        support = next((each for each in self.supports if period and each.first_period == period), None)
+        if support is not None:
+            spectral_acceleration = spectrum_of(there)(period, FLOOR_DAMPING)
+            if has_code_spectrum(support):
+                places = np.array([period])
+                by_code = float(floor_spectrum(support, places, FLOOR_DAMPING, spectrum_of(ground))[0])
+        peak = there.peak_acceleration
+        return FloorMeasures(
+            peak_acceleration=peak,
+            amplification=peak / ground.peak_acceleration if ground.peak_acceleration else math.nan,
+            spectral_acceleration=spectral_acceleration,
+            code_spectral_acceleration=by_code,
+        )
 
     def warning(self, structure: str) -> Remark | None:
         """Return that a structure is too heavy for the support to be followed alone; None where it is not."""

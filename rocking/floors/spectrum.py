@@ -5,7 +5,6 @@ Circolare 21 January 2019 n. 7 C.S.LL.PP., C7.2.3. Symbols as there, each within
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -115,37 +114,3 @@ def amplification(mode: Mode, periods: np.ndarray, damping_ratio: float) -> np.n
     below = np.maximum(1 - periods / (a * mode.period), 0) ** 1.6
     above = np.maximum(periods / (b * mode.period) - 1, 0) ** 1.2
     return p / (1 + (p - 1) * (below + above))
-
-
-@dataclass(frozen=True)
-class FloorMeasures:
-    """Measures of the motion that a support makes of one component of the ground.
-
-    peak_acceleration: on the support, m/s². amplification: that over the peak of the ground; nan of still ground.
-    spectral_acceleration: of the motion there at its first period and FLOOR_DAMPING, m/s². code_spectral_acceleration:
-    the same by the code's formula. Both are nan on the ground itself, the last where the formula has no value, too.
-    """
-
-    peak_acceleration: float
-    amplification: float
-    spectral_acceleration: float
-    code_spectral_acceleration: float
-
-
-def floor_measures(ground: Accelerogram, floor: Accelerogram, support: Support | None) -> FloorMeasures:
-    """Return what `support` makes of the ground; None: the ground itself."""
-    peak = floor.peak_acceleration
-    spectral_acceleration = math.nan
-    by_code = math.nan
-    if support is not None:
-        period = support.modes[0].period
-        spectral_acceleration = spectrum_of(floor)(period, FLOOR_DAMPING)
-        if has_code_spectrum(support):
-            places = np.array([period])
-            by_code = float(floor_spectrum(support, places, FLOOR_DAMPING, spectrum_of(ground))[0])
-    return FloorMeasures(
-        peak_acceleration=peak,
-        amplification=peak / ground.peak_acceleration if ground.peak_acceleration else math.nan,
-        spectral_acceleration=spectral_acceleration,
-        code_spectral_acceleration=by_code,
-    )

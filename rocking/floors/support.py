@@ -118,6 +118,11 @@ class Support:
             for mode in self.modes
         )
 
+    @property
+    def first_period(self) -> float:
+        """Period of the first mode, s."""
+        return self.modes[0].period
+
     def motion(self, record: Accelerogram) -> Accelerogram:
         """Return the absolute acceleration of the support under `record`, with a sentence on it in its history.
 

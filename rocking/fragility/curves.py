@@ -21,7 +21,7 @@ from rocking.assessment.causes import lattice
 from rocking.assessment.cracks import counting_cracks, never_lets_go
 from rocking.assessment.ensemble import drawn
 from rocking.assessment.fidelity import peak_velocity, per_velocity
-from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.motions import GroundMotions
 from rocking.assessment.reserve import rising
 from rocking.assessment.settings import EnsembleSettings
 from rocking.drawn import Drawn

@@ -1,8 +1,5 @@
 """The dominant sine pulse of a record, its rivals, and the evidence to trust or refuse it."""
 
-from rocking.pulses.analysis import PulseAnalysis as PulseAnalysis
-from rocking.pulses.analysis import PulseEvidence as PulseEvidence
-from rocking.pulses.analysis import PulseSettings as PulseSettings
 from rocking.pulses.extraction import energy_map as energy_map
 from rocking.pulses.extraction import extract_pulses as extract_pulses
 from rocking.pulses.methods import DEFAULT_PULSE_METHOD as DEFAULT_PULSE_METHOD
@@ -10,5 +7,8 @@ from rocking.pulses.methods import DEMAND_CANDIDATES as DEMAND_CANDIDATES
 from rocking.pulses.methods import PULSE_METHODS as PULSE_METHODS
 from rocking.pulses.methods import predicting_pulse as predicting_pulse
 from rocking.pulses.pulse import Pulse as Pulse
+from rocking.pulses.pulse import PulseAnalysis as PulseAnalysis
+from rocking.pulses.pulse import PulseEvidence as PulseEvidence
+from rocking.pulses.pulse import PulseSettings as PulseSettings
 from rocking.pulses.velocity_pulse import VelocityPulse as VelocityPulse
 from rocking.pulses.velocity_pulse import velocity_pulse as velocity_pulse

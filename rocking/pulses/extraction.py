@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rocking.errors import PulseError
-from rocking.pulses.analysis import PulseAnalysis, PulseEvidence, PulseSettings
-from rocking.pulses.pulse import Pulse
+from rocking.pulses.pulse import Pulse, PulseAnalysis, PulseEvidence, PulseSettings
 from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Kind, Remark
 

@@ -4,9 +4,8 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 
 from rocking.errors import PulseError
-from rocking.pulses.analysis import PulseEvidence, PulseMethod, PulseSettings
 from rocking.pulses.extraction import PulseSearch
-from rocking.pulses.pulse import Pulse
+from rocking.pulses.pulse import Pulse, PulseEvidence, PulseMethod, PulseSettings
 from rocking.pulses.velocity_pulse import LONGEST_PERIOD, SHORTEST_PERIOD, largest_velocity_pulse
 from rocking.records.accelerogram import Accelerogram
 

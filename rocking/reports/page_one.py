@@ -22,7 +22,7 @@ from rocking.structures import Structure
 
 DOMINATES = 0.5
 """Share of the energy of a record from which on one sine is said to dominate it. What the closed form is worth rises
-with that share without a step (`rocking.pulses.analysis.WORTH`), so that the edge is a choice."""
+with that share without a step (`rocking.pulses.pulse.WORTH`), so that the edge is a choice."""
 MOST_ROWS = 60
 """Structures of the page and of those that continue it; verdicts.csv holds all."""
 _UNIT = 27.0

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rocking.assessment.case import RecordResult, SceneResult
-from rocking.assessment.component import Component
+from rocking.assessment.motions import Component
 from rocking.assessment.rows import SupportRow
 from rocking.floors.place import Place
 from rocking.floors.spectrum import FLOOR_DAMPING, floor_spectrum, has_code_spectrum, spectrum_of
@@ -133,15 +133,15 @@ def _draw_reserves(axes: Axes, structures: Sequence[SceneResult]) -> None:
 def _draw_spectra(axes: Axes, panel: SupportPanel) -> None:
     """Draw the 5 % spectra of ground and floor, and the code's floor spectrum from that of the ground."""
     record = panel.ground.accelerogram
+    place = panel.structures[0].scene.place
     of_ground = response_spectrum(record, _PERIODS, FLOOR_DAMPING).pseudo_acceleration
     axes.plot(_PERIODS, of_ground / GRAVITY, color="0.6", linewidth=1.6, label="ground")
     chosen = {0: panel.floors[0], len(panel.floors) // 2: panel.floors[len(panel.floors) // 2]}
     chosen[len(panel.floors) - 1] = panel.floors[-1]
     for line, floor in zip(_LINES, chosen.values(), strict=False):
-        support = floor.support
-        assert support is not None
+        support = next(each for each in place.supports if each == floor.support)
         own = response_spectrum(floor.accelerogram, _PERIODS, FLOOR_DAMPING).pseudo_acceleration
-        label = f"T_b {support.modes[0].period:.3g} s"
+        label = f"T_b {support.first_period:.3g} s"
         axes.plot(_PERIODS, own / GRAVITY, line, color="black", linewidth=0.9, label=label)
         if has_code_spectrum(support):
             code = floor_spectrum(support, _PERIODS, FLOOR_DAMPING, spectrum_of(record))
@@ -195,10 +195,11 @@ def floor_sentences(panels: Sequence[SupportPanel]) -> list[str]:
             continue
         parts = []
         for floor in dict.fromkeys((panel.floors[0], panel.floors[-1])):
-            support = floor.support
-            assert support is not None
+            assert floor.support is not None
             factor = floor.accelerogram.peak_acceleration / peak
-            text = f"at T_b {support.modes[0].period:.3g} s the peak is {factor:.2g} times that of the ground"
+            text = (
+                f"at T_b {floor.support.first_period:.3g} s the peak is {factor:.2g} times that of the ground"
+            )
             if floor.analysis is not None:
                 pulse = floor.analysis.evidence.pulse
                 text += f" and the dominant pulse has {quantity(abs(pulse.amplitude), 'm/s²')} and {pulse.period:.2g} s"

@@ -14,7 +14,7 @@ from typing import Any
 from rocking.assessment.assessor import Assessor, Predictions, Store, with_histories
 from rocking.assessment.case import Failure, RecordResult
 from rocking.assessment.compilation import compile_all
-from rocking.assessment.component import Component
+from rocking.assessment.motions import Component
 from rocking.assessment.one_case import Clock
 from rocking.assessment.rows import HistoryRow, RecordRows, history_rows, rows_of_record
 from rocking.assessment.scene import Scene, on_friction

@@ -133,6 +133,12 @@ def test_what_is_imported_upwards_is_so_within_methods_and_through_the_root():
         assert at_root and within.issuperset(at_root), f"{module} imports the package root at its top"
 
 
+def test_an_assessment_knows_a_place_and_no_support():
+    of_assessment = [module for module in MODULES if module.startswith("rocking.assessment")]
+    floors = {other for module in of_assessment for other in downwards(module) if "floors" in other}
+    assert floors == {"rocking.floors.place"}
+
+
 def test_rows_are_imported_from_their_package():
     """So that a file of rows may move; those whose methods take a while to load are imported by themselves."""
     root = PACKAGE.parent

@@ -11,8 +11,8 @@ from rocking.assessment import fidelity
 from rocking.assessment.decide import Verdict
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.fidelity import Tier, read_tiers
-from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.methods import Method
+from rocking.assessment.motions import GroundMotions
 from rocking.records import Accelerogram
 from rocking.structures import Block
 

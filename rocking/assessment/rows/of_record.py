@@ -16,10 +16,9 @@ from rocking.assessment.methods import (
     within_factor_two,
 )
 from rocking.assessment.reserve import Reserve
-from rocking.floors.spectrum import FloorMeasures, floor_measures
-from rocking.floors.support import Support
+from rocking.floors.place import FloorMeasures
 from rocking.pulses import Pulse, PulseEvidence, VelocityPulse
-from rocking.pulses.analysis import PulseAnalysis, worth
+from rocking.pulses.pulse import PulseAnalysis, worth
 from rocking.records import Accelerogram, RotD
 from rocking.records.measures import RecordMeasures, record_measures
 from rocking.remarks import Kind, Remark
@@ -36,8 +35,8 @@ if TYPE_CHECKING:  # else who reads a table would load numba
         StationResult,
         Variation,
     )
-    from rocking.assessment.component import Component
     from rocking.assessment.fidelity import Answer, Estimate
+    from rocking.assessment.motions import Component
     from rocking.motion.response import ModelCheck, Response
 
 RECORD = "Identifier of the record in the catalogue"
@@ -760,16 +759,12 @@ class CarriedStructure(OfStructure):
 
     floor: "Component"
 
-    @property
-    def support(self) -> Support | None:
-        """The support; None on the ground below it."""
-        return self.station.support
-
     @cached_property
     def measures(self) -> FloorMeasures:
         """The motion on the support beside that of the ground."""
         ground = (self.floor.ground or self.floor).accelerogram
-        return floor_measures(ground, self.floor.accelerogram, self.support)
+        period = self.station.support_period_s or 0.0
+        return self.station.scene.place.measures(period, ground, self.floor.accelerogram)
 
 
 of_support = Columns(CarriedStructure)

@@ -11,8 +11,8 @@ from scipy.constants import g
 
 from rocking.assessment.assessor import Assessor, with_histories
 from rocking.assessment.case import CaseResult, StationResult
-from rocking.assessment.component import Component, HorizontalMotion, component_of, horizontal_motions
 from rocking.assessment.methods import NEGLIGIBLE, Method, agreement, ratio, rests, rocks, within_factor_two
+from rocking.assessment.motions import Component, HorizontalMotion, component_of, horizontal_motions
 from rocking.assessment.one_case import assess_case, predict, prediction_of
 from rocking.assessment.rows import (
     RATIO_COLUMNS,

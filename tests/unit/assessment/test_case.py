@@ -6,8 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rocking.assessment.case import Motion, Variation
+from rocking.assessment.case import Variation
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
+from rocking.assessment.motions import Motion
 from rocking.records import Accelerogram
 from rocking.remarks import Kind, Remark
 from rocking.reports.printing import cell_text

@@ -7,9 +7,8 @@ import pytest
 
 import rocking
 from rocking import Accelerogram, Block, Frame, LoadedWall, Spire, Verdict, Wall
-from rocking.assessment.component import component_of
 from rocking.assessment.contacts import contact_share, doubt, stackable
-from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.motions import GroundMotions, component_of
 from rocking.assessment.one_case import assess_case
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.contacts.dynamics import STEP, follow_stack

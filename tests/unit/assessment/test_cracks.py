@@ -7,11 +7,10 @@ import pytest
 
 import rocking
 from rocking.assessment.assessor import Assessor
-from rocking.assessment.component import component_of
 from rocking.assessment.cracks import cracks, ensemble_over_cracks
 from rocking.assessment.decide import Verdict
 from rocking.assessment.ensemble import ensemble
-from rocking.assessment.ground_motions import GroundMotions, processed
+from rocking.assessment.motions import GroundMotions, component_of, processed
 from rocking.assessment.one_case import assess_case, other_cracks, other_processings, predict
 from rocking.assessment.rows import rows_of_record
 from rocking.assessment.scene import on_the_ground

@@ -13,8 +13,8 @@ from rocking.assessment.assess import assess
 from rocking.assessment.causes import CAUSES, lattice
 from rocking.assessment.decide import Verdict
 from rocking.assessment.ensemble import Ensemble, drawn, ensemble
-from rocking.assessment.ground_motions import GroundMotions, processed
 from rocking.assessment.methods import ratio_in_words
+from rocking.assessment.motions import GroundMotions, processed
 from rocking.assessment.settings import SIZES, AssessmentSettings, EnsembleSettings
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate

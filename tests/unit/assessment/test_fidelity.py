@@ -7,7 +7,6 @@ import pytest
 from scipy.constants import g
 
 from rocking.assessment import fidelity
-from rocking.assessment.component import component_of
 from rocking.assessment.decide import Verdict
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.fidelity import (
@@ -19,8 +18,8 @@ from rocking.assessment.fidelity import (
     read_tiers,
     stays_at_rest,
 )
-from rocking.assessment.ground_motions import GroundMotions
 from rocking.assessment.methods import Method
+from rocking.assessment.motions import GroundMotions, component_of
 from rocking.assessment.one_case import assess_case
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.motion.integration import integrate

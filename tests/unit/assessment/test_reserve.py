@@ -11,7 +11,7 @@ import rocking
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.case import StationResult
 from rocking.assessment.causes import CAUSES, lattice
-from rocking.assessment.ground_motions import GroundMotions
+from rocking.assessment.motions import GroundMotions
 from rocking.assessment.reserve import Reserve, reserve, rising
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings

@@ -1,0 +1,296 @@
+"""Motions: what a structure meets under one record, one component with its pulses, or a pair in all its directions.
+
+A motion stands for several: its directions, its processings, with the vertical motion, on the ground or on a support.
+"""
+
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, fields, replace
+from functools import cached_property, lru_cache
+from types import MappingProxyType
+from typing import Protocol
+
+import numpy as np
+
+from rocking.assessment.settings import PredictingPulse
+from rocking.errors import PulseError, RecordError
+from rocking.hashes import sha256_of
+from rocking.pulses import (
+    PULSE_METHODS,
+    PulseAnalysis,
+    PulseEvidence,
+    VelocityPulse,
+    extract_pulses,
+    velocity_pulse,
+)
+from rocking.records import Accelerogram, RotD, rotd
+from rocking.records.processing import process, variants
+from rocking.records.rotation import aligned, azimuth_of_axis, rotate
+from rocking.remarks import Remark
+
+AS_IT_IS = "unchanged"
+"""Name of the processing that leaves a record as it is."""
+DIRECTIONS = 8
+"""Directions of the motion of two components, spread evenly over half a turn; the other half is that of the sign. The
+target `calibrate_ensemble` holds their verdicts against draws over three times as many directions."""
+
+
+@lru_cache(maxsize=2)  # the two components of a record
+def processed(accelerogram: Accelerogram) -> Mapping[str, Accelerogram]:
+    """Return the record after each variant of the processing, by name, but for those that do not fit the record.
+
+    The one AS_IT_IS is the same object. The variants are computed once.
+    """
+    records = {}
+    for name, processing in variants().items():
+        with suppress(RecordError):
+            records[name] = process(accelerogram, processing)
+    return MappingProxyType(records)
+
+
+class Carrier(Protocol):
+    """What carries a structure above the ground, as far as a case asks of it: equal ones make equal motions."""
+
+    @property
+    def first_period(self) -> float:
+        """Its period, s, which is the place on the axis of a result."""
+
+    def motions(self, records: Sequence[Accelerogram]) -> tuple[Accelerogram, ...]:
+        """Return the motion that it makes of each component of the ground, with the same samples all."""
+
+
+@dataclass(frozen=True, eq=False)
+class GroundMotions:
+    """The possible motions of the ground: at least one horizontal by direction and processing, and the vertical one.
+
+    All have the same samples.
+    """
+
+    horizontal: Mapping[tuple[str, str], Accelerogram]
+    vertical: Accelerogram | None = None
+
+    @classmethod
+    def of(
+        cls, *components: Accelerogram, vertical: Accelerogram | None = None, processing: bool = False
+    ) -> "GroundMotions":
+        """Return the motions of one component, or of two and the directions between them, DIRECTIONS in all.
+
+        vertical: with one component it must have the same samples. processing: whether raw components enter after each
+        variant of their processing. Raises RecordError for components that do not belong together.
+        """
+        raw = all(each.source.path and each.processed is False for each in components)
+        variants_of = [processed(each) if processing and raw else {"": each} for each in components]
+        names = [name for name in variants_of[0] if all(name in each for each in variants_of)]
+        ends = {0: components[0].component or "first", DIRECTIONS // 2: components[-1].component or "second"}
+        horizontal = {}
+        for name in names:
+            first, *others = (each[name] for each in variants_of)
+            if not others:
+                horizontal[first.component, name] = first
+            for second in others:
+                for place in range(DIRECTIONS):
+                    motion = rotate(first, second, angle=np.pi * place / DIRECTIONS)
+                    horizontal[ends.get(place, motion.component), name] = motion
+        if vertical is not None and len(components) > 1:
+            vertical = aligned(vertical, next(iter(horizontal.values())))
+        return cls(horizontal, vertical)
+
+    @property
+    def directions(self) -> tuple[str, ...]:
+        """The directions of the horizontal motion, by name."""
+        return tuple(dict.fromkeys(direction for direction, _ in self.horizontal))
+
+    @property
+    def processings(self) -> tuple[str, ...]:
+        """The processings of the horizontal motion, by name; "" for the one that the record has."""
+        return tuple(dict.fromkeys(processing for _, processing in self.horizontal))
+
+    def on(self, support: Carrier | None) -> "GroundMotions":
+        """Return the motions as they arrive on a support; None: on the ground, as they are."""
+        if support is None:
+            return self
+        horizontal = list(self.horizontal.values())
+        if self.vertical is None:
+            floors = support.motions(horizontal)
+            return replace(self, horizontal=dict(zip(self.horizontal, floors, strict=True)))
+        *floors_below, vertical = support.motions([*horizontal, replace(self.vertical, vertical=True)])
+        of_each = dict(zip(self.horizontal, floors_below, strict=True))
+        return replace(self, horizontal=of_each, vertical=vertical)
+
+    def scaled(self, factor: float) -> "GroundMotions":
+        """Return the motions with the horizontal ones multiplied by `factor`."""
+        horizontal = {each: motion.scaled(factor) for each, motion in self.horizontal.items()}
+        return replace(self, horizontal=horizontal)
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The motion that a structure meets: one horizontal component of the ground or a pair, the vertical one, a support.
+
+    Motions of the same accelerograms on equal supports are equal, so that what they stand for is made once.
+
+    components: one or two, with the same samples where they are two. vertical: sample by sample as the components; None
+    where none acts. support: takes them to where the structure stands; None on the ground.
+    """
+
+    components: tuple[Accelerogram, ...]
+    vertical: Accelerogram | None = None
+    support: Carrier | None = None
+
+    @cached_property
+    def fingerprint(self) -> str:
+        """Hash of the samples and of all that is known of them; where the file lies is left out."""
+        motions = [_content(each) for each in (*self.components, self.vertical)]
+        return sha256_of(*motions, self.support)
+
+
+def _content(accelerogram: Accelerogram | None) -> str:
+    """Everything that an accelerogram says, its samples by their hash; whether it came from a file, not from which."""
+    if accelerogram is None:
+        return "none\n"
+    facts = {
+        each.name: getattr(accelerogram, each.name)
+        for each in fields(accelerogram)
+        if each.name not in ("acceleration", "source")
+    }
+    from_file = bool(accelerogram.source.path)
+    return f"{accelerogram.sha256} {from_file} {sorted(facts.items())!r}\n"
+
+
+@lru_cache(maxsize=2)
+def ground_motions(motion: Motion, processing: bool) -> GroundMotions:
+    """Return the motions that one motion stands for, made once for all structures and for their reserves.
+
+    Raises RecordError for components that are no pair.
+    """
+    ground = GroundMotions.of(*motion.components, vertical=motion.vertical, processing=processing)
+    return ground.on(motion.support)
+
+
+@dataclass(frozen=True)
+class HorizontalMotion:
+    """The motion of a pair of horizontal components, or of one that stands alone.
+
+    velocity_pulse: None where the motion is still or too short for one. velocity_pulse_azimuth: of its axis, degrees
+    clockwise from north in [0, 180); None where a component does not state its own. rotd: None of one component alone.
+    """
+
+    velocity_pulse: VelocityPulse | None = None
+    velocity_pulse_azimuth: float | None = None
+    rotd: RotD | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Component:
+    """One horizontal component of a record as it acts.
+
+    vertical: the component that acts with it, with the same samples; None where none does. motion: of the pair that it
+    belongs to, or of itself alone. analysis: None where no pulse could be sought. candidates: the pulses that the
+    chosen method offers for prediction, none where it fails. failure: why, in a sentence; "" where nothing failed.
+    support: on which this is the motion. ground: the same component of the ground. Both None on the ground itself.
+    """
+
+    accelerogram: Accelerogram
+    vertical: Accelerogram | None
+    motion: HorizontalMotion
+    analysis: PulseAnalysis | None
+    candidates: tuple[PulseEvidence, ...]
+    failure: str = ""
+    support: Carrier | None = None
+    ground: "Component | None" = None
+
+    @property
+    def name(self) -> str:
+        """The name of the component."""
+        return self.accelerogram.component
+
+
+@dataclass(frozen=True, eq=False)
+class ComponentPulses:
+    """The pulses of one component without its samples, as a store keeps them; no pulse without `ranked`."""
+
+    motion: HorizontalMotion
+    ranked: tuple[PulseEvidence, ...]
+    sequence: tuple[PulseEvidence, ...]
+    flags: tuple[Remark, ...]
+    band: tuple[float, float]
+    candidates: tuple[PulseEvidence, ...]
+    failure: str
+
+    @classmethod
+    def of(cls, component: Component) -> "ComponentPulses":
+        """Return the pulses of a component."""
+        analysis = component.analysis
+        return cls(
+            motion=component.motion,
+            ranked=analysis.ranked if analysis else (),
+            sequence=analysis.sequence if analysis else (),
+            flags=analysis.flags if analysis else (),
+            band=analysis.band if analysis else (0.0, 0.0),
+            candidates=component.candidates,
+            failure=component.failure,
+        )
+
+    def beside(self, accelerogram: Accelerogram, vertical: Accelerogram | None) -> Component:
+        """Return the component again."""
+        analysis = None
+        if self.ranked:
+            pulse = self.ranked[0].pulse.acceleration(accelerogram.times)
+            residual = accelerogram.acceleration - pulse
+            residual.flags.writeable = False
+            analysis = PulseAnalysis(
+                accelerogram, self.ranked, self.sequence, residual, self.flags, self.band
+            )
+        return Component(accelerogram, vertical, self.motion, analysis, self.candidates, self.failure)
+
+
+def component_names(accelerograms: Sequence[Accelerogram]) -> list[str]:
+    """Return the names of the components, or numbers where two have the same name or one of two has none."""
+    names = [each.component for each in accelerograms]
+    if len(names) > 1 and (len(set(names)) < len(names) or not all(names)):
+        return [f"component {place}" for place, _ in enumerate(names, start=1)]
+    return names
+
+
+def component_of(
+    accelerogram: Accelerogram,
+    settings: PredictingPulse,
+    vertical: Accelerogram | None = None,
+    motion: HorizontalMotion = HorizontalMotion(),
+) -> Component:
+    """Return a component with its pulses. motion: of the pair that it belongs to, where it is needed."""
+    analysis = None
+    candidates: tuple[PulseEvidence, ...] = ()
+    failure = ""
+    try:
+        analysis = extract_pulses(accelerogram, settings=settings)
+        candidates = PULSE_METHODS[settings.choice].candidates(analysis)
+    except PulseError as error:
+        failure = str(error)
+    return Component(accelerogram, vertical, motion, analysis, candidates, failure)
+
+
+def horizontal_motions(accelerograms: Sequence[Accelerogram]) -> list[HorizontalMotion]:
+    """Return the motion that each of the horizontal components of a record belongs to.
+
+    Two components that share time step and start are a pair; fewer, more or others stand each alone.
+    """
+    if len(accelerograms) == 2:
+        first, second = accelerograms
+        with suppress(RecordError):  # two that do not belong together stand alone
+            pair = _motion(first, second, rotd(first, second))
+            return [pair, pair]
+    return [_motion(accelerogram) for accelerogram in accelerograms]
+
+
+def _motion(
+    first: Accelerogram, second: Accelerogram | None = None, peaks: RotD | None = None
+) -> HorizontalMotion:
+    try:
+        pulse = velocity_pulse(first, second)
+    except PulseError:  # the motion holds none, which is no failure of the record
+        return HorizontalMotion(rotd=peaks)
+    azimuth = first.azimuth
+    if second is not None:
+        azimuth = azimuth_of_axis(first.azimuth, second.azimuth, pulse.orientation)
+    return HorizontalMotion(pulse, None if azimuth is None else azimuth % 180, peaks)
