@@ -41,13 +41,35 @@ class MadeCheck(Placed):
         """The point of the limit state on its capacity curve."""
         return self.checked.limit
 
-    def capacity(self, unit: str) -> float:
-        """Return the capacity where it is of this unit, else nan."""
-        return self.check.capacity if self.check.unit == unit else math.nan
+    @property
+    def check_kind(self) -> str:
+        """Linear, nonlinear or dynamic."""
+        return KINDS[self.check.clause]
 
-    def demand(self, unit: str) -> float:
-        """Return the demand where it is of this unit, else nan."""
-        return self.check.demand if self.check.unit == unit else math.nan
+    @property
+    def of_level(self) -> Check | None:
+        """The check, where it is one of the acceleration of the ground."""
+        return self.check if self.check.unit == "m/s²" else None
+
+    @property
+    def of_displacement(self) -> Check | None:
+        """The check, where it is one of a displacement."""
+        return self.check if self.check.unit == "m" else None
+
+    @property
+    def why(self) -> str:
+        """Why it is not called met, or others were not made; "" where that needs no reason."""
+        return str(self.check.refusal or self.checked.remark or "")
+
+    @property
+    def sets_share_low(self) -> float:
+        """The lower end of the interval of the share of sets that meet it; nan for another than the dynamic one."""
+        return self.dynamic.interval[0] if self.dynamic else math.nan
+
+    @property
+    def sets_share_high(self) -> float:
+        """Its upper end."""
+        return self.dynamic.interval[1] if self.dynamic else math.nan
 
 
 of_check = Columns(MadeCheck)
@@ -57,7 +79,7 @@ of_check = Columns(MadeCheck)
 class CodeCheckRow(PlacedRow[MadeCheck]):
     """One row per structure and check of the Italian code at the design level; written by the target checks."""
 
-    check: str = of_check("linear, nonlinear or dynamic", lambda of: KINDS[of.check.clause])
+    check: str = of_check("linear, nonlinear or dynamic", lambda of: of.check_kind)
     clause: str = of_check("Clause of the Circolare 7/2019", lambda of: of.check.clause)
     limit_state: str = of_check("Limit state: SLV or SLC", lambda of: of.check.limit_state)
     mechanism: str = of_check(
@@ -72,16 +94,20 @@ class CodeCheckRow(PlacedRow[MadeCheck]):
     )
     ratio: float = of_check("Capacity over demand; 1 or more where it is met", lambda of: of.check.ratio)
     level_capacity_m_s2: float = of_check(
-        "a_g at which the limit state is reached; empty for the dynamic check", lambda of: of.capacity("m/s²")
+        "a_g at which the limit state is reached; empty for the dynamic check",
+        lambda of: of.of_level.capacity if of.of_level else math.nan,
     )
     level_demand_m_s2: float = of_check(
-        "a_g of the design level; empty for the dynamic check", lambda of: of.demand("m/s²")
+        "a_g of the design level; empty for the dynamic check",
+        lambda of: of.of_level.demand if of.of_level else math.nan,
     )
     displacement_capacity_m: float = of_check(
-        "Displacement of the limit state; of the dynamic check alone", lambda of: of.capacity("m")
+        "Displacement of the limit state; of the dynamic check alone",
+        lambda of: of.of_displacement.capacity if of.of_displacement else math.nan,
     )
     displacement_demand_m: float = of_check(
-        "Mean of the largest displacements of the set; of the dynamic check alone", lambda of: of.demand("m")
+        "Mean of the largest displacements of the set; of the dynamic check alone",
+        lambda of: of.of_displacement.demand if of.of_displacement else math.nan,
     )
     exceeding_motions: int | None = of_check(
         "Motions of the set under which d_0 is exceeded; of the dynamic check alone",
@@ -100,11 +126,9 @@ class CodeCheckRow(PlacedRow[MadeCheck]):
     )
     sets_share_low: float = of_check(
         "Lower end of its 90 % interval for sets of other stations",
-        lambda of: of.dynamic.interval[0] if of.dynamic else math.nan,
+        lambda of: of.sets_share_low,
     )
-    sets_share_high: float = of_check(
-        "Upper end of that interval", lambda of: of.dynamic.interval[1] if of.dynamic else math.nan
-    )
+    sets_share_high: float = of_check("Upper end of that interval", lambda of: of.sets_share_high)
     onset_multiplier: float = of_check(
         "α_0 of the mechanism that governs", lambda of: of.governing.onset_multiplier, equation="C8.7.1.1"
     )
@@ -126,7 +150,7 @@ class CodeCheckRow(PlacedRow[MadeCheck]):
     confidence_factor: float = of_check("Confidence factor FC", lambda of: of.governing.confidence_factor)
     why: str = of_check(
         "Why a check is not called met, or others were not made",
-        lambda of: str(of.check.refusal or of.checked.remark or ""),
+        lambda of: of.why,
     )
 
 

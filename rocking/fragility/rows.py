@@ -49,6 +49,21 @@ class ScaledRecord(Placed):
         return of_members
 
     @property
+    def members(self) -> int:
+        """Their number."""
+        return self.rotation_ratios.size
+
+    @property
+    def rotation_ratio_median(self) -> float:
+        """The median of these, the lower of the two in the middle."""
+        return float(np.sort(self.rotation_ratios)[(self.rotation_ratios.size - 1) // 2])
+
+    @property
+    def overturning_share(self) -> float:
+        """The share of the members that overturn."""
+        return float(np.isinf(self.rotation_ratios).mean())
+
+    @property
     def governing_overturning_share(self) -> float:
         """The share of the members that overturn with the worst crack; nan where no other was followed."""
         worst = self.analysis.governing_ratios
@@ -73,13 +88,13 @@ class IdaRow(PlacedRow[ScaledRecord]):
         "Factor on the record to reach the level",
         lambda of: float(of.analysis.factors[of.place, of.step]),
     )
-    members: int = of_scaled("Number of members", lambda of: of.rotation_ratios.size)
+    members: int = of_scaled("Number of members", lambda of: of.members)
     rotation_ratio_median: float = of_scaled(
         "Median of largest rotation over critical rotation",
-        lambda of: float(np.sort(of.rotation_ratios)[(of.rotation_ratios.size - 1) // 2]),
+        lambda of: of.rotation_ratio_median,
     )
     overturning_share: float = of_scaled(
-        "Share of the members that overturn", lambda of: float(np.isinf(of.rotation_ratios).mean())
+        "Share of the members that overturn", lambda of: of.overturning_share
     )
     governing_overturning_share: float = of_scaled(
         "Share of the members that overturn with the worst crack",
@@ -108,7 +123,7 @@ class DrawnCurve(Placed):
     curve: Fragility
     governing: bool
 
-    def reaching(self, place: int) -> int:
+    def stations_reaching(self, place: int) -> int:
         """Return how many stations have a record that reaches the level at `place` within the largest factor."""
         tried = np.isfinite(self.curve.exceedance[:, place])
         return len({name for name, each in zip(self.curve.stations, tried, strict=True) if each})
@@ -148,7 +163,7 @@ class FragilityRow(CurveRow[CurvePoint]):
     level: float = of_point("Level of the intensity measure", lambda of: float(of.curve.levels[of.place]))
     stations: int = of_point(
         "Number of stations whose records reach the level within the largest factor",
-        lambda of: of.reaching(of.place),
+        lambda of: of.stations_reaching(of.place),
     )
     probability: float = of_point(
         "Share of the stations that exceed the rotation", lambda of: float(of.curve.probability[of.place])
@@ -190,6 +205,31 @@ class SummarisedCurve(DrawnCurve):
         return self.curve.annual_rate(self.hazard)
 
     @property
+    def records(self) -> int:
+        """The number of its records."""
+        return len(self.curve.stations)
+
+    @property
+    def stations(self) -> int:
+        """The number of their stations."""
+        return self.curve.independent
+
+    @property
+    def stations_out(self) -> int:
+        """The number of those that do not reach the highest level."""
+        return self.stations - self.stations_reaching(-1)
+
+    @property
+    def median_low(self) -> float:
+        """The lower end of the interval of the median."""
+        return self.curve.interval[0]
+
+    @property
+    def median_high(self) -> float:
+        """Its upper end."""
+        return self.curve.interval[1]
+
+    @property
     def largest_scale_factor(self) -> float:
         """The largest factor on a record that was used; nan of outcomes alone."""
         if self.curve.analysis is None:
@@ -204,11 +244,11 @@ of_summary = Columns(SummarisedCurve)
 class FragilitySummaryRow(CurveRow[SummarisedCurve]):
     """One row per structure and rotation that is exceeded: what its curve comes down to."""
 
-    records: int = of_summary("Number of records", lambda of: len(of.curve.stations))
-    stations: int = of_summary("Number of stations", lambda of: of.curve.independent)
+    records: int = of_summary("Number of records", lambda of: of.records)
+    stations: int = of_summary("Number of stations", lambda of: of.stations)
     stations_out: int = of_summary(
         "Number of stations that do not reach the highest level within the largest factor",
-        lambda of: of.curve.independent - of.reaching(-1),
+        lambda of: of.stations_out,
     )
     largest_scale_factor: float = of_summary(
         "Largest factor on a record that was used", lambda of: of.largest_scale_factor
@@ -218,11 +258,11 @@ class FragilitySummaryRow(CurveRow[SummarisedCurve]):
     )
     median_low: float = of_summary(
         "Lower end of the 90 % interval of the median, by resampling stations",
-        lambda of: of.curve.interval[0],
+        lambda of: of.median_low,
     )
     median_high: float = of_summary(
         "Upper end of the 90 % interval of the median; INF: none at the levels tried",
-        lambda of: of.curve.interval[1],
+        lambda of: of.median_high,
     )
     lognormal_median: float = of_summary(
         "Median of the lognormal curve, for those who need two parameters",
@@ -281,13 +321,23 @@ def curve_rows(
 class ExplainedOverturning(Placed):
     """One intensity measure, and one other figure of the record, that may explain which records overturn a structure.
 
-    stations: of the records that have both.
+    of_records: the station of each record that has both.
     """
 
     measure: IntensityMeasure
     figure: str
-    stations: Sequence[str]
+    of_records: Sequence[str]
     explanation: Explanation
+
+    @property
+    def records(self) -> int:
+        """The number of these records."""
+        return len(self.of_records)
+
+    @property
+    def stations(self) -> int:
+        """The number of their stations."""
+        return len(set(self.of_records))
 
 
 of_explained = Columns(ExplainedOverturning)
@@ -310,10 +360,8 @@ class IntensityMeasureRow(PlacedRow[ExplainedOverturning]):
         "Figure of the record that may say more: PGV/PGA, magnitude or ln of the distance",
         lambda of: of.figure,
     )
-    records: int = of_explained(
-        "Number of records with the measure and the figure", lambda of: len(of.stations)
-    )
-    stations: int = of_explained("Number of stations", lambda of: len(set(of.stations)))
+    records: int = of_explained("Number of records with the measure and the figure", lambda of: of.records)
+    stations: int = of_explained("Number of stations", lambda of: of.stations)
     slope: float = of_explained(
         "Change of the logarithm of that level for one standard deviation of the figure",
         lambda of: of.explanation.slope,

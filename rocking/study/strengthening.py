@@ -33,6 +33,26 @@ class _TriedValue:
     found: Strengthening
     tried: Tried
 
+    @property
+    def is_given(self) -> bool:
+        """Whether it is that of the structure as it is given."""
+        return self.tried is self.found.given
+
+    @property
+    def holds(self) -> bool:
+        """Whether it and all larger ones can be shown to hold."""
+        return not self.is_given and self.tried.value >= self.found.value
+
+    @property
+    def share_low(self) -> float:
+        """The lower bound of the share that overturns."""
+        return self.tried.interval[0]
+
+    @property
+    def share_high(self) -> float:
+        """Its upper bound."""
+        return self.tried.interval[1]
+
 
 of_tried = Columns(_TriedValue)
 
@@ -48,19 +68,17 @@ class StrengtheningRow(RowOf[_TriedValue]):
         lambda each: float(each.found.field.outward(each.tried.value)),
         unit="that of the key",
     )
-    is_given: bool = of_tried(
-        "Whether this is the structure as it is given", lambda each: each.tried is each.found.given
-    )
+    is_given: bool = of_tried("Whether this is the structure as it is given", lambda each: each.is_given)
     holds: bool = of_tried(
         "Whether this value and all larger ones can be shown to hold",
-        lambda each: each.tried is not each.found.given and each.tried.value >= each.found.value,
+        lambda each: each.holds,
     )
     overturning_share: float = of_tried(
         "Share that overturns, the mean over the stations; what cannot be told counts as 1",
         lambda each: each.tried.share,
     )
-    share_low: float = of_tried("Its lower one-sided 90 % bound", lambda each: each.tried.interval[0])
-    share_high: float = of_tried("Its upper one-sided 90 % bound", lambda each: each.tried.interval[1])
+    share_low: float = of_tried("Its lower one-sided 90 % bound", lambda each: each.share_low)
+    share_high: float = of_tried("Its upper one-sided 90 % bound", lambda each: each.share_high)
     target_share: float = of_tried("Share that may overturn", lambda each: each.found.target)
     stations: int = of_tried("Number of stations", lambda each: len(each.found.stations))
     untold: int = of_tried(

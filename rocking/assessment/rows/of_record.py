@@ -121,12 +121,10 @@ class CaseRow(ComponentRow[C]):
 class DecidedRow(CaseRow[C]):
     """A row about a case that says what becomes of the structure over all components."""
 
-    verdict: Verdict = of_structure(
-        f"The verdict: {', '.join(Verdict)}", lambda each: each.station.decision.word
-    )
+    verdict: Verdict = of_structure(f"The verdict: {', '.join(Verdict)}", lambda each: each.station.verdict)
     overturning_share: float = of_structure(
         "Share of the members that overturn; of a single run 0 or 1; empty where none can be told",
-        lambda each: each.station.decision.share,
+        lambda each: each.station.overturning_share,
     )
 
 
@@ -144,6 +142,16 @@ class ReadComponent(Identified):
     def accelerogram(self) -> Accelerogram:
         """The component itself."""
         return self.component.accelerogram
+
+    @property
+    def file(self) -> str:
+        """The path of its file."""
+        return self.accelerogram.source.path
+
+    @property
+    def samples(self) -> int:
+        """The number of its samples."""
+        return self.accelerogram.acceleration.size
 
     @property
     def vertical(self) -> Accelerogram | None:
@@ -169,6 +177,20 @@ class ReadComponent(Identified):
     def dominant(self) -> Pulse | None:
         """The sine that explains most of its energy."""
         return self.component.analysis.dominant if self.component.analysis else None
+
+    @property
+    def pulse_period_ratio(self) -> float:
+        """Its period over that of the velocity pulse; nan where one of them is missing."""
+        if self.velocity_pulse is None or self.dominant is None:
+            return math.nan
+        return self.dominant.period / self.velocity_pulse.period
+
+    @property
+    def pulse_periods_unlike(self) -> bool | None:
+        """Whether these two periods are of two features; None where one of them is missing."""
+        if self.velocity_pulse is None or self.dominant is None:
+            return None
+        return self.velocity_pulse.is_unlike(self.dominant)
 
 
 of_component = Columns(ReadComponent)
@@ -203,7 +225,7 @@ class RecordRow(ComponentRow[ReadComponent]):
     start_time: str = of_component(
         "Time of the first sample, as the file states it", lambda read: read.accelerogram.start_time
     )
-    file: str = of_component("File of the record", lambda read: read.accelerogram.source.path)
+    file: str = of_component("File of the record", lambda read: read.file)
     format: str = of_component("Format of the file", lambda read: read.accelerogram.source.format)
     unit: str = of_component("Unit of the numbers in the file", lambda read: read.accelerogram.source.unit)
     scale_factor: float = of_component(SCALE_FACTOR, lambda read: read.accelerogram.scale_factor)
@@ -218,7 +240,7 @@ class RecordRow(ComponentRow[ReadComponent]):
         "Largest magnitude of the vertical acceleration",
         lambda read: read.vertical.peak_acceleration if read.vertical else math.nan,
     )
-    samples: int = of_component("Number of samples", lambda read: read.accelerogram.acceleration.size)
+    samples: int = of_component("Number of samples", lambda read: read.samples)
     time_step_s: float = of_component("Time step", lambda read: read.accelerogram.time_step)
     duration_s: float = of_component(
         "Time from the first to the last sample", lambda read: read.accelerogram.duration
@@ -274,17 +296,11 @@ class RecordRow(ComponentRow[ReadComponent]):
     )
     pulse_period_ratio: float = of_component(
         "Period of the dominant sine pulse over T_p",
-        lambda read: (
-            read.dominant.period / read.velocity_pulse.period
-            if read.velocity_pulse and read.dominant
-            else math.nan
-        ),
+        lambda read: read.pulse_period_ratio,
     )
     pulse_periods_unlike: bool | None = of_component(
         "Whether these periods differ by more than a factor of 2",
-        lambda read: (
-            read.velocity_pulse.is_unlike(read.dominant) if read.velocity_pulse and read.dominant else None
-        ),
+        lambda read: read.pulse_periods_unlike,
     )
     high_pass_frequency_hz: float | None = of_component(
         "Corner of the high-pass that the file or catalogue states",
@@ -311,6 +327,16 @@ class FoundPulse(Identified):
     def pulse(self) -> Pulse:
         """The pulse itself."""
         return self.evidence.pulse
+
+    @property
+    def gain_ratio(self) -> float:
+        """Its gain over that of the dominant pulse."""
+        return self.evidence.gain / self.analysis.evidence.gain
+
+    @property
+    def same_outcome_share(self) -> float:
+        """The share of cases with such pulses whose closed form ends as the integration does."""
+        return worth(self.evidence.explained_energy)
 
     @property
     def is_dominant(self) -> bool:
@@ -360,7 +386,7 @@ class PulseRow(ComponentRow[FoundPulse]):
     gain_m2_s3: float = of_pulse("Energy gain of the matched filter", lambda found: found.evidence.gain)
     gain_ratio: float = of_pulse(
         "Energy gain over that of the dominant pulse",
-        lambda found: found.evidence.gain / found.analysis.evidence.gain,
+        lambda found: found.gain_ratio,
     )
     explained_energy: float = of_pulse(
         "Share of the acceleration energy that the pulse explains (EVa)",
@@ -368,7 +394,7 @@ class PulseRow(ComponentRow[FoundPulse]):
     )
     same_outcome_share: float = of_pulse(
         "Share of cases with such pulses that end as the integration does",
-        lambda found: worth(found.evidence.explained_energy),
+        lambda found: found.same_outcome_share,
     )
     effective_length_m: float = of_pulse(
         "Length scale: amplitude times period squared", lambda found: found.evidence.effective_length
@@ -583,6 +609,16 @@ class DecidedStation(OfStructure):
         """The factors on the record at which shares of the members overturn."""
         return self.station.reserve
 
+    @property
+    def share_low(self) -> float:
+        """The lower end of the interval of the share."""
+        return self.station.decision.interval[0]
+
+    @property
+    def share_high(self) -> float:
+        """Its upper end."""
+        return self.station.decision.interval[1]
+
 
 of_station = Columns(DecidedStation)
 
@@ -596,11 +632,9 @@ class VerdictRow(DecidedRow[DecidedStation]):
 
     share_low: float = of_station(
         "Least share that overturns, over the cracks and what failed or is not known",
-        lambda of: of.station.decision.interval[0],
+        lambda of: of.share_low,
     )
-    share_high: float = of_station(
-        "Largest share that overturns, likewise", lambda of: of.station.decision.interval[1]
-    )
+    share_high: float = of_station("Largest share that overturns, likewise", lambda of: of.share_high)
     why: str = of_station("Reason for the verdict", lambda of: of.station.decision.why)
     doubts: tuple[Kind, ...] = of_station(
         "Kinds of doubt that may make it worse than said",
@@ -759,6 +793,11 @@ class CarriedStructure(OfStructure):
 
     floor: "Component"
 
+    @property
+    def support_name(self) -> str:
+        """The name of the support in the list, on the ground below it, too."""
+        return self.station.scene.place.name
+
     @cached_property
     def measures(self) -> FloorMeasures:
         """The motion on the support beside that of the ground."""
@@ -774,7 +813,7 @@ of_support = Columns(CarriedStructure)
 class SupportRow(DecidedRow[CarriedStructure]):
     """One row per component and structure on a support: the motion there, and the verdict over all components."""
 
-    support: str = of_support("Name of the support in the list", lambda of: of.station.scene.place.name)
+    support: str = of_support("Name of the support in the list", lambda of: of.support_name)
     floor_peak_acceleration_m_s2: float = of_support(
         "Largest magnitude of the acceleration on the support", lambda of: of.measures.peak_acceleration
     )

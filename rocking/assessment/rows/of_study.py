@@ -73,6 +73,11 @@ class ListedStructure(Named):
 
     body: Structure
 
+    @property
+    def geometry(self) -> str:
+        """Its sizes with their units."""
+        return self.body.description
+
     @cached_property
     def mechanism(self) -> Mechanism:
         """Its mechanism."""
@@ -108,7 +113,7 @@ class StructureRow(StructureNameRow[ListedStructure]):
     type: str = of_listed(
         "Type of the structure, as in the structure list", lambda of: of.body.described.type_name
     )
-    geometry: str = of_listed("Sizes of the structure with their units", lambda of: of.body.description)
+    geometry: str = of_listed("Sizes of the structure with their units", lambda of: of.geometry)
     crack: str = of_listed(
         "Hinge or crack, whose place is open; empty where none is", lambda of: of.body.crack_name
     )
@@ -237,6 +242,31 @@ class CountedCases:
         ratios = self.cases["predicted_rotation_ratio"] / self.cases["integrated_rotation_ratio"]
         return ratios[self.cases["within_factor_two"].notna()]
 
+    @property
+    def both_rock(self) -> int:
+        """The number of those that rock in both."""
+        return int(self.ratios.count())
+
+    @property
+    def overturning(self) -> int:
+        """The number of those that overturn in the integration."""
+        return int(self.integrated.sum())
+
+    @property
+    def hits(self) -> int:
+        """The number of these that overturn in the closed form, too."""
+        return int((self.predicted & self.integrated).sum())
+
+    @property
+    def misses(self) -> int:
+        """The number of these that stand in the closed form."""
+        return int((self.integrated & ~self.predicted).sum())
+
+    @property
+    def false_alarms(self) -> int:
+        """The number of those that overturn in the closed form alone."""
+        return int((self.predicted & ~self.integrated).sum())
+
 
 of_cases = Columns(CountedCases)
 
@@ -251,7 +281,7 @@ class AgreementRow(RowOf[CountedCases]):
     support_period_s: float | None = of_cases(rows.SUPPORT_PERIOD, lambda of: of.support_period)
     records: int = of_cases("Number of records", lambda of: int(of.cases["record"].nunique()))
     cases: int = of_cases("Number of cases with a prediction and an integration", lambda of: len(of.cases))
-    both_rock: int = of_cases("Number of cases in which both rock", lambda of: int(of.ratios.count()))
+    both_rock: int = of_cases("Number of cases in which both rock", lambda of: of.both_rock)
     within_factor_two: int = of_cases(
         "Number of these with a ratio between 1/2 and 2",
         lambda of: int(of.cases["within_factor_two"].sum()),
@@ -260,20 +290,18 @@ class AgreementRow(RowOf[CountedCases]):
         "Median of predicted over integrated rotation where both rock",
         lambda of: float(of.ratios.median()),
     )
-    overturning: int = of_cases(
-        "Number of cases that overturn in the integration", lambda of: int(of.integrated.sum())
-    )
+    overturning: int = of_cases("Number of cases that overturn in the integration", lambda of: of.overturning)
     overturning_hits: int = of_cases(
         "Number of these that overturn in the closed form",
-        lambda of: int((of.predicted & of.integrated).sum()),
+        lambda of: of.hits,
     )
     overturning_misses: int = of_cases(
         "Number of these that stand in the closed form",
-        lambda of: int((of.integrated & ~of.predicted).sum()),
+        lambda of: of.misses,
     )
     overturning_false_alarms: int = of_cases(
         "Number of cases that overturn in the closed form alone",
-        lambda of: int((of.predicted & ~of.integrated).sum()),
+        lambda of: of.false_alarms,
     )
 
 
@@ -395,6 +423,11 @@ class TriedMethod:
         pairs = [(each.rotation_ratio, each.reference) for each in self.answers]
         return [pair for pair in pairs if not all(map(rests, pair))]
 
+    @property
+    def cases(self) -> int:
+        """Their number."""
+        return len(self.moving)
+
     @cached_property
     def errors(self) -> list[float]:
         """Relative errors of the rotation where both rock."""
@@ -405,6 +438,26 @@ class TriedMethod:
     def agreements(self) -> list[Agreement]:
         """The outcome of each of these cases against that of the reference."""
         return [agreement(*pair) for pair in self.moving]
+
+    @property
+    def error(self) -> float:
+        """The median error; nan without any."""
+        return median(self.errors) if self.errors else math.nan
+
+    @property
+    def error_high(self) -> float:
+        """The 95 % quantile of the errors; nan without any."""
+        return float(np.quantile(self.errors, 0.95)) if self.errors else math.nan
+
+    @property
+    def wrong_verdicts(self) -> int:
+        """The number of cases with another outcome than the reference."""
+        return sum(each is not Agreement.SAME for each in self.agreements)
+
+    @property
+    def unsafe_verdicts(self) -> int:
+        """The number of those in which the method says less."""
+        return self.agreements.count(Agreement.TOO_LOW)
 
 
 of_tried = Columns(TriedMethod)
@@ -423,23 +476,23 @@ class TradeRow(RowOf[TriedMethod]):
     )
     cases: int = of_tried(
         "Records in which the method has an answer, and it or the reference does not rest",
-        lambda of: len(of.moving),
+        lambda of: of.cases,
     )
     error: float = of_tried(
         "Median relative error of the largest rotation where method and reference rock",
-        lambda of: median(of.errors) if of.errors else math.nan,
+        lambda of: of.error,
     )
     error_high: float = of_tried(
         "95 % quantile of that error",
-        lambda of: float(np.quantile(of.errors, 0.95)) if of.errors else math.nan,
+        lambda of: of.error_high,
     )
     wrong_verdicts: int = of_tried(
         "Cases that rest, rock or overturn otherwise than the reference",
-        lambda of: sum(each is not Agreement.SAME for each in of.agreements),
+        lambda of: of.wrong_verdicts,
     )
     unsafe_verdicts: int = of_tried(
         "Those in which the method says less than the reference",
-        lambda of: of.agreements.count(Agreement.TOO_LOW),
+        lambda of: of.unsafe_verdicts,
     )
     cpu_s: float = of_tried(
         "Processor time of one response, median, with all preparations at hand",
