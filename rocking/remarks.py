@@ -51,6 +51,7 @@ class Kind(StrEnum):
     OTHER_CRACK_WORSE = auto(), "another crack than the one given is worse", "another crack is worse"
     MEMBERS_FAILED = auto(), "members could not be followed", "some members failed"
     HELD_BEYOND = auto(), "a held wall turns so far that its mechanism may say too little", "turns far"
+    CURVE_ALONE = auto(), "a capacity curve tells neither impacts nor sliding nor which contacts open", "curve alone"
 
     # What would tell more of a decision.
     TIE_STRENGTH = auto(), "give the strength at which its ties let go", "give the ties' strength"

@@ -48,6 +48,8 @@ class Sides(NamedTuple):
     side back from that piece or beyond. critical, end: (k,) arc of φ_cr and of the end. rest_speed: (k,) the speed at
     which rocking rests. longest_step: (k,) s. near: (k, 8) an arc near rest; up to it the least and the largest G̃, the
     largest |B̃|, the largest |dG̃/dq| and |dB̃/dq|, the speed that reaches it over still ground, the slope of ties.
+    kinks: (k, m + 1) arcs at which the pieces of a G̃ with kinks end, from 0 to inf; None where G̃ is smooth, and its
+    pieces lie as `grid` says.
     """
 
     pieces: np.ndarray
@@ -61,6 +63,7 @@ class Sides(NamedTuple):
     near: np.ndarray
     one_sided: bool
     ties: Ties | None = None
+    kinks: np.ndarray | None = None
 
 
 CURVE = 6
@@ -203,6 +206,15 @@ def _place(grid, k, arc):
 
 
 @compiled
+def _piece(kinks, grid, phase, slot, k, arc):
+    """The same as of `_place`, of the piece in which the present phase is where G̃ has kinks; such a piece has no end."""
+    if kinks is None:
+        return _place(grid, k, arc)
+    j = int(phase[slot, PIECE])
+    return j, kinks[k, j], np.inf
+
+
+@compiled
 def _polynomial(pieces, k, j, g, b):
     """Piece j of row k of g G̃ + b B̃, by power of the distance from its centre."""
     e0, e1 = g * pieces[k, j, 0] + b * pieces[k, j, 1], g * pieces[k, j, 2] + b * pieces[k, j, 3]
@@ -245,17 +257,18 @@ def _short_shift(e, u):
     return a0, a1, a2, a3, e4 + u * 5 * e5 + u2 * (15 * e6 + u * 35 * e7)
 
 
-LARGEST, LOW, HIGH, YIELDING, LEFT, TAUT, STIFF, HELD = range(8)
+LARGEST, LOW, HIGH, YIELDING, LEFT, TAUT, STIFF, HELD, PIECE = range(9)
 """Places in a row of `phase`: the largest arc when last looked at, between which arcs the present phase holds, whether
-a tie yields, how many are not broken and taut, the square of their frequency, and what they hold with at rest."""
+a tie yields, how many are not broken and taut, the square of their frequency, what they hold with at rest, and the piece
+of a G̃ with kinks."""
 
-FIRST, EACH = 8, 6
+FIRST, EACH = 9, 6
 """The first place of the first tie, and the number of places of each: c and s of its tension c + s u in this phase,
 whether it is broken, its plastic elongation, the arc below which that leaves it slack, and the largest arc of both."""
 
 
 def memory(ties: Ties | None) -> np.ndarray:
-    """Return room for the phase of n ties, (2, 8 + 6 n), a row for each side of rocking."""
+    """Return room for the phase of n ties, (2, 9 + 6 n), a row for each side of rocking."""
     return np.empty((2, FIRST + (0 if ties is None else EACH * ties.law.shape[1])))
 
 
@@ -324,7 +337,26 @@ def _stretch_for_good(ties, grid, row, k, n):
 
 
 @compiled
-def _enter(ties, grid, phase, side, k, arc, way):
+def _enter_piece(kinks, phase, slot, k, arc, way):
+    """Enter the piece of a G̃ with kinks that begins at an arc outward (way > 0), or ends there."""
+    if kinks is None:
+        return
+    j = 0
+    while arc > kinks[k, j + 1] or (way > 0 and arc == kinks[k, j + 1]):
+        j += 1
+    phase[slot, PIECE] = j
+    phase[slot, LOW], phase[slot, HIGH] = kinks[k, j] if j > 0 else -np.inf, kinks[k, j + 1]
+
+
+@compiled
+def _enter(sides, phase, side, k, arc, way):
+    """Enter what holds from an arc outward (way > 0) or back: a piece between kinks, or a phase of the ties."""
+    _enter_piece(sides.kinks, phase, 0 if side > 0 else 1, k, arc, way)
+    _enter_ties(sides.ties, sides.grid, phase, side, k, arc, way)
+
+
+@compiled
+def _enter_ties(ties, grid, phase, side, k, arc, way):
     """Set the tension of every tie as a function of u, and how far it holds, from an arc outward (way > 0) or back."""
     if ties is None:
         return
@@ -375,9 +407,9 @@ def _with_ties(ties, phase, slot, k, j, e):
 
 
 @compiled
-def _beyond(ties, phase, slot, arc):
+def _beyond(ties, kinks, phase, slot, arc):
     """1 where an arc is above the present phase, −1 below it, 0 within."""
-    if ties is None:
+    if ties is None and kinks is None:
         return 0
     return 1 if arc > phase[slot, HIGH] else -1 if arc < phase[slot, LOW] else 0
 
@@ -595,7 +627,7 @@ def _glide(sides, phase, ground, member, k, motion, tolerance, leap, log):
         steps = min(leap, ground.stretch - i % ground.stretch) if leap > 1 else 1
         weight = ground.gravity + member.vertical * vertical[i]
         heavier = (ground.gravity + member.vertical * vertical[i + 1] - weight) * rate
-        j, centre, room = _place(grid, k, arc)
+        j, centre, room = _piece(sides.kinks, grid, phase, slot, k, arc)
         u, memory_of_ties = arc - centre, (sides.ties, phase, slot)
         if ground.stretch > 1:
             span, weight = steps * h - tau, weight + tau * heavier
@@ -616,7 +648,7 @@ def _glide(sides, phase, ground, member, k, motion, tolerance, leap, log):
             leap = steps // 2
             continue
         out = new > sides.critical[k] and pull > 0
-        if not (accurate and plain and new > 0) or out or _beyond(sides.ties, phase, slot, new) != 0:
+        if not (accurate and plain and new > 0) or out or _beyond(sides.ties, sides.kinks, phase, slot, new) != 0:
             break
         i, tau, arc, speed = i + steps, 0.0, new, pull
         farthest, fastest = max(farthest, arc), max(fastest, abs(speed))
@@ -676,9 +708,9 @@ def _events(x, h, arc, speed, new, pull):
 
 
 @part
-def _leaves(ties, phase, slot, x, h, arc, speed, new, turn, landing):
-    """When a step leaves the phase of the ties, and how: 1 outward, −1 inward, 2 turning while one yields; 0 not."""
-    if ties is None:
+def _leaves(ties, kinks, phase, slot, x, h, arc, speed, new, turn, landing):
+    """When a step leaves the present phase, and how: 1 outward, −1 inward, 2 turning while a tie yields; 0 not."""
+    if ties is None and kinks is None:
         return h, 0
     low, high, yields = phase[slot, LOW], phase[slot, HIGH], phase[slot, YIELDING] != 0
     if yields and speed <= 0 and new < arc:
@@ -751,7 +783,8 @@ def _lost(sides, phase, ground, member, k, motion):
         return False
     if arc >= sides.end[k]:
         return True
-    if phase[0 if motion.side > 0 else 1, LEFT] > 0:
+    slot = 0 if motion.side > 0 else 1
+    if phase[slot, LEFT] > 0:
         return False
     if _over(ground, motion.interval):
         excitation = 0.0
@@ -759,7 +792,7 @@ def _lost(sides, phase, ground, member, k, motion):
         least = ground.gravity + member.vertical * ground.lightest[motion.interval]
         strongest = abs(member.horizontal) * ground.strongest[motion.interval]
         excitation = strongest / least if least > 0 else np.inf
-    j, _, _ = _place(sides.grid, k, arc)
+    j, _, _ = _piece(sides.kinks, sides.grid, phase, slot, k, arc)
     return sides.hold[k, j] > excitation
 
 
@@ -796,9 +829,9 @@ def _begin(sides, phase, start, best, log):
     runs.forget(best, start.side, start.arc)
     side = start.side
     if side != 0:
-        _enter(sides.ties, sides.grid, phase, side, _row(sides, side), start.arc, 1.0)
+        _enter(sides, phase, side, _row(sides, side), start.arc, 1.0)
         if start.speed < 0:  # it came that far and turned: what yielded there lets go elastically
-            _enter(sides.ties, sides.grid, phase, side, _row(sides, side), start.arc, -1.0)
+            _enter(sides, phase, side, _row(sides, side), start.arc, -1.0)
     runs.write(log, 0.0, side * start.arc, side * start.speed)
 
 
@@ -808,7 +841,7 @@ def _lift(sides, phase, ground, member, motion, log):
     i, tau, side = _next_uplift(sides, phase, ground, member, motion.interval, motion.offset)
     if side != 0:
         runs.write(log, i * ground.time_step + tau, 0.0, 0.0)
-        _enter(sides.ties, sides.grid, phase, side, _row(sides, side), 0.0, 1.0)
+        _enter(sides, phase, side, _row(sides, side), 0.0, 1.0)
     return Motion(i, tau, 0.0, 0.0, side, 0.0, 0.0)
 
 
@@ -818,7 +851,7 @@ def _step(sides, phase, ground, member, k, motion, tolerance, left):
     i, tau, arc, speed, side, farthest, fastest = motion
     slot = 0 if side > 0 else 1
     a0, a1, g0, g1, bent = _drive(ground, member, i, tau)
-    j, centre, room = _place(sides.grid, k, arc)
+    j, centre, room = _piece(sides.kinks, sides.grid, phase, slot, k, arc)
     x, last = _series(sides.pieces, k, j, arc - centre, speed, side, a0, a1, g0, g1, bent, sides.ties, phase)
     # an uplift where the acceleration is zero to rounding does not fall
     if arc == 0 and speed == 0 and x[1] < 0:
@@ -828,7 +861,7 @@ def _step(sides, phase, ground, member, k, motion, tolerance, left):
     h = _stride(x, sure, longest, room, arc, farthest, fastest, tolerance)
     new, pull = arc + _displacement(x, h), _speed(x, h)
     turn, landing = _events(x, h, arc, speed, new, pull)
-    until, leaves = _leaves(sides.ties, phase, slot, x, h, arc, speed, new, turn, landing)
+    until, leaves = _leaves(sides.ties, sides.kinks, phase, slot, x, h, arc, speed, new, turn, landing)
     if leaves != 0:
         h = until
         if leaves != 2 and until <= runs.INSTANT * ground.time_step:
@@ -849,10 +882,10 @@ def _carry_on(sides, phase, ground, member, k, motion, step, left, log):
     now = i * ground.time_step + tau
     if leaves == 1 or leaves == -1:
         arc = phase[slot, HIGH if leaves > 0 else LOW]
-    if leaves != 0 or _beyond(sides.ties, phase, slot, arc) != 0:
+    if leaves != 0 or _beyond(sides.ties, sides.kinks, phase, slot, arc) != 0:
         speed = min(speed, 0.0) if leaves == 2 else speed
         way = 1.0 if leaves == 1 or (leaves == 0 and speed > 0) else -1.0
-        _enter(sides.ties, sides.grid, phase, side, k, arc, way)
+        _enter(sides, phase, side, k, arc, way)
     i, tau = _later(ground, i, tau, h, left)
     runs.write(log, now + h, side * arc, side * speed)
     motion = Motion(i, tau, arc, speed, side, max(farthest, arc), max(fastest, abs(speed)))
@@ -871,7 +904,7 @@ def _strike(sides, phase, ground, member, k, motion, step, settle, best, log):
     if not sides.one_sided:
         side, k = -side, sides.pieces.shape[0] - 1 - k
     runs.write(log, now, 0.0, side * speed)
-    _enter(sides.ties, sides.grid, phase, side, k, 0.0, 1.0)
+    _enter(sides, phase, side, k, 0.0, 1.0)
     if not speed > sides.rest_speed[k]:
         side = 0
         if landing <= runs.INSTANT * ground.time_step:

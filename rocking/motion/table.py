@@ -98,10 +98,48 @@ def linear_side(block: EquivalentBlock) -> SideTable:
     return SideTable(kernel, block.restitution, block.critical_rotation, block.rotation_map)
 
 
-def _kernel(ties: Ties | None = None, **values: np.ndarray | float | tuple[float, ...]) -> Sides:
+def _kinked_side(side: Side) -> SideTable:
+    """Return the table of a side whose G runs straight from kink to kink, with constant I and B: exact.
+
+    Beyond φ_cr, where G goes on as it comes, further pieces tell what the ground must give to bring the side back.
+    """
+    critical = side.critical_rotation
+    further = np.linspace(critical, side.end_rotation, 65)
+    starts = np.array([0.0, *(kink for kink in side.kinks if kink < critical), *further[:-1]])
+    ends = np.append(starts[1:], side.end_rotation)
+    inertia = side.at("inertia", 0.0)
+    push = side.at("ground", 0.0) / inertia
+    gravity = side.gravity(starts) / inertia
+    slopes = (side.gravity(ends) / inertia - gravity) / (ends - starts)
+    pieces = np.zeros((starts.size, 2 * DEGREE + 2))
+    pieces[:, 0] = gravity
+    pieces[:, 1] = push
+    pieces[:, 2] = slopes
+    reach = min(_NEAR * critical, ends[0])
+    near = np.array([gravity[0] + slopes[0] * np.array([0.0, reach]), [push, push]])
+    kernel = _kernel(
+        kinks=np.append(starts, np.inf)[None],
+        pieces=pieces,
+        grid=(0.0,) * 9,
+        lift=(gravity[0], push),
+        hold=-gravity / push,  # of falling G the least at the start of each piece; it is asked beyond φ_cr alone
+        critical=critical,
+        end=side.end_rotation,
+        rest_speed=_reaching_speed(side, inertia) * runs.REST_ENERGY**0.5,
+        longest_step=1 / np.sqrt(GRAVITY * max(np.abs(slopes).max(), gravity[0] / critical)),
+        near=(*_near_rest(reach, near), 0.0),
+    )
+    return SideTable(kernel, side.restitution, critical, None)
+
+
+def _kernel(
+    ties: Ties | None = None,
+    kinks: np.ndarray | None = None,
+    **values: np.ndarray | float | tuple[float, ...],
+) -> Sides:
     """The Sides of one side."""
     arrays = {name: np.array([value], dtype=float) for name, value in values.items()}
-    return Sides(**arrays, one_sided=False, ties=ties)
+    return Sides(**arrays, one_sided=False, ties=ties, kinks=kinks)
 
 
 def side_table(side: Side, apart: bool = False) -> SideTable:
@@ -109,6 +147,8 @@ def side_table(side: Side, apart: bool = False) -> SideTable:
 
     Raises MotionError when it cannot be.
     """
+    if side.kinks:
+        return _kinked_side(side)
     try:
         arc, inverse = side.arc
     except StructureError as error:
@@ -407,7 +447,7 @@ def linear_table(block: EquivalentBlock) -> Table:
 def _stacked(sides: tuple[SideTable, ...], one_sided: bool) -> Table:
     most = max(side.kernel.hold.shape[1] for side in sides)
     arrays = {}
-    for name in set(Sides._fields) - {"one_sided", "ties"}:
+    for name in set(Sides._fields) - {"one_sided", "ties", "kinks"}:
         rows = [getattr(side.kernel, name) for side in sides]
         if name in ("pieces", "hold"):  # the shorter table is filled up with zeros
             rows = [
@@ -415,7 +455,10 @@ def _stacked(sides: tuple[SideTable, ...], one_sided: bool) -> Table:
             ]
         arrays[name] = np.concatenate(rows)
     kernel = Sides(
-        **arrays, one_sided=one_sided, ties=stacked_ties([side.kernel.ties for side in sides], most)
+        **arrays,
+        one_sided=one_sided,
+        ties=stacked_ties([side.kernel.ties for side in sides], most),
+        kinks=sides[0].kernel.kinks,  # a mechanism with kinks has one side
     )
     return Table(sides, kernel)
 

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from rocking.records.measures import ResponseSpectrum
     from rocking.strengthening import Strengthening
     from rocking.structures import Mechanism, Structure
-    from rocking.structures.capacity import CapacityCurve
+    from rocking.structures.capacity import StaticCurve
 
 TIME = "time [s]"
 ACCELERATION = "ground acceleration [m/s²]"
@@ -359,7 +359,7 @@ def _plot_mechanism(mechanism: "Mechanism", axes: Axes) -> None:
     axes.legend()
 
 
-def _plot_capacity(curve: "CapacityCurve", axes: Axes) -> None:
+def _plot_capacity(curve: "StaticCurve", axes: Axes) -> None:
     x, y = curve.control_point
     axes.plot(curve.displacement, curve.multiplier, label=f"control point ({x:.3g}, {y:.3g}) m")
     axes.axhline(0, **ZERO)
@@ -454,7 +454,7 @@ _PLOTS: dict[str, Callable[..., None]] = {
     "RockingSpectrum": _plot_spectrum,
     "ResponseSpectrum": _plot_response_spectrum,
     "Mechanism": _plot_mechanism,
-    "CapacityCurve": _plot_capacity,
+    "StaticCurve": _plot_capacity,
     "Selection": _plot_selection,
     "Strengthening": _plot_strengthening,
     "Structure": _plot_structure,

@@ -27,7 +27,7 @@ _STILL = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class CapacityCurve(Drawn):
+class StaticCurve(Drawn):
     """Static load multiplier against displacement, at k rotations from rest to the critical one; `plot` draws it.
 
     By virtual work a horizontal body force λ g that just holds the structure at φ has λ(φ) = G(φ)/B(φ). It starts at
@@ -51,7 +51,7 @@ class StaticCapacity:
     """The static capacity of one side of a structure.
 
     control_part, control_corner: the point whose displacement counts, a corner of the drawing as this side sees it.
-    place: where it is at rest, m. displacement_factor: d*/d_k. participating_mass_ratio: as of CapacityCurve, of the
+    place: where it is at rest, m. displacement_factor: d*/d_k. participating_mass_ratio: as of StaticCurve, of the
     weights that move sideways at rest; mass_ratio_of_all: of those too that something else holds sideways.
     """
 
@@ -150,14 +150,14 @@ class StaticCapacity:
         moved, velocity, bend = (float(each.real) for each in point)
         return moved - self._rounding, velocity, bend
 
-    def curve(self, count: int) -> CapacityCurve:
+    def curve(self, count: int) -> StaticCurve:
         """Return it at `count` equal steps of rotation, and where ties yield or break and just beyond."""
         steps = np.linspace(0.0, self.side.critical_rotation, count)
         bends = np.array(self.side.bends)
         rotation = np.unique([*steps, *bends, *bends * (1 + 1e-12)])
         displacement = self.displacement(rotation)
         displacement = displacement - displacement[0]  # which is rounding
-        return CapacityCurve(
+        return StaticCurve(
             rotation=rotation,
             multiplier=self.multiplier(rotation),
             displacement=displacement,

@@ -258,6 +258,8 @@ def field_of(name: str, hint: Any, value: Value, default: Any = Parameter.empty)
             return Annotated[tuple[kind_of(float), ...], MinLen(int(required))]  # type: ignore[misc]
         return hint
 
+    if hint is str and not value.names:
+        return Field(name, str, value.meaning, value.unit, default=... if required else default, value=value)
     options = get_args(hint) if NoneType in get_args(hint) else (hint,)
     kinds = [kind_of(each) for each in options if each is not NoneType]
     kind: Any = reduce(or_, [each for each in kinds if each is not None])

@@ -150,6 +150,8 @@ class Side:
     and fall with g + ü_v, the ties do not, and they remember the largest rotation.
     critical_rotation: φ_cr, where G vanishes, rad. end_rotation: where the geometry of the mechanism ends, rad,
     > φ_cr. restitution: η of the impact that ends rocking on this side, in [0, 1].
+    kinks: rotations up to φ_cr at which G bends, while it runs straight between them and I and B are constant, rad; ()
+    of a G that is smooth.
     can_overturn: False where G vanishes nowhere, as what holds it never lets go; critical_rotation is then the rotation
     just below the end, and whatever reaches the end counts as overturned all the same.
     Raises StructureError when G(0) ≤ 0, B ≤ 0 or I ≤ 0 where it matters, or a rotation is out of order.
@@ -169,6 +171,7 @@ class Side:
     ties: tuple[SideTie, ...] = ()
     untied_gravity: Function | None = None
     can_overturn: bool = True
+    kinks: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         if self.ties and self.untied_gravity is None:
@@ -208,8 +211,8 @@ class Side:
 
     @cached_property
     def bends(self) -> tuple[float, ...]:
-        """Rotations between rest and φ_cr at which a tie yields or breaks on the way out, in order, rad."""
-        bends = {bend for tie in self.ties for bend in tie.bends(self.end_rotation)}
+        """Rotations between rest and φ_cr at which G has a kink, or a tie yields or breaks, in order, rad."""
+        bends = {*self.kinks, *(bend for tie in self.ties for bend in tie.bends(self.end_rotation))}
         return tuple(sorted(bend for bend in bends if 0 < bend < self.critical_rotation))
 
     def restoring(self, rotation: np.ndarray, largest: np.ndarray, weight: np.ndarray | float) -> np.ndarray:

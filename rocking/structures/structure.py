@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from rocking.errors import DoesNotStandError, StructureError, StructureWarning
 from rocking.quantities import within
 from rocking.remarks import Remark
-from rocking.structures.capacity import CapacityCurve as CapacityCurve
+from rocking.structures.capacity import StaticCurve as StaticCurve
 from rocking.structures.capacity import StaticCapacity
 from rocking.structures.drawing import Dimension, Mark, Path, plane, span
 from rocking.structures.fields import CompressiveStrength, Description, Form, Given, Value, constructor, forms
@@ -210,7 +210,7 @@ class Structure(ABC):
     def _capacities(self) -> dict[int, StaticCapacity]:
         return {}
 
-    def capacity_curve(self, side: int = 1, count: int = 41) -> CapacityCurve:
+    def capacity_curve(self, side: int = 1, count: int = 41) -> StaticCurve:
         """Return the curve of the positive (1) or negative (−1) side at `count` equal steps of rotation.
 
         Where ties yield or break on the way there is a point more, and just beyond it another.

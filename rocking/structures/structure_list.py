@@ -25,6 +25,7 @@ _CLASSES = (
     "rocking.structures.facade.Facade",
     "rocking.structures.wall.LoadedWall",
     "rocking.structures.arch.ArchOnPiers",
+    "rocking.structures.capacity_curve.CapacityCurve",
 )
 
 

@@ -15,7 +15,7 @@ from rocking.assessment.methods import Agreement, agreement, ratio, rests
 from rocking.assessment.rows import of_record as rows
 from rocking.records import Accelerogram
 from rocking.structures import Mechanism, Side, Structure
-from rocking.structures.capacity import CapacityCurve
+from rocking.structures.capacity import StaticCurve
 from rocking.structures.equivalent_block import BlockDefects, EquivalentBlock, Scale
 from rocking.tables import Columns, Row, RowOf, row
 
@@ -166,7 +166,7 @@ class CapacityPoint(Named):
     """One point of the capacity curve of one side. place: its place on the curve."""
 
     side: str
-    curve: CapacityCurve
+    curve: StaticCurve
     place: int
 
 
