@@ -62,8 +62,8 @@ from .strengthening import Strengthening as Strengthening
 from .strengthening import strengthen as strengthen
 from .structures import Arch as Arch
 from .structures import ArchOnPiers as ArchOnPiers
-from .structures import CapacityCurve as CapacityCurve
 from .structures import Block as Block
+from .structures import CapacityCurve as CapacityCurve
 from .structures import EquivalentBlock as EquivalentBlock
 from .structures import Facade as Facade
 from .structures import Frame as Frame

@@ -22,7 +22,11 @@ def forms() -> Iterator[tuple[str, str, Form]]:
 
 @styled
 def drawing(kind: str, form: Form) -> Figure:
-    """Return the structure of the form's examples, at rest, measured, and displaced beside it."""
+    """Return the structure of the form's examples, at rest, measured, and displaced beside it.
+
+    What a file holds is drawn by the first form of its type.
+    """
+    form = TYPES[kind][0] if form.is_in_a_file else form
     example = {field.key: field.value.example for field in form.fields if field.required or field.unit}
     structure = structure_from_config({"type": kind, **example})
     figure = Figure(figsize=(6.4, 2.9), layout="constrained")

@@ -207,7 +207,7 @@ def _place(grid, k, arc):
 
 @compiled
 def _piece(kinks, grid, phase, slot, k, arc):
-    """The same as of `_place`, of the piece in which the present phase is where G̃ has kinks; such a piece has no end."""
+    """As `_place`; where G̃ has kinks the piece of the present phase, which is good beyond its ends."""
     if kinks is None:
         return _place(grid, k, arc)
     j = int(phase[slot, PIECE])
@@ -259,8 +259,8 @@ def _short_shift(e, u):
 
 LARGEST, LOW, HIGH, YIELDING, LEFT, TAUT, STIFF, HELD, PIECE = range(9)
 """Places in a row of `phase`: the largest arc when last looked at, between which arcs the present phase holds, whether
-a tie yields, how many are not broken and taut, the square of their frequency, what they hold with at rest, and the piece
-of a G̃ with kinks."""
+a tie yields, how many are not broken and taut, the square of their frequency, what they hold with at rest; and the
+piece of a G̃ with kinks."""
 
 FIRST, EACH = 9, 6
 """The first place of the first tie, and the number of places of each: c and s of its tension c + s u in this phase,
@@ -648,7 +648,11 @@ def _glide(sides, phase, ground, member, k, motion, tolerance, leap, log):
             leap = steps // 2
             continue
         out = new > sides.critical[k] and pull > 0
-        if not (accurate and plain and new > 0) or out or _beyond(sides.ties, sides.kinks, phase, slot, new) != 0:
+        if (
+            not (accurate and plain and new > 0)
+            or out
+            or _beyond(sides.ties, sides.kinks, phase, slot, new) != 0
+        ):
             break
         i, tau, arc, speed = i + steps, 0.0, new, pull
         farthest, fastest = max(farthest, arc), max(fastest, abs(speed))

@@ -122,7 +122,8 @@ def _kinked_side(side: Side) -> SideTable:
         pieces=pieces,
         grid=(0.0,) * 9,
         lift=(gravity[0], push),
-        hold=-gravity / push,  # of falling G the least at the start of each piece; it is asked beyond φ_cr alone
+        hold=-gravity
+        / push,  # of falling G the least at the start of each piece; it is asked beyond φ_cr alone
         critical=critical,
         end=side.end_rotation,
         rest_speed=_reaching_speed(side, inertia) * runs.REST_ENERGY**0.5,

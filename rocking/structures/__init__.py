@@ -2,10 +2,10 @@
 
 from rocking.structures.arch import Arch as Arch
 from rocking.structures.arch import ArchOnPiers as ArchOnPiers
-from rocking.structures.capacity_curve import CapacityCurve as CapacityCurve
 from rocking.structures.block import Block as Block
 from rocking.structures.block import RigidBody as RigidBody
 from rocking.structures.block import Spire as Spire
+from rocking.structures.capacity_curve import CapacityCurve as CapacityCurve
 from rocking.structures.facade import Facade as Facade
 from rocking.structures.frame import Frame as Frame
 from rocking.structures.mechanism import EquivalentBlock as EquivalentBlock

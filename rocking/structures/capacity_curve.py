@@ -5,6 +5,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
+from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, ClassVar
 
@@ -15,11 +16,9 @@ from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, shown
 from rocking.remarks import Kind, Remark
 from rocking.structures.capacity import StaticCapacity, StaticCurve
-from rocking.structures.contacts import Contacts, UnknownContacts
-from rocking.structures.description import Description
 from rocking.structures.drawing import rectangle
-from rocking.structures.fields import OneSided, RestitutionNumber, Value
-from rocking.structures.linkage import Turning
+from rocking.structures.fields import Description, OneSided, RestitutionNumber, Value
+from rocking.structures.linkage import Contacts, Turning, UnknownContacts
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.structure import Structure
 from rocking.tables.files import read_whole
@@ -87,14 +86,14 @@ class CapacityCurve(Structure):
         multipliers = self.multipliers
         if len(displacements) != len(multipliers) or len(displacements) < 2:
             raise StructureError(
-                f"the curve has {len(displacements)} displacements and {len(multipliers)} multipliers, but must have as "
-                "many of both, and two at least."
+                f"the curve has {len(displacements)} displacements and {len(multipliers)} multipliers, but must have "
+                "as many of both, and two at least."
             )
         if displacements[0] != 0:
             raise StructureError(
                 f"the curve begins at a displacement of {displacements[0]!r} m, but must begin at 0."
             )
-        for before, after in zip(displacements, displacements[1:], strict=False):
+        for before, after in pairwise(displacements):
             if after <= before:
                 raise StructureError(
                     f"the curve has a displacement of {after!r} m after {before!r} m, but they must ascend; sort the "
@@ -130,11 +129,15 @@ class CapacityCurve(Structure):
         Raises StructureError naming what is missing or no number.
         """
         displacements, loads, head = _points(Path(file))
-        units = {"force_kN": 1e3 / weight, "acceleration_g": mass_ratio, "acceleration_m_s2": mass_ratio / GRAVITY}
+        units = {
+            "force_kN": 1e3 / weight,
+            "acceleration_g": mass_ratio,
+            "acceleration_m_s2": mass_ratio / GRAVITY,
+        }
         if mass_ratio != 1 and not head.startswith("acceleration"):
             raise StructureError(
-                f"mass_ratio is {mass_ratio!r}, but a {head} takes none, as it stands before the division by e*; leave it "
-                "out."
+                f"mass_ratio is {mass_ratio!r}, but a {head} takes none, as it stands before the division by e*; leave "
+                "it out."
             )
         return cls(
             tuple(displacements),
@@ -153,11 +156,12 @@ class CapacityCurve(Structure):
             for each in self.described.values
             if each.field.name not in ("displacements", "multipliers") and each.value is not False
         ]
-        first = f"curve of {len(self.displacements)} points from α {self.multipliers[0]:.4g} to 0 at {self._reach:.4g} m"
-        return ", ".join([first, *kept])
+        points = len(self.displacements)
+        curve = f"curve of {points} points from α {self.multipliers[0]:.4g} to 0 at {self._reach:.4g} m"
+        return ", ".join([curve, *kept])
 
     @cached_property
-    def described(self) -> Description:  # type: ignore[override]
+    def described(self) -> Description:
         """What it says of itself: the points, so that they count, and not the name of the file that held them."""
         return super(CapacityCurve, replace(self)).described
 
@@ -170,7 +174,10 @@ class CapacityCurve(Structure):
     def _reach(self) -> float:
         """d*_u, at which the multiplier comes down to 0 for the first time, m."""
         place = next(k for k, each in enumerate(self.multipliers) if each <= 0)
-        (start, end), (high, low) = self.displacements[place - 1 : place + 1], self.multipliers[place - 1 : place + 1]
+        (start, end), (high, low) = (
+            self.displacements[place - 1 : place + 1],
+            self.multipliers[place - 1 : place + 1],
+        )
         return start + (end - start) * high / (high - low)
 
     @property
@@ -189,11 +196,12 @@ class CapacityCurve(Structure):
         slopes = np.diff(gravity) / np.diff(points)
 
         def segment(rotation: np.ndarray) -> np.ndarray:
-            return np.minimum(np.searchsorted(points, rotation, side="right") - 1, slopes.size - 1)
+            place = np.searchsorted(points, rotation, side="right") - 1
+            return np.asarray(np.minimum(place, slopes.size - 1))
 
         def of_gravity(rotation: np.ndarray) -> np.ndarray:
             place = segment(rotation)
-            return gravity[place] + slopes[place] * (rotation - points[place])
+            return np.asarray(gravity[place] + slopes[place] * (rotation - points[place]))
 
         constant = partial(np.full_like, dtype=float)
         built = Mechanism(

@@ -218,6 +218,11 @@ class Form:
         return cls(kind.type_name, meaning, tuple(described), kind, make)
 
     @property
+    def is_in_a_file(self) -> bool:
+        """Whether it names a file that holds the structure."""
+        return any(each.kind is str for each in self.fields)
+
+    @property
     def keys(self) -> dict[str, Field]:
         """The fields by key."""
         return {each.key: each for each in self.fields}

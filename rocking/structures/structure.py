@@ -14,8 +14,8 @@ from numpy.typing import ArrayLike
 from rocking.errors import DoesNotStandError, StructureError, StructureWarning
 from rocking.quantities import within
 from rocking.remarks import Remark
-from rocking.structures.capacity import StaticCurve as StaticCurve
 from rocking.structures.capacity import StaticCapacity
+from rocking.structures.capacity import StaticCurve as StaticCurve
 from rocking.structures.drawing import Dimension, Mark, Path, plane, span
 from rocking.structures.fields import CompressiveStrength, Description, Form, Given, Value, constructor, forms
 from rocking.structures.linkage import (

@@ -32,6 +32,7 @@ REGISTERED = [
     pytest.param(kind, form, id=f"{kind} {number}")
     for kind, of_kind in TYPES.items()
     for number, form in enumerate(of_kind, start=1)
+    if kind != "capacity_curve"  # it has no geometry, and tests of its own
 ]
 
 

@@ -165,13 +165,13 @@ def test_every_unit_of_a_file_gives_the_same_curve(tmp_path):
     ],
 )
 def test_what_is_no_curve_is_refused_in_one_sentence(tmp_path, text, sentence):
-    with pytest.raises(StructureError, match="^[^\n]*$") as error:
+    with pytest.raises(StructureError, match=r"^[^\n]*$") as error:
         CapacityCurve.read(_written(tmp_path, text), weight=50e3, restitution=0.8)
     assert sentence in str(error.value)
 
 
 def test_a_file_that_is_not_there_is_named(tmp_path):
-    with pytest.raises(StructureError, match="none.csv"):
+    with pytest.raises(StructureError, match=r"none\.csv"):
         CapacityCurve.read(tmp_path / "none.csv", weight=50e3, restitution=0.8)
 
 
@@ -184,7 +184,9 @@ def test_a_multiplier_takes_no_mass_ratio(tmp_path):
 def test_the_points_of_a_file_count_and_not_its_name(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     listed = tmp_path / "structures.yaml"
-    listed.write_text("- {name: front, type: capacity_curve, file: curve.csv, weight_kN: 50, restitution: 0.8}\n")
+    listed.write_text(
+        "- {name: front, type: capacity_curve, file: curve.csv, weight_kN: 50, restitution: 0.8}\n"
+    )
 
     def hashes(text: str) -> dict[str, str]:
         _written(tmp_path, text)
