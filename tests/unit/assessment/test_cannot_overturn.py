@@ -88,7 +88,7 @@ def test_what_it_carries_may_fall_though_it_cannot():
     checked = rocking.check(HELD, SPECTRUM, support_loss=0.05)
     point = checked.limit
     assert checked.nonlinear is not None
-    assert str(point.reason) == "what it carries falls"
+    assert "carries falls" in str(point.reason)
     assert point.displacement == pytest.approx(0.05 * checked.governing.static.displacement_factor)
 
 

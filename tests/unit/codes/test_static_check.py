@@ -372,7 +372,7 @@ def test_at_a_height_by_hand():
 def test_a_support_that_is_lost_early_limits_the_displacement():
     whole = kinematic_check(Block.of_size(0.5, 3.0), SPECTRUM, CodeTerms(limit_state="SLC"))
     early = kinematic_check(Block.of_size(0.5, 3.0), SPECTRUM, CodeTerms(limit_state="SLC", support_loss=0.1))
-    assert str(early.limit.reason) == "what it carries falls"
+    assert "carries falls" in str(early.limit.reason)
     assert early.limit.displacement == pytest.approx(0.05, rel=BY_HAND)  # d* is half of the top's
     assert early.nonlinear.capacity < whole.nonlinear.capacity
 
