@@ -50,7 +50,9 @@ Draw = Callable[[np.random.Generator, int], np.ndarray]
 def trade_fragility(target: Target) -> None:
     """Score every method on the records and structures of the target."""
     motions = [record for _, record in target.records]
-    sines, searched_s = sites.timed(lambda: [best_sines(each, AssessmentSettings()) for each in motions])
+    sines, searched_s = sites.timed(
+        lambda: [[sine.pulse for sine in best_sines(each, AssessmentSettings())] for each in motions]
+    )
     rows: list[scores.Score] = []
     for name, structure in target.structures.items():
         rows += method_scores(name, structure, motions, sines)

@@ -21,7 +21,7 @@ class Heading(StrEnum):
     ENSEMBLE = "Ensemble: the uncertain inputs of a case vary within these ranges"
     DESIGN = "Design level and the checks of the Italian code: snakemake checks"
     FRAGILITY = "Fragility from all records of the study: snakemake fragility"
-    TRADE = "Trade of error for time: snakemake trade"
+    TRADE = "Trade of error for time: rocking trade"
     OUTPUT = "Output"
 
 

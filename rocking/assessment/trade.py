@@ -1,8 +1,12 @@
 """The trade: what accuracy costs on a user's own records and structures: method by error by processor time."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+import platform
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from statistics import median
 from time import process_time
 from typing import TypeVar
@@ -13,13 +17,16 @@ from rocking.assessment.rows import TimedAnswer, TradeMethod, TradeRow, TriedMet
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import PulseError, RockingError
 from rocking.motion import integrate
-from rocking.pulses import DEMAND_CANDIDATES, Pulse, extract_pulses
+from rocking.pulses import DEMAND_CANDIDATES, PulseEvidence, extract_pulses
+from rocking.quantities import counted
 from rocking.records import Accelerogram
 from rocking.sine_pulse import predict_maximum
 from rocking.structures import EquivalentBlock, Mechanism, Structure
 
-TOLERANCES = {TradeMethod.COARSE: 1e-3, TradeMethod.MECHANISM: 1e-6, TradeMethod.FINE: 1e-9}
+TOLERANCES = {TradeMethod.MECHANISM: 1e-6, TradeMethod.COARSE: 1e-3}
 REFERENCE_TOLERANCE = 1e-12
+RULING = 0.5
+"""Share of a record's energy from which its sine is said to rule it."""
 REPEATS = 3
 """Timed runs of each response, after one that is not; an ensemble is run once."""
 
@@ -54,14 +61,17 @@ def trade(
                 for method, run in _runs(mechanism, record, sines, chosen).items():
                     rotation_ratio, cpu_s = _timed(run, 0 if method is TradeMethod.ENSEMBLE else REPEATS)
                     record_s = searched_s if method in (TradeMethod.ONE_SINE, TradeMethod.SINES) else 0.0
-                    for whose in ("", name):
-                        answer = TimedAnswer(rotation_ratio, reference, cpu_s, record_s)
-                        answers.setdefault((method, whose), []).append(answer)
+                    answer = TimedAnswer(rotation_ratio, reference, cpu_s, record_s)
+                    rules = method is TradeMethod.ONE_SINE and sines[0].explained_energy >= RULING
+                    for which in (method, TradeMethod.RULING_SINE) if rules else (method,):
+                        for whose in ("", name):
+                            answers.setdefault((which, whose), []).append(answer)
             except RockingError as error:
                 tell(f"record {number}, {name}: {error}")
         tell(f"record {number}: {len(mechanisms)} structures")
+    machine = machine_in_words()
     return [
-        TradeRow.of(TriedMethod(method, structure, answers[method, structure]))
+        TradeRow.of(TriedMethod(method, structure, answers[method, structure], machine))
         for structure in ("", *mechanisms)
         for method in TradeMethod
         if (method, structure) in answers
@@ -69,13 +79,13 @@ def trade(
 
 
 def _runs(
-    mechanism: Mechanism, record: Accelerogram, sines: Sequence[Pulse], settings: AssessmentSettings
+    mechanism: Mechanism, record: Accelerogram, sines: Sequence[PulseEvidence], settings: AssessmentSettings
 ) -> dict[TradeMethod, Callable[[], float]]:
     """The computation of the largest rotation by each method; no closed form for a record without pulses."""
     block = mechanism.equivalent_block("rest")
 
-    def worst(some: Sequence[Pulse]) -> float:
-        return max(predict_maximum(block, pulse).rotation_ratio for pulse in some)
+    def worst(some: Sequence[PulseEvidence]) -> float:
+        return max(predict_maximum(block, each.pulse).rotation_ratio for each in some)
 
     def rotation(structure: EquivalentBlock | Mechanism, tolerance: float) -> float:
         return integrate(structure, record, tolerance).rotation_ratio
@@ -93,13 +103,16 @@ def _runs(
     }
 
 
-def best_sines(record: Accelerogram, settings: AssessmentSettings) -> tuple[Pulse, ...]:
-    """Return the best-ranked sines of a record; none where it has none."""
+def best_sines(record: Accelerogram, settings: AssessmentSettings) -> tuple[PulseEvidence, ...]:
+    """Return the best-ranked sines of a record; none where it has none.
+
+    What the first one leaves is not searched: no prediction asks for it.
+    """
     try:
-        ranked = extract_pulses(record, settings=settings.pulse).ranked
+        ranked = extract_pulses(record, settings=replace(settings.pulse, pursuit=1)).ranked
     except PulseError:
         return ()
-    return tuple(each.pulse for each in ranked[:DEMAND_CANDIDATES])
+    return tuple(ranked[:DEMAND_CANDIDATES])
 
 
 def _timed(run: Callable[[], T], repeats: int = 0) -> tuple[T, float]:
@@ -110,3 +123,66 @@ def _timed(run: Callable[[], T], repeats: int = 0) -> tuple[T, float]:
         answer = run()
         spent.append(process_time() - started)
     return answer, median(spent[1:] or spent)
+
+
+def break_even(sine: TradeRow, other: TradeRow) -> float:
+    """Return the number of structures a record from which one sine costs no more than another method; inf: never."""
+    saved = other.cpu_s - sine.cpu_s
+    return math.ceil(sine.preparation_record_s / saved) if saved > 0 else math.inf
+
+
+def what_follows(rows: Iterable[TradeRow]) -> Iterator[str]:
+    """Yield, in a sentence each, what the rows over all structures say of the closed form beside the integration."""
+    of_all = {row.method: row for row in rows if row.structure == ""}
+    sine = of_all.get(TradeMethod.ONE_SINE)
+    mechanism = of_all.get(TradeMethod.MECHANISM)
+    if sine is None or mechanism is None:
+        return
+    times = (
+        f"One sine takes {1e3 * sine.cpu_s:.2g} ms a structure and {1e3 * sine.preparation_record_s:.2g} ms a record "
+        f"for its search, the mechanism on the record {1e3 * mechanism.cpu_s:.2g} ms"
+    )
+    structures = break_even(sine, mechanism)
+    if structures < math.inf:
+        yield f"{times}: below {counted(int(structures), 'structure')} a record the closed form is the dear method."
+    else:
+        yield f"{times}: for no number of structures is the closed form the cheap method."
+    yield (
+        f"It is never the accurate one: {_in_words(sine)}"
+        + "".join(
+            f"; {name}: {_in_words(of_all[method])}"
+            for method, name in _BESIDE.items()
+            if method in of_all and of_all[method].cases
+        )
+        + "."
+    )
+    yield (
+        "It earns its place without a record (design curves, spectra of pulses), for many structures under one motion, "
+        "and where the sine explains most of the energy."
+    )
+    if coarse := of_all.get(TradeMethod.COARSE):
+        yield (
+            f"The tolerance of the integration is no knob: at 1e-3 it errs by {coarse.error:.1g} and takes "
+            f"{1e3 * coarse.cpu_s:.2g} ms."
+        )
+
+
+_BESIDE = {
+    TradeMethod.RULING_SINE: "where the sine explains at least half of the energy",
+    TradeMethod.BLOCK: "the block on the record",
+}
+
+
+def _in_words(row: TradeRow) -> str:
+    """How often a method is wrong, and by how much."""
+    unsafe = f", {row.unsafe_verdicts} of them unsafe" if row.wrong_verdicts else ""
+    error = f", median error {100 * row.error:.2g} %" if row.error >= 0 else ""
+    return f"{row.wrong_verdicts} of {row.cases} verdicts wrong{unsafe}{error}"
+
+
+def machine_in_words() -> str:
+    """Return the name of the processor of this machine, and its system."""
+    info = Path("/proc/cpuinfo")
+    named = re.search(r"model name\s*: (.+)", info.read_text()) if info.is_file() else None
+    name = named[1] if named else platform.processor() or platform.machine()
+    return f"{' '.join(name.split())}, {platform.system()}"

@@ -1,20 +1,32 @@
 """The report of the trade of error for time, from its table."""
 
-import math
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rocking.assessment.rows import TradeMethod, TradeRow
+from rocking.assessment.trade import break_even, what_follows
 from rocking.reports import printing
 from rocking.reports.printing import compile_document
-from rocking.reports.style import new_figure, picture, plain_logarithmic, powers_of_ten, styled, svg
+from rocking.reports.style import PREDICTED, RECORD, new_figure, picture, plain_logarithmic, styled, svg
 from rocking.tables import read_table, write_whole
 
-SMALLEST_ERROR = 1e-8
-"""Smaller errors, down to none at all, are drawn here."""
-_MARKERS = dict(zip(TradeMethod, "opsdD^*", strict=True))
+_LOOKS = {
+    TradeMethod.ONE_SINE: (PREDICTED, "-"),
+    TradeMethod.SINES: (PREDICTED, "--"),
+    TradeMethod.BLOCK: (RECORD, "--"),
+    TradeMethod.MECHANISM: ("black", "-"),
+    TradeMethod.ENSEMBLE: ("black", ":"),
+}
+"""Colour and line of the methods whose cost is drawn."""
+_UNSAFE = "#A44517"
+_EXACT = 1e-6
+"""Median error below which a method is that of the reference for whoever reads a figure."""
+_MOST_STRUCTURES = 1000
+"""Structures a record up to which the cost is drawn."""
 
 
 def write_trade_report(folder: Path, pdf: Path, image: Path) -> None:
@@ -34,58 +46,81 @@ def write_trade_report(folder: Path, pdf: Path, image: Path) -> None:
     caption = (
         "Cases: those in which the method or the reference, the mechanism at a tolerance of 1e-12, does not rest. "
         "Errors: of the largest rotation where both rock. Unsafe: verdicts that say less than the reference. A record: "
-        "the search for its pulses. The ensemble answers for all alike cases; its error is that of its median."
-        f"{_break_even(rows)}"
+        "the search for its sines. The ensemble answers for all alike cases; its error is that of its median."
     )
-    parts = [*trade_picture(folder), {**table, "caption": caption}]
-    subtitle = "Processor times of the machine that measured, on the records and structures of the study."
+    parts = [{"list": list(what_follows(rows))}, *trade_picture(folder), {**table, "caption": caption}]
+    machine = rows[0].machine if rows else "no machine"
+    subtitle = f"Processor times of {machine}, on the records and structures of the study."
     data = {"title": "What accuracy costs", "subtitle": subtitle, "parts": parts}
     write_whole(pdf, compile_document("plain.typ", data))
     write_whole(image, svg(trade_figure(rows)).encode())
 
 
-def _break_even(rows: Sequence[TradeRow]) -> str:
-    """Return the sentence that says from how many structures a record on the search for its pulses is repaid."""
-    of_all = {row.method: row for row in rows if row.structure == ""}
-    sine = of_all.get(TradeMethod.ONE_SINE)
-    mechanism = of_all.get(TradeMethod.MECHANISM)
-    if sine is None or mechanism is None or not mechanism.cpu_s > sine.cpu_s:
-        return ""
-    structures = math.ceil(sine.preparation_record_s / (mechanism.cpu_s - sine.cpu_s))
-    return (
-        f" Below {structures} structures a record the search for its pulses costs more than the integration of all "
-        "of them."
-    )
-
-
 def trade_picture(folder: Path) -> list[dict[str, str]]:
     """Return the figure and its conclusion for another document; nothing where no structure was followed."""
     rows = [row for row in read_table(TradeRow, folder) if row.structure == ""]
-    conclusion = "; ".join(
-        f"{row.method}: {1e3 * row.cpu_s:.2g} ms, {printing.of(row.wrong_verdicts, row.cases)} verdicts wrong"
-        for row in rows
+    if not rows:
+        return []
+    figure = picture(
+        trade_figure(rows), "Processor time of a record against the number of structures, and errors."
     )
-    figure = picture(trade_figure(rows), "Median error against processor time of every method.")
     caption = (
-        "Median error of the largest rotation against the processor time of one response, over all structures. Errors "
-        "below 1e-8 stand at 1e-8."
+        "Left: processor time of a record against the number of structures that are followed under it. Right: share of "
+        f"the cases in which a method errs, over all structures, with its median error. Measured on {rows[0].machine}."
     )
-    return [figure | {"caption": caption, "conclusion": f"{conclusion}."}] if rows else []
+    return [figure | {"caption": caption, "conclusion": " ".join(what_follows(rows))}]
 
 
 @styled
 def trade_figure(rows: Sequence[TradeRow]) -> Figure:
-    """Draw what each method errs against what it costs, over all structures."""
-    figure = new_figure(80, margins=(16, 60, 12, 4))
-    panel = figure.subplots()
-    for row in (each for each in rows if each.structure == "" and each.error >= 0):
-        error = max(row.error, SMALLEST_ERROR)
-        panel.plot(1e3 * row.cpu_s, error, _MARKERS[row.method], markersize=6, label=row.method)
-    plain_logarithmic(panel, "x")
-    powers_of_ten(panel, "y")
-    panel.margins(0.08, 0.1)
-    panel.set_xlabel("processor time of a response [ms]")
-    panel.set_ylabel("relative error of the largest rotation [-]")
-    panel.grid(True)
-    figure.legend(loc="center right")
+    """Draw what a record costs by each method for any number of structures, and beside it how often each is wrong."""
+    of_all = {row.method: row for row in rows if row.structure == ""}
+    figure = new_figure(62, margins=(14, 3, 11, 7))
+    cost, errors = figure.subplots(1, 2, width_ratios=(1.25, 1))
+    _draw_costs(cost, of_all)
+    _draw_errors(errors, of_all)
+    figure.subplots_adjust(wspace=0.62)
     return figure
+
+
+def _draw_costs(panel: Axes, of_all: dict[TradeMethod, TradeRow]) -> None:
+    structures = np.geomspace(1, _MOST_STRUCTURES, 60)
+    for method, (colour, line) in _LOOKS.items():
+        if row := of_all.get(method):
+            spent = 1e3 * (row.preparation_record_s + structures * row.cpu_s)
+            panel.plot(structures, spent, color=colour, linestyle=line, label=method)
+    sine, mechanism = of_all.get(TradeMethod.ONE_SINE), of_all.get(TradeMethod.MECHANISM)
+    if sine and mechanism and 1 <= (even := break_even(sine, mechanism)) <= _MOST_STRUCTURES:
+        both = 1e3 * even * mechanism.cpu_s
+        panel.plot(even, both, "o", color=PREDICTED, markersize=5, fillstyle="none")
+        panel.annotate(
+            f"{even:.0f} structures",
+            (even, both),
+            xytext=(5, -9),
+            textcoords="offset points",
+            color=PREDICTED,
+        )
+    plain_logarithmic(panel, "x")
+    plain_logarithmic(panel, "y")
+    panel.set_xlabel("structures a record")
+    panel.set_ylabel("processor time of a record [ms]")
+    panel.grid(True)
+    panel.legend(fontsize=6)
+
+
+def _draw_errors(panel: Axes, of_all: dict[TradeMethod, TradeRow]) -> None:
+    shown = [row for method, row in of_all.items() if row.cases and method is not TradeMethod.COARSE]
+    for place, row in enumerate(reversed(shown)):
+        wrong = 100 * row.wrong_verdicts / row.cases
+        unsafe = 100 * row.unsafe_verdicts / row.cases
+        panel.barh(place, wrong, color="0.75", height=0.6)
+        panel.barh(place, unsafe, color=_UNSAFE, height=0.6)
+        error = f", error {printing.number(100 * row.error, 2)} %" if row.error > _EXACT else ""
+        panel.text(
+            wrong + 0.6, place, f"{row.wrong_verdicts} of {row.cases}{error}", va="center", fontsize=6.5
+        )
+    panel.set_yticks(range(len(shown)), [row.method for row in reversed(shown)])
+    panel.set_ylim(-0.6, max(len(shown), 1) - 0.4)
+    most = max([100 * row.wrong_verdicts / row.cases for row in shown], default=0.0)
+    panel.set_xlim(0, 1.9 * max(most, 5.0))
+    panel.set_xlabel("wrong verdicts [%], of them unsafe (brown)")

@@ -121,6 +121,8 @@ def _parser() -> argparse.ArgumentParser:
     add(
         "snakemake", nargs="*", help="a target such as trade; what follows -- goes to snakemake: -- --dry-run"
     )
+    add = verb(_trade, "measure what each method costs and errs on the records and structures of a study")
+    add("folder", type=Path, nargs="?", default=Path(), help="folder of the study (default: this one)")
     add = verb(_tables, "write the tables of single records of a finished study")
     add("results", type=Path, help="folder of the results of a study")
     add("record", nargs="+", help="identifier of a record in the catalogue")
@@ -181,6 +183,12 @@ def _run(options: argparse.Namespace) -> int:
     from rocking.study.run import run
 
     return run(options.folder, options.snakemake)
+
+
+def _trade(options: argparse.Namespace) -> int:
+    from rocking.study.run import run_trade
+
+    return run_trade(options.folder)
 
 
 def _select(options: argparse.Namespace) -> None:

@@ -14,13 +14,13 @@ from pathlib import Path
 from threading import Thread
 from typing import Any, TextIO
 
-from rocking.assessment.rows import ComparisonRow, FailureRow, VerdictRow
+from rocking.assessment.rows import ComparisonRow, FailureRow, TradeRow, VerdictRow
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted, shown
 from rocking.study import close_doors
 from rocking.study.folder import REMEMBERED, locked, new_log
 from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_plan, workflow_folder
-from rocking.study.terminal import Progress, closing_lines, fitting, paths_to_read
+from rocking.study.terminal import Progress, closing_lines, fitting, paths_to_read, trade_lines
 from rocking.tables import read_rows, read_table
 
 _LOCK = REMEMBERED / "rocking_run.lock"
@@ -96,6 +96,16 @@ def run(folder: Path, options: Sequence[str]) -> int:
         print(f"Finished: {options[0]}; what it wrote lies in {results}")
         return 0
     return _told_of(results)
+
+
+def run_trade(folder: Path) -> int:
+    """Measure the trade of error for time on the study in `folder`, tell it, and return the exit status of `run`."""
+    status = run(folder, ["trade"])
+    if not status:
+        summary = folder / _plan(folder).settings.results / "summary"
+        for line in trade_lines(read_table(TradeRow, summary), summary / "trade.pdf"):
+            print(fitting(line, sys.stdout))
+    return status
 
 
 def _check_options(options: Sequence[str]) -> None:

@@ -289,8 +289,8 @@ def layout() -> dict[Heading, list[str]]:
     return by_heading
 
 
-EXAMPLE = Settings(structures="workflow/structures.yaml")
-"""The settings of the shipped example, whose structures stand beside its rules."""
+EXAMPLE = Settings(structures="workflow/structures.yaml", trade=StudyTrade(in_summary=True))
+"""The settings of the shipped example, whose structures stand beside its rules, and whose summary shows the trade."""
 
 
 def read_settings(config: Mapping[str, Any]) -> Settings:

@@ -19,7 +19,7 @@ from rocking.assessment.case import SceneResult
 from rocking.assessment.conclusion import conclusion_in_words, conclusions, worst_of_each
 from rocking.assessment.decide import ORDER, worst_first
 from rocking.assessment.methods import rocks
-from rocking.assessment.rows import ComparisonRow, FailureRow, VerdictRow
+from rocking.assessment.rows import ComparisonRow, FailureRow, TradeRow, VerdictRow
 from rocking.errors import RecordError, RockingError, log_fault
 from rocking.quantities import counted, escaped
 from rocking.study.folder import new_log
@@ -124,6 +124,24 @@ def closing_lines(
     if failed := sorted({failure.record for failure in failures}):
         text = f"{counted(len(failed), 'record')} failed, wholly or in part: {_few(failed)}"
         yield from wrap(text, _WIDTH, subsequent_indent=" " * 8)
+
+
+def trade_lines(rows: Sequence[TradeRow], report: Path) -> Iterator[str]:
+    """Yield the table of the trade of error for time over all structures, what follows from it, and the report."""
+    from rocking.assessment.trade import what_follows  # loads the kernels
+
+    yield f"{'method':<26}  cases  median error  wrong (unsafe)  ms a structure  ms a record"
+    for row in rows:
+        if row.structure == "":
+            error = f"{100 * row.error:.2g} %" if row.error >= 0 else "–"
+            wrong = f"{row.wrong_verdicts} ({row.unsafe_verdicts})"
+            times = f"{1e3 * row.cpu_s:>14.2g}  {1e3 * row.preparation_record_s:>11.2g}"
+            yield f"{row.method:<26}  {row.cases:>5}  {error:>12}  {wrong:>14}  {times}"
+    for sentence in what_follows(rows):
+        yield from wrap(sentence, _WIDTH)
+    if rows:
+        yield f"Measured on {rows[0].machine}"
+    yield f"{'Open':<8}{report}"
 
 
 def _rotation(ratio: float) -> str:

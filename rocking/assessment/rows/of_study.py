@@ -386,12 +386,14 @@ class TradeMethod(StrEnum):
 
     ONE_SINE = "one sine"
     """The closed form under the dominant sine."""
+    RULING_SINE = "one sine, half the energy"
+    """The same, under the records of whose energy that sine explains at least half."""
     SINES = "five sines"
     """The closed form under the one of the five best-ranked sines that turns the structure farthest."""
     BLOCK = "block on record"
+    MECHANISM = "mechanism on record"
     COARSE = "mechanism, 1e-3"
-    MECHANISM = "mechanism, 1e-6"
-    FINE = "mechanism, 1e-9"
+    """The same at a tolerance a thousand times coarser."""
     ENSEMBLE = "ensemble"
     """The mechanism with its uncertain inputs; its rotation is the median of the members."""
 
@@ -400,7 +402,7 @@ class TradeMethod(StrEnum):
 class TimedAnswer:
     """The answer of one method to one record beside the reference: largest rotations over the critical one, and times.
 
-    cpu: of the response, s. preparation: of the search for the record's pulses, s.
+    cpu: of the response, s. preparation: of the search for the record's sines, s.
     """
 
     rotation_ratio: float
@@ -411,11 +413,12 @@ class TimedAnswer:
 
 @dataclass(frozen=True)
 class TriedMethod:
-    """One method with its answers for one structure ("": for all)."""
+    """One method with its answers for one structure ("": for all). machine: the processor that was timed."""
 
     method: TradeMethod
     structure: str
     answers: Sequence[TimedAnswer]
+    machine: str
 
     @cached_property
     def moving(self) -> list[tuple[float, float]]:
@@ -499,6 +502,7 @@ class TradeRow(RowOf[TriedMethod]):
         lambda of: median(each.cpu for each in of.answers),
     )
     preparation_record_s: float = of_tried(
-        "Processor time once for each record, median: search for its pulses",
+        "Processor time once for each record, median: search for its sines",
         lambda of: median(each.preparation for each in of.answers),
     )
+    machine: str = of_tried("Processor that was timed", lambda of: of.machine)
