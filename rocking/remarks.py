@@ -320,24 +320,8 @@ class Kind(StrEnum):
     )
 
     # What was read of a file, and what was not.
-    FIRST_IS_COUNT = auto(), "The first of the numbers is the number of samples, and no sample."
-    FIRST_ARE_COUNT_AND_STEP = auto(), (
-        "The first of the numbers is the number of samples and the time step, and no sample."
-    )
-    FIRST_ARE_COUNT_AND_RATE = auto(), (
-        "The first of the numbers is the number of samples and the rate, and no sample."
-    )
-    FIRST_ARE_STEP_AND_COUNT = auto(), (
-        "The first of the numbers is the time step and the number of samples, and no sample."
-    )
-    FIRST_ARE_SERIES_AND_STEP = auto(), (
-        "The first of the numbers is the number of series, 1, and the time step, and no sample."
-    )
-    FIRST_IS_STEP = auto(), "The first of the numbers is the time step, and no sample."
+    FIRST_NUMBERS = auto(), "The first of the numbers are no samples, but {what}."
     ROW_FILLED_UP = auto(), "The last row is filled up with NaN, which are left out."
-    INTEGRAL_LEFT_OUT = auto(), (
-        "Left out, for it is the integral of another column, a velocity or a displacement: column {column}."
-    )
     LINE_ENDS_DOUBLED = auto(), (
         "The line ends are doubled (CR CR LF) by a faulty conversion; the numbers are unharmed."
     )

@@ -31,12 +31,16 @@ LONGEST_STEP = 0.1
 
 @dataclass(frozen=True)
 class Source:
-    """The origin of the numbers of an accelerogram; unit: theirs, as declared or as the format defines it."""
+    """The origin of the numbers of an accelerogram; unit: theirs, as declared or as the format defines it.
+
+    answer: by which a table was read, and whose it was; "" where nothing had to be answered.
+    """
 
     path: str = ""
     format: str = ""
     sha256: str = ""
     unit: str = ""
+    answer: str = ""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

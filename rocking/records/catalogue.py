@@ -1,11 +1,9 @@
 """Catalogue: the list of records a study uses, one row for each station, checked before the first file is opened."""
 
-import csv
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import MISSING, dataclass
-from io import StringIO
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -16,7 +14,7 @@ from rocking.records.formats.format import plain
 from rocking.records.formats.text import is_number
 from rocking.records.scaling import ScalingTarget
 from rocking.remarks import Kind, Remark
-from rocking.tables import read_start, read_whole
+from rocking.tables import edited_text, read_edited
 
 _OBSPY = "obspy:"
 _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,79}")
@@ -32,7 +30,6 @@ _REPOSITORY = re.compile(r"(?!\.+/)[\w.-]+/(?!\.+$)[\w.-]+", re.ASCII)
 _PROSE = ("event", "station", "licence", "note")
 _MOST_TOLD = 40
 """Defects of a catalogue that are told; the others are counted."""
-_LARGEST = 16 * 2**20  # bytes of a catalogue: a hundred thousand rows
 
 
 @dataclass(frozen=True)
@@ -264,26 +261,9 @@ _NAMED = 3
 
 def read_rows(path: Path) -> list[tuple[int, dict[str, str]]]:
     """Return line and cells of each row of the catalogue at `path`. Raises CatalogueError for what is no catalogue."""
-    content = read_whole(path, _LARGEST, CatalogueError)
-    separator = _separator(content)
-    try:
-        text = StringIO(_decoded(content, separator), newline="")
-        reader = csv.DictReader(text, restkey="", restval="", strict=True, delimiter=separator)
-        rows = [(reader.line_num, row) for row in reader]
-        names = list(reader.fieldnames or ())
-    except (ValueError, csv.Error) as error:
-        raise CatalogueError(f"{path}: the catalogue cannot be read as UTF-8 CSV, {error}.") from None
-    defects = [f"column {shown(name)} is not known" for name in names if name not in COLUMNS]
-    defects += [f"column {shown(name)} stands {n} times" for name, n in Counter(names).items() if n > 1]
-    defects += [f"column {shown(name)} is missing" for name in ("id", "file") if name not in names]
-    defects += [f"line {line} has more cells than there are columns" for line, row in rows if row.get("")]
-    if defects:
-        raise CatalogueError(f"{path.name}: {'; '.join(defects)}; the columns are {', '.join(COLUMNS)}.")
+    rows = read_edited(path, CatalogueError, COLUMNS, ("id", "file"), _NUMBERS)
     if not rows:
         raise CatalogueError(f"{path.name}: the catalogue has no rows; give at least one record.")
-    if separator == ";":
-        for _, row in rows:
-            row |= {name: row[name].replace(",", ".") for name in _NUMBERS if row.get(name)}
     return rows
 
 
@@ -292,22 +272,6 @@ _NUMBERS = (
     "scale_to",
 )
 """Columns in which a comma can only be a decimal sign."""
-
-
-def _separator(content: bytes) -> str:
-    """Return what parts the cells: a comma, or the semicolon of a spreadsheet in a country of decimal commas."""
-    head = content.partition(b"\n")[0]
-    return ";" if head.count(b";") > head.count(b",") else ","
-
-
-def _decoded(content: bytes, separator: str) -> str:
-    """Return the text: UTF-8, or where semicolons part it Windows' own characters. Raises ValueError for another."""
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        if separator == ",":
-            raise
-        return content.decode("cp1252")
 
 
 def _record(row: Mapping[str, str], folder: Path) -> CatalogueRecord:
@@ -324,14 +288,7 @@ def catalogue_text(
     rows: Iterable[Mapping[str, str]], columns: Sequence[str] = COLUMNS, like: Path | None = None
 ) -> str:
     """Return `rows` as the text of a catalogue, parted as the one at `like` is, if that stands there."""
-    separator = _separator(read_start(like, 4096)) if like is not None and like.exists() else ","
-    text = StringIO(newline="")
-    writer = csv.DictWriter(text, columns, restval="", lineterminator="\n", delimiter=separator)
-    writer.writeheader()
-    for row in rows:
-        decimal = {name: row[name].replace(".", ",") for name in _NUMBERS if row.get(name)}
-        writer.writerow({**row, **decimal} if separator == ";" else row)
-    return text.getvalue()
+    return edited_text(rows, columns, like, _NUMBERS)
 
 
 def repeated(records: Iterable[CatalogueRecord]) -> tuple[Remark, ...]:

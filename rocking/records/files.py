@@ -5,7 +5,7 @@ import urllib.request
 from contextlib import suppress
 from dataclasses import replace
 from http.client import HTTPMessage
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import IO
 from urllib.parse import quote
 
@@ -14,7 +14,8 @@ from rocking.hashes import sha256_of_bytes
 from rocking.records.archive import archive_of
 from rocking.records.catalogue import CatalogueRecord, RecordFile, catalogue_text, load_catalogue, read_rows
 from rocking.records.formats.by_obspy import may_be_counts
-from rocking.records.read import LARGEST_FILE, bytes_of
+from rocking.records.formats.layouts import NAME, Layouts
+from rocking.records.read import LARGEST_FILE, answer_to, bytes_of
 from rocking.records.traces import first_line
 from rocking.tables import read_start, write_whole
 
@@ -66,6 +67,21 @@ def local_files(record: CatalogueRecord, mirror: str | Path | None = None) -> li
         if head.startswith(b"\x1f\x8b") or may_be_counts(head):
             beside += sorted(path.parent.glob("*.xml"))
     return paths + beside
+
+
+def answers_of(record: CatalogueRecord, mirror: str | Path | None = None) -> dict[str, str]:
+    """Return the answer of layouts.csv by which each table of `record` is read, in words with its hash.
+
+    It is part of the content of the record; that of another layout is not.
+    """
+    layouts = Layouts(record.folder)
+    answers = {}
+    for file in record.files if layouts.rows else ():
+        with suppress(RecordError):
+            if path := beside_catalogue(record, file.name, mirror):
+                place = PurePosixPath(file.name).parent.as_posix()
+                answers[file.name] = answer_to(bytes_of(path), layouts.at(place))
+    return {f"{NAME} of {name}": sha256_of_bytes(text.encode()) for name, text in answers.items() if text}
 
 
 def beside_catalogue(record: CatalogueRecord, file: str, mirror: str | Path | None) -> Path | None:

@@ -17,6 +17,7 @@ from rocking.records.catalogue import is_safe_id, read_rows
 from rocking.records.dates import day_of
 from rocking.records.direction import angle_between, names_no_direction, pair_doubt, without_ending
 from rocking.records.formats.format import plain
+from rocking.records.formats.layouts import NAME, Layouts
 from rocking.records.formats.text import is_number
 from rocking.records.grouping import named_channel, rsn_of, stations, without_direction
 from rocking.records.joining import SQUARE
@@ -38,13 +39,15 @@ class FolderCatalogue:
 
     files: every file, in the order of names. standing: the rows that the catalogue holds already, with the new names of
     files that were renamed, and without the request to fill in what was typed. new: the rows of the other files.
-    remarks: what there is to say beyond the files.
+    remarks: what there is to say beyond the files. layouts: the text of layouts.csv with the questions that are new,
+    None where none is.
     """
 
     files: list[ListedFile]
     standing: list[Row]
     new: list[Row]
     remarks: tuple[Remark, ...] = ()
+    layouts: str | None = None
 
 
 def list_folder(
@@ -65,13 +68,14 @@ def catalogue_of_folder(
     time_step: float | None = None,
     standing: Iterable[Mapping[str, str]] = (),
     keeps_readings: bool = False,
+    answers: Path | None = None,
 ) -> FolderCatalogue:
     """Return the catalogue of the files under `folder`: its `standing` rows, and new ones for files that none names.
 
     Files of one event, station and start share a row, the vertical component among them. unit and time_step [s] are
     used only where neither a file nor its row declares them. keeps_readings: whether what was read of each file is kept
-    in the folder for the next time. Catalogues, and files whose name starts with a dot, are passed over. Raises
-    RecordError when there is no folder.
+    in the folder for the next time. answers: the folder of layouts.csv, by default this one. Catalogues, and files
+    whose name starts with a dot, are passed over. Raises RecordError when there is no folder.
     """
     folder = Path(folder)
     if not folder.is_dir():
@@ -79,7 +83,8 @@ def catalogue_of_folder(
     rows = [dict(row) for row in standing]
     rows_of = _rows_by_file(rows)
     declared = {"unit": unit, "time_step": time_step}
-    readings = Readings(folder, is_kept=keeps_readings)
+    layouts = Layouts(answers or folder)
+    readings = Readings(folder, layouts, is_kept=keeps_readings)
     listed = []
     for path in _files(folder):
         own = _declared_in(rows_of.get(path.relative_to(folder).as_posix()), declared)
@@ -97,11 +102,13 @@ def catalogue_of_folder(
             file.direction = _direction_in(rows_of[file.file], file)
     _mark_repeats(listed)
     apart = tuple(_rows_to_join(listed))
+    by_answer = {file.record: file.channels[0].answer for file in listed if file.channels and not file.blanks}
     for row in rows:
-        _clear_filled(row)
+        _clear_filled(row, by_answer.get(row["id"], ""))
     new = _new_rows(listed, {row["id"].lower() for row in rows})
     of_store = [readings.remark] if readings.remark else []
-    return FolderCatalogue(listed, rows, new, (*of_store, *renamed, *apart))
+    asked = layouts.text((file.file, file.question) for file in listed if file.question)
+    return FolderCatalogue(listed, rows, new, (*of_store, *renamed, *apart), asked)
 
 
 def _rows_by_file(rows: Iterable[Row]) -> dict[str, Row]:
@@ -183,14 +190,15 @@ def _rows_to_join(listed: Sequence[ListedFile]) -> Iterator[Remark]:
 _FILL = "Fill in {}."
 
 
-def _clear_filled(row: Row) -> None:
-    """Take the request to fill in a cell out of the note of a row once the cell is filled."""
+def _clear_filled(row: Row, answer: str) -> None:
+    """Take the request to fill in a cell out of the note of a row once the cell is filled, or its layout answered."""
     note = row.get("note") or ""
     for names in (("unit", "time_step_s"), ("unit",), ("time_step_s",)):
         request = _FILL.format(" and ".join(names))
         if request in note:
             missing = [name for name in names if not (row.get(name) or "").strip()]
             rest = _FILL.format(" and ".join(missing)) if missing else ""
+            rest = f"{answer[0].upper()}{answer[1:]}." if answer else rest
             row["note"] = plain(note.replace(request, rest))
             return
 
@@ -231,7 +239,7 @@ def _files(folder: Path) -> Iterator[Path]:
             continue
         head = read_start(path, 11).removeprefix(b"\xef\xbb\xbf")
         is_catalogue = path.suffix.lower() == ".csv" and head.startswith((b"id,file", b"id;file"))
-        if not (path.name.startswith(".") or is_catalogue):
+        if not (path.name.startswith(".") or is_catalogue or path.name == NAME):
             yield path
 
 
@@ -248,7 +256,8 @@ def _row(group: Sequence[ListedFile], level: Sequence[ListedChannel], ids: set[s
     first = level[0]
     fill = group[0].blanks
     is_named = any(file.direction for file in group)
-    head = f"{first.format}.", _FILL.format(" and ".join(fill)) if fill else ""
+    read_as = f", {first.answer}" if first.answer else ""
+    head = f"{first.format}{read_as}.", _FILL.format(" and ".join(fill)) if fill else ""
     return {
         "id": _id(group, level, ids),
         "file": ";".join(_as_cell(file.file) for file in group),

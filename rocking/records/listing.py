@@ -13,6 +13,7 @@ from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue import few, stays_inside
 from rocking.records.formats import Options
+from rocking.records.formats.layouts import NAME, AskedError, Layouts, Question
 from rocking.records.plausibility import OF_COUNTS
 from rocking.records.processing import process, velocity
 from rocking.records.read import printable, read_raw
@@ -49,6 +50,7 @@ class ListedChannel:
 
     component: str
     format: str
+    answer: str
     time_step: float
     samples: int
     peak_acceleration: str
@@ -75,7 +77,7 @@ class Reading:
     """The findings of reading one file, whatever else lies in its folder.
 
     doubts: what is plausibly wrong, about the components where not all are concerned. refusal: why it cannot be read,
-    or "". missing: what it does not declare, of the keys of CELLS.
+    or "". missing: what it does not declare, of the keys of CELLS. question: what layouts.csv asks of a table.
     """
 
     sha256: str
@@ -83,6 +85,7 @@ class Reading:
     doubts: tuple[Remark, ...] = ()
     refusal: str = ""
     missing: tuple[str, ...] = ()
+    question: Question | None = None
 
 
 @dataclass
@@ -93,7 +96,7 @@ class ListedFile:
     other files of its station; None where it does, or there are none. blanks: the cells that its row leaves blank and
     that must be filled; declarations: those that hold what its header does not say. direction: of its component, where
     only the file's name or its row says it. companions: number of other files in its row. is_repeat: whether it has the
-    content of an earlier file.
+    content of an earlier file. question: what layouts.csv asks of it.
     """
 
     file: str
@@ -108,6 +111,7 @@ class ListedFile:
     record: str = ""
     companions: int = 0
     is_repeat: bool = False
+    question: Question | None = None
 
     @property
     def separated(self) -> str:
@@ -117,21 +121,26 @@ class ListedFile:
         )
 
 
-def read_for_listing(raw: bytes, sha256: str, path: Path, declared: Mapping[str, Any]) -> Reading:
+def read_for_listing(
+    raw: bytes, sha256: str, path: Path, declared: Mapping[str, Any], layouts: Layouts
+) -> Reading:
     """Return what the content `raw` of the file at `path` gives.
 
     declared: unit and time_step [s], None where the caller knows none; each is used only where the file is silent.
     """
     missing: tuple[str, ...] = ()
+    question: Question | None = None
     asked: UndeclaredError | None = None
     while True:
         values = {name: declared[name] or _STAND_INS[name] for name in missing}
         try:
-            channels = read_raw(raw, path, Options(folder=path.parent, **values))
+            channels = read_raw(raw, path, Options(folder=path.parent, layouts=layouts, **values))
             break
         except UndeclaredError as error:
-            if error.field in missing:
-                return Reading(sha256, refusal=printable(error.beside(printable(path.name))))
+            question = question or (error.question if isinstance(error, AskedError) else None)
+            if error.field in missing or error.field not in CELLS:
+                refusal = printable(error.beside(printable(path.name)))
+                return Reading(sha256, refusal=refusal, question=question)
             missing = (*missing, error.field)
             asked = asked or error
         except RecordError as error:
@@ -153,7 +162,7 @@ def read_for_listing(raw: bytes, sha256: str, path: Path, declared: Mapping[str,
     if not is_unit_known and channels[0].source.format in OF_COUNTS:
         remarks.append(Remark(Kind.COUNTS_WITHOUT_UNIT))
     listed = tuple(_without_samples(channel, is_known) for channel in channels)
-    return Reading(sha256, listed, tuple(remarks), missing=missing)
+    return Reading(sha256, listed, tuple(remarks), missing=missing, question=None if is_known else question)
 
 
 def _without_samples(record: Accelerogram, is_known: bool) -> ListedChannel:
@@ -161,6 +170,7 @@ def _without_samples(record: Accelerogram, is_known: bool) -> ListedChannel:
     return ListedChannel(
         component=record.component,
         format=record.source.format,
+        answer=record.source.answer,
         time_step=record.time_step,
         samples=record.acceleration.size,
         peak_acceleration=f"{record.peak_acceleration / GRAVITY:.3g}" if is_known else "",
@@ -202,6 +212,7 @@ def listed_file(reading: Reading, path: Path, folder: Path, declared: Mapping[st
         doubts=(*reading.doubts, *sideways),
         declarations={CELLS[name]: f"{declared[name]}" for name in reading.missing if declared[name]},
         blanks=tuple(CELLS[name] for name in CELLS if name in reading.missing and not declared[name]),
+        question=reading.question,
     )
 
 
@@ -273,8 +284,11 @@ def _sentences(listed: Sequence[ListedFile]) -> Iterator[str]:
             joined.setdefault(file.record, []).append(file.file)
     read = [file for file in listed if not file.refusal]
     sections = {
+        f"Answer once, in {NAME}:": [
+            (file.file, file.question.holds) for file in _one_of_each_question(listed) if file.question
+        ],
         "Fill in, in the catalogue:": [
-            (file.file, " and ".join(file.blanks)) for file in read if file.blanks
+            (file.file, " and ".join(file.blanks)) for file in read if file.blanks and not file.question
         ],
         "Joined:": [(record, ", ".join(files)) for record, files in joined.items()],
         "To know:": [(file.file, text) for file in read if (text := _doubts(file))],
@@ -286,6 +300,15 @@ def _sentences(listed: Sequence[ListedFile]) -> Iterator[str]:
             for name, text in lines:
                 alike.setdefault(text, []).append(name)
             yield from ("", heading, *(f"  {few(names)}: {text}" for text, names in alike.items()))
+
+
+def _one_of_each_question(listed: Sequence[ListedFile]) -> Iterator[ListedFile]:
+    """Yield the first file of each signature that layouts.csv asks about."""
+    seen = set()
+    for file in listed:
+        if file.question and file.question.signature not in seen:
+            seen.add(file.question.signature)
+            yield file
 
 
 def _doubts(file: ListedFile) -> str:

@@ -26,6 +26,8 @@ from rocking.records.direction import (
 )
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
+from rocking.records.formats.layouts import Layouts
+from rocking.records.formats.tables import signature_of
 from rocking.records.formats.text import is_number, lines
 from rocking.records.instrument import channel_warnings, site_warnings
 from rocking.records.plausibility import damage_warnings, pass_limits, repeated_rows
@@ -54,6 +56,7 @@ def read(
 
     Of a zip archive, those of every file in it; "archive.zip/member" names one of them.
     unit, time_step [s]: needed where the file does not declare them; refused where it declares otherwise.
+    What a table leaves open is answered in the layouts.csv beside it, as `rocking catalogue` writes it.
     inventory: StationXML of a miniSEED or SAC file; by default the one beside it that names the same station.
     response: "sensitivity" divides counts by the overall sensitivity; "full" removes the whole instrument response.
     Raises UnknownFormatError when no reader recognises the file, UndeclaredError when a unit or a time step is declared
@@ -65,7 +68,8 @@ def read(
     if not isinstance(path, str | os.PathLike):
         raise RecordError(f"path is {shown(path)}, but must be the path of a file, as a text or a Path.")
     path = Path(path)
-    options = Options(unit, time_step, Path(inventory) if inventory else None, path.parent, response)
+    stationxml = Path(inventory) if inventory else None
+    options = Options(unit, time_step, stationxml, path.parent, response, layouts=Layouts(path.parent))
     if path.suffix.lower() == ENDING and is_archive(path):
         return _read_archive(path, options)
     return read_raw(bytes_of(path), path, options)
@@ -128,11 +132,25 @@ def read_content(
         of_rows = repeated_rows(records)
         repeated = [of_rows] if of_rows is not None else []
         for i, record in enumerate(records):
-            own = replace(source, format=reader.name, unit=record.source.unit)
+            own = replace(record.source, path=source.path, sha256=source.sha256, format=reader.name)
             doubts = (*record.warnings, *notes, *pass_limits(record, reader.name))
             damage = (*damage_warnings(record), *repeated)
             records[i] = replace(record, source=own, warnings=tuple(dict.fromkeys((*doubts, *damage))))
         return records
+
+
+def answer_to(raw: bytes, layouts: Layouts) -> str:
+    """Return the answer of layouts.csv by which the content of a file is read, "" where it is read without.
+
+    It is part of the content of the record: where it is edited, the file is read again.
+    """
+    if not layouts.rows:
+        return ""
+    with suppress(RecordError):
+        signature = signature_of(bare_text(unpack(raw, "")), layouts.place)
+        answer = signature and layouts.answer(signature)
+        return answer.text if answer else ""
+    return ""
 
 
 def checked_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:
@@ -196,17 +214,17 @@ def recognise(content: bytes) -> Format:
         raise RecordError("the file is empty; fetch it again.")
     if content.startswith(_PICKLE + _PICKLED):
         raise UnknownFormatError("this is a pickled Python object, which could run code; it is never opened.")
-    # Bare numbers last: what stands above them, and how, takes longer than all the other first lines together.
     forms = [form for form in FORMATS if not form.yields and form.recognise(content)]
+    for pattern, sentence in _TOLD if not forms else ():
+        if pattern.match(content[:400]):
+            raise UnknownFormatError(sentence)
+    # Bare numbers last: what stands above them, and how, takes longer than all the other first lines together.
     forms = forms or [form for form in FORMATS if form.yields and form.recognise(content)]
     if len(forms) == 1:
         return forms[0]
     if forms:
         names = ", ".join(form.name for form in forms)
         raise UnknownFormatError(f"several readers recognise this file ({names}); none is preferred.")
-    for pattern, sentence in _TOLD:
-        if pattern.match(content[:400]):
-            raise UnknownFormatError(sentence)
     head = content.lstrip()[:40] or b" "
     words = head.decode("latin-1").splitlines()[0].strip()
     raise UnknownFormatError(

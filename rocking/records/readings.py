@@ -10,8 +10,9 @@ from typing import Any, get_args, get_type_hints
 
 from rocking.errors import RecordError, RockingError, fault_in_words, log_fault
 from rocking.hashes import sha256_of_bytes, sha256_of_sources
+from rocking.records.formats.layouts import Layouts, Question, Signature
 from rocking.records.listing import CELLS, ListedChannel, Reading, read_for_listing
-from rocking.records.read import bytes_of, printable
+from rocking.records.read import answer_to, bytes_of, printable
 from rocking.remarks import Kind, Remark
 from rocking.tables import read_whole, write_whole
 
@@ -25,11 +26,13 @@ _LARGEST = 2**27  # bytes: a hundred thousand readings
 class Readings:
     """The readings of the files under `folder`, each made once for its content, its name and what is declared.
 
-    is_kept: whether they are looked for, and kept, in a store in that folder. remark: where a store lies there that
-    cannot be used, else None.
+    layouts: the answers beside the catalogue. is_kept: whether readings are looked for, and kept, in a store in that
+    folder. remark: where a store lies there that cannot be used, else None.
     """
 
-    def __init__(self, folder: Path, is_kept: bool = True) -> None:
+    def __init__(self, folder: Path, layouts: Layouts, is_kept: bool = True) -> None:
+        self._folder = folder
+        self._layouts = layouts
         self._store = folder / STORE
         self._log = folder / FAULTS
         self._is_kept = is_kept
@@ -53,11 +56,14 @@ class Readings:
         sha256 = sha256_of_bytes(raw)
         unit = declared["unit"]
         time_step = declared["time_step"]
-        key = json.dumps([sha256, printable(path.name), unit, time_step, self._metadata_beside(path.parent)])
+        layouts = self._layouts.at(path.parent.relative_to(self._folder).as_posix())
+        answer = answer_to(raw, layouts)
+        beside = self._metadata_beside(path.parent)
+        key = json.dumps([sha256, printable(path.name), unit, time_step, beside, answer])
         reading = self._before.get(key)
         if reading is None or reading.sha256 != sha256:
             try:
-                reading = read_for_listing(raw, sha256, path, declared)
+                reading = read_for_listing(raw, sha256, path, declared, layouts)
             except MemoryError:
                 raise
             except Exception as fault:  # a file must cost no other file its row, whatever it holds
@@ -125,7 +131,18 @@ def _reading(values: dict[str, Any]) -> Reading:
     if not all(isinstance(text, str) for text in (sha256, refusal)) or not set(missing) <= CELLS.keys():
         raise TypeError("a text is none, or no cell of a catalogue")
     channels = tuple(_channel(channel) for channel in values["channels"])
-    return Reading(sha256, channels, doubts, refusal, missing)
+    return Reading(sha256, channels, doubts, refusal, missing, _question(values["question"]))
+
+
+def _question(values: dict[str, Any] | None) -> Question | None:
+    """Return the question of a table from its JSON. Raises TypeError where a value is no text."""
+    if values is None:
+        return None
+    signature = Signature(**values["signature"])
+    texts = *vars(signature).values(), values["holds"], values["proposal"]
+    if not all(isinstance(text, str) for text in texts):
+        raise TypeError("a text of a question is none")
+    return Question(signature, values["holds"], values["proposal"])
 
 
 def _remark(values: dict[str, Any]) -> Remark:
@@ -152,6 +169,11 @@ def _channel(values: dict[str, Any]) -> ListedChannel:
 def _version() -> str:
     """Return a hash of the sources by which files are read: another reader may read them otherwise."""
     package = Path(__file__).parents[1]
-    sources = [package / "quantities.py", package / "remarks.py", package / "tables" / "files.py"]
-    sources += sorted((package / "records").rglob("*.py"))
+    sources = [
+        package / "quantities.py",
+        package / "remarks.py",
+        package / "tables" / "files.py",
+        package / "tables" / "edited.py",
+    ]
+    sources += sorted(path for path in (package / "records").rglob("*") if path.suffix in (".py", ".csv"))
     return sha256_of_sources(package, sources)

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from rocking.errors import RecordError, about
@@ -18,6 +18,7 @@ from rocking.records.direction import (
 )
 from rocking.records.files import beside_catalogue, path_of
 from rocking.records.formats import Options
+from rocking.records.formats.layouts import Layouts
 from rocking.records.joining import joined
 from rocking.records.plausibility import scaled
 from rocking.records.read import bytes_of, read_raw
@@ -73,7 +74,8 @@ def _channels_of(
     if file.sha256 and sha256 != file.sha256:
         hashes = f"file {path} has sha256 {sha256}, but the catalogue says {file.sha256}"
         raise RecordError(f"{hashes}; it is another version.")
-    options = Options(record.unit or None, record.time_step, inventory, path.parent)
+    layouts = Layouts(record.folder, PurePosixPath(file.name).parent.as_posix())
+    options = Options(record.unit or None, record.time_step, inventory, path.parent, layouts=layouts)
     channels = read_raw(raw, path, options)
     return [replace(each, source=replace(each.source, path=file.name)) for each in channels]
 

@@ -16,7 +16,7 @@ from rocking.errors import ConfigurationError, RockingError
 from rocking.hashes import sha256_of_bytes
 from rocking.quantities import shown
 from rocking.records.catalogue import CatalogueRecord, load_catalogue, repeated
-from rocking.records.files import fill_hashes, local_files, with_hashes
+from rocking.records.files import answers_of, fill_hashes, local_files, with_hashes
 from rocking.records.folder import unlisted
 from rocking.records.read import LARGEST_FILE
 from rocking.remarks import Kind, Remark
@@ -92,8 +92,10 @@ class Plan:
             fill_hashes(self.settings.catalogue, self.settings.mirror)
 
     def files_of(self, record: CatalogueRecord) -> dict[str, str]:
-        """Return the sha256 of each file on this machine from which a record is read."""
-        return {str(path): self.contents.of(path) for path in local_files(record, self.settings.mirror)}
+        """Return the sha256 of each file on this machine from which a record is read, and of the answers for tables."""
+        files = local_files(record, self.settings.mirror)
+        answers = answers_of(record, self.settings.mirror)
+        return {str(path): self.contents.of(path) for path in files} | answers
 
     def files(self, records: Iterable[str]) -> dict[str, str]:
         """Return the sha256 of each file on this machine from which `records` are read."""

@@ -15,6 +15,7 @@ from rocking.quantities import counted
 from rocking.records import Accelerogram
 from rocking.records.catalogue import COLUMNS, CatalogueRecord, catalogue_text, read_rows
 from rocking.records.folder import catalogue_of_folder
+from rocking.records.formats.layouts import NAME
 from rocking.records.listing import listing_text
 from rocking.records.read import read
 from rocking.study.job import Study, assess_catalogued, rows_of, write_report
@@ -47,15 +48,30 @@ def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: flo
 
     Its rows stay as they are, to the letter, but for the new name of a file that was renamed and for the request to
     fill in a cell that was filled; files that none of them names get rows below them. unit and time_step [s] are for
-    the files that do not declare them. Raises RecordError, and writes nothing, when no file could be read, and
+    the files that do not declare them. What tables leave open is asked in layouts.csv beside it, a line for each
+    layout. Raises RecordError, and writes nothing, when no file could be read, and
     CatalogueError when `target` is no catalogue.
     """
     standing = [row for _, row in read_rows(target)] if target.exists() else []
     found = catalogue_of_folder(
-        folder, unit=unit, time_step=time_step, standing=standing, keeps_readings=True
+        folder,
+        unit=unit,
+        time_step=time_step,
+        standing=standing,
+        keeps_readings=True,
+        answers=target.parent,
     )
     files = found.files
     rows = found.new
+    asked = (
+        []
+        if found.layouts is None
+        else [f"Answer what stands in {target.with_name(NAME)}, and run this again."]
+    )
+    if found.layouts is not None:
+        write_whole(target.with_name(NAME), found.layouts.encode())
+    if not rows and not standing and asked:
+        return listing_text(files) + "\n".join(["", *asked])
     if not rows and not standing:
         reasons = "; ".join(f"{file.file}: {file.refusal}" for file in files) or "it holds no file"
         raise RecordError(f"{folder}: no accelerogram was read ({reasons}).")
@@ -69,7 +85,7 @@ def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: flo
     note = "{}: its row stays in the catalogue, but its file is not there; remove the row or add the file."
     lost = [note.format(each["id"]) for each in of_folder if each["id"] not in records]
     count = f"{target}: {counted(len(standing) + len(rows), 'record')}, {len(rows)} of them new"
-    return listing_text(files) + "\n".join(["", *map(str, found.remarks), *lost, count])
+    return listing_text(files) + "\n".join(["", *map(str, found.remarks), *lost, *asked, count])
 
 
 def read_own(

@@ -24,6 +24,8 @@ from rocking.tables.csv_rows import rows_of as rows_of
 from rocking.tables.csv_rows import rows_written as rows_written
 from rocking.tables.csv_rows import write_rows as write_rows
 from rocking.tables.csv_rows import write_tables as write_tables
+from rocking.tables.edited import edited_text as edited_text
+from rocking.tables.edited import read_edited as read_edited
 from rocking.tables.files import read_start as read_start
 from rocking.tables.files import read_whole as read_whole
 from rocking.tables.files import regular_file as regular_file

@@ -395,8 +395,8 @@ MADE: dict[str, tuple[Callable[..., str], float, Options]] = {
     "UNAM/CICESE: repeated last line": (unam_with_repeats, 5e-7, Options()),
     "CWB": (cwb, 5e-6, Options()),
     "CSMNC": (csmnc, 1e-6, Options()),
-    "titled column": (titled, 1e-6, Options(unit="m/s2")),
-    "titled column: two headers": (two_headers, 5e-7, Options()),
+    "columns of numbers: titled": (titled, 1e-6, Options(unit="m/s2")),
+    "columns of numbers: two headers": (two_headers, 5e-7, Options()),
     "columns of numbers": (table, 5e-8, Options()),
 }
 """Format, and what is special after a colon → (text of a small file, half a unit of the last digit it prints in m/s²,

@@ -1,10 +1,12 @@
-"""The dialect of a table of numbers: how its cells, exponents and decimals are written, asked of its first lines."""
+"""The dialect of a table of numbers: how its cells, exponents, decimals and times are written, by its first lines."""
 
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum, auto
 from itertools import islice, pairwise
+
+import numpy as np
 
 _SAMPLE = 40
 """Lines that are looked at: the rest of a table is like them, or its numbers are refused one by one."""
@@ -50,11 +52,14 @@ class Dialect:
         return cls(is_quoted, is_fortran, _comma(sample))
 
     def plain(self, content: bytes) -> bytes | None:
-        """Return `content` with its numbers as Python writes them, None where a comma may be either of two things."""
+        """Return `content` with its numbers as Python writes them, and times of day as seconds after the first one.
+
+        None where a comma may be either of two things.
+        """
         if self.comma is Comma.IS_EITHER:
             return None
         bare = _bare(content, self.is_quoted, self.is_fortran)
-        return _DECIMAL_COMMA.sub(b".", bare) if self.comma is Comma.IS_DECIMAL else bare
+        return _in_seconds(_DECIMAL_COMMA.sub(b".", bare) if self.comma is Comma.IS_DECIMAL else bare)
 
 
 def _bare(content: bytes, is_quoted: bool, is_fortran: bool) -> bytes:
@@ -102,3 +107,26 @@ def _count_upwards(rows: Sequence[str]) -> bool:
         return False
     steps = {int(after) - int(before) for before, after in pairwise(first)}
     return len(steps) == 1 and steps.pop() > 0
+
+
+_STAMP = re.compile(
+    rb"(?m)^[ \t]*\"?(?:\d{1,4}[-/.]\d{1,2}[-/.]\d{1,4}[T ][ \t]*)?"
+    rb"(\d{1,2}):(\d{2}):(\d{2}(?:\.\d*)?)(?:Z|[+-]\d{2}:?\d{2})?\"?(?=[ \t,;])"
+)
+_STAMPS_IN = 8_000
+"""Bytes at the beginning of a table in which rows with times of day stand, if it has any."""
+_FEWEST_STAMPS = 12
+"""Stamped rows from which on they are rows of a table, and no dates of a header."""
+_DAY = 86_400.0
+"""s."""
+
+
+def _in_seconds(content: bytes) -> bytes:
+    """Return a table whose rows begin with times of day with seconds after the first in their place, else `content`."""
+    if len(_STAMP.findall(content[:_STAMPS_IN])) < _FEWEST_STAMPS:
+        return content
+    stamps = np.array(_STAMP.findall(content)).astype(float)
+    seconds = stamps @ np.array([3600.0, 60.0, 1.0])
+    seconds += _DAY * np.cumsum(np.diff(seconds, prepend=seconds[0]) < -_DAY / 2)  # past midnight
+    written = iter(np.round(seconds - seconds[0], 6).tolist())
+    return _STAMP.sub(lambda _: b"%.6f" % next(written), content)

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
@@ -13,6 +13,7 @@ from rocking.quantities import acceleration_factor, acceleration_unit, positive
 from rocking.records.accelerogram import LARGEST_PEAK, Accelerogram, Source
 from rocking.records.dates import iso_date
 from rocking.records.direction import directed
+from rocking.records.formats.layouts import Layouts
 
 Response = Literal["sensitivity", "full"]
 
@@ -29,7 +30,8 @@ class Options:
 
     unit: of the numbers. time_step: s. inventory: a StationXML file; folder: where to look for one. response: whether
     counts are divided by the overall sensitivity or the full response is removed. file: its name, whose ending may
-    speak of another quantity. Raises RecordError for an unknown unit or response, or a time step that is not positive.
+    speak of another quantity. layouts: the answers to what tables hold. Raises RecordError for an unknown unit or
+    response, or a time step that is not positive.
     """
 
     unit: str | None = None
@@ -38,6 +40,7 @@ class Options:
     folder: Path | None = None
     response: Response = "sensitivity"
     file: str = ""
+    layouts: Layouts = field(default_factory=Layouts, compare=False)
 
     def __post_init__(self) -> None:
         if self.unit is not None:

@@ -1,4 +1,4 @@
-"""The label of a column in a table: what it says of the quantity, the unit and the direction of its numbers."""
+"""The label of a column in a table: what it says of its numbers, by closed lists; what these do not hold is asked."""
 
 import re
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from rocking.records.direction import Direction
 from rocking.records.instrument import other_quantity
 
 _TIME = re.compile(
-    r"(?i)t\d?|(time|zeit|tiempo|temp[os]|zaman|seconds?|secs?)(?![a-z]).*|"
+    r"(?i)t\d?|(time(stamp)?|date[ _]?time|zeit|tiempo|temp[os]|zaman|χρόνος|seconds?|secs?)(?![a-z]).*|"
     r"[^()\[\]]*[(\[]\s*(s(ec|eg)?|sn|sek)\s*[)\]]"
 )
 _COUNT = re.compile(
@@ -34,50 +34,31 @@ _BARE_UNIT = (
 )
 """A unit that ends a label without brackets: "Acc/g", "NS, cm/s2", "ns_m_s2". A "g" after a blank is of ground, but
 after "in" it is a unit."""
-_ACCELERATION = re.compile(r"(?i)^(acc(el(eration)?)?|a)([_\s.-]+(?!g$)|(?=(ns|ew|ud|up|[xyznev])$))")
-_GROUND = re.compile(r"(?i)(?<!\bu)[_\s]g$")
-"""The mark of the ground, as in "ns_g"; not that of "u_g", a displacement, which would be left as "u", up."""
-_OF_DIRECTION = re.compile(
-    r"(?i)^([xyz])[\s_-]*(?:dir(?:ection)?\.?|axis|comp(?:onent)?\.?|acc(?:el(?:eration)?)?)$"
+_WORDS_OF_OTHERS = re.compile(
+    r"(?i)(?<![a-z])(gyro(?:scope)?|angular|magnet(?:ic|ometer)|rotation|tilt|pressure|volt(?:age)?|counts?|drift|"
+    r"arias|husid|energy|power|jerk|slip|uplift|shear strain|strain|stress|forces?|moments?|shear|periods?|"
+    r"freq(?:uency)?|psa|p?sv|sa|sd|fas|fourier|spectr\w*|relative|rel|norm(?:ali[sz]ed)?|error|residual|resultant|srss|"
+    r"vector[ _]sum|rotd\d*|geo(?:metric)?[ _]?mean)(?![a-z])|[\[(](f|hz|mm|cm|m|in|ft|[mµu]?v|kn|k?pa|psi|-|%)[\])]$"
 )
-"""A letter with the word for what it is, as "Z-direction", "X axis"."""
-_AND_WHAT = re.compile(r"(?i)[\s_-]+(acc(el(eration)?)?|comp(onent)?|dir(ection)?)\.?$")
-"""The noun after a direction: "vertical acceleration", "N-S component"."""
+"""Other quantities, accelerations that are not those of the ground in one direction, and units of what is neither."""
+_MULTIPLIED = re.compile(
+    r"(?i)(?<![\w.])(?:10+|\d+[./]\d+)\s*(?:gal\b|(?:[munc]?m|ft|in)\s*/\s*s)|[x×*]\s*1\d*(\.0*)?(e[+-]?\d+|\^|0\b)|\b1e[+-]?\d+\b|\b10\s*(\^|\*\*|-\d)|\b10+\s*[x×*]"
+)
+"""A power of ten by which a label says that its numbers are multiplied."""
+_PARTS = re.compile(r"[\s_.,:;()\[\]]+|(?<=[a-z])(?=[A-Z])|成分|方向")
+"""The places at which the words of a label part."""
 _BESIDE_DIRECTION = re.compile(
     r"(?i)linear|ground|input|raw|corr(ected)?|(un)?filt(ered)?|acc\w*|acel\w*|beschl\w*|ivme\w*|comp\w*|dir\w*|"
     r"axis|eje|ch(an(nel)?)?\d{0,2}|canal|kanal|\d{1,2}|g|a"
 )
 """A word that says nothing of where a channel points."""
-_PARTS = re.compile(r"[\s_.,:;()\[\]]+|(?<=[a-z])(?=[A-Z])|成分|方向")
-"""The places at which the words of a label part."""
+_LEADING = re.compile(r"(?i)^(?:acc(?:el(?:eration)?)?|a)(?=(?:ns|ew|ud|up|[xyznev])$)")
+"""The word for acceleration at the head of one word, as in "AccUD" and "az"."""
+_NUMBERED = re.compile(r"(?i)[nsew]-\d+")
+"""A letter with a number behind a dash, as "S-1", which counts soils or sites."""
 _SEED_ID = re.compile(r"[\w-]+([._ -][\w-]*)*[._ -]([A-Z][HNGL][A-Z\d])")
 """A channel code at the end of what names network and station: "IV.AMT..HNZ"."""
-
-_OTHER_UNIT = re.compile(
-    r"(?i)([cmuµk]?m|in(ch(es)?)?|ft|feet)(/s(ec)?)?|kines?|"
-    r"[mk]?n|kips?|lbf?|kn[.*-]?m|[km]?pa|psi|[muµ]?v|volts?|count|cou?nts?|cts|adc|digits?|"
-    r"(m?rad|deg(ree)?s?|°)(/s(ec)?[\^]?[2²]?)?|dps|rpm|[mµu]?t|lux|bar|kelvin|hz|g\^?[2²]|°?c|[uµ]?strain|µε|-|%|db|k?j|c?m2/s3"
-)
-"""Units in brackets that are of no acceleration."""
-_LIKE_A_UNIT = re.compile(r"(?i).*(/|s\s*\^?-\d|\*\*|\^\s*-?\d|gal\b|²).*|[kmuµn]?g|\S*counts?\S*")
-_OTHER_WORDS = re.compile(
-    r"(?i)(?<![a-z])(gyro(scope)?|angular|magnet(ic|ometer)|strain|force|shear|moment|tilt|rot(ation)?|angle|temp(erature)?|pressure|volt(age)?|counts?|drift|"
-    r"load|intensity|arias|husid|energy|power|stress|slip|uplift)(?![a-z])"
-)
-_NOT_OF_THE_GROUND = re.compile(
-    r"(?i)(?<![a-z])(relative|rel|norm(ali[sz]ed)?|error|residual|resultant|srss|vector[ _]sum|rotd\d*|"
-    r"geo(metric)?[ _]?mean)(?![a-z])"
-)
-"""Words before an acceleration that is not that of the ground in one direction, or no acceleration any more."""
-_MULTIPLIED = re.compile(
-    r"(?i)(?<![\w.])(?:10+|\d+[./]\d+)\s*(?:gal\b|(?:[munc]?m|ft|in)\s*/\s*s)|[x×*]\s*1\d*(\.0*)?(e[+-]?\d+|\^|0\b)|\b1e[+-]?\d+\b|\b10\s*(\^|\*\*|-\d)|\b10+\s*[x×*]"
-)
-"""A power of ten by which a label says that its numbers are multiplied."""
-_MEANT = {
-    **dict.fromkeys(("v", "vel"), "velocity"),
-    **dict.fromkeys(("d", "u", "x", "dis", "des", "desp", "spost", "disp", "displ"), "displacement"),
-}
-"""The quantity of a letter beside a column "a"."""
+_AXES = {"x", "y", "z"}
 
 
 @dataclass(frozen=True)
@@ -110,7 +91,9 @@ class ColumnLabel:
 
     @cached_property
     def unit(self) -> str | None:
-        """The unit of acceleration that it names, None where it names none."""
+        """The unit of acceleration that it names, None where it names none, or a factor beside it."""
+        if _MULTIPLIED.search(self.text):
+            return None
         if match := _BRACKETS.search(self.text):
             return acceleration_unit(match[1])
         found = (match[1] for pattern in _BARE_UNIT if (match := pattern.search(self.text)))
@@ -118,85 +101,76 @@ class ColumnLabel:
 
     @property
     def other(self) -> str:
-        """The quantity that it states, where that is no acceleration, "" else."""
+        """The quantity that it states, where that is no acceleration of the ground, "" else."""
         if quantity := other_quantity(self.text):
             return quantity
-        if _MULTIPLIED.search(self.text):
-            return "multiplied by a power of ten"
-        if word := _NOT_OF_THE_GROUND.search(self.text):
-            return word[1].lower()
-        if self.unit:
-            return ""
-        if word := _OTHER_WORDS.search(self.text):
-            return word[1].lower()
-        match = _BRACKETS.search(self.text)
-        if match is None or self._is_direction(match):
-            return ""
-        unit = match[1]
-        if _OTHER_UNIT.fullmatch(unit) or _LIKE_A_UNIT.fullmatch(unit):
-            return f"in {unit[:20]!r}"
-        return ""
+        word = _WORDS_OF_OTHERS.search(self.text)
+        return (word[1] or f"in {word[2]}").lower() if word else ""
 
-    def beside_acceleration(self) -> str:
-        """The quantity of a label like "v" or "disp" beside a column called "a", "" of another label."""
-        return _MEANT.get(self.text.strip().lower(), "")
+    @property
+    def is_known(self) -> bool:
+        """Whether it stands in the closed lists: times, a count, another quantity, or acceleration.
+
+        Acceleration it is by its unit, by its direction, or by the word for it alone: not beside a strange unit.
+        """
+        is_motion = self.is_direction or self.is_plain_acceleration
+        return self.is_time or self.is_count or bool(self.other) or bool(self.unit) or is_motion
+
+    @property
+    def is_strange(self) -> bool:
+        """Whether it holds a factor, or in brackets what is neither a unit of acceleration nor a direction."""
+        match = _BRACKETS.search(self.text)
+        is_foreign = match is not None and self.unit is None and not self._is_direction(match)
+        return is_foreign or bool(_MULTIPLIED.search(self.text))
 
     @property
     def is_plain_acceleration(self) -> bool:
         """Whether it names the quantity and no direction: "a", "Acc", "acceleration"."""
         bare = _BRACKETS.sub("", self.text).strip()
-        return bool(re.fullmatch(r"(?i)ag?|a_g|ac|acc(el(eration)?)?|aceleraci[oó]n|accelerazione", bare))
+        return not self.is_strange and bool(
+            re.fullmatch(r"(?i)ag?|a_g|ac|acc(el(eration)?)?|aceleraci[oó]n|accelerazione|επιτάχυνση", bare)
+        )
 
     @property
     def is_direction(self) -> bool:
         """Whether it says where the component points."""
-        return Direction.of(self.component).is_known
+        return not self.is_strange and Direction.of(self.component).is_known
 
-    @property
+    @cached_property
     def component(self) -> str:
-        """The name of the component: without unit, word for acceleration, network and station."""
-        name = _BRACKETS.sub("", self.text)
-        match = _BRACKETS.search(self.text)
+        """The name of the component: its one word that says where it points, else the label without unit."""
+        name = self.text
+        match = _BRACKETS.search(name)
         if match and self.unit is None and self._is_direction(match):
             return match[1].strip()
+        name = _BRACKETS.sub("", name)
         if self.unit and not match:
             for pattern in _BARE_UNIT:
                 name = pattern.sub("", name)
-        name = _ACCELERATION.sub("", name.strip())
-        name = _OF_DIRECTION.sub(r"\1", name)
-        directed = _GROUND.sub("", _AND_WHAT.sub("", name))
-        if directed != name and Direction.of(directed).is_known:
-            name = directed
-        if code := _SEED_ID.fullmatch(name.strip()):
+        name = name.strip()
+        if code := _SEED_ID.fullmatch(name):
             name = code[2]
-        return _only_direction(name) or name.strip()
+        return _only_direction(name) or name
 
     def _is_direction(self, brackets: re.Match[str]) -> bool:
         """Whether what stands in brackets is a direction, as in "Acc (N)": no other name stands before it."""
         before = self.text[: brackets.start()].strip()
-        words = [word for word in _PARTS.split(before) if word]
-        is_letter = len(brackets[1]) == 1  # V may be of volts
-        is_named = any(not _BESIDE_DIRECTION.fullmatch(word) for word in words)
-        if is_letter and before and not ColumnLabel(before.rstrip(".")).is_plain_acceleration:
-            return False
+        if len(brackets[1]) == 1 and before:  # V may be of volts
+            return (
+                ColumnLabel(before.rstrip(".")).is_plain_acceleration and Direction.of(brackets[1]).is_known
+            )
+        is_named = any(not _BESIDE_DIRECTION.fullmatch(word) for word in _PARTS.split(before) if word)
         return not is_named and Direction.of(brackets[1]).is_known
-
-
-_AXES = {"x", "y", "z"}
 
 
 def _only_direction(name: str) -> str:
     """Return the only word of a name that says where it points, "" where it has another that says something else."""
     if _NUMBERED.search(name):
         return ""
-    words = [word.strip("-") for word in _PARTS.split(name)]
+    words = [_LEADING.sub("", word.strip("-")) for word in _PARTS.split(name)]
     words = [part for word in words for part in ([word] if _points(word) else word.split("-"))]
     told = [word for word in words if word and not _BESIDE_DIRECTION.fullmatch(word)]
     return told[0] if len(told) == 1 and _points(told[0]) else ""
-
-
-_NUMBERED = re.compile(r"(?i)[nsew]-\d+")
-"""A letter with a number behind a dash, as "S-1", which counts soils or sites."""
 
 
 def _points(word: str) -> bool:

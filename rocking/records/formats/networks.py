@@ -1,4 +1,4 @@
-"""Formats of single networks: DYNA and AFAD, RESORCE, ESD, CWB, UNAM, JMA, CSMNC, GeoNet, USGS SMC."""
+"""Formats of single networks: DYNA and AFAD, RESORCE, ESD, CWB, UNAM, JMA, CSMNC, GeoNet, USGS SMC, EMOD3D."""
 
 import re
 from collections.abc import Sequence
@@ -14,6 +14,7 @@ from rocking.records.direction import Direction
 from rocking.records.formats import header, text
 from rocking.records.formats.format import Format, Options
 from rocking.records.formats.header import Layout, key, keyed
+from rocking.records.instrument import refuse_other_quantity
 from rocking.records.plausibility import agree_with_velocity
 from rocking.remarks import Kind, Remark
 
@@ -442,6 +443,23 @@ def _smc_digitised(
     return _SMC.channel(head, np.interp(even, times, values), options, step=step, **facts)
 
 
+_EMOD3D_FIRST = re.compile(
+    r"(?i)[ \t]*\S+[ \t]+\S.*\n[ \t]*(\d+)[ \t]+(\d\.\d+e[-+]\d\d)"
+    r"([ \t]+-?\d+){2}([ \t]+-?\d\.\d+e[-+]\d\d){4}[ \t]*\n"
+)
+"""Station and component above number of samples, step, hours and minutes, and four reals."""
+_EMOD3D = Layout("", {
+    "station": r"\A\s*(\S+)", "component": r"\A\s*\S+\s+(\S+)", "samples": r"^\s*(\d+)\s+\d\.\d+e",
+    "step": r"^\s*\d+\s+(\d\.\d+e\S+)",
+}, per_line=6)  # fmt: skip
+
+
+def _read_emod3d(content: bytes, options: Options) -> list[Accelerogram]:
+    head, rows = header.parted(content, 2)
+    refuse_other_quantity(options.file, head)
+    return _EMOD3D.series(head, rows, options, processed=None)
+
+
 DYNA = Format(
     "DYNA (ESM, ITACA, AFAD)",
     "ESM and ITACA (ORFEUS, INGV), AFAD",
@@ -519,4 +537,11 @@ SMC = Format(
     _SMC_FIRST,
     _read_smc,
     "USGS_SMC",
+)
+EMOD3D = Format(
+    "EMOD3D text",
+    "EMOD3D and ucgmsim, simulated and observed motion",
+    "station and component above samples, step and six more numbers",
+    _EMOD3D_FIRST,
+    _read_emod3d,
 )

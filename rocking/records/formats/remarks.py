@@ -66,12 +66,12 @@ _UNIT = re.compile(
     r"\bunits?(?: of| are| is)?\s+[(\[]?([A-Za-z][\w/^*²]*)|(?:\bin\s+|[(\[]\s*)([A-Za-z][\w/^*²]*)",
     re.I,
 )
-_SECONDS = r"(?:s|seg|sec|segundos?|seconds?)"
+_SECONDS = r"(?:s|seg|secs?|segundos?|seconds?)"
 _END = r"\s*(?:\.?\s*$|[,;)\]]|\s/\s)"
 _STEP = re.compile(
     r"\b(?:dt|delta|time[ _-]?(?:step|interval|increment)|(?:sampling|sample)[ _-]?(?:interval|period|step)|"
     r"(?:equal )?spacing|intervals|intervalo(?: de muestreo)?)\b"
-    rf"\s*(?:[(\[]\s*{_SECONDS}\s*[)\]])?\s*(?:[:=]|is|of)?\s*(\d*\.?\d+(?:e[-+]?\d+)?)\s*{_SECONDS}?{_END}|"
+    rf"\s*(?:[(\[]\s*{_SECONDS}\s*[)\]])?\s*(?:[:=]|is|of)?\s*(\d*\.?\d+(?:e[-+]?\d+)?)\s*\(?{_SECONDS}?{_END}|"
     rf"^\s*(?:sampling|muestreo)\s*[:=]\s*(\d*\.?\d+)\s*{_SECONDS}\s*$",
     re.I,
 )
@@ -83,7 +83,8 @@ _RATE = re.compile(
 )
 _SAMPLES = re.compile(
     r"(?:^|[\s,;(])(-?\d[\d.e]*)\s+(?:points|samples|values)\b(?!\s+(?:per|across|a|each|in)\b)|"
-    r"\b(?:npts|(?:no\.?|number) of (?:points|samples|data)|n[uú]m(?:ero|\.)? (?:total )?de (?:datos|muestras|puntos))"
+    r"\b(?:npts|(?:no\.?|number) (?:of )?(?:points|samples|data|values)|"
+    r"n[uú]m(?:ero|\.)? (?:total )?de (?:datos|muestras|puntos))"
     r"\s*[:=]\s*(-?\d[\d.e]*)",
     re.I,
 )
@@ -109,6 +110,22 @@ _BOTH_ENDS = re.compile(r"(?i)\b(north|east|up)(?:\s*[/–]\s*|\s+)(south|west|d
 """A direction in two words, of which the second alone would turn it round."""
 _CHANNEL = re.compile(rf"\b(?:canal|chan(?:nel)?){_VALUE}", re.I)
 """A channel may be named by a direction, but "Channel 101" is none."""
+
+
+_MEANING = re.compile(
+    r"(?i)(?<![a-z.])(acc\w*|acel\w*|beschl\w*|vel\w*|displ?\w*|(?:shear |axial )?strains?|stress\w*|forces?|moments?|"
+    r"fourier|spectr\w*|psa|fas|periods?|freq\w*|hz|dt|delta|time|intervalo?|sampl\w*|muestr\w*|rate|points|units?|"
+    r"unidad\w*|conversion|format|npts|\(?\d+f\d+\.\d+\)?|sec\w*|seg\w*)(?![a-z])|([a-z][\w/^*²]*)"
+)
+"""Words that say what numbers are; the others are names, of which a unit alone counts."""
+
+
+def meaning(remark: str) -> str:
+    """Return the words of a remark that say what numbers are, without its names and values; all of one on a factor."""
+    if speaks_of_factor(remark):
+        return remark.strip()[:80]
+    words = (match[1] or acceleration_unit(match[2]) or "" for match in _MEANING.finditer(remark))
+    return " ".join(word.lower() for word in words if word)
 
 
 def speaks_of_factor(remark: str) -> bool:

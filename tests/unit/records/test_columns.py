@@ -7,7 +7,9 @@ import pytest
 
 from rocking.errors import RecordError
 from rocking.records import Accelerogram, read
+from rocking.records.formats.layouts import AskedError
 from rocking.remarks import Kind
+from tests.unit.records.test_layouts import answered
 
 TIMES = np.arange(600) * 0.01
 WAVES = [
@@ -28,10 +30,13 @@ def opened(path: Path, **options) -> list[Accelerogram]:
 
 
 def test_three_columns_without_names_are_three_channels(tmp_path):
-    records = opened(written(tmp_path, np.transpose(WAVES)))
-    assert [
-        np.allclose(record.acceleration, wave, atol=1e-6) for record, wave in zip(records, WAVES, strict=True)
-    ]
+    path = written(tmp_path, np.transpose(WAVES))
+    with pytest.raises(AskedError) as asked:
+        opened(path)
+    answered(tmp_path, asked.value.question, "a, a, a m/s2")
+    records = opened(path)
+    for record, wave in zip(records, WAVES, strict=True):
+        assert np.allclose(record.acceleration, wave, atol=1e-6)
     assert [record.component for record in records] == ["channel 1", "channel 2", "channel 3"]
     assert all(record.azimuth is None for record in records)
 
@@ -71,5 +76,7 @@ def test_a_count_above_the_samples_is_no_sample(tmp_path, above):
     (record,) = opened(path) if len(above) == 1 else read(path, unit="m/s2")
     assert record.acceleration.size == 600 and record.time_step == 0.01
     assert record.peak_acceleration == pytest.approx(np.abs(WAVES[0]).max())
-    kind = Kind.FIRST_IS_COUNT if len(above) == 1 else Kind.FIRST_ARE_COUNT_AND_STEP
-    assert kind in {each.kind for each in record.warnings}
+    (told,) = (each for each in record.warnings if each.kind is Kind.FIRST_NUMBERS)
+    assert told["what"] == (
+        "the number of samples, the time step" if len(above) == 2 else "the number of samples"
+    )

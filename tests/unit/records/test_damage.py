@@ -213,7 +213,7 @@ def test_commas_that_may_be_either_are_refused(text: str) -> None:
 def test_commas_that_part_columns_still_do() -> None:
     for text in (
         "0.00,1\n0.01,2\n0.02,3\n0.03,5\n",
-        "0,1,5\n1,2,6\n2,3,8\n3,1,5\n",
+        "t,a,b (gal)\n0,1,5\n1,2,6\n2,3,8\n3,1,5\n",
         "t,a\n0,1\n1,2\n2,7\n3,9",
     ):
         assert read_text(text, unit="gal")[0].acceleration.size == 4

@@ -11,8 +11,10 @@ from rocking.errors import RecordError
 from rocking.records import Accelerogram, read
 from rocking.records.direction import Direction
 from rocking.records.formats.header import coordinates
+from rocking.records.formats.layouts import AskedError
 from rocking.remarks import Kind, Remark
 from tests.contracts.made_files import TRUE, columns, cwb, smc
+from tests.unit.records.test_layouts import answered
 
 TIMES = np.arange(600) * 0.01
 WAVE = np.round(np.sin(5 * TIMES) * np.exp(-((TIMES - 3) ** 2)), 6)
@@ -39,7 +41,11 @@ def test_every_channel_of_a_table_has_the_times_left_of_it(tmp_path):
 
 def test_without_names_a_column_that_rises_evenly_is_no_channel(tmp_path):
     path = write(tmp_path, table(TIMES, WAVE, TIMES, 3 * WAVE))
-    assert [record.peak_acceleration for record in read(path, unit="m/s2")] == [
+    with pytest.raises(AskedError) as asked:
+        read(path, unit="m/s2")
+    assert asked.value.question.proposal == "t, ?, t, ?"
+    answered(tmp_path, asked.value.question, "t, a, t, a m/s2")
+    assert [record.peak_acceleration for record in read(path)] == [
         pytest.approx(np.abs(WAVE).max()),
         pytest.approx(3 * np.abs(WAVE).max()),
     ]

@@ -10,7 +10,9 @@ from rocking.quantities import acceleration_factor
 from rocking.records import Accelerogram, read
 from rocking.records.direction import Direction
 from rocking.records.formats.labels import ColumnLabel
+from rocking.records.formats.layouts import AskedError
 from rocking.remarks import Kind, Remark
+from tests.unit.records.test_layouts import answered
 
 TIMES = np.arange(600) * 0.01
 WAVES = [
@@ -89,7 +91,9 @@ def test_a_label_names_unit_and_component(label, unit, component):
      "resultant (g)", "acc SRSS (g)", "vector sum (g)"],
 )  # fmt: skip
 def test_a_column_of_something_else_is_no_acceleration_whatever_unit_is_declared(tmp_path, label):
-    with pytest.raises(RecordError, match=r"of (acceleration|velocity|displacement)"):
+    with pytest.raises(
+        RecordError, match=r"of (acceleration|velocity|displacement)|columns hold is not known"
+    ):
         opened(tmp_path, table(f"time (s);{label}\n", TIMES, FIRST, parted=";"), unit="m/s2")
 
 
@@ -131,7 +135,7 @@ def test_more_spellings_of_units(unit, factor):
 
 @pytest.mark.parametrize(
     "head",
-    ["t a v d\n", "t Ac Vel Des\n", "Time Ag Q1 Q2\n", "Time,Acc,Vel,Disp\n", "t,a (m/s2),v (m/s),u (m)\n"],
+    ["Time,Acc,Vel,Disp\n", "t,a (m/s2),v (m/s),u (m)\n", "Time Acc Vel Disp\n"],
 )
 def test_velocity_and_displacement_beside_acceleration_are_left_out(tmp_path, head):
     parted = "," if "," in head else " "
@@ -139,11 +143,10 @@ def test_velocity_and_displacement_beside_acceleration_are_left_out(tmp_path, he
     assert np.allclose(record.acceleration, FIRST, atol=1e-6)
 
 
-def test_an_unnamed_column_that_is_the_integral_of_another_is_left_out_and_told(tmp_path):
-    (record,) = opened(tmp_path, table("", TIMES, FIRST, VELOCITY), unit="m/s2")
-    assert np.allclose(record.acceleration, FIRST, atol=1e-6)
-    assert Remark.of(Kind.INTEGRAL_LEFT_OUT, column=3) in record.warnings
-    assert len(opened(tmp_path, table("", TIMES, *WAVES), unit="m/s2")) == 3
+@pytest.mark.parametrize("head", ["", "t a v\n", "t Ac Des\n", "Time Ag Q1\n"])
+def test_a_velocity_that_nothing_calls_so_is_asked_for(tmp_path, head):
+    with pytest.raises(AskedError, match=r"column 3.*: \?"):
+        opened(tmp_path, table(head, TIMES, FIRST, VELOCITY, parted=" "), unit="m/s2")
 
 
 @pytest.mark.parametrize("units", ["s,g,g,g\n", "(s),(g),(g),(g)\n"])
@@ -261,12 +264,12 @@ def test_text_above_a_table_is_passed_over_where_nothing_is_left_open(tmp_path):
         "made\nTime Acc\n",
         "made\nUnits: gal\nNS EW\n",
         "made\nno names\n",
+        "made\nat home\nTime Acc\n",
     ],
 )
-def test_text_above_a_table_that_leaves_something_open_is_refused_with_what_to_do(tmp_path, above):
-    begin = above.count("\n") + 1
-    with pytest.raises(RecordError, match=f"numbers begin on line {begin}, with 2 on a line: write # before"):
-        opened(tmp_path, table(above, TIMES, FIRST, parted=" "), unit="g")
+def test_what_text_and_names_leave_open_is_asked_for(tmp_path, above):
+    with pytest.raises(AskedError, match=r"columns hold|text above|is not declared"):
+        opened(tmp_path, table(above, TIMES, FIRST, parted=" "))
 
 
 def test_quoted_cells_may_hold_commas(tmp_path):
@@ -301,7 +304,7 @@ def test_files_of_programs_are_named(tmp_path, content, word):
 
 
 @pytest.mark.parametrize(
-    ("title", "unit"), [("Made at Geoscope (G)", None), ("Acceleration (G)", "g"), ("made, in g", "g")]
+    ("title", "unit"), [("Made at Geoscope (G)", None), ("Acceleration (G)", "g"), ("made, in g", None)]
 )
 def test_a_title_declares_a_unit_only_of_the_numbers(tmp_path, title, unit):
     content = table(f"{title}\n600 0.01 NPTS, STEP\n", FIRST)
@@ -374,5 +377,9 @@ def test_numbers_over_frequency_are_a_spectrum(tmp_path, head):
     "others", ["gx,gy", "gyro_x,mag_z", "roll,pitch", "Gyro X (deg/s),Mag X (uT)", "wx (dps),T (bar)"]
 )
 def test_the_other_axes_of_a_sensor_are_no_accelerations(tmp_path, others):
-    records = opened(tmp_path, table(f"t,ax,az,{others}\n", TIMES, *WAVES, FIRST[::-1]), unit="m/s2")
-    assert [(record.component, record.vertical) for record in records] == [("x", False), ("z", True)]
+    content = table(f"t,ax,az,{others}\n", TIMES, *WAVES, FIRST[::-1])
+    with pytest.raises(AskedError) as asked:
+        opened(tmp_path, content, unit="m/s2")
+    answered(tmp_path, asked.value.question, "t, X m/s2, Z m/s2, -, -")
+    records = opened(tmp_path, content)
+    assert [(record.component, record.vertical) for record in records] == [("X", False), ("Z", True)]

@@ -9,7 +9,9 @@ import pytest
 from rocking.errors import RecordError
 from rocking.records import Accelerogram, read
 from rocking.records.folder import list_folder
+from rocking.records.formats.layouts import AskedError
 from rocking.remarks import Kind
+from tests.unit.records.test_layouts import answered
 
 TIMES = 0.01 * np.arange(600)
 MOTION = np.sin(7.3 * TIMES) * np.exp(-0.4 * TIMES) + 0.2 * np.sin(31 * TIMES + 1)
@@ -19,6 +21,13 @@ def opened(folder: Path, text: str, name: str = "made.txt", **declared: object) 
     """The channels of a file with that text."""
     (folder / name).write_text(text)
     return read(folder / name, **declared)
+
+
+def opened_once(folder: Path, text: str, answer: str) -> None:
+    """Write a file whose layout is asked for, and the answer beside it."""
+    with pytest.raises(AskedError) as asked:
+        opened(folder, text)
+    answered(folder, asked.value.question, answer)
 
 
 def rows(*columns: np.ndarray, parted: str = ",") -> str:
@@ -57,7 +66,8 @@ def test_a_wrapped_series_is_one_whatever_parts_its_numbers(tmp_path: Path, part
     (record,) = opened(tmp_path, rows(*MOTION.reshape(-1, 5).T, parted=parted), unit="m/s2", time_step=0.01)
     assert np.allclose(record.acceleration, MOTION, atol=1e-6)
     other, third = np.roll(MOTION, 100), 0.7 * np.roll(MOTION, 233)
-    channels = opened(tmp_path, rows(MOTION, other, third, parted=parted), unit="m/s2", time_step=0.01)
+    opened_once(tmp_path, rows(MOTION, other, third, parted=parted), "N, E, Z m/s2, dt 0.01")
+    channels = read(tmp_path / "made.txt")
     assert [
         np.allclose(a.acceleration, b, atol=1e-6)
         for a, b in zip(channels, (MOTION, other, third), strict=True)
@@ -69,7 +79,7 @@ def test_one_and_the_step_above_a_column_are_no_samples(tmp_path: Path) -> None:
     column = "".join(f"{value:.6f}\n" for value in 0.1 * MOTION)
     (record,) = opened(tmp_path, f"1\n0.005\n{column}", unit="g")
     assert record.time_step == 0.005 and record.acceleration.size == MOTION.size
-    assert [remark.kind for remark in record.warnings] == [Kind.FIRST_ARE_SERIES_AND_STEP]
+    assert [remark.kind for remark in record.warnings] == [Kind.FIRST_NUMBERS]
     # A column that begins with 1 and goes on near it is a motion.
     (record,) = opened(tmp_path, "1\n" + rows(MOTION + 0.8), unit="m/s2", time_step=0.01)
     assert record.acceleration.size == MOTION.size + 1
@@ -146,11 +156,12 @@ def test_points_of_film_end_at_a_seam(tmp_path: Path, tail: str, is_cut: bool) -
 def test_a_column_of_times_for_each_channel_repeats_nothing(tmp_path: Path, first: np.ndarray) -> None:
     """Times that are uneven, or printed too coarsely, were taken for a motion that stands in the file twice."""
     text = rows(first, MOTION, first, np.roll(MOTION, 50))
+    opened_once(tmp_path, text, "t, N, t, E m/s2")
     if np.diff(first).min() > 0:
-        assert len(opened(tmp_path, text, unit="m/s2")) == 2
+        assert [record.component for record in read(tmp_path / "made.txt")] == ["N", "E"]
     else:
         with pytest.raises(RecordError, match="times must increase"):
-            opened(tmp_path, text, unit="m/s2")
+            read(tmp_path / "made.txt")
 
 
 @pytest.mark.parametrize("text", [

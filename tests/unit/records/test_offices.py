@@ -113,7 +113,7 @@ def test_a_unit_that_is_declared_for_a_folder_fills_the_rows_that_asked(tmp_path
     """Else the second run says nothing any more, and the study fails for want of it."""
     np.savetxt(tmp_path / "a.txt", np.column_stack([TIMES, MOTION]))
     target = tmp_path / "catalogue.csv"
-    assert "Fill in" in write_catalogue(tmp_path, target, None, None)
+    assert "Answer once" in write_catalogue(tmp_path, target, None, None)
     write_catalogue(tmp_path, target, "m/s2", None)
     (record,) = load_catalogue(target)
     assert record.unit == "m/s2" and "Fill in" not in record.note

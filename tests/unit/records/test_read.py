@@ -114,7 +114,7 @@ def test_times_rounded_in_print_are_even_and_uneven_ones_are_resampled(tmp_path:
     ("E\n7\n9\n1 2\n", "no reader recognises"),
     ("1\n" * 40 + "1 2\n" + "3\n", "row 41 of the samples has 2 columns, but the first has 1"),
     ("1 2 3\n" * 40 + "1 2\n" + "3 3 3\n", "row 41 of the samples has 2 columns, but the first has 3"),
-    ("time,a(inches)\n0.00,1\n0.01,2\n0.02,3\n", "no column is of acceleration in a unit that is known"),
+    ("time,a(inches)\n0.00,1\n0.01,2\n0.02,3\n", "what its columns hold is not known"),
 ])  # fmt: skip
 def test_bad_tables(tmp_path: Path, text: str, message: str) -> None:
     with pytest.raises(RecordError, match=message):

@@ -155,7 +155,7 @@ def test_a_copy_is_no_new_name(folder: Path) -> None:
 
 def test_a_typed_cell_clears_its_request(folder: Path) -> None:
     (folder / "bare.txt").write_text("".join(f"{i % 7}\n" for i in range(500)))
-    assert "bare.txt: unit and time_step_s" in again(folder)
+    assert "bare.txt: one series in ?, 1 a line" in again(folder)
     path = folder / "catalogue.csv"
 
     def typed(**cells: str) -> str:

@@ -15,6 +15,7 @@ from rocking.study.design_level import DesignSettings
 from rocking.study.made_from import TABLE
 from rocking.study.plan import Plan, make_plan, plan_of_job
 from rocking.study.seals import Seals
+from rocking.study.workspace import write_catalogue
 
 STRUCTURES = [
     {"name": "block", "type": "block", "breadth_m": 0.5, "height_m": 3.0},
@@ -75,13 +76,18 @@ def study(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     Path("design.csv").write_text("period_s,acceleration_g\n0,0.2\n0.1,0.5\n0.5,0.5\n4,0.06\n")
     Path("hazard.csv").write_text("intensity,annual_rate\n0.1,0.01\n1,0.0001\n")
     _write_settings()
+    _finish()
+    return tmp_path
+
+
+def _finish() -> None:
+    """Write a file of each product, and its seal."""
     plan = _plan()
     for product in PRODUCTS.values():
         file = Path("results", f"{product.replace('/', '_')}.csv")
         file.parent.mkdir(exist_ok=True)
         file.write_text(f"{product}\n")
         plan.seals.write(product, plan.seals.key(product), [file])
-    return tmp_path
 
 
 def _again() -> str:
@@ -290,6 +296,22 @@ def test_another_version_of_a_library_makes_everything_again(study, monkeypatch,
     versions = made_from.versions()
     monkeypatch.setattr(made_from, "versions", lambda: versions | {library: "0.1"})
     assert _again() == " ".join(PRODUCTS)
+
+
+def test_an_edited_answer_makes_again_the_record_that_it_reads(study) -> None:
+    """The table of layouts is no file of a record; the one answer by which its table is read is part of its content."""
+    rows = "".join(f"{place / 100},{(-1) ** place}\n" for place in range(300))
+    Path("records/b.AT2").write_text(f"Station 1\nTime,Q1\n{rows}")
+    told = write_catalogue(Path("records"), Path("records/catalogue.csv"), None, None)
+    answers = Path("records/layouts.csv")
+    assert "Answer what stands in records/layouts.csv" in told and answers.read_text().count("t, ?") == 1
+    answers.write_text(answers.read_text().replace("t, ?", "t, a g"))
+    _finish()
+    assert _again() == ""
+    answers.write_text(answers.read_text() + '"one series g, dt 0.01","bare",x.txt,,1,,elsewhere\n')
+    assert _again() == ""
+    answers.write_text(answers.read_text().replace("t, a g", "t, NS g"))
+    assert _again() == "b B S C F T"
 
 
 def test_a_copied_folder_makes_nothing_again(study, monkeypatch, tmp_path) -> None:

@@ -1,0 +1,691 @@
+"""Tables of bare numbers: columns, or one series along the rows, below names, text or nothing at all.
+
+What closed lists name is read. What is left open is asked once for all tables alike: see `layouts`.
+"""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from rocking.errors import RecordError, UndeclaredError
+from rocking.quantities import acceleration_factor
+from rocking.records.accelerogram import Accelerogram
+from rocking.records.direction import directed, names_acceleration
+from rocking.records.formats import text
+from rocking.records.formats.dialect import Dialect
+from rocking.records.formats.format import Format, Options, plain
+from rocking.records.formats.labels import ColumnLabel
+from rocking.records.formats.layout import Above, Column, Layout
+from rocking.records.formats.layouts import Answer, AskedError, Question, Signature
+from rocking.records.formats.remarks import Declarations, factor_warnings, meaning, speaks_of_factor
+from rocking.records.instrument import refuse_by_name, refuse_other_quantity
+from rocking.remarks import Kind, Remark
+
+_SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
+_EMPTY_LAST = re.compile(rb"[,;][ \t]*(?:\n|\Z)")
+_EMPTY_END = re.compile(rb"(?m)(?:[ \t]*[,;])+[ \t]*$")
+"""Empty cells at the end of rows, and whole rows of them below a table, as spreadsheets write them."""
+_EMPTY_CELL = re.compile(rb"[,;][ \t]*(?=[,;])|(?m:^)[ \t]*[,;]")
+_DECIMALS = re.compile(r"[.]?(\d*)(?:[eE][+-]?\d+)?\s*$")
+_HEAD = 12
+"""Lines of numbers that are looked at, at the beginning."""
+_ABOVE = 80
+"""Lines of text that are looked at above them."""
+_LONGEST_LINE = 2000
+_TAIL = 4000
+"""Bytes that are looked at, at the end."""
+_BLANK = 32
+_LINE_END = 10
+_OTHER_FORMAT = re.compile(rb"\s*#(Earthquake Information|StationCode\s*:)")
+"""CWB's headers, which look like comments above columns."""
+_MARKS = "#", "%", "$", "!", "//"
+"""With which a line of remarks begins."""
+_TOUCHING = re.compile(rb"(\.\d+)(?=[+-]\d)")
+"""The end of a number that a sign parts from the next, as in columns of Fortran."""
+_EXCEL = re.compile(r"sep=.?", re.I)
+"""The first line by which a spreadsheet is told what parts the cells."""
+_WORDS = re.compile(r"[A-Za-z=:,;()]+")
+_FEWEST_ROWS = 8
+"""Rows from which on it can be told whether numbers run along rows or along columns."""
+_FEWEST_OF_BOTH_SIGNS = 100
+"""Samples from which on a motion has some of either sign."""
+LONGEST_STEP = 1.0
+"""The longest step of a record, s, by which two numbers are told to be samples and step."""
+
+
+@dataclass(frozen=True)
+class Table:
+    """Numbers in columns, and what stands above them.
+
+    labels: of the columns, none where no line names them. width: number of columns. start: lines above the numbers.
+    remarks: what lines with a mark say, without it; words: what the other lines above the names say. counts: the line
+    that holds nothing but number of samples and step, and which of the two comes first; none where there is no such.
+    """
+
+    labels: tuple[ColumnLabel, ...]
+    width: int
+    start: int
+    remarks: tuple[str, ...] = ()
+    words: tuple[str, ...] = ()
+    counts: tuple[int, tuple[Above, ...]] | None = None
+
+    @classmethod
+    def of(cls, content: bytes) -> "Table | None":
+        """Return the table that a text is, None of another file."""
+        lines = text.lines(content, _ABOVE + 2 * _HEAD)
+        parted = [re.sub(_TOUCHING.pattern.decode(), r"\1 ", _bare(line)) for line in lines]
+        cells = [_SEPARATOR.split(line) if line else [] for line in parted]
+        numeric = [len(row) if row and all(map(text.is_number, row)) else 0 for row in cells]
+        start = next(
+            (at for at in range(len(lines)) if numeric[at] and _begins(lines[at:], numeric[at:])), None
+        )
+        if start is None or start > _ABOVE or any(len(line) > _LONGEST_LINE for line in lines[:start]):
+            return None
+        is_short = sum(map(bool, numeric[start:])) < _FEWEST_ROWS
+        if any(count == numeric[start] or (count and is_short) for count in numeric[:start]):
+            return None  # a row of another number of columns among its first ones
+        above = [(at, _bare(line)) for at, line in enumerate(lines[:start]) if _bare(line)]
+        above = [(at, line) for at, line in above if not (at == above[0][0] and _EXCEL.fullmatch(line))]
+        counts = next(((at, order) for at, line in reversed(above) if (order := _counts(line))), None)
+        kept = [line for at, line in above if counts is None or at != counts[0]]
+        labels, rest = _named(kept, numeric[start])
+        return cls(
+            labels,
+            numeric[start],
+            start,
+            tuple(line.lstrip("#%$!/ ") for line in rest if line.startswith(_MARKS)),
+            tuple(line for line in rest if not line.startswith(_MARKS)),
+            counts,
+        )
+
+    def signature(self, folder: str) -> Signature:
+        """Return what it has in common with tables for which the same answer holds; folder: in which it lies."""
+        names = " | ".join(label.text if label.is_known else _shape(label.text) for label in self.labels)
+        above = dict.fromkeys(filter(None, map(meaning, (*self.remarks, *self.words))))
+        words = " / ".join([*(["n, dt"] if self.counts else []), *above])
+        names = plain(names).lstrip("=+-@ ")
+        return Signature(names, str(self.width), plain(words), "" if names or words else folder)
+
+    @property
+    def said(self) -> Declarations:
+        """What the text above the numbers declares."""
+        return Declarations.of((*self.remarks, *self.words))
+
+    @property
+    def is_understood(self) -> bool:
+        """Whether the words above the numbers leave no doubt: a title, and lines each of which declares something.
+
+        Of text that declares unit and step it is enough that it speaks of no factor.
+        """
+        undeclared = [line for line in self.words if Declarations.of([line]) == Declarations()]
+        is_title = len(undeclared) < 2 and not any(
+            re.search(r"[:=]|^[\d\s.,;+-]+$", line) for line in undeclared
+        )
+        is_all_said = bool(self.said.unit and (self.said.time_step or self.counts))
+        return (is_title or is_all_said) and not any(map(speaks_of_factor, self.words))
+
+
+def _bare(line: str) -> str:
+    return line.strip().rstrip(",;").rstrip()
+
+
+def _begins(lines: Sequence[str], numeric: Sequence[int]) -> bool:
+    """Whether rows of as many numbers as the first, blank lines among them, make the begin of a table."""
+    counts = [count for line, count in zip(lines, numeric, strict=True) if line.strip()][:_HEAD]
+    return len(counts) > 1 and len(set(counts[:-1])) == 1 and 0 < counts[-1] <= counts[0]
+
+
+def _counts(line: str) -> tuple[Above, ...]:
+    """Return in which order a line holds a number of samples and a step, and no other number; () of another line."""
+    parts = _WORDS.sub(" ", line).split()
+    if len(parts) != 2 or not all(map(text.is_number, parts)) or "/" in line:
+        return ()
+    orders: tuple[tuple[Above, ...], ...] = ("n", "dt"), ("dt", "n")
+    for order, (samples, step) in zip(orders, (parts, parts[::-1]), strict=True):
+        if samples.isdecimal() and int(samples) > 1 and "." in step and 0 < float(step) <= LONGEST_STEP:
+            return order
+    return ()
+
+
+def _shape(name: str) -> str:
+    """Return a name that says nothing with its long numbers left out: those of a station or an event."""
+    return re.sub(r"\d{3,}", "#", name)
+
+
+def _named(above: Sequence[str], width: int) -> tuple[tuple[ColumnLabel, ...], Sequence[str]]:
+    """Return the labels of `width` columns in the last line above them, or the last two, and the lines above these."""
+    if not above:
+        return (), ()
+    line = above[-1].lstrip("#%$!/ ") if above[-1].startswith(_MARKS) else above[-1]
+    names = _labels(line)
+    if len(names) != width and len(line.split()) == width:
+        names = tuple(line.split())
+    if len(names) != width:
+        return (), above
+    if _are_units(names):
+        over = _labels(above[-2]) if len(above) > 1 else ()
+        if len(over) == width or width > 1:
+            names = _with_units(over if len(over) == width else ("",) * width, names)
+            return tuple(map(ColumnLabel, names)), above[: -2 if len(over) == width else -1]
+    if width > 1 and all(name.isdigit() and len(name) == 1 for name in names[1:]):
+        names = (names[0], *[""] * (width - 1))  # numbers of columns, and no azimuths
+    labels = tuple(map(ColumnLabel, _without_suffixes(names)))
+    if width == 1:  # a line like "Geoscope (G)" names a network, and "El Centro" an earthquake
+        is_named = labels[0].is_plain_acceleration or labels[0].is_direction or bool(labels[0].other)
+    else:
+        is_named = bool(re.search(r"[,;\t]", line)) or any(label.is_known for label in labels)
+    return (labels, above[:-1]) if is_named else ((), above)
+
+
+_G_SUFFIX = re.compile(r"(?i)(.*(?<![a-z])acc(el(eration)?)?(_\w+)?)_g")
+
+
+def _without_suffixes(names: tuple[str, ...]) -> tuple[str, ...]:
+    """Return names like "acc_g" with the unit in brackets where times stand beside them: elsewhere "_g" may be of the
+    ground."""
+    if not ColumnLabel(names[0]).is_time:
+        return names
+    return tuple(_G_SUFFIX.sub(r"\1 (g)", name) if _G_SUFFIX.fullmatch(name) else name for name in names)
+
+
+_BRACKET_END = re.compile(r"[)\]]")
+_WITH_UNIT = re.compile(r"[^)\]]+[)\]]")
+
+
+def _labels(line: str) -> tuple[str, ...]:
+    """The names in a line, parted by tabs, semicolons or commas, else by blanks; a unit in brackets stays with its."""
+    if '"' in line:
+        return tuple(re.findall(r'"([^"]*)"', line))
+    line = re.sub(r"[,;\s]+$", "", line.lstrip("#%$!/ "))
+    separator = next((mark for mark in "\t;," if mark in line), "")
+    if separator:
+        parts = line.split(separator)
+    elif len(_BRACKET_END.findall(line)) > 1 and line.endswith((")", "]")):  # names of several words
+        parts = _WITH_UNIT.findall(line)
+    else:
+        parts = re.split(r"\s+(?![(\[])", line.strip())
+    return tuple(part.strip().strip("\"'") for part in parts)
+
+
+def _are_units(units: tuple[str, ...]) -> bool:
+    """Whether a row of words holds units, of which one at least is of acceleration."""
+    bare = [unit.strip("()[] ") for unit in units]
+    given = [ColumnLabel(f"({unit})") for unit in bare]
+    are_all = all(
+        each.unit or each.is_time or each.other or not unit for each, unit in zip(given, bare, strict=True)
+    )
+    return are_all and any(each.unit for each in given)
+
+
+def _with_units(names: tuple[str, ...], units: tuple[str, ...]) -> tuple[str, ...]:
+    """Return names, each with the unit below it in brackets."""
+    pairs = zip(names, (unit.strip("()[] ") for unit in units), strict=True)
+    return tuple(f"{name} ({unit})" if unit else name for name, unit in pairs)
+
+
+_SPECTRAL = re.compile(r"(?i)\s*(period|freq(uency)?)\b.*|f(_hz)?|.*[(\[]\s*hz\s*[)\]]")
+_ORDINATE = re.compile(r"(?i)\s*(p?s[av]|sd|fas|fourier|spectr\w*)\b.*")
+_OTHER_TITLE = re.compile(
+    r"(?i)(?<![a-z])((?:shear |axial )?strains?|(?:shear |normal )?stress(?:es)?|forces?|moments?|fourier|"
+    r"(?:response |spectral |power )spectr\w*|psa|fas)(?![a-z])"
+)
+_SPEAKS_OF_MOTION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|match)")
+
+
+def _refuse_others(table: Table, file: str) -> None:
+    """Refuse a table whose names, text or file name say that it holds no acceleration."""
+    names = [label.text for label in table.labels]
+    if names and (_SPECTRAL.fullmatch(names[0]) or any(map(_ORDINATE.fullmatch, names[1:]))):
+        heads = ", ".join(names[:4])
+        raise RecordError(f"this is a spectrum ({heads}); use the record of acceleration against time.")
+    above = "\n".join((*table.remarks, *table.words))
+    refuse_other_quantity(file, above)
+    if (word := _OTHER_TITLE.search(above)) and not _SPEAKS_OF_MOTION.search(above):
+        raise RecordError(f"this is a file of {word[1].lower()}; use the acceleration of the same record.")
+    if not any(label.unit for label in table.labels):
+        refuse_by_name(file)
+
+
+def _are_columns(content: bytes) -> bool:
+    if _OTHER_FORMAT.match(content) or b"\0" in content[:4096]:
+        return False
+    return Table.of(Dialect.of(content).plain(content) or content) is not None
+
+
+def signature_of(content: bytes, folder: str) -> Signature | None:
+    """Return the signature of a table from its first bytes, None of another file; folder: in which it lies."""
+    if _OTHER_FORMAT.match(content) or b"\0" in content[:4096]:
+        return None
+    table = Table.of(Dialect.of(content).plain(content) or content)
+    return None if table is None else table.signature(folder)
+
+
+def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
+    pointed = Dialect.of(content).plain(content)
+    if pointed is None:
+        raise RecordError("the commas are decimal signs or part columns; write points, or semicolons.")
+    table = Table.of(pointed) or Table((), 1, 0)  # it was recognised by that
+    _refuse_others(table, options.file)
+    signature = table.signature(options.layouts.place)
+    answer = options.layouts.answer(signature)
+    layout = answer.layout if answer else None
+    above, start = _above(table, layout, pointed)
+    body, filled = _plain_rows(
+        text.after_lines(pointed, start), may_be_filled=not table.labels and table.width > 2
+    )
+    spaced = _TOUCHING.sub(rb"\1 ", body).replace(b",", b" ").replace(b";", b" ")
+    if layout and layout.width:
+        values = text.fields(text.lines(body), layout.width)
+    else:
+        values = text.numbers(spaced)
+        _check_rows(spaced, table.width, may_end_short=not table.labels)
+    drawn = _drawn(table, values, b"," in body or b";" in body)
+    question = Question(
+        signature, _holds(table, drawn, values), drawn.proposal(bool(above) or bool(options.time_step))
+    )
+    if answer and layout:
+        known = (label if label.is_known else ColumnLabel("") for label in table.labels)
+        table = replace(table, labels=tuple(known))
+        layout = _fitted(answer, layout, table, drawn, options)
+        options = replace(options, time_step=layout.time_step or options.time_step)
+    else:
+        _ask_where_open(table, drawn, options, question, spaced)
+        layout = drawn
+    if not layout.is_series and values.size % len(layout.columns):
+        _check_rows(spaced, table.width, may_end_short=False)
+    try:
+        records = _series(values, table, layout, above, options) if layout.is_series else []
+        records = records or _channels(values, table, layout, options)
+    except UndeclaredError as error:
+        raise AskedError(error.args[0], error.field, question) from None
+    if len(records) == 1:
+        records = [_pointing(records[0], table.said.component)]
+    notes = filled + factor_warnings((*table.remarks, *table.words))
+    whose = f"read as {answer.text!r}, by {answer.whose}" if answer else ""
+    return [
+        replace(record, source=replace(record.source, answer=whose)).warned(
+            *notes, *_cut_number(body), *_never_negative(record)
+        )
+        for record in records
+    ]
+
+
+def _above(table: Table, layout: Layout | None, content: bytes) -> tuple[dict[Above, float], int]:
+    """Return the numbers above a series, by what they are, and the line at which its samples begin.
+
+    Raises RecordError where an answer names numbers above it that are not there.
+    """
+    if layout and layout.above:
+        at, roles = layout.skip, layout.above
+    elif table.counts:
+        at, roles = table.counts
+    else:
+        return {}, max(table.start, layout.skip if layout else 0)
+    lines = text.lines(content, at + _HEAD)[at:]
+    found: list[str] = []
+    while len(found) < len(roles) and lines:
+        found += _WORDS.sub(" ", lines.pop(0)).split()
+        at += 1
+    if len(found) != len(roles) or not all(map(text.is_number, found)):
+        named = ", ".join(roles)
+        raise RecordError(f"above its samples stand {' '.join(found)[:40]!r}, and not the numbers {named}.")
+    return dict(zip(roles, map(float, found), strict=True)), max(at, table.start if table.counts else at)
+
+
+_END = re.compile(
+    rb"(?i)(?:\n[ \t]*(?:(?:[#%$!]|//)[^\n]*|[a-z]\w*[ \t]*\$|end(?:[ \t]+of[ \t]+\w+)?|eof|[}\])]+;?)[ \t]*)+\s*\Z"
+)
+"""Remarks, or a word for the end, below the numbers."""
+
+
+_FILLING = re.compile(rb"(?i)(?:[ \t]+nan)+\s*\Z")
+
+
+def _plain_rows(below: bytes, may_be_filled: bool) -> tuple[bytes, tuple[Remark, ...]]:
+    """Return the rows of numbers without what ends them and the empty cells behind them, and what there is to say.
+
+    may_be_filled: whether NaN may fill up the last row of a series. Raises RecordError where a cell is empty.
+    """
+    body = below[:-_TAIL] + _END.sub(b"\n", below[-_TAIL:])
+    bare = body[:-_TAIL] + _FILLING.sub(b"\n", body[-_TAIL:]) if may_be_filled else body
+    notes = (Remark(Kind.ROW_FILLED_UP),) if bare != body else ()
+    if _EMPTY_LAST.search(bare):
+        bare = _EMPTY_END.sub(b"", bare)
+    if _EMPTY_CELL.search(bare):
+        raise RecordError("a cell is empty; every column needs a number on every line.")
+    return bare, notes
+
+
+def _drawn(table: Table, values: np.ndarray, is_parted: bool) -> Layout:
+    """Return the layout of a table as far as its names, and its numbers where it has none, say it; the rest is open.
+
+    is_parted: whether commas or semicolons part its numbers.
+    """
+    said = table.said
+    width = table.width
+    labels = table.labels or (ColumnLabel(""),) * width
+    rows = values[: values.size - values.size % width].reshape(-1, width)
+    if width == 1 or (width > 2 and not table.labels and _runs_along_rows(values, width, is_parted)):
+        column = Column("acceleration", unit=labels[0].unit or said.unit)
+        return Layout((column,), is_series=True, per_line=width if width > 1 else 0, time_step=said.time_step)
+    if not table.labels:
+        _refuse_matrix(rows)
+        if _are_wrapped_pairs(values, width):
+            return Layout((Column("time"), Column("acceleration", unit=said.unit)), per_line=width)
+    if any(
+        label.is_plain_acceleration for label in labels
+    ):  # v and u beside "a" are of velocity and displacement
+        labels = tuple(ColumnLabel("?") if _LETTER.fullmatch(label.text) else label for label in labels)
+    columns = tuple(_column(label, column, said) for label, column in zip(labels, rows.T, strict=True))
+    if (
+        table.width == 2 and not table.labels and columns[0].role == "open"
+    ):  # a motion beside times that are none
+        columns = (Column("time"), columns[1])
+    return Layout(columns, time_step=said.time_step)
+
+
+def _column(label: ColumnLabel, numbers: np.ndarray, said: Declarations) -> Column:
+    """Return what a column holds by its name, or by numbers that rise all the way; open where neither says it."""
+    if label.other or label.is_time:
+        return Column("other") if label.other else Column("time", seconds=label.seconds)
+    rises = numbers.size >= _FEWEST_ROWS and np.diff(numbers).min() >= 0 and numbers[0] >= 0
+    if not label.unit and (label.is_count or not label.text) and rises and _is_clock(numbers):
+        is_count = label.is_count or bool((np.diff(numbers) == 1).all())
+        return Column("other" if is_count else "time")
+    if label.unit or label.is_direction or label.is_plain_acceleration:
+        return Column("acceleration", unit=label.unit or said.unit)
+    return Column("open")
+
+
+_LETTER = re.compile(r"(?i)[vdux]")
+
+
+def _is_clock(numbers: np.ndarray) -> bool:
+    """Whether numbers that never fall rise with their place, as times do that are uneven or rounded, and no motion."""
+    return bool(numbers[-1] > numbers[0]) and np.corrcoef(numbers, np.arange(numbers.size))[0, 1] > _ONE_WAY
+
+
+_ONE_WAY = 0.999
+_OF_CHANNELS = (3, 4, 6, 9)
+"""Numbers of columns that a table of channels without names may well have."""
+
+
+def _runs_along_rows(values: np.ndarray, width: int, is_parted: bool) -> bool:
+    """Whether numbers in `width` columns without names are one series, wrapped, and not channels side by side.
+
+    Along a series the next number is nearer than the one a row further on; of channels it is that of another channel.
+    Where the rows are too few to tell, commas or semicolons part channels.
+    """
+    rows = values.size // width
+    if rows < _FEWEST_ROWS:
+        return not is_parted
+    whole = values[: rows * width]
+    first = whole[: 50 * width : width]
+    if first[0] >= 0 and np.diff(first).min() > 0 and np.ptp(np.diff(first)) < 0.01 * (first[1] - first[0]):
+        return False  # it counts time
+    along = float(np.abs(np.diff(whole)).mean())
+    across = float(np.abs(whole[width:] - whole[:-width]).mean())
+    return along <= (1.0 if width in _OF_CHANNELS else 1.5) * across
+
+
+def _are_wrapped_pairs(values: np.ndarray, width: int) -> bool:
+    """Whether several pairs of time and acceleration stand on a row: each time follows from that of the pair before."""
+    if width < 4 or width % 2 or values.size < 2 * _FEWEST_ROWS:
+        return False
+    steps = np.diff(values[: values.size - values.size % 2 : 2])
+    return bool(steps.min() > 0) and float(np.ptp(steps)) < 0.5 * float(np.median(steps))
+
+
+def _refuse_matrix(rows: np.ndarray) -> None:
+    """Refuse columns (n, width) without names that no motion makes: none falls below zero, or they rise unevenly."""
+    if rows.shape[1] < 2 or len(rows) < _FEWEST_ROWS or rows[:, 1:].min() < 0:
+        return
+    steps = np.diff(rows[:, 0])
+    is_uneven_abscissa = steps.min() > 0 and steps.max() > 2 * steps.min()
+    is_matrix = rows.shape[1] > 2 and rows.min() >= 0 and rows.size >= _FEWEST_OF_BOTH_SIGNS
+    if is_uneven_abscissa or is_matrix:
+        raise RecordError(
+            "no number of its columns is below zero: these are spectra or peaks; use the record of acceleration "
+            "against time, or name the columns if they are that."
+        )
+
+
+def _holds(table: Table, drawn: Layout, values: np.ndarray) -> str:
+    """Return what a table holds as far as it can be seen, for a person who knows the rest."""
+    rows = values.size // table.width
+    size = f"{rows:,} rows".replace(",", " ")
+    if drawn.is_series:
+        return f"one series in {drawn.columns[0].unit or '?'}, {table.width} a line; {size}"
+    told = []
+    for place, column in enumerate(drawn.columns):
+        name = f" ({table.labels[place].text})" if table.labels and table.labels[place].text else ""
+        first = values[place :: table.width][:_HEAD] * column.seconds
+        kinds = {
+            "time": f"times of {np.median(np.diff(first)):.4g} s",
+            "other": "no acceleration",
+            "open": "?",
+        }
+        what = kinds.get(column.role, f"acceleration in {column.unit or '?'}")
+        told.append(f"column {place + 1}{name}: {what}")
+    return "; ".join([*told, size])
+
+
+def _ask_where_open(table: Table, drawn: Layout, options: Options, question: Question, spaced: bytes) -> None:
+    """Raise AskedError where a table leaves open what it holds, but for the unit and the step of one series.
+
+    One column without a name beside times is that series, and so is one with a strange name whose unit is declared.
+    """
+    open_ones = [place for place, column in enumerate(drawn.columns) if column.role == "open"]
+    accelerations = [column for column in drawn.columns if column.role == "acceleration"]
+    has_step = bool(drawn.time_step or table.counts) or any(column.role == "time" for column in drawn.columns)
+    is_complete = (
+        not open_ones and has_step and bool(table.labels) and all(each.unit for each in accelerations)
+    )
+    names = [table.labels[at] for at in open_ones if table.labels and table.labels[at].text]
+    is_strange = any(name.is_strange or not options.unit for name in names)
+    if len(open_ones) + bool(open_ones and accelerations) > 1 or is_strange:
+        why = "what its columns hold is not known"
+    elif not table.is_understood and (not is_complete or any(map(speaks_of_factor, table.words))):
+        why = "what the text above its numbers says is not known"
+    elif drawn.is_series and table.width > 1 and (first := _whole_numbers(spaced)):
+        why = f"the first row of numbers, {first!r}, is of whole numbers and seems to be a header"
+    else:
+        return
+    raise AskedError(f"{why} ({question.holds}); {_ANSWER_IT}", "layout", question)
+
+
+_ANSWER_IT = "answer it once in layouts.csv, of which rocking catalogue writes the line."
+
+
+def _fitted(answer: Answer, layout: Layout, table: Table, drawn: Layout, options: Options) -> Layout:
+    """Return the layout of an answer for one table. Raises RecordError where the two contradict each other."""
+    a_line = layout.per_line or (table.width if layout.is_series else len(layout.columns))
+    if a_line != table.width and not layout.width:
+        raise answer.wrong(f"it has {a_line} numbers a line, but this file has {table.width}.")
+    if len(drawn.columns) == len(layout.columns):
+        for place, (ours, theirs) in enumerate(zip(layout.columns, drawn.columns, strict=True), 1):
+            if (
+                ours.unit
+                and theirs.unit
+                and acceleration_factor(ours.unit) != acceleration_factor(theirs.unit)
+            ):
+                raise answer.wrong(f"column {place} of this file is in {theirs.unit!r} by its own words.")
+    if layout.time_step and options.time_step and layout.time_step != options.time_step:
+        raise answer.wrong(f"{options.time_step:g} s was declared for this file.")
+    if not layout.is_series and layout.per_line == len(layout.columns):
+        return replace(layout, per_line=0)
+    return layout
+
+
+def _series(
+    values: np.ndarray, table: Table, layout: Layout, above: dict[Above, float], options: Options
+) -> list[Accelerogram]:
+    """Return the accelerogram of a table that is one series, `above` the numbers that stand there of it."""
+    label = table.labels[0] if table.labels else ColumnLabel("")
+    if label.other:
+        _refuse_all(table.labels)
+    said = table.said
+    (column,) = layout.columns
+    notes: tuple[Remark, ...] = ()
+    if not above:
+        roles = _first_numbers(values, options.time_step)
+        above = dict(zip(roles, values.tolist(), strict=False))
+        notes = (
+            (Remark.of(Kind.FIRST_NUMBERS, what=", ".join(_MEANT[role] for role in roles)),) if roles else ()
+        )
+        values = values[len(roles) :]
+    counts = [f"{above['n']:g}"] if "n" in above and not notes else [said.samples] if said.samples else []
+    for samples in counts:
+        values, more = text.whole(values, text.count("number of samples", samples), table.width)
+        notes += more
+    step = above.get("dt") or (1 / above["hz"] if above.get("hz") else said.time_step)
+    component = column.name or ("" if label.unit else label.text)
+    facts: dict[str, Any] = {"component": component, "warnings": (*notes, *_repeats(values))}
+    if table.counts and len(table.words) == 1:
+        facts["event"] = table.words[0][:60]  # a title
+    return [
+        options.accelerogram(column.unit or label.unit or said.unit, values, step, processed=None, **facts)
+    ]
+
+
+_MEANT = {"n": "the number of samples", "dt": "the time step", "hz": "the rate", "-": "the number of series"}
+
+
+def _first_numbers(values: np.ndarray, declared: float | None) -> tuple[Above, ...]:
+    """Return what the first numbers of a series are that are no samples, as programs of analysis write them there.
+
+    declared: the time step that the caller declares, s.
+    """
+    if values.size < _FEWEST_ROWS:
+        return ()
+    first, second = values[:2].tolist()
+    rest = values.size - 2
+    if first == rest + 1:
+        return ("n",)
+    if first == rest and (0 < second <= LONGEST_STEP or (20 <= second <= 2000 and second == round(second))):
+        return ("n", "dt" if second <= LONGEST_STEP else "hz")
+    if second == rest and 0 < first <= LONGEST_STEP:
+        return ("dt", "n")
+    # No motion falls so from its first sample to the next ones.
+    if first == 1 and 0.0005 <= second <= 0.05 and np.abs(values[2:_FEWEST_ROWS]).max() < 0.5:
+        return ("-", "dt")
+    return ("dt",) if declared is not None and first == declared else ()
+
+
+def _check_rows(spaced: bytes, width: int, may_end_short: bool) -> None:
+    """Raise RecordError unless every row of numbers has `width` of them; the last row of a series may be short."""
+    octets = np.frombuffer(b"\n" + spaced + b"\n", dtype=np.uint8)
+    begun = np.cumsum((octets[1:] > _BLANK) & (octets[:-1] <= _BLANK))  # numbers, up to each octet
+    counts = np.diff(begun[octets[1:] == _LINE_END], prepend=0)
+    counts = counts[counts > 0]
+    if may_end_short and counts.size and counts[-1] < width:
+        counts = counts[:-1]
+    if (counts != width).any():
+        at = int(np.argmax(counts != width))
+        raise RecordError(f"row {at + 1} of the samples has {counts[at]} columns, but the first has {width}.")
+
+
+def _whole_numbers(spaced: bytes) -> str:
+    """Return the first row of a series of decimals where it is of whole numbers, "" else: these are a header's."""
+    first, _, rest = spaced.lstrip().partition(b"\n")
+    if b"." in first or b"." not in rest or not re.search(rb"\d\d", first):
+        return ""
+    return first.decode("latin-1").strip()[:40]
+
+
+def _channels(values: np.ndarray, table: Table, layout: Layout, options: Options) -> list[Accelerogram]:
+    """Return the channels of a table: each column of acceleration, with the times left of it, else the first ones."""
+    columns = layout.columns
+    rows = values.reshape(-1, len(columns))
+    said = table.said
+    labels = table.labels if len(table.labels) == len(columns) else (ColumnLabel(""),) * len(columns)
+    if len(columns) == 2 and not table.labels and len(rows) > _FEWEST_ROWS and rows[0, 0] == len(rows) - 1:
+        is_step = abs(rows[0, 1] - (rows[2, 0] - rows[1, 0])) <= 1e-3 * abs(rows[0, 1])
+        rows = (
+            rows[1:] if is_step else rows
+        )  # below a row of their number and step, as programs of analysis write it
+    every = {at: rows[:, at] * each.seconds for at, each in enumerate(columns) if each.role == "time"}
+    repeats = () if every else _repeats(rows.ravel())
+    records = []
+    for place, (column, label) in enumerate(zip(columns, labels, strict=True)):
+        if column.role not in ("acceleration", "open"):
+            continue
+        left = max((at for at in every if at < place), default=min(every, default=-1))
+        step, numbers, notes = said.time_step, rows[:, place], repeats
+        processing: tuple[str, ...] = ()
+        if (times := every.get(left)) is not None:
+            step = text.even_step(times)
+        if times is not None and step is None:
+            step, even, remark = text.resampled(times)
+            numbers = np.interp(even, times, numbers)
+            processing = (str(remark),)
+            notes = (remark,)
+        facts: dict[str, Any] = {
+            "component": column.name or label.component,
+            "processing": processing,
+            "warnings": notes,
+        }
+        unit = column.unit or label.unit or said.unit
+        records.append(options.accelerogram(unit, numbers, step, processed=None, **facts))
+    if not records:
+        _refuse_all(labels)
+    return records
+
+
+def _refuse_all(labels: Sequence[ColumnLabel]) -> None:
+    """Raise RecordError: every column of a table is of something else than acceleration."""
+    others = {label.text: label.other for label in labels if label.other}
+    if len(set(others.values())) == 1 and (quantity := next(iter(others.values()))) in (
+        "velocity",
+        "displacement",
+    ):
+        raise RecordError(f"this is a file of {quantity}; use the acceleration of the same record.")
+    held = "; ".join(f"{name[:40]!r} is {what}" for name, what in others.items())
+    raise RecordError(
+        f"no column is of acceleration in a unit that is known: {held}; convert the column, or use another file."
+    )
+
+
+def _pointing(record: Accelerogram, component: str) -> Accelerogram:
+    """Return the record under the name of the `component` that the text above it declares, where it has no other."""
+    if not component or (record.component and not names_acceleration(record.component)):
+        return record
+    return replace(record, **directed({"component": component}))
+
+
+def _never_negative(record: Accelerogram) -> tuple[Remark, ...]:
+    """Return a warning where no number is below zero: the ground moves both ways."""
+    if record.acceleration.size < _FEWEST_OF_BOTH_SIGNS or record.acceleration.min() < 0:
+        return ()
+    if record.peak_acceleration == 0:
+        return ()
+    return (Remark(Kind.NEVER_NEGATIVE, record.component or "the column"),)
+
+
+def _cut_number(body: bytes) -> tuple[Remark, ...]:
+    """Return a warning when the last number has fewer decimals than all above it, and no line end: the file is cut."""
+    tail = [] if body.endswith(b"\n") else text.lines(body[-_TAIL:])[1:]
+    decimals = [len(match[1]) for line in tail if line.strip() and (match := _DECIMALS.search(line))]
+    if len(decimals) < 3 or decimals[-1] >= min(decimals[:-1]):
+        return ()
+    return (Remark(Kind.NUMBER_CUT),)
+
+
+def _repeats(values: np.ndarray) -> tuple[Remark, ...]:
+    """Return a warning when numbers without count or times come twice."""
+    half, odd = divmod(values.size, 2)
+    is_twice = not odd and half > 1 and np.any(values) and np.array_equal(values[:half], values[half:])
+    return (Remark.of(Kind.HALF_REPEATED, samples=half),) if is_twice else ()
+
+
+COLUMNS = Format(
+    "columns of numbers",
+    "spreadsheets, OpenSees and scripts",
+    "lines that hold numbers only, below names that leave nothing open",
+    _are_columns,
+    _read_columns,
+    yields=True,
+)

@@ -1,0 +1,79 @@
+"""Tables that people edit: CSV in UTF-8, or as a spreadsheet of a country of decimal commas saves it."""
+
+import csv
+from collections import Counter
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from io import StringIO
+from pathlib import Path
+
+from rocking.errors import RockingError
+from rocking.quantities import shown
+from rocking.tables.files import read_start, read_whole
+
+_LARGEST = 16 * 2**20
+"""Bytes: a hundred thousand rows."""
+
+
+def read_edited(
+    path: Path,
+    error: type[RockingError],
+    columns: Sequence[str],
+    required: Collection[str],
+    numbers: Collection[str] = (),
+) -> list[tuple[int, dict[str, str]]]:
+    """Return line and cells of each row of the table at `path`, with `columns`, of which some are `required`.
+
+    numbers: the columns in which a comma can only be a decimal sign. Raises `error` for what is no such table.
+    """
+    content = read_whole(path, _LARGEST, error)
+    separator = _separator(content)
+    try:
+        text = StringIO(_decoded(content, separator), newline="")
+        reader = csv.DictReader(text, restkey="", restval="", strict=True, delimiter=separator)
+        rows = [(reader.line_num, row) for row in reader]
+        names = list(reader.fieldnames or ())
+    except (ValueError, csv.Error) as fault:
+        raise error(f"{path}: the {path.stem} cannot be read as UTF-8 CSV, {fault}.") from None
+    defects = [f"column {shown(name)} is not known" for name in names if name not in columns]
+    defects += [f"column {shown(name)} stands {n} times" for name, n in Counter(names).items() if n > 1]
+    defects += [f"column {shown(name)} is missing" for name in required if name not in names]
+    defects += [f"line {line} has more cells than there are columns" for line, row in rows if row.get("")]
+    if defects:
+        raise error(f"{path.name}: {'; '.join(defects)}; the columns are {', '.join(columns)}.")
+    if separator == ";":
+        for _, row in rows:
+            row |= {name: row[name].replace(",", ".") for name in numbers if row.get(name)}
+    return rows
+
+
+def _separator(content: bytes) -> str:
+    """Return what parts the cells: a comma, or the semicolon of a spreadsheet in a country of decimal commas."""
+    head = content.partition(b"\n")[0]
+    return ";" if head.count(b";") > head.count(b",") else ","
+
+
+def _decoded(content: bytes, separator: str) -> str:
+    """Return the text: UTF-8, or where semicolons part it Windows' own characters. Raises ValueError for another."""
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        if separator == ",":
+            raise
+        return content.decode("cp1252")
+
+
+def edited_text(
+    rows: Iterable[Mapping[str, str]],
+    columns: Sequence[str],
+    like: Path | None = None,
+    numbers: Collection[str] = (),
+) -> str:
+    """Return `rows` as the text of a table, parted as the one at `like` is, if that stands there."""
+    separator = _separator(read_start(like, 4096)) if like is not None and like.exists() else ","
+    text = StringIO(newline="")
+    writer = csv.DictWriter(text, columns, restval="", lineterminator="\n", delimiter=separator)
+    writer.writeheader()
+    for row in rows:
+        decimal = {name: row[name].replace(".", ",") for name in numbers if row.get(name)}
+        writer.writerow({**row, **decimal} if separator == ";" else row)
+    return text.getvalue()

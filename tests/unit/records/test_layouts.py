@@ -1,0 +1,277 @@
+"""Layouts: what a table leaves open is asked once, answered in layouts.csv, and read by the answer ever after."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rocking.errors import CatalogueError, RecordError
+from rocking.records import load_catalogue, open_record, read
+from rocking.records.files import answers_of
+from rocking.records.folder import list_folder
+from rocking.records.formats.layout import Layout
+from rocking.records.formats.layouts import COLUMNS, NAME, AskedError, Layouts, Question
+from rocking.study.workspace import write_catalogue
+
+TIMES = 0.01 * np.arange(600)
+MOTION = np.sin(7.3 * TIMES) * np.exp(-0.4 * TIMES) + 0.2 * np.sin(31 * TIMES + 1)
+OTHER = np.roll(MOTION, 170)
+UP = 0.6 * np.roll(MOTION, 330)
+
+
+def answered(folder: Path, question: Question, answer: str) -> None:
+    """Write layouts.csv with the answer to a question, as a person does who edits the line that is asked."""
+    content = Layouts(folder).text([("made.txt", question)])
+    assert content is not None
+    rows = list(csv.DictReader(content.splitlines()))
+    rows[-1]["answer"] = answer
+    with (folder / NAME).open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, COLUMNS)
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def answer_all(folder: Path, answers: dict[str, str]) -> int:
+    """Answer every open line of layouts.csv by the file that it was drawn from, and return how many there were."""
+    path = folder / NAME
+    rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines()))
+    asked = [row for row in rows if "?" in row["answer"]]
+    for row in asked:
+        row["answer"] = answers[row["file"]]
+    with path.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, COLUMNS)
+        writer.writeheader()
+        writer.writerows(rows)
+    return len(asked)
+
+
+def table(*columns: np.ndarray, parted: str = " ", digits: str = ".6f") -> str:
+    return "".join(parted.join(f"{value:{digits}}" for value in row) + "\n" for row in np.transpose(columns))
+
+
+def wrapped(numbers: np.ndarray, per_line: int, digits: str = "10.6f", parted: str = " ") -> str:
+    cells = [f"{value:{digits}}" for value in numbers]
+    return "\n".join(parted.join(cells[at : at + per_line]) for at in range(0, len(cells), per_line)) + "\n"
+
+
+G = 9.80665
+SHAKE = (
+    "Source File: {name}\nSHAKE2000 Conversion:  600  0.01  5  8  9  (8f9.6)\n"
+    "Acceleration Units: (g's) - No. Values: 600 - Time Step: 0.01 (secs)\n"
+    "Data Format: 8f9.6 - No. Header Lines:  5\nSEISME HORIZONTAL\n"
+)
+STRATA = "# Strata OUTPUT -- Response -- 0 (Outcrop) -- Acceleration Time Series -- {name}\n# A site\n# Time (s),S-1\n"
+
+MADE: dict[str, tuple[str, str, list[np.ndarray]]] = {
+    "bare column": (table(MOTION), "one series m/s2, dt 0.01", [MOTION]),
+    "five a line": (wrapped(MOTION, 5), "one series m/s2, 5 a line, dt 0.01", [MOTION]),
+    "eight a line with commas": (
+        wrapped(MOTION, 8, ".6f", ","),
+        "one series m/s2, 8 a line, dt 0.01",
+        [MOTION],
+    ),
+    "count and step first": ("600 0.01\n" + wrapped(MOTION, 8), "one series m/s2", [MOTION]),
+    "one and step first": ("1\n0.01\n" + table(0.1 * MOTION), "-, dt, one series m/s2", [0.1 * MOTION]),
+    "step and count first": ("0.01\n600\n" + table(MOTION), "dt, n, one series m/s2", [MOTION]),
+    "count and rate first": ("600\n100\n" + table(MOTION), "n, hz, one series m/s2", [MOTION]),
+    "times and accelerations": (table(TIMES, MOTION), "t, a m/s2", [MOTION]),
+    "milliseconds": (table(1000 * TIMES, MOTION), "t ms, a m/s2", [MOTION]),
+    "decimal commas": (table(TIMES, MOTION, parted=";").replace(".", ","), "t, a m/s2", [MOTION]),
+    "three and times": (table(TIMES, MOTION, OTHER, UP), "t, NS, EW, UD m/s2", [MOTION, OTHER, UP]),
+    "three without times": (table(MOTION, OTHER, UP), "NS, EW, UD m/s2, dt 0.01", [MOTION, OTHER, UP]),
+    "a time column each": (table(TIMES, MOTION, TIMES, OTHER), "t, NS, t, EW m/s2", [MOTION, OTHER]),
+    "pairs along the rows": (
+        table(*np.transpose([TIMES, MOTION]).reshape(-1, 4).T),
+        "t, a m/s2, 4 a line",
+        [MOTION],
+    ),
+    "velocity beside": (
+        "t a v\n" + table(TIMES, MOTION, np.cumsum(MOTION) * 0.01),
+        "t, a m/s2, -",
+        [MOTION],
+    ),
+    "names of nobody": ("Time,Q1,Q2\n" + table(TIMES, MOTION, OTHER, parted=","), "t, -, a m/s2", [OTHER]),
+    "a sensor of six axes": (
+        "t,ax,ay,az,gx\n" + table(TIMES, MOTION, OTHER, UP, UP, parted=","),
+        "t, X m/s2, Y m/s2, Z m/s2, -",
+        [MOTION, OTHER, UP],
+    ),
+    "multiplied": ("t (s);acc x1e-3 (g)\n" + table(TIMES, MOTION * 1e3 / G, parted=";"), "t, a mg", [MOTION]),
+    "a header of whole numbers": (
+        "1940 5 18 600 77\n" + wrapped(MOTION, 5),
+        "one series m/s2, 5 a line, skip 1, dt 0.01",
+        [MOTION],
+    ),
+    "text with keys": ("Station = X\nk = 7\n" + table(MOTION), "one series m/s2, dt 0.01", [MOTION]),
+    "a title and a factor": (
+        "El Centro\nscale factor 1\n" + wrapped(MOTION, 8),
+        "one series m/s2, dt 0.01",
+        [MOTION],
+    ),
+    "numbers that touch": (
+        wrapped(1e3 * MOTION, 10, "8.2f", ""),
+        "one series mm/s2, 10F8.2, dt 0.01",
+        [MOTION],
+    ),
+}
+"""The text of a file, the answer that a person gives for it, and the motions that it holds, m/s²."""
+
+
+@pytest.mark.parametrize("name", MADE)
+def test_a_layout_is_answered_once_and_read(tmp_path: Path, name: str) -> None:
+    content, answer, motions = MADE[name]
+    path = tmp_path / "made.txt"
+    path.write_text(content)
+    with pytest.raises(AskedError) as asked:
+        read(path)
+    question = asked.value.question
+    assert "?" in question.proposal and "row" in question.holds
+    answered(tmp_path, question, answer)
+    for twin in (path, tmp_path / "twin.txt"):
+        twin.write_text(content)
+        records = read(twin)
+        assert len(records) == len(motions)
+        for record, motion in zip(records, motions, strict=True):
+            assert record.time_step == pytest.approx(0.01, rel=1e-9)
+            assert record.acceleration == pytest.approx(motion, abs=1.1e-5 if "F8" in answer else 2e-6)
+            assert record.source.answer == f"read as {answer!r}, by layouts.csv"
+    assert [record.vertical for record in records] == [motion is UP for motion in motions]
+
+
+@pytest.mark.parametrize(("name", "content", "answer"), [
+    ("SHAKE2000", SHAKE.format(name="x.acc") + wrapped(MOTION / G, 8, "9.6f", ""), "one series g, 8F9"),
+    ("Strata", STRATA.format(name="a\\G01000.AT2") + table(TIMES, MOTION / G, parted=","), "t, a g"),
+])  # fmt: skip
+def test_a_layout_that_ships_is_not_asked(tmp_path: Path, name: str, content: str, answer: str) -> None:
+    """As a public writer of SHAKE2000's files writes them, and as Strata's own example has them (strain, there)."""
+    path = tmp_path / f"{name}.txt"
+    path.write_text(content)
+    (record,) = read(path)
+    assert record.acceleration == pytest.approx(MOTION, abs=1e-5) and record.time_step == 0.01
+    assert record.source.answer == f"read as {answer!r}, by the layouts of rocking"
+
+
+def office(folder: Path, files: int) -> None:
+    """A folder of an office: two families of files, each in a folder, and one file that needs nothing."""
+    for family in ("one", "two"):
+        (folder / family).mkdir()
+    for place in range(files):
+        moved = np.roll(MOTION, 7 * place)
+        (folder / "one" / f"S{place:03}_N.txt").write_text(table(moved / G))
+        (folder / "two" / f"{place:03}town.csv").write_text(
+            f"Station {place} of the town\nTime,Q1\n" + table(TIMES, 100 * moved, parted=",")
+        )
+    (folder / "plain.csv").write_text("t,acc (m/s2)\n" + table(TIMES, MOTION, parted=","))
+
+
+def test_many_files_of_two_layouts_cost_two_answers(tmp_path: Path) -> None:
+    office(tmp_path, 40)
+    target = tmp_path / "catalogue.csv"
+    told = write_catalogue(tmp_path, target, None, None)
+    assert told.count("Answer once, in layouts.csv") == 1 and "layouts.csv, and run this again" in told
+    rows = list(csv.DictReader((tmp_path / NAME).read_text(encoding="utf-8").splitlines()))
+    assert [(row["file"], row["folder"]) for row in rows] == [
+        ("one/S000_N.txt", "one"),
+        ("two/000town.csv", ""),
+    ]
+    assert rows[0]["holds"] == "one series in ?, 1 a line; 600 rows; 40 files"
+    assert rows[1]["holds"] == "column 1 (Time): times of 0.01 s; column 2 (Q1): ?; 600 rows; 40 files"
+    assert [row["answer"] for row in rows] == ["one series ?, dt ?", "t, ?"]
+    answers = {"one/S000_N.txt": "one series g, dt 0.01", "two/000town.csv": "t, a gal"}
+    assert answer_all(tmp_path, answers) == 2
+    told = write_catalogue(tmp_path, target, None, None)
+    assert "Answer once" not in told and "81 records" in told
+    records = load_catalogue(target)
+    notes = {record.file: record.note for record in records}
+    assert notes["one/S003_N.txt"] == "columns of numbers. Read as 'one series g, dt 0.01', by layouts.csv."
+    assert notes["two/003town.csv"] == "columns of numbers, read as 't, a gal', by layouts.csv."
+    assert "Fill in" not in "".join(notes.values())
+    for record in records:
+        place = int("".join(filter(str.isdigit, record.file)) or 0)
+        (channel,) = open_record(record)
+        assert channel.acceleration == pytest.approx(np.roll(MOTION, 7 * place), abs=1e-5)
+    before = (tmp_path / NAME).read_bytes()
+    write_catalogue(tmp_path, target, None, None)
+    assert (tmp_path / NAME).read_bytes() == before
+
+
+def test_an_answer_is_part_of_the_content_of_the_records_that_it_reads_alone(tmp_path: Path) -> None:
+    office(tmp_path, 2)
+    target = tmp_path / "catalogue.csv"
+    write_catalogue(tmp_path, target, None, None)
+    answers = {"one/S000_N.txt": "one series g, dt 0.01", "two/000town.csv": "t, a gal"}
+    answer_all(tmp_path, answers)
+    write_catalogue(tmp_path, target, None, None)
+    before = {record.id: answers_of(record) for record in load_catalogue(target)}
+    assert sorted(map(len, before.values())) == [0, 1, 1, 1, 1]
+    (tmp_path / NAME).write_text((tmp_path / NAME).read_text().replace("a gal", "a mg"))
+    after = {record.id: answers_of(record) for record in load_catalogue(target)}
+    assert {name for name in before if before[name] != after[name]} == {"000town", "001town"}
+    # The readings that are kept know it as well.
+    peaks = {file.file: file.channels[0].peak_acceleration for file in list_folder(tmp_path)[0]}
+    kept = write_catalogue(tmp_path, target, None, None)
+    assert peaks["two/001town.csv"] in kept
+
+
+def test_a_signature_is_not_asked_again_and_another_folder_of_bare_columns_is(tmp_path: Path) -> None:
+    office(tmp_path, 1)
+    target = tmp_path / "catalogue.csv"
+    write_catalogue(tmp_path, target, None, None)
+    answer_all(tmp_path, {"one/S000_N.txt": "one series g, dt 0.01", "two/000town.csv": "t, a gal"})
+    (tmp_path / "three").mkdir()
+    (tmp_path / "three" / "x.txt").write_text(table(MOTION))
+    (tmp_path / "three" / "y.csv").write_text("Station 9\nTime,Q1\n" + table(TIMES, MOTION, parted=","))
+    write_catalogue(tmp_path, target, None, None)
+    rows = list(csv.DictReader((tmp_path / NAME).read_text(encoding="utf-8").splitlines()))
+    assert [row["file"] for row in rows if "?" in row["answer"]] == ["three/x.txt"]
+
+
+@pytest.mark.parametrize(("answer", "words"), [
+    ("t, a cm/s", "'cm/s' is no unit of acceleration"), ("t, -", "no column of 't, -' is of acceleration"),
+    ("t, NS, EW g", "3 numbers a line, but this file has 2"), ("t fortnights, a g", "'fortnights', but must be in s"),
+    ("one series g, a", "'a' stands in no answer of one series"), ("t, 7% g", "'7%' names no component"),
+    ("one series g, dt 0.02, skip 4, n", "'n' stands in no answer"),
+])  # fmt: skip
+def test_a_wrong_line_names_the_column_and_the_file_it_was_drawn_from(
+    tmp_path: Path, answer: str, words: str
+) -> None:
+    (tmp_path / "made.txt").write_text(table(TIMES, MOTION))
+    (tmp_path / "good.csv").write_text("t,acc (m/s2)\n" + table(TIMES, MOTION, parted=","))
+    with pytest.raises(AskedError) as asked:
+        read(tmp_path / "made.txt")
+    answered(tmp_path, asked.value.question, answer)
+    with pytest.raises(
+        RecordError, match=rf"layouts.csv, line 2, column answer, .*drawn from made.txt: .*{words}"
+    ):
+        read(tmp_path / "made.txt")
+    listed, rows = list_folder(tmp_path)
+    assert [row["file"] for row in rows] == ["good.csv"]
+    assert [bool(file.refusal) for file in listed] == [False, True]
+
+
+def test_an_answer_that_the_file_contradicts_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "made.txt").write_text("time,NS (g),Q\n" + table(TIMES, MOTION, OTHER, parted=","))
+    with pytest.raises(AskedError) as asked:
+        read(tmp_path / "made.txt")
+    answered(tmp_path, asked.value.question, "t, NS gal, EW gal")
+    with pytest.raises(RecordError, match="column 2 of this file is in 'g' by its own words"):
+        read(tmp_path / "made.txt")
+
+
+def test_a_broken_table_of_layouts_is_told_in_a_sentence(tmp_path: Path) -> None:
+    (tmp_path / "made.txt").write_text(table(TIMES, MOTION))
+    (tmp_path / NAME).write_text("answer,strange\nt\n")
+    for attempt in (read, lambda path: list_folder(path.parent)):
+        with pytest.raises(CatalogueError, match=r"layouts.csv: column 'strange' is not known"):
+            attempt(tmp_path / "made.txt")
+
+
+@pytest.mark.parametrize("answer", [
+    "t, a g", "NS g, EW g, UD g", "one series g, 5 a line", "skip 2, n, dt, one series gal", "t ms, -, a mg",
+    "one series ?, 10F8, dt 0.01",
+])  # fmt: skip
+def test_an_answer_is_written_as_it_is_read(answer: str) -> None:
+    layout = Layout.parse(answer.replace("?", "g"))
+    assert Layout.parse(str(layout)) == layout
+    assert str(layout) == answer.replace("?", "g")
