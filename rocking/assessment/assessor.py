@@ -324,9 +324,7 @@ class Assessor:
 
         def followed(clock: Clock) -> CaseResult:
             with clock.stage("responses"):
-                return assess_case(
-                    station.structure, body, component, self.settings, False, clock, prediction
-                )
+                return assess_case(body, component, prediction, self.settings, False, clock)
 
         fingerprint = sha256_of("governing", case.fingerprint, crack)
         told = self._remembered(CaseResult, fingerprint, followed, lambda case: case.kept)
@@ -350,7 +348,7 @@ class Assessor:
 
         def followed(clock: Clock) -> CaseResult:
             with clock.stage("responses"):
-                case = assess_case(scene.name, structure, component, self.settings, alone, clock, prediction)
+                case = assess_case(structure, component, prediction, self.settings, alone, clock)
             with clock.stage("variations"):
                 return with_variations(
                     case, structure, component, self.settings, self.crack_heights, self.processing_variants
@@ -368,7 +366,7 @@ class Assessor:
 
         def followed(clock: Clock) -> CaseResult:
             with clock.stage("directions"):
-                return assess_directions(scene.name, scene.structure, pair, self.settings, bounces)
+                return assess_directions(scene.structure, pair, self.settings, bounces)
 
         fingerprint = self._fingerprint(pair, scene.structure, alone=True)
         case = self._remembered(CaseResult, fingerprint, followed)

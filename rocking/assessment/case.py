@@ -95,20 +95,20 @@ class Variation:
 class CaseResult:
     """The result of one structure under one motion.
 
-    component: name of the motion. prediction: None without a pulse. responses: by method. check: whether the model
-    held along the response of the mechanism to the record. answer: of the mechanism on the record, or of the cheapest
-    method that settles the case; None of a pair, and where the case failed. ensembles: of the cracks that were
-    followed; None where none ran. reserve: of the crack that governs; None where it was not sought; a store keeps it
-    apart, as it is sought for what is printed alone. overturning_estimate: from the peak velocity, where no ensemble
-    ran; None of a structure unlike those behind the estimate. slides_at: acceleration [g] at which its joints slide
-    before they lift, where the motion reaches it; else nan. crack: to which prediction, responses, check and answer
-    belong; "" where it is that of the structure. statics: the case of that one, where another crack governs.
-    variations: other cracks, then other processings. fingerprint: of motion, structure, settings and version of the
-    computation.
+    component: name of the motion. structure: "" of a case that nobody named. prediction: None without a pulse.
+    responses: by method. check: whether the model held along the response of the mechanism to the record. answer: of
+    the mechanism on the record, or of the cheapest method that settles the case; None of a pair, and where the case
+    failed. ensembles: of the cracks that were followed; None where none ran. reserve: of the crack that governs; None
+    where it was not sought; a store keeps it apart, as it is sought for what is printed alone. overturning_estimate:
+    from the peak velocity, where no ensemble ran; None of a structure unlike those behind the estimate. slides_at:
+    acceleration [g] at which its joints slide before they lift, where the motion reaches it; else nan. crack: to which
+    prediction, responses, check and answer belong; "" where it is that of the structure. statics: the case of that one,
+    where another crack governs. variations: other cracks, then other processings. fingerprint: of motion, structure,
+    settings and version of the computation.
     """
 
-    structure: str
     component: str
+    structure: str = ""
     prediction: Prediction | None = None
     responses: Mapping[Method, Response] = field(default_factory=dict)
     check: ModelCheck = UNKNOWN

@@ -14,8 +14,8 @@ from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import EnsembleSettings
 from rocking.errors import MotionError
 from rocking.motion.forcing import forcing_of
-from rocking.motion.integration import TOLERANCES, Rocking, reduce
-from rocking.motion.members import follow_factors
+from rocking.motion.integration import TOLERANCES, Rocking, Runs, reduce
+from rocking.motion.members import follow_runs
 from rocking.quantities import within
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
 
@@ -252,7 +252,7 @@ def followed_at(
             lift = np.outer(factors, vertical[own]).ravel()
         of_runs = np.tile(restitution[own], (factors.size, 1))
         forcing = forcing_of(motion, motions.vertical)
-        responses = follow_factors(structure, forcing, along, lift, of_runs, tolerance)
+        responses = follow_runs(structure, forcing, Runs(along, lift, of_runs), tolerance)
         ratios[:, own] = responses.rotation_ratio.reshape(factors.size, own.size)
         for run, reason in responses.reasons.items():
             member = int(own[run % own.size])

@@ -67,13 +67,12 @@ def predict(
 
 
 def assess_case(
-    name: str,
     structure: Structure,
     component: Component,
+    prediction: Prediction | None = None,
     settings: AssessmentSettings | None = None,
     alone: bool = True,
     clock: Clock | None = None,
-    prediction: Prediction | None = None,
 ) -> CaseResult:
     """Return what comes of one structure under one component; where it cannot be followed, why.
 
@@ -83,16 +82,13 @@ def assess_case(
     """
     settings = settings or AssessmentSettings()
     try:
-        return _case(name, structure, component, prediction, settings, alone, clock or Clock())
+        return _case(structure, component, prediction, settings, alone, clock or Clock())
     except RockingError as error:
-        return CaseResult(
-            structure=name, component=component.name, failures=(Failure("responses", str(error)),)
-        )
+        return CaseResult(component=component.name, failures=(Failure("responses", str(error)),))
 
 
 # Whole on purpose: the order in which a case is decided, and where it may end early.
 def _case(
-    name: str,
     structure: Structure,
     component: Component,
     prediction: Prediction | None,
@@ -107,9 +103,7 @@ def _case(
     members = settings.ensemble.members if alone else 0
     auto = settings.fidelity == "auto"
     if auto:
-        # What a peak velocity tells was learnt on the ground, not on supports that ring.
-        risk = settings.fidelity_risk if component.support is None else 0.0
-        answer = _cheapest(structure, mechanism, record, settings, risk, vertical, members > 0)
+        answer = _cheapest(structure, component, settings, ensemble_follows=members > 0)
         if answer.response is not None:
             responses[Method.MECHANISM_ON_RECORD] = answer.response
     else:
@@ -119,7 +113,6 @@ def _case(
     if answer.response is not None:
         check = check_model(structure, answer.response, record, vertical)
     case = CaseResult(
-        structure=name,
         component=component.name,
         prediction=prediction,
         responses=responses,
@@ -223,19 +216,18 @@ def motion_of(component: Component) -> Motion:
 
 
 def _cheapest(
-    structure: Structure,
-    mechanism: Mechanism,
-    record: Accelerogram,
-    settings: AssessmentSettings,
-    risk: float,
-    vertical: Accelerogram | None,
-    ensemble_follows: bool,
+    structure: Structure, component: Component, settings: AssessmentSettings, ensemble_follows: bool
 ) -> Answer:
-    """Return what settles the verdict with the least work, at a `risk` of the opposite outcome.
+    """Return what settles the verdict with the least work, at the settings' risk of the opposite outcome.
 
     Where other cracks may form, nothing cheaper than the mechanism settles it unless all of them rest, or stand by
     their peak velocities.
     """
+    record = component.accelerogram
+    vertical = component.vertical
+    mechanism = structure.mechanism()
+    # What a peak velocity tells was learnt on the ground, not on supports that ring.
+    risk = settings.fidelity_risk if component.support is None else 0.0
     mechanisms = [each.mechanism for each in cracks(structure)]
     of_statics = mechanism if len(mechanisms) == 1 else mechanisms[0]
     if len(mechanisms) > 1:
@@ -371,7 +363,6 @@ def _processings(component: Component) -> tuple[Mapping[str, Accelerogram], Acce
 
 
 def assess_directions(
-    name: str,
     structure: Structure,
     pair: Motion,
     settings: AssessmentSettings,
@@ -381,7 +372,7 @@ def assess_directions(
 
     bounces: whether a contact opens under one of the components as recorded; None where that is not known.
     """
-    case = CaseResult(structure=name, component=BOTH_COMPONENTS)
+    case = CaseResult(component=BOTH_COMPONENTS)
     motions = ground_motions(pair, settings.ensemble.processing)
     try:
         case = with_ensembles(case, structure, motions, settings)

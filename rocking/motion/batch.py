@@ -16,11 +16,12 @@ from rocking.motion.integration import (
     LARGEST_GROWTH,
     TOLERANCES,
     Rocking,
+    Runs,
     follow_blocks,
     reduce,
     solvable_exactly,
 )
-from rocking.motion.members import Members, concluded, follow_factors
+from rocking.motion.members import Members, concluded, follow_runs
 from rocking.quantities import kind_of, within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import EquivalentBlock
@@ -65,14 +66,14 @@ def integrate_batch(
         places = [index for index, _ in job]
         some = job[0][1]
         if blocks := _plain_blocks([structures[index] for index in places], forcing):
-            responses = concluded(blocks[0].sides, follow_blocks(blocks, forcing, factors[some]))
+            responses = concluded(blocks[0].sides, follow_blocks(blocks, forcing, Runs(factors[some])))
             ratios[places, some] = responses.rotation_ratio.reshape(len(places), -1)
             return
         for index in places:
             with suppress(RockingError):
                 lift = factors[some] if forcing.vertical else None
                 reduced = reduce(structures[index])
-                responses = follow_factors(reduced, forcing, factors[some], lift, None, tolerance)
+                responses = follow_runs(reduced, forcing, Runs(factors[some], lift), tolerance)
                 ratios[index, some] = responses.rotation_ratio
 
     jobs = _shared_out(len(structures), factors.size, workers)

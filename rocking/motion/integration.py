@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
-from typing import Any, Protocol, TypeGuard
+from typing import Any, NamedTuple, Protocol, TypeGuard
 
 import numpy as np
 
@@ -30,8 +30,6 @@ Rocking = Mechanism | EquivalentBlock | Structure
 Start = tuple[float, float, int]
 """Magnitude of the rotation, its rate (> 0 outward), and the side; side 0 is rest."""
 
-REST: Start = (0.0, 0.0, 0)
-
 TOLERANCES = (1e-13, 0.1)
 """Smallest and largest relative tolerance."""
 STEP_SHARE = 0.03
@@ -46,7 +44,41 @@ _REPRODUCIBLE = 1e-5
 """Relative change of the largest rotation in one of these runs above which the first one is called fragile."""
 LARGEST_GROWTH = 50.0
 """Largest p Δt for which exp(p Δt) leaves the exact update its digits."""
-NO_LOG = np.empty((0, 3))
+
+
+class Runs(NamedTuple):
+    """What varies between the runs of one call, (m,) each.
+
+    horizontal, vertical: factors of the two components; None without a vertical one. restitution: (m, 2), positive
+    side first; None: the structure's own.
+    """
+
+    horizontal: np.ndarray
+    vertical: np.ndarray | None = None
+    restitution: np.ndarray | None = None
+
+    @property
+    def lift(self) -> np.ndarray:
+        """The factors of the vertical component, 0 where none acts."""
+        return np.zeros(self.horizontal.size) if self.vertical is None else self.vertical
+
+    def at(self, places: np.ndarray) -> "Runs":
+        """Return the runs at `places`."""
+        return Runs(*(None if each is None else each[places] for each in self))  # type: ignore[arg-type]
+
+
+class Course(NamedTuple):
+    """How runs begin and end: from what state, whether each ends where its word is settled, and where states go.
+
+    log: (k, 3), filled with time, arc and its rate, or without lines.
+    """
+
+    start: Start = (0.0, 0.0, 0)
+    settle: bool = True
+    log: np.ndarray = np.empty((0, 3))
+
+
+FROM_REST = Course()
 
 
 def integrate(
@@ -80,7 +112,16 @@ def integrate(
     <Outcome.ROCKS: 'rocks'>
     """
     tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
-    start = _start(structure, initial_rotation, initial_velocity)
+    rotation = finite(MotionError, "initial_rotation", initial_rotation, "rad")
+    velocity = finite(MotionError, "initial_velocity", initial_velocity, "rad/s")
+    leading = rotation or velocity
+    side = (leading > 0) - (leading < 0)
+    if side < 0 and getattr(structure, "one_sided", False):
+        raise MotionError(
+            "the initial state lies on the negative side, but a one-sided structure rocks to the positive only."
+        )
+    start = abs(rotation), side * velocity, side
+
     forcing = forcing_of(motion, vertical)
     reduced = reduce(structure)
     response = _response(reduced, forcing, tolerance, start, history)
@@ -130,55 +171,46 @@ def solvable_exactly(structure: Rocking, forcing: Forcing) -> TypeGuard[Equivale
 def follow(
     reduced: Mechanism | EquivalentBlock,
     forcing: Forcing,
-    horizontal: np.ndarray,
-    vertical: np.ndarray,
-    restitution: np.ndarray | None,
+    several: Runs,
     tolerance: float,
-    *,
-    start: Start = REST,
-    settle: bool = True,
-    log: np.ndarray = NO_LOG,
+    course: Course = FROM_REST,
 ) -> tuple[Sequence[SideTable | EquivalentBlock], np.ndarray]:
-    """Follow a structure once for every member: what measures its sides, and the results (m, 9) of the kernel.
+    """Follow a structure once for each of several runs: what measures its sides, and the results (m, 9) of the kernel.
 
-    horizontal, vertical: factors (m,) of the components. restitution: (m, 2), or None for its own. settle, log: as the
-    kernels take them. Without vertical motion an EquivalentBlock is followed through a record exactly.
+    Without vertical motion an EquivalentBlock is followed through a record exactly.
     """
-    if solvable_exactly(reduced, forcing) and not vertical.any():
-        results = follow_blocks(
-            [reduced], forcing, horizontal, restitution, start=start, settle=settle, log=log
-        )
-        return reduced.sides, results
+    lift = several.lift
+    if solvable_exactly(reduced, forcing) and not lift.any():
+        return reduced.sides, follow_blocks([reduced], forcing, several, course)
     table = table_of(reduced, forcing.vertical)
-    results = np.zeros((horizontal.size, runs.COLUMNS))
+    results = np.zeros((lift.size, runs.COLUMNS))
     kernel = table.kernel_of(forcing)
-    eta = np.empty((horizontal.size, 2))
+    eta = np.empty((lift.size, 2))
     own = table.sides[0].restitution, table.sides[-1].restitution
-    eta[:] = own if restitution is None else restitution
+    eta[:] = own if several.restitution is None else several.restitution
+    start, settle, log = course
     arc, speed = _initial_arc(table, start) if start[2] else (0.0, 0.0)
     begin = nonlinear_kernel.Motion(0, 0.0, arc, speed, start[2], arc, abs(speed))
     how = STEP_SHARE * tolerance, settle, nonlinear_kernel.memory(kernel.ties), np.empty((2, 2)), log
-    nonlinear_kernel.rock(kernel, forcing.ground, horizontal, vertical, eta, begin, *how, results)
+    nonlinear_kernel.rock(kernel, forcing.ground, several.horizontal, lift, eta, begin, *how, results)
     return table.sides, results
 
 
 def follow_blocks(
     blocks: Sequence[EquivalentBlock],
     forcing: Forcing,
-    factors: np.ndarray,
-    restitution: np.ndarray | None = None,
-    *,
-    start: Start = REST,
-    settle: bool = True,
-    log: np.ndarray = NO_LOG,
+    several: Runs,
+    course: Course = FROM_REST,
 ) -> np.ndarray:
-    """Follow b blocks, alike in their sides, exactly through a record times each of m factors: results (b m, 9).
+    """Follow b blocks, alike in their sides, exactly through a record once for each of m runs: results (b m, 9).
 
-    restitution, start, settle, log: as `follow` takes them, of one block.
+    A restitution of the runs, and a start, are those of one block.
     """
     rows, own = _rows(tuple(blocks))
+    factors = several.horizontal
     eta = np.empty((len(blocks), factors.size, 2))
-    eta[:] = own if restitution is None else restitution
+    eta[:] = own if several.restitution is None else several.restitution
+    start, settle, log = course
     begin = linear_kernel.Motion(0, 0.0, 0.0, 0.0, 0)
     if start[2]:
         side = blocks[0].sides[0 if start[2] > 0 else -1]
@@ -221,18 +253,6 @@ def failure(status: float, impacts: float) -> MotionError:
     return MotionError("the motion left the range of floating-point numbers; check the record's amplitude.")
 
 
-def _start(structure: Rocking, rotation: float, velocity: float) -> Start:
-    rotation = finite(MotionError, "initial_rotation", rotation, "rad")
-    velocity = finite(MotionError, "initial_velocity", velocity, "rad/s")
-    leading = rotation or velocity
-    side = (leading > 0) - (leading < 0)
-    if side < 0 and getattr(structure, "one_sided", False):
-        raise MotionError(
-            "the initial state lies on the negative side, but a one-sided structure rocks to the positive only."
-        )
-    return abs(rotation), side * velocity, side
-
-
 def _initial_arc(table: Table, start: Start) -> tuple[float, float]:
     """The initial arc and its rate; raises MotionError beyond the end of the mechanism."""
     rotation, velocity, sign = start
@@ -252,14 +272,13 @@ def _response(
     factor: float = 1.0,
 ) -> Response:
     """The Response to the motion times `factor`; overturned, too, where a side is past its end. Raises MotionError."""
-    horizontal = np.array([factor])
-    lift = horizontal if forcing.vertical else np.zeros(1)
-    log = np.zeros((2 * forcing.ground.horizontal.size + 1001, 3)) if history else NO_LOG
-    how: Any = {"start": start, "settle": False}
-    sides, results = follow(reduced, forcing, horizontal, lift, None, tolerance, **how, log=log)
+    factors = np.array([factor])
+    one = Runs(factors, factors if forcing.vertical else None)
+    log = np.zeros((2 * forcing.ground.horizontal.size + 1001, 3)) if history else FROM_REST.log
+    sides, results = follow(reduced, forcing, one, tolerance, Course(start, False, log))
     if history and log[0, 0] >= log.shape[0]:
         log = np.zeros((int(log[0, 0]) + 1, 3))
-        follow(reduced, forcing, horizontal, lift, None, tolerance, **how, log=log)
+        follow(reduced, forcing, one, tolerance, Course(start, False, log))
     row = results[0].tolist()
     if row[runs.STATUS] not in OUTCOMES:
         raise failure(row[runs.STATUS], row[runs.IMPACTS])

@@ -9,7 +9,7 @@ import numpy as np
 from rocking.errors import MotionError
 from rocking.motion import runs
 from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
-from rocking.motion.integration import TOLERANCES, Rocking, failure, follow, reduce, solvable_exactly
+from rocking.motion.integration import TOLERANCES, Rocking, Runs, failure, follow, reduce, solvable_exactly
 from rocking.motion.table import SideTable
 from rocking.quantities import kind_of, within
 from rocking.records.accelerogram import Accelerogram
@@ -134,36 +134,27 @@ def integrate_members(
     tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
     forcing = forcing_of(motion, vertical)
     lift = np.where(members.vertical, members.scale_factor, 0.0) if forcing.vertical else None
-    horizontal = members.scale_factor * members.polarity
-    return follow_factors(reduce(structure), forcing, horizontal, lift, members.restitution, tolerance)
+    several = Runs(members.scale_factor * members.polarity, lift, members.restitution)
+    return follow_runs(reduce(structure), forcing, several, tolerance)
 
 
-def follow_factors(
-    reduced: Mechanism | EquivalentBlock,
-    forcing: Forcing,
-    horizontal: np.ndarray,
-    vertical: np.ndarray | None,
-    restitution: np.ndarray | None,
-    tolerance: float,
+def follow_runs(
+    reduced: Mechanism | EquivalentBlock, forcing: Forcing, several: Runs, tolerance: float
 ) -> MemberResponses:
-    """`integrate_members` of what is prepared already.
-
-    horizontal, vertical: factors (m,) of the two components; None: no vertical component. restitution: (m, 2) or None.
-    """
-    lift = np.zeros(horizontal.size) if vertical is None else vertical
+    """`integrate_members` of what is prepared already."""
+    lift = several.lift
     if solvable_exactly(reduced, forcing) and 0 < np.count_nonzero(lift) < lift.size:
         # Members with and without vertical motion each go their own way.
         ratio = np.empty(lift.size)
         side = np.empty(lift.size, int)
         reasons: dict[int, str] = {}
         for places in (np.flatnonzero(lift == 0), np.flatnonzero(lift)):
-            eta = None if restitution is None else restitution[places]
-            some = follow_factors(reduced, forcing, horizontal[places], lift[places], eta, tolerance)
+            some = follow_runs(reduced, forcing, several.at(places), tolerance)
             ratio[places] = some.rotation_ratio
             side[places] = some.peak_side
             reasons |= {int(places[k]): reason for k, reason in some.reasons.items()}
         return MemberResponses(ratio, side, reasons)
-    return concluded(*follow(reduced, forcing, horizontal, lift, restitution, tolerance))
+    return concluded(*follow(reduced, forcing, several, tolerance))
 
 
 def concluded(sides: Sequence[SideTable | EquivalentBlock], results: np.ndarray) -> MemberResponses:

@@ -46,7 +46,7 @@ def assessed(record: Accelerogram, settings: AssessmentSettings = SETTINGS, vert
     """The block under one component."""
     component = component_of(record, settings.pulse, vertical)
     prediction = prediction_of(BLOCK.mechanism(), component, settings)
-    return assess_case("block", BLOCK, component, settings, prediction=prediction)
+    return assess_case(BLOCK, component, prediction, settings)
 
 
 def compared(case: CaseResult) -> ComparisonRow:

@@ -94,7 +94,7 @@ def test_six_runs_of_contact_dynamics_let_a_spire_probably_stand_where_no_course
 def test_without_an_ensemble_the_single_run_is_doubted_too():
     settings = AssessmentSettings(ensemble=EnsembleSettings(members=0))
     motion = sine(1.3 * SPIRE.static_multiplier * GRAVITY, 0.1)
-    case = assess_case("spire", SPIRE, component_of(motion, settings.pulse), settings)
+    case = assess_case(SPIRE, component_of(motion, settings.pulse), settings=settings)
     assert case.doubt == Remark(Kind.COURSES_THROWN)
 
 

@@ -108,7 +108,7 @@ def test_auto_rests_only_where_every_crack_does():
     rest = "the ground never reaches the uplift acceleration"
     for crack, rests in (("unknown", False), ("given", True)):
         wall = replace(WALL, crack=crack)
-        case = assess_case("wall", wall, component_of(motion, settings.pulse), settings)
+        case = assess_case(wall, component_of(motion, settings.pulse), settings=settings)
         assert (case.answer.reason == rest) is rests
 
 

@@ -18,7 +18,7 @@ from rocking.assessment.motions import GroundMotions, processed
 from rocking.assessment.settings import SIZES, AssessmentSettings, EnsembleSettings
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate
-from rocking.motion.members import follow_factors
+from rocking.motion.members import follow_runs
 from rocking.records import Accelerogram
 from rocking.records.accelerogram import Source
 from rocking.records.processing import Processing, process
@@ -142,11 +142,11 @@ def test_no_member_bounces_better_than_it_may(stated, most, monkeypatch):
     """A range of ±0.05 reaches beyond 1, where a member would rock for ever."""
     seen = []
 
-    def note_restitution(reduced, forcing, horizontal, vertical, restitution, tolerance):
-        seen.append(restitution)
-        return follow_factors(reduced, forcing, horizontal, vertical, restitution, tolerance)
+    def note_restitution(reduced, forcing, several, tolerance):
+        seen.append(several.restitution)
+        return follow_runs(reduced, forcing, several, tolerance)
 
-    monkeypatch.setattr("rocking.assessment.ensemble.follow_factors", note_restitution)
+    monkeypatch.setattr("rocking.assessment.ensemble.follow_runs", note_restitution)
     block = Block(2.0, 0.2, restitution=stated)
     drawn(block, GroundMotions.of(_record(0.5)), lattice(64), EnsembleSettings())
     # of 64 points one stands in each 64th of the range

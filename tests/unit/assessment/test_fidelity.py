@@ -85,7 +85,7 @@ def test_where_an_ensemble_would_follow_the_block_may_settle_it():
     falls = cheapest_answer(MECHANISM, record(40.0), ensemble_follows=True, risk=0.1)
     assert falls.method is Method.BLOCK_ON_RECORD and falls.outcome is Outcome.OVERTURNS
     settings = AssessmentSettings(fidelity="auto")
-    case = assess_case("block", BLOCK, component_of(motion, settings.pulse), settings)
+    case = assess_case(BLOCK, component_of(motion, settings.pulse), settings=settings)
     assert case.answer.method is Method.BLOCK_ON_RECORD and case.ensemble is None
 
 
@@ -113,7 +113,7 @@ def test_a_block_unlike_its_mechanism_settles_nothing_and_gets_no_estimate():
     answer = cheapest_answer(mechanism, strong, ensemble_follows=True)
     assert answer.method is Method.MECHANISM_ON_RECORD
     settings = AssessmentSettings(fidelity="auto", ensemble=EnsembleSettings(members=0))
-    case = assess_case("tied", tied, component_of(strong, settings.pulse), settings)
+    case = assess_case(tied, component_of(strong, settings.pulse), settings=settings)
     assert case.overturning_estimate is None
 
 
