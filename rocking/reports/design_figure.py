@@ -1,11 +1,11 @@
 """The spectra of records beside that of the design level."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.measures import response_spectrum
@@ -14,6 +14,9 @@ from rocking.reports.printing import unit_of
 from rocking.reports.style import PULSE, new_figure, plain_logarithmic, styled
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
     from rocking.codes.design_spectrum import DesignSpectrum
 
 _PERIODS = np.geomspace(0.04, 4.0, 60)
@@ -22,13 +25,13 @@ MOST_LINES = 60
 _QUANTILES = (0.05, 0.5, 0.95)
 
 
-def spectrum_periods(level: "DesignSpectrum") -> np.ndarray:
+def spectrum_periods(level: DesignSpectrum) -> np.ndarray:
     """Return the periods at which spectra are compared with that of the design level, (k,) s."""
     return _PERIODS[level.longest_period >= _PERIODS]
 
 
 def component_spectra(
-    components: Iterable[Accelerogram], level: "DesignSpectrum"
+    components: Iterable[Accelerogram], level: DesignSpectrum
 ) -> Mapping[str, Sequence[float]]:
     """Return the spectral accelerations [m/s²] of each component, at the periods and the damping of the level."""
     periods = spectrum_periods(level)
@@ -41,7 +44,7 @@ def component_spectra(
 
 
 @styled
-def design_figure(motions: Sequence[Trace], level: "DesignSpectrum") -> Figure:
+def design_figure(motions: Sequence[Trace], level: DesignSpectrum) -> Figure:
     """Draw the spectrum of each component, for the damping of the design level, and that of the level."""
     figure = new_figure(52.0)
     axes = figure.subplots()
@@ -58,7 +61,7 @@ def design_figure(motions: Sequence[Trace], level: "DesignSpectrum") -> Figure:
 
 
 @styled
-def design_summary_figure(spectra: Sequence[Sequence[float]], level: "DesignSpectrum") -> Figure:
+def design_summary_figure(spectra: Sequence[Sequence[float]], level: DesignSpectrum) -> Figure:
     """Draw the spectra [m/s²] of all components, or the quantiles of many, and their mean beside the design level.
 
     spectra: at the periods of `spectrum_periods`.
@@ -80,7 +83,7 @@ def design_summary_figure(spectra: Sequence[Sequence[float]], level: "DesignSpec
     return figure
 
 
-def _draw_level(axes: Axes, level: "DesignSpectrum") -> None:
+def _draw_level(axes: Axes, level: DesignSpectrum) -> None:
     periods = spectrum_periods(level)
     unit = unit_of("m/s²")
     axes.plot(periods, level.acceleration(periods) / unit.size, color=PULSE, label="design level")

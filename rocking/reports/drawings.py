@@ -1,21 +1,26 @@
 """Drawings of structures: at rest, turned, fallen; with dimension lines, loads, thrusts and ties."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.patches import Polygon
-from matplotlib.transforms import Transform
 
+from rocking.reports.style import svg_path
 from rocking.structures import Structure
 from rocking.structures.drawing import Mark
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.transforms import Transform
 
 _THIN = {"color": "0.35", "linewidth": 0.4}
 _PAPER = {"facecolor": "white", "edgecolor": "none", "pad": 0.4}
 _ARROW = {"arrowstyle": "-|>", "shrinkA": 0, "shrinkB": 0}
 _HEAD = _ARROW | _THIN | {"mutation_scale": 4}
-_LOAD = _ARROW | {"color": "#009E73", "linewidth": 1.0, "mutation_scale": 7}
+_GREEN = "#009E73"
+_LOAD = _ARROW | {"color": _GREEN, "linewidth": 1.0, "mutation_scale": 7}
 _TIE = "#0072B2"
 _AT_REST: dict[str, Any] = {"fill": False, "edgecolor": "0.3", "linewidth": 0.5, "linestyle": "--"}
 _HINGE: dict[str, Any] = {
@@ -33,6 +38,47 @@ _FARTHEST = 1.5
 """Rotation at which it is drawn at most, rad."""
 
 
+def sketch(structure: Structure, rotation: float, width: float, height: float) -> list[str]:
+    """Return a structure at a signed `rotation` [rad] and dashed at rest, as shapes of SVG that fill a picture in mm.
+
+    With its hinges (circles), loads (arrows), ties and supports (lines), as `draw_structure` draws them.
+    """
+    parts = structure.outline(rotation)
+    at_rest = structure.outline()
+    every = np.vstack([*parts, *at_rest])
+    bottom, top = every.min(axis=0), every.max(axis=0)
+    scale = float(min((np.array([width, height]) - 1.3) / (top - bottom)))  # circles stand over the edges
+
+    def path(points: np.ndarray, look: str, closed: bool = False) -> str:
+        placed = (points - (bottom + top) / 2) * scale + np.array([width, height]) / 2
+        return svg_path(placed, height, f'{look} stroke-linejoin="round"', closed)
+
+    filled = 'fill="#c7c7c7" stroke="#595959" stroke-width="0.18"'
+    dashed = 'fill="none" stroke="#4d4d4d" stroke-width="0.18" stroke-dasharray="0.65 0.28"'
+    shapes = [path(each, filled, closed=True) for each in parts]
+    shapes += [path(each, dashed, closed=True) for each in at_rest]
+    around = np.array([[np.cos(turn), np.sin(turn)] for turn in np.linspace(0, 2 * np.pi, 13)])
+    for hinge in structure.hinges(rotation):
+        circle = hinge + 0.53 / scale * around
+        shapes.append(path(circle, 'fill="white" stroke="black" stroke-width="0.21"', closed=True))
+    for mark in structure.marks(rotation):
+        tail, tip = mark.line
+        if mark.kind == "support":
+            shapes.append(path(mark.line, 'stroke="#737373" stroke-width="0.78"'))
+        elif mark.kind == "tie":
+            shapes.append(path(mark.line, f'stroke="{_TIE}" stroke-width="0.35"'))
+            for end, size in zip(mark.line, (2.4, 1.8), strict=True):
+                plate = end + np.array([[0.0, -size / 2], [0.0, size / 2]]) / scale
+                shapes.append(path(plate, f'stroke="{_TIE}" stroke-width="0.56"'))
+        elif (length := float(np.hypot(*(tip - tail)))) > 0:
+            back = (tail - tip) / length * 1.2 / scale
+            aside = 0.35 * np.array([-back[1], back[0]])
+            head = np.stack([tip, tip + back + aside, tip + back - aside])
+            shapes.append(path(mark.line, f'stroke="{_GREEN}" stroke-width="0.35"'))
+            shapes.append(path(head, f'fill="{_GREEN}"', closed=True))
+    return shapes
+
+
 def draw_structure(
     axes: Axes,
     structure: Structure,
@@ -48,6 +94,8 @@ def draw_structure(
     and tie beside it. look: of the filled parts, as matplotlib.patches.Polygon takes it. place: from m to the units of
     the axes.
     """
+    from matplotlib.patches import Polygon
+
     where = axes.transData if place is None else place + axes.transData
     filled = {"facecolor": "0.85", "edgecolor": "0.3", "linewidth": 0.8, "transform": where} | (look or {})
     parts = structure.outline(rotation)
@@ -106,6 +154,8 @@ def draw_dimensions(
 
     values: write the value of each behind its letter, as `written` writes a number.
     """
+    from matplotlib.patches import Polygon
+
     if len(structure.front):
         axes.add_patch(Polygon(structure.front, closed=True, fill=False, edgecolor="0.3", linewidth=0.6))
     for each in structure.dimensions():

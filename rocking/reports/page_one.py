@@ -2,11 +2,8 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
-from matplotlib.transforms import Affine2D
 
 from rocking.assessment.conclusion import Conclusion
 from rocking.assessment.cracks import cracked
@@ -14,10 +11,10 @@ from rocking.assessment.decide import Verdict
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import PulseRow
 from rocking.quantities import percent
-from rocking.reports.drawings import draw_structure
-from rocking.reports.panels import Trace, draw_motion
+from rocking.reports.drawings import sketch
+from rocking.reports.panels import Trace
 from rocking.reports.printing import LOOKS, number
-from rocking.reports.style import new_figure, picture, styled
+from rocking.reports.style import PULSE, drawn_by_hand, svg_path, thinned
 from rocking.structures import Structure
 
 DOMINATES = 0.5
@@ -33,6 +30,8 @@ _FALLEN = {"form": 36.5, "block": 41.5, "whole": 46.5, "line": 48.5}
 """Where on the scale stands what falls, mm: within its grey zone, a place for each mark."""
 _DRAWN = 0.8
 """Rotation ratio at which a structure is drawn."""
+_STRIP = 118.0, 20.0
+"""Width and height of the strip of the record, mm."""
 _POINTS = 1200
 
 
@@ -115,45 +114,35 @@ def reserve_in_figures(reserve: Reserve | None) -> str:
     return low if low == median else f"{low}–{median}"
 
 
-@styled
-def trace_figure(motion: Trace) -> Figure:
-    """Draw the acceleration of a component while it shakes, and its dominant pulse, without axes."""
-    figure = new_figure(20, 118, margins=(0, 0, 0, 0))
-    axes = figure.add_axes((0, 0, 1, 1))
-    axes.set_axis_off()
-    draw_motion(axes, motion.accelerogram, next(iter(motion.pulses), None), motion.span, _POINTS)
-    reach = 1.05 * max(np.abs(motion.accelerogram.acceleration).max(), 1e-9)
-    axes.set(xlim=motion.span, ylim=(-reach, reach))
-    return figure
-
-
 def _trace(motion: Trace) -> dict[str, str]:
-    return picture(
-        trace_figure(motion), "Acceleration of the ground and the sine that explains most of its energy."
-    )
+    """The acceleration of a component while it shakes, and its dominant pulse, without axes."""
+    width, height = _STRIP
+    record = motion.accelerogram
+    begin, end = motion.span
+    reach = 1.05 * max(record.peak_acceleration, 1e-9)
+
+    def line(times: np.ndarray, acceleration: np.ndarray, look: str) -> str:
+        across = width * (times - begin) / (end - begin)
+        up = height / 2 * (1 + acceleration / reach)
+        return svg_path(np.stack([across, up], axis=1), height, look)
+
+    inside = (record.times >= begin) & (record.times <= end)
+    times, acceleration = thinned(record.times[inside], record.acceleration[inside], _POINTS)
+    lines = [line(times, acceleration, 'fill="none" stroke="#595959" stroke-width="0.21"')]
+    for pulse in motion.pulses[:1]:
+        cycle = np.linspace(pulse.start_time, pulse.end_time, 121)
+        look = f'fill="none" stroke="{PULSE}" stroke-width="0.53"'
+        lines.append(line(cycle, pulse.acceleration(cycle), look))
+    alt = "Acceleration of the ground and the sine that explains most of its energy."
+    return drawn_by_hand(lines, width, height, alt)
 
 
-@styled
-def structure_figure(structure: Structure, conclusion: Conclusion, low: bool) -> Figure:
-    """Draw the mechanism that governs at _DRAWN of its critical rotation, and dashed at rest."""
+def _drawing(structure: Structure, conclusion: Conclusion, low: bool) -> dict[str, str]:
+    """The mechanism that governs at _DRAWN of its critical rotation, and dashed at rest."""
     broken = cracked(structure, conclusion.verdict.crack)
     side = -1 if conclusion.verdict.peak_side == -1 else 1
     sides = broken.mechanism().sides
     rotation = side * _DRAWN * sides[0 if side > 0 else -1].critical_rotation
-    height = 8.2 if low else 14.0
-    figure = new_figure(height, 12, margins=(0, 0, 0, 0))
-    axes = figure.add_axes((0, 0, 1, 1), xlim=(0, 12), ylim=(0, height))
-    axes.set_axis_off()
-    points = np.vstack([*broken.outline(), *broken.outline(rotation)])
-    bottom, top = points.min(axis=0), points.max(axis=0)
-    scale = float(min(np.array([11.4, height - 0.6]) / (top - bottom)))
-    middle = (bottom + top) / 2
-    place = Affine2D().translate(*-middle).scale(scale).translate(6, height / 2)
-    look: dict[str, Any] = {"facecolor": "0.78", "edgecolor": "0.35", "linewidth": 0.5}
-    draw_structure(axes, broken, rotation, look=look, place=place)
-    return figure
-
-
-def _drawing(structure: Structure, conclusion: Conclusion, low: bool) -> dict[str, str]:
+    width, height = 12.0, 8.2 if low else 14.0
     alt = f"{conclusion.structure}, turned, and at rest."
-    return picture(structure_figure(structure, conclusion, low), alt)
+    return drawn_by_hand(sketch(broken, rotation, width, height), width, height, alt)

@@ -3,6 +3,8 @@
 Units stand on every axis. A long trace is drawn as its envelope.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -10,7 +12,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.axes import Axes
 
 from rocking.errors import MotionError, RockingError
 from rocking.quantities import percent, shown
@@ -29,6 +30,8 @@ from rocking.reports.style import (
 )
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from rocking.assessment.assess import StructureAssessment
     from rocking.codes.selection import Selection
     from rocking.fragility.curves import Fragility
@@ -92,8 +95,8 @@ def svg_of(thing: object) -> bytes:
 class Trace:
     """One component of the ground with its ranked pulses, the dominant one first."""
 
-    accelerogram: "Accelerogram"
-    pulses: Sequence["Pulse"]
+    accelerogram: Accelerogram
+    pulses: Sequence[Pulse]
 
     @cached_property
     def span(self) -> tuple[float, float]:
@@ -110,8 +113,8 @@ class Trace:
 
 def draw_motion(
     axes: Axes,
-    record: "Accelerogram",
-    pulse: "Pulse | None" = None,
+    record: Accelerogram,
+    pulse: Pulse | None = None,
     span: tuple[float, float] = (0.0, math.inf),
     most: int = MOST_POINTS,
     unit: float = 1.0,
@@ -160,14 +163,14 @@ def draw_rotation(
     axes.plot(impacts, np.full(impacts.size, level), "|", color="black", markersize=3, markeredgewidth=0.4)
 
 
-def rotation_ratios(response: "Response", mechanism: "Mechanism") -> tuple[np.ndarray, np.ndarray] | None:
+def rotation_ratios(response: Response, mechanism: Mechanism) -> tuple[np.ndarray, np.ndarray] | None:
     """Return times [s] and rotation over the critical rotation of its side (k,); None without a history."""
     if response.times is None or response.rotation is None or response.times.size < 2:
         return None
     return response.times, _over_critical(response.rotation, mechanism)
 
 
-def _over_critical(rotation: np.ndarray, mechanism: "Mechanism") -> np.ndarray:
+def _over_critical(rotation: np.ndarray, mechanism: Mechanism) -> np.ndarray:
     first = mechanism.sides[0].critical_rotation
     last = mechanism.sides[-1].critical_rotation
     return rotation / np.where(rotation < 0, last, first)
@@ -195,7 +198,7 @@ def draw_energy_map(
     onsets: np.ndarray,
     periods: np.ndarray,
     gains: np.ndarray,
-    pulses: Sequence["Pulse"],
+    pulses: Sequence[Pulse],
     span: tuple[float, float],
 ) -> None:
     """Draw energy gains (n, m) [m²/s³] over onset (n,) [s] and period (m,) [s], darker for more, with ranked pulses.
@@ -224,7 +227,7 @@ def draw_energy_map(
     axes.set(xlabel="onset of the pulse [s]", ylabel="period [s]")
 
 
-def _draw_ranks(axes: Axes, pulses: Sequence["Pulse"]) -> None:
+def _draw_ranks(axes: Axes, pulses: Sequence[Pulse]) -> None:
     """Draw a circle and the rank of each pulse; ranks of pulses that lie together stand in one text: "1, 2, 3"."""
     reach = np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())
     together: list[tuple[tuple[float, float], list[int]]] = []
@@ -272,25 +275,25 @@ def draw_probability(
 # The methods plot ------------------------------------------------------------------------------------------
 
 
-def _plot_accelerogram(record: "Accelerogram", axes: Axes) -> None:
+def _plot_accelerogram(record: Accelerogram, axes: Axes) -> None:
     axes.plot(*thinned(record.times, record.acceleration), linewidth=0.7, label=_named(axes, record))
     axes.set(xlabel=TIME, ylabel=ACCELERATION)
 
 
-def _plot_pulse(pulse: "Pulse", axes: Axes) -> None:
+def _plot_pulse(pulse: Pulse, axes: Axes) -> None:
     times = np.linspace(pulse.start_time - pulse.period / 4, pulse.end_time + pulse.period / 4, _POINTS)
     axes.plot(times, pulse.acceleration(times), label=f"sine pulse, T = {pulse.period:.3g} s")
     axes.set(xlabel=TIME, ylabel=ACCELERATION)
 
 
-def _plot_analysis(analysis: "PulseAnalysis", axes: Axes) -> None:
+def _plot_analysis(analysis: PulseAnalysis, axes: Axes) -> None:
     draw_motion(axes, analysis.accelerogram, analysis.dominant)
     _named(axes, analysis.accelerogram)
     axes.set(xlabel=TIME, ylabel=ACCELERATION)
     axes.legend(title=f"pulse explains {100 * analysis.explained_energy:.0f} %\nof the energy")
 
 
-def _plot_response(response: "Response", axes: Axes) -> None:
+def _plot_response(response: Response, axes: Axes) -> None:
     times, rotation = _history(response, "integrate with history=True to plot it")
     axes.plot(*thinned(times, rotation), linewidth=0.9, label="rotation")
     axes.axhline(0, **ZERO)
@@ -300,7 +303,7 @@ def _plot_response(response: "Response", axes: Axes) -> None:
     axes.set(xlabel=TIME, ylabel="rotation [rad]", title=response.outcome.of(response.rotation_ratio))
 
 
-def _plot_assessment(assessment: "StructureAssessment", axes: Axes) -> None:
+def _plot_assessment(assessment: StructureAssessment, axes: Axes) -> None:
     times, rotation = _history(assessment.response, "assess the structure again to plot it")
     mechanism = assessment.mechanism
     band = (assessment.rotation_ratio_low, assessment.rotation_ratio_high)
@@ -311,7 +314,7 @@ def _plot_assessment(assessment: "StructureAssessment", axes: Axes) -> None:
     axes.legend()
 
 
-def _plot_fragility(fragility: "Fragility", axes: Axes) -> None:
+def _plot_fragility(fragility: Fragility, axes: Axes) -> None:
     overturning = math.isinf(fragility.threshold)
     event = "overturning" if overturning else f"a rotation above {fragility.threshold:g} of the critical one"
     interval = fragility.probability_low, fragility.probability_high
@@ -321,7 +324,7 @@ def _plot_fragility(fragility: "Fragility", axes: Axes) -> None:
     axes.legend(loc="upper left")
 
 
-def _plot_spectrum(spectrum: "RockingSpectrum", axes: Axes) -> None:
+def _plot_spectrum(spectrum: RockingSpectrum, axes: Axes) -> None:
     """Lines of equal rotation ratio over p and λ, hatched where it overturns.
 
     Raises MotionError for fewer than two values on either axis, or for a part of a spectrum.
@@ -346,7 +349,7 @@ def _plot_spectrum(spectrum: "RockingSpectrum", axes: Axes) -> None:
     axes.set_title("largest rotation / critical rotation; hatched: overturns")
 
 
-def _plot_mechanism(mechanism: "Mechanism", axes: Axes) -> None:
+def _plot_mechanism(mechanism: Mechanism, axes: Axes) -> None:
     """I, G and B over their values at rest, up to the critical rotation of each side."""
     for side, sign, line in zip(mechanism.sides, (1, -1), ("-", "--"), strict=False):
         rotations = np.linspace(0, side.critical_rotation, _POINTS)
@@ -359,7 +362,7 @@ def _plot_mechanism(mechanism: "Mechanism", axes: Axes) -> None:
     axes.legend()
 
 
-def _plot_capacity(curve: "StaticCurve", axes: Axes) -> None:
+def _plot_capacity(curve: StaticCurve, axes: Axes) -> None:
     x, y = curve.control_point
     axes.plot(curve.displacement, curve.multiplier, label=f"control point ({x:.3g}, {y:.3g}) m")
     axes.axhline(0, **ZERO)
@@ -368,7 +371,7 @@ def _plot_capacity(curve: "StaticCurve", axes: Axes) -> None:
     axes.legend()
 
 
-def _plot_selection(selection: "Selection", axes: Axes) -> None:
+def _plot_selection(selection: Selection, axes: Axes) -> None:
     """The scaled spectra of the chosen set, their mean, the target and what is allowed about it."""
     for place in selection.chosen:
         axes.plot(selection.periods, selection.spectra[place], color="0.75", linewidth=0.6)
@@ -393,7 +396,7 @@ def _set_over_periods(axes: Axes, quantity: str) -> None:
     axes.legend()
 
 
-def _plot_strengthening(strengthening: "Strengthening", axes: Axes) -> None:
+def _plot_strengthening(strengthening: Strengthening, axes: Axes) -> None:
     """The share that overturns over the value with its bounds, the target, and the value that can be shown to hold."""
     outward = strengthening.field.outward
     tried = strengthening.tried
@@ -420,7 +423,7 @@ def _plot_strengthening(strengthening: "Strengthening", axes: Axes) -> None:
     axes.legend(frameon=True, framealpha=0.85, edgecolor="none")  # the lines of the values may pass behind it
 
 
-def _plot_response_spectrum(spectrum: "ResponseSpectrum", axes: Axes) -> None:
+def _plot_response_spectrum(spectrum: ResponseSpectrum, axes: Axes) -> None:
     """The pseudo-acceleration over the undamped period."""
     axes.plot(
         spectrum.periods, spectrum.pseudo_acceleration, color=RECORD, label=f"damping {spectrum.damping:.0%}"
@@ -429,7 +432,7 @@ def _plot_response_spectrum(spectrum: "ResponseSpectrum", axes: Axes) -> None:
 
 
 def _plot_structure(
-    structure: "Structure", axes: Axes, rotation: float = 0.0, dimensions: bool = False
+    structure: Structure, axes: Axes, rotation: float = 0.0, dimensions: bool = False
 ) -> None:
     """To scale; loads, thrusts and ties too, and at rest the line of thrust as it starts to rock."""
     draw_structure(axes, structure, rotation, values=not dimensions)
@@ -462,7 +465,7 @@ _PLOTS: dict[str, Callable[..., None]] = {
 """The drawings by the name of the class: importing the classes costs whoever draws a record the kernels of motion."""
 
 
-def _history(response: "Response", otherwise: str) -> tuple[np.ndarray, np.ndarray]:
+def _history(response: Response, otherwise: str) -> tuple[np.ndarray, np.ndarray]:
     """Return times [s] and rotation [rad] while the structure moves. Raises MotionError without a history."""
     if response.times is None or response.rotation is None:
         raise MotionError(f"the history of the response is not there; {otherwise}.")
@@ -471,7 +474,7 @@ def _history(response: "Response", otherwise: str) -> tuple[np.ndarray, np.ndarr
     return response.times[inside], response.rotation[inside]
 
 
-def _named(axes: Axes, record: "Accelerogram") -> str:
+def _named(axes: Axes, record: Accelerogram) -> str:
     """Write what the record is called above the axes, with no letter taken for markup, and return it."""
     name = ", ".join(name for name in (record.event, record.station, record.component) if name) or "record"
     axes.set_title(name).set_parse_math(False)

@@ -19,7 +19,7 @@ import typst
 from rocking.assessment.decide import Verdict
 from rocking.assessment.methods import NEGLIGIBLE, Method, rests
 from rocking.quantities import GRAVITY, counted
-from rocking.reports.style import FONT_FOLDER, glyphs
+from rocking.reports.style import COMMON, FONT_FOLDER, glyphs
 from rocking.tables import Row
 
 if TYPE_CHECKING:
@@ -308,7 +308,8 @@ def compile_document(template: str | Path, data: Mapping[str, object]) -> bytes:
     of the document is fixed, because PDF/A asks for one and the same input must give the same bytes.
     """
     text = json.dumps(data, ensure_ascii=False)
-    foreign = not glyphs().issuperset(map(ord, set(text)))
+    rare = set(map(ord, text)) - COMMON
+    foreign = bool(rare) and not glyphs().issuperset(rare)
     carried = _fonts(False).families()
     families = [each for each in _fonts(foreign).families() if each not in carried]
     return typst.compile(  # type: ignore[call-overload,no-any-return]  # its stub wants input and root of one type

@@ -1,14 +1,13 @@
 """The figures of the details of a record's report: the pulses, the reserve, the motion, and the closed form."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator
 
 from rocking.assessment.case import StationResult
 from rocking.assessment.methods import Agreement, Method, ratio_in_words
@@ -19,6 +18,10 @@ from rocking.quantities import GRAVITY, counted
 from rocking.reports.panels import Trace, draw_energy_map, draw_motion, draw_rotation, moving_span
 from rocking.reports.printing import LOOKS, number, ratio, unit_of
 from rocking.reports.style import PREDICTED, PULSE, TEXT_WIDTH, elided, new_figure, panel_at, styled, wrapped
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _POINTS = 1200
 """Points of a trace: no printer shows more on the width of a page."""
@@ -78,6 +81,8 @@ def _draw_ground(panel: Axes, motion: Trace, span: tuple[float, float], last: bo
 
 def _fixed_ticks(panel: Axes, which: str, low: float, high: float, count: int = 5) -> None:
     """Give the x or y axis its limits and about `count` round ticks between them, which nothing has to seek again."""
+    from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator
+
     places = np.asarray(MaxNLocator(count, steps=[1, 2, 5, 10]).tick_values(low, high))
     places = places[(places >= low) & (places <= high)]
     axis = panel.xaxis if which == "x" else panel.yaxis
@@ -120,6 +125,8 @@ def reserve_figure(stations: Sequence[StationResult], labels: Mapping[str, str])
     A verdict is read off the line at 1: what lies left of it falls under the record as it is. A bar that ends in an
     arrow goes on beyond the largest factor that was tried.
     """
+    from matplotlib.ticker import FixedFormatter, FixedLocator
+
     reserves = [(station, station.reserve) for station in stations if station.reserve is not None]
     height = 3.3 * len(reserves) + 9.0
     figure = new_figure(height, margins=(0, 0, 0, 0))

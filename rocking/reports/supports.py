@@ -1,12 +1,13 @@
 """The structures on a support in a report: share against the period of the support, and the spectra of its motion."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from rocking.assessment.case import RecordResult, SceneResult
 from rocking.assessment.motions import Component
@@ -25,6 +26,10 @@ from rocking.reports.style import (
     styled,
     wrapped,
 )
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 MOST_SUPPORTS = 4
 """Supports that are drawn; the table supports.csv holds all."""

@@ -146,4 +146,4 @@ def hostile() -> RecordReport:
 def undrawn(monkeypatch):
     """A report without figures, for a test that asks what it says: to draw takes most of its time."""
     monkeypatch.setattr("rocking.reports.record.pictures", lambda *_: [])
-    monkeypatch.setattr("rocking.reports.page_one.picture", lambda *_: {"svg": "<svg/>", "alt": "none"})
+    monkeypatch.setattr("rocking.reports.page_one.drawn_by_hand", lambda *_: {"svg": "<svg/>", "alt": "none"})

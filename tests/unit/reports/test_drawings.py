@@ -1,7 +1,8 @@
-"""Drawings of structures and the figures of a record, read back from what matplotlib was given."""
+"""Drawings of structures and the figures of a record, read back from what was drawn."""
 
 import itertools
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -15,7 +16,7 @@ from rocking.records import Accelerogram
 from rocking.records.measures import record_measures
 from rocking.reports.drawings import draw_structure, fallen_rotation
 from rocking.reports.explore import drawings
-from rocking.reports.page_one import structure_figure, trace_figure
+from rocking.reports.page_one import page_one
 from rocking.reports.record_figures import (
     History,
     Trace,
@@ -23,7 +24,7 @@ from rocking.reports.record_figures import (
     histories_figure,
     pulses_figure,
 )
-from rocking.reports.style import MOST_POINTS, TEXT_WIDTH, thinned
+from rocking.reports.style import COMMON, MOST_POINTS, TEXT_WIDTH, glyphs, thinned
 from rocking.structures import Arch, Block, Facade, LoadedWall, Wall
 from tests.unit.assessment.made_rows import compared
 
@@ -49,19 +50,51 @@ def test_a_structure_is_drawn_as_its_outline():
         assert np.array_equal(points, outline)
 
 
+def _lines(svg):
+    """The points (k, 2) of each line of a picture, upwards from its lower left corner, mm."""
+    height = float(re.search(r'height="([\d.]+)mm"', svg)[1])
+    for points in re.findall(r'points="([^"]*)"', svg):
+        places = np.array([[float(each) for each in point.split(",")] for point in points.split()])
+        yield places * [1, -1] + [0, height]
+
+
+def test_the_strip_shows_the_motion_while_it_shakes_and_its_pulse_at_one_scale(example):
+    (strip,) = page_one([], {}, example.motion, None)["trace"]
+    motion, pulse = _lines(strip["svg"])
+    record, (sine, *_) = example.motion.accelerogram, example.motion.pulses
+    assert motion[[0, -1], 0] == pytest.approx([0, 118], abs=1)  # a sample or two
+    peak = np.abs(motion[:, 1] - 10).max()
+    assert peak == pytest.approx(10 / 1.05, abs=1e-3)
+    assert np.abs(pulse[:, 1] - 10).max() / peak == pytest.approx(
+        abs(sine.amplitude) / record.peak_acceleration, rel=1e-3
+    )
+    begin, end = example.motion.span
+    assert pulse[-1, 0] - pulse[0, 0] == pytest.approx(
+        118 * (sine.end_time - sine.start_time) / (end - begin), abs=1e-2
+    )
+
+
+def test_common_letters_need_no_font_of_the_machine():
+    assert set(COMMON) <= glyphs()
+
+
 def test_page_one_draws_the_mechanism_at_four_fifths_of_the_critical_rotation_on_its_side(example):
-    """The dashed outline at rest is drawn after the turned one."""
+    """The dashed outline at rest is drawn after the turned one; both are as like as pictures of two sizes."""
     name = "block 4 m"
     (conclusion,) = (each for each in example.conclusions if each.structure == name)
     block = example.structures[name]
     critical = block.mechanism().critical_rotation
     for side in (1, -1):
         turned = replace(conclusion, verdict=replace(conclusion.verdict, peak_side=side))
-        (axes,) = structure_figure(block, turned, low=False).axes
-        drawn, at_rest = (patch.get_xy()[:-1] for patch in axes.patches)
-        for points, rotation in ((drawn, 0.8 * side * critical), (at_rest, 0.0)):
-            assert np.array_equal(points, block.outline(rotation)[0])
-        assert all(axes.bbox.contains(*corner) for corner in axes.patches[0].get_window_extent().get_points())
+        (row,) = page_one([turned], example.structures, None, None)["rows"]
+        drawn, at_rest, *_ = _lines(row["drawing"][0]["svg"])
+        outlines = [block.outline(rotation)[0] for rotation in (0.8 * side * critical, 0.0)]
+        scale = np.ptp(drawn, axis=0) / np.ptp(outlines[0], axis=0)
+        assert scale[0] == pytest.approx(scale[1], rel=2e-3)  # rounded to a micrometre
+        moved = drawn[0] - scale[0] * outlines[0][0]
+        for points, outline in zip((drawn, at_rest), outlines, strict=True):
+            np.testing.assert_allclose(points, scale[0] * outline + moved, atol=0.02)
+            assert (points > 0).all() and (points < [12, 14]).all()
 
 
 def test_a_thinned_trace_keeps_its_peaks_and_few_points():
@@ -134,19 +167,19 @@ def test_every_panel_stands_in_its_figure_and_shows_all_of_what_it_draws(example
     begin, end = min(measured[0], motion.pulses[0].start_time), max(measured[1], motion.pulses[0].end_time)
     margin = 0.15 * (end - begin)
     assert motion.span == pytest.approx((max(0.0, begin - margin), end + margin))
-    for figure, width in ((pulses_figure([motion, motion]), TEXT_WIDTH), (trace_figure(motion), 118.0)):
-        assert figure.get_figwidth() * 25.4 == pytest.approx(width)
-        boxes = [axes.get_position() for axes in figure.axes]
-        assert all(0 <= box.xmin < box.xmax <= 1 and 0 <= box.ymin < box.ymax <= 1 for box in boxes)
-        assert not any(one.overlaps(other) for one, other in itertools.combinations(boxes, 2))
-        for axes in figure.axes:
-            (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
-            heights = np.concatenate(
-                [line.get_ydata() for line in axes.lines if line.get_transform() == axes.transData] or [[low]]
-            )
-            assert low <= heights.min() and heights.max() <= high
-            places = [text.get_position()[0] for text in axes.texts if text.get_transform() == axes.transData]
-            assert all(left <= place <= right for place in places)
+    figure = pulses_figure([motion, motion])
+    assert figure.get_figwidth() * 25.4 == pytest.approx(TEXT_WIDTH)
+    boxes = [axes.get_position() for axes in figure.axes]
+    assert all(0 <= box.xmin < box.xmax <= 1 and 0 <= box.ymin < box.ymax <= 1 for box in boxes)
+    assert not any(one.overlaps(other) for one, other in itertools.combinations(boxes, 2))
+    for axes in figure.axes:
+        (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+        heights = np.concatenate(
+            [line.get_ydata() for line in axes.lines if line.get_transform() == axes.transData] or [[low]]
+        )
+        assert low <= heights.min() and heights.max() <= high
+        places = [text.get_position()[0] for text in axes.texts if text.get_transform() == axes.transData]
+        assert all(left <= place <= right for place in places)
 
 
 def test_a_front_is_drawn_on_its_way_down_to_three_times_the_critical_rotation_of_each_side():
