@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from rocking.contacts.dynamics import follow_stack
 from rocking.errors import RockingError
 from rocking.hashes import sha256_of_bytes, sha256_of_sources
 from rocking.motion import Members, integrate, integrate_batch, integrate_members
@@ -20,7 +21,7 @@ from rocking.pulses import Pulse, extract_pulses
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.processing import Processing, process
 from rocking.sine_pulse import overturning_amplitudes, predict_maxima, predict_maximum
-from rocking.structures import Block
+from rocking.structures import Block, Spire
 
 USUAL = 20.0
 """Seconds that compiling takes on two cores of 2024."""
@@ -98,7 +99,7 @@ def compile_mechanisms() -> None:
 
 
 def compile_blocks() -> None:
-    """Compile what is exact of equivalent blocks: under a record and under a sine pulse."""
+    """Compile what is exact of equivalent blocks, under a record and under a sine pulse, and contact dynamics."""
     record = _record()
     block = Block(2.0, 0.2).mechanism().equivalent_block()
     pulse = Pulse(3.0, 6.0)
@@ -109,6 +110,7 @@ def compile_blocks() -> None:
     predict_maximum(block, pulse)
     predict_maxima([block], [pulse])
     overturning_amplitudes([block], [6.0])
+    follow_stack(Spire(width=3.0, height=15.0).stack(), record)
 
 
 def _record() -> Accelerogram:

@@ -81,20 +81,24 @@ def follow_stack(
             f"the time step is {step:.4g} s, but must be {SHORTEST:g} to {longest:.4g} s, which the smallest course "
             "and the stiffest tie of this stack allow; give a shorter step, or join courses."
         )
-    kicks, still = _strong(stack, _kicks(motion, vertical, step), step, whole=history or vertical is not None)
-    kicks = np.vstack([kicks, np.zeros((math.ceil(AFTERWARDS / step), 2))])
+    ground = _ground(motion, vertical)
+    shaken = math.ceil(motion.duration / step)
+    start, still = 0, shaken
+    if vertical is None and not history and initial_velocity is None:
+        start, still = _strong(stack, motion, step)
     bodies = _bodies(stack)
     every = max(round(motion.time_step / step), 1) if history else 0
-    kept = np.zeros((len(kicks) // every + 1 if every else 0, len(stack.courses) + 1, 6))
+    steps = shaken + math.ceil(AFTERWARDS / step)
+    kept = np.zeros((steps // every + 1 if every else 0, len(stack.courses) + 1, 6))
     settled = min(each.slenderness for each in stack.courses if not (each.guided or each.upright)) / 30
-    limits = kernel.Limits(step, GRAVITY, stack.fallen_turn, settled, still, every)
+    limits = kernel.Limits(step, GRAVITY, stack.fallen_turn, settled, start, still, steps, every)
     state, joints = _beginning(stack, bodies, initial_velocity)
-    ending, steps, swept = kernel.follow(bodies, _acting(stack), kicks, limits, state, joints, kept)
+    ending, followed, swept = kernel.follow(bodies, _acting(stack), ground, limits, state, joints, kept)
     response = StackResponse(
         falls=ending == kernel.FALLS,
         turns=-state.turns[1:],
         largest_turns=state.most[1:],
-        steps=steps,
+        steps=followed,
         unsolved_steps=swept,
     )
     return _with_history(response, kept, step, every) if every else response
@@ -107,44 +111,31 @@ def _with_history(response: StackResponse, kept: np.ndarray, step: float, every:
     return replace(response, times=times, places=states[..., :3], velocities=states[..., 3:])
 
 
-def _kicks(motion: Accelerogram, vertical: Accelerogram | None, step: float) -> np.ndarray:
-    """The velocity (steps, 2) that the ground gains in each step, exact for an acceleration linear between samples."""
-    times = np.arange(math.ceil(motion.duration / step) + 1) * step
-    gains = []
-    for component in (motion, vertical):
-        if component is None:
-            gains.append(np.zeros(len(times) - 1))
-            continue
-        if component.acceleration.size != motion.acceleration.size:
+def _ground(motion: Accelerogram, vertical: Accelerogram | None) -> kernel.Ground:
+    """The motion of the ground as the kernel takes it."""
+    components = [motion.acceleration]
+    if vertical is not None:
+        if vertical.acceleration.size != motion.acceleration.size:
             raise MotionError(
-                f"the vertical component has {component.acceleration.size} samples, but must have "
+                f"the vertical component has {vertical.acceleration.size} samples, but must have "
                 f"{motion.acceleration.size}, as the horizontal one; cut both alike."
             )
-        gains.append(np.diff(_velocity(component, times)))
-    return np.column_stack(gains)
+        components.append(vertical.acceleration)
+    samples = np.array(components)
+    gains = (samples[:, 1:] + samples[:, :-1]) / 2 * motion.time_step
+    return kernel.Ground(samples, np.pad(np.cumsum(gains, axis=1), ((0, 0), (1, 0))), motion.time_step)
 
 
-def _strong(stack: Stack, kicks: np.ndarray, step: float, whole: bool) -> tuple[np.ndarray, int]:
-    """The steps from where the ground may lift a stack at rest on, and the first one from which it no longer may.
+def _strong(stack: Stack, motion: Accelerogram, step: float) -> tuple[int, int]:
+    """The step from which on the ground may lift a stack at rest, and the one after which it no longer may.
 
-    Half of what lifts is the border, for bodies that still rock. whole: all of them are needed.
+    Half of what lifts is the border, for bodies that still rock.
     """
-    lifting = np.flatnonzero(np.abs(kicks[:, 0]) > 0.5 * stack.resting_multiplier * GRAVITY * step)
-    if whole or not lifting.size:
-        return kicks, len(kicks)
-    return kicks[lifting[0] :], int(lifting[-1] - lifting[0]) + 1
-
-
-def _velocity(motion: Accelerogram, times: np.ndarray) -> np.ndarray:
-    """The integral of the acceleration from the first sample, m/s; zero acceleration after the last."""
-    samples, spacing = motion.acceleration, motion.time_step
-    whole = np.append(0.0, np.cumsum((samples[1:] + samples[:-1]) / 2 * spacing))
-    at = np.minimum(times, motion.duration)
-    interval = np.minimum((at / spacing).astype(int), samples.size - 2)
-    offset = at - interval * spacing
-    slope = (samples[interval + 1] - samples[interval]) / spacing
-    gained: np.ndarray = whole[interval] + samples[interval] * offset + slope * offset**2 / 2
-    return gained
+    lifting = np.flatnonzero(np.abs(motion.acceleration) > 0.5 * stack.resting_multiplier * GRAVITY)
+    if not lifting.size:
+        return 0, -1
+    before, after = max(lifting[0] - 1, 0) * motion.time_step, (lifting[-1] + 1) * motion.time_step
+    return int(before / step), math.ceil(after / step)
 
 
 def _bodies(stack: Stack) -> kernel.Bodies:
@@ -170,16 +161,20 @@ def _bodies(stack: Stack) -> kernel.Bodies:
 
 def _acting(stack: Stack) -> kernel.Acting:
     """Forces and ties as the kernel takes them."""
-    forces, ties = [], []
+    forces, ties, stops = [], [], []
     for each in stack.held:
         across, up = np.array(each.point) - stack.courses[each.course].centre
         body = each.course + 1
+        if each.stop is not None:
+            stops.append([body, across, up, each.stop.stiffness, each.stop.damping])
         if each.tie is not None:
             tie = each.tie
             ties.append([body, across, up, tie.stiffness, tie.pretension, tie.strength, tie.rupture_stretch])
         if any(each.force):
             forces.append([body, across, up, *each.force])
-    return kernel.Acting(np.array(forces).reshape(-1, 5), np.array(ties).reshape(-1, 7))
+    return kernel.Acting(
+        np.array(forces).reshape(-1, 5), np.array(ties).reshape(-1, 7), np.array(stops).reshape(-1, 5)
+    )
 
 
 def _beginning(
@@ -200,6 +195,10 @@ def _beginning(
         faces=np.zeros((count, 4, 2)),
         scale=np.zeros(count),
         work=np.zeros((count, 3, 7)),
+        least=np.zeros(3),
+        free=np.zeros((count, 3)),
+        still=np.zeros((count, 3)),
+        pushed=np.zeros((count, 3)),
     )
     joints = kernel.Joints(
         gap=np.full((count, 2), np.inf),

@@ -22,7 +22,7 @@ MOST_GUESSES = 60
 """Guesses of what touches before the impulses are found one after the other."""
 ALL_AT_ONCE = 12
 """Guesses in which all that was wrong is changed; from then on one contact at a time, which ends without friction."""
-SWEEPS = 1000
+SWEEPS = 200
 """Most sweeps over the contacts where they are found one after the other."""
 ROUNDING = 1e-9
 """Impulse over that of the weight in a step, and velocity over g times the step, that count as none."""
@@ -30,6 +30,12 @@ EDGE = 1e-6
 """The distance of a corner beyond the face that still bears it, over the length of the face."""
 REST = 1.0
 """The time that courses must be nearly upright on still ground to count as standing, s."""
+CALM = 1e-6
+"""Velocity over what weight gains in a step below which a stack rests."""
+SINGULAR = 1e-10
+"""Pivot over the compliance of an impulse below which others do all that it does."""
+TRIED_EVERY = 20
+"""Sweeps between two guesses of what touches from the impulses found so far."""
 PRECISION = 1e4
 """Change of an impulse in the last sweep that counts as none, in ROUNDING: a hundred-thousandth of the weight."""
 OPEN, LEFT, RIGHT, CLOSED = 0, 1, 2, 3
@@ -55,23 +61,38 @@ class Bodies(NamedTuple):
 
 class Acting(NamedTuple):
     """Forces (k, 5): body, point from its centre [m], force; ties (m, 7): body, point, stiffness, pretension, strength,
-    largest elongation before they break [m]. An infinite strength is elastic.
+    largest elongation before they break [m]; stops (s, 5): body, point, stiffness, damping. An infinite strength is
+    elastic. A stop pushes to the right where its point has moved to the left, and never pulls.
     """
 
     forces: np.ndarray
     ties: np.ndarray
+    stops: np.ndarray
+
+
+class Ground(NamedTuple):
+    """acceleration: (c, n) samples of the horizontal, and perhaps the vertical, component, m/s². velocity: (c, n) its
+    integral from the first one, m/s. spacing: of the samples, s.
+    """
+
+    acceleration: np.ndarray
+    velocity: np.ndarray
+    spacing: float
 
 
 class Limits(NamedTuple):
     """step: s. gravity: m/s². fallen: turn from which nothing comes back, rad. settled: turn below which a stack on
-    still ground rests, rad. still: step from which the ground rests. every: steps between two states that are kept.
+    still ground rests, rad. start: the first step that is followed. still: step from which the ground rests. steps: the
+    most. every: steps between two states that are kept.
     """
 
     step: float
     gravity: float
     fallen: float
     settled: float
+    start: int
     still: int
+    steps: int
     every: int
 
 
@@ -97,7 +118,8 @@ class State(NamedTuple):
     place: (n + 1, 3) of the centres and turns. velocity: (n + 1, 3). turns: (n + 1,) where their largest was reached,
     rad. most: (n + 1,) the largest turn of each, rad. stretched: (m,) largest elongation so far, m. faces:
     (n + 1, 4, 2) where the corners are. scale: (n + 1,) impulse that counts as none at each joint. work: (n + 1, 3, 7)
-    the equations of the impulses.
+    the equations of the impulses, least: (3,) their least pivots, free: (n + 1, 3) velocities, still, pushed: (n + 1,
+    3) impulses.
     """
 
     place: np.ndarray
@@ -108,26 +130,46 @@ class State(NamedTuple):
     faces: np.ndarray
     scale: np.ndarray
     work: np.ndarray
+    least: np.ndarray
+    free: np.ndarray
+    still: np.ndarray
+    pushed: np.ndarray
 
 
 @entry
-def follow(bodies, acting, kicks, limits, state, joints, history):
-    """Return how the run ends, the steps that were followed, and those whose impulses were found one after the other.
+def follow(bodies, acting, ground, limits, state, joints, history):
+    """Return how the run ends, the steps that were followed, and those whose impulses were not found at once.
 
-    kicks: (steps, 2) velocity that the ground gains in each step, m/s. state: as it begins; what came of it is written
-    there. history: (k, n + 1, 6), filled with place from rest and velocity after every so many steps; none for k = 0.
+    state: as it begins, before step `limits.start`; what came of it is written there. history: (k, n + 1, 6), filled
+    with place from rest and velocity after every so many steps; none for k = 0.
     """
     count, step = len(bodies.centres), limits.step
     place, velocity = state.place, state.velocity
+    weight = limits.gravity * step
     _fill_scale(bodies, limits, state.scale)
     quiet, swept, largest_of_all = 0, 0, 0.0
-    for number in range(len(kicks)):
+    before_x = _velocity(ground, 0, limits.start * step)
+    before_z = _velocity(ground, 1, limits.start * step)
+    low, high = _shut(bodies, acting, limits, state, joints)
+    for number in range(limits.start, limits.steps):
+        now_x = _velocity(ground, 0, (number + 1) * step)
+        now_z = _velocity(ground, 1, (number + 1) * step)
+        kick_x, fall = now_x - before_x, weight + now_z - before_z
+        before_x, before_z = now_x, now_z
+        if low < high and low * fall <= kick_x <= high * fall:
+            # At rest, and this opens nothing.
+            if limits.every > 0 and number % limits.every == 0 and number // limits.every < len(history):
+                _keep(bodies, state, history[number // limits.every])
+            if number > limits.still:
+                return STAYS, number + 1 - limits.start, swept
+            continue
         _drift(place, velocity, step / 2)
-        _pull(bodies, acting, kicks[number], limits, state)
+        _pull(bodies, acting, kick_x, fall, limits, state)
         _find_contacts(bodies, place, state.faces, joints)
-        if not _solve(bodies, joints, velocity, state.scale, step, state.work):
+        found = _solve(bodies, joints, velocity, limits, state, MOST_GUESSES)
+        if not found and not _sweep(bodies, joints, velocity, limits, state):
             swept += 1
-            _sweep(bodies, joints, velocity, state.scale, step)
+        low, high = _shut(bodies, acting, limits, state, joints)
         _drift(place, velocity, step / 2)
         largest = 0.0
         for body in range(1, count):
@@ -141,11 +183,98 @@ def follow(bodies, acting, kicks, limits, state, joints, history):
         if limits.every > 0 and number % limits.every == 0 and number // limits.every < len(history):
             _keep(bodies, state, history[number // limits.every])
         if largest > limits.fallen:
-            return FALLS, number + 1, swept
+            return FALLS, number + 1 - limits.start, swept
         quiet = quiet + 1 if number > limits.still and largest < limits.settled else 0
         if quiet * step > REST:
-            return STAYS, number + 1, swept
-    return MOVES, len(kicks), swept
+            return STAYS, number + 1 - limits.start, swept
+    return MOVES, limits.steps - limits.start, swept
+
+
+@compiled
+def _velocity(ground, component, time):
+    """The velocity of the ground, exact for an acceleration linear between samples; as at the last one after it."""
+    if component >= len(ground.acceleration):
+        return 0.0
+    samples = ground.acceleration[component]
+    time = min(time, (len(samples) - 1) * ground.spacing)
+    interval = min(int(time / ground.spacing), len(samples) - 2)
+    offset = time - interval * ground.spacing
+    slope = (samples[interval + 1] - samples[interval]) / ground.spacing
+    return ground.velocity[component, interval] + samples[interval] * offset + slope * offset * offset / 2
+
+
+@compiled
+def _is_calm(velocity, calm):
+    """Whether nothing moves faster than `calm`."""
+    for body in range(len(velocity)):
+        for axis in range(3):
+            if abs(velocity[body, axis]) > calm:
+                return False
+    return True
+
+
+@compiled
+def _halt(velocity):
+    for body in range(len(velocity)):
+        for axis in range(3):
+            velocity[body, axis] = 0.0
+
+
+@compiled
+def _shut(bodies, acting, limits, state, joints):
+    """Return the least and the largest gain of the ground, over that of weight, that opens nothing of a stack at rest.
+
+    The impulses of what touches are linear in what the ground gains in a step; each must press, and friction stay in
+    its cone. 0, 0 of a stack that moves, slides, or is held by a tie that was tightened. What touches at rest is one
+    choice of several where more touches than need be: beyond its bounds a step finds another one.
+    """
+    count, velocity = len(bodies.centres), state.velocity
+    weight = limits.gravity * limits.step
+    calm = CALM * weight
+    if not _is_calm(velocity, calm):
+        return 0.0, 0.0
+    for joint in range(count - 1):
+        if joints.touches[joint] == OPEN or joints.slides[joint] != 0:
+            return 0.0, 0.0
+    for number in range(len(acting.ties)):
+        if acting.ties[number, 4] > 0:
+            return 0.0, 0.0
+    _find_contacts(bodies, state.place, state.faces, joints)
+    for joint in range(count - 1):
+        if max(joints.gap[joint, 0], joints.gap[joint, 1]) > calm * limits.step:
+            return 0.0, 0.0
+    still, pushed = state.still, state.pushed
+    for kept, gain in ((still, 0.0), (pushed, weight)):
+        _halt(velocity)
+        _pull(bodies, acting, gain, weight, limits, state)
+        _impulses(bodies, joints, velocity, limits.step, state)
+        for joint in range(count):
+            for k in range(3):
+                kept[joint, k] = joints.impulse[joint, k]
+                _push(bodies, joints, velocity, joint, k, joints.impulse[joint, k])
+        if not _is_calm(velocity, calm):
+            _halt(velocity)
+            return 0.0, 0.0
+    _halt(velocity)
+    low, high = -np.inf, np.inf
+    for joint in range(count - 1):
+        for k in range(4):
+            # Impulses that must not be negative: two that press, and what is left of friction to either side.
+            if k < 2:
+                here, after = still[joint, k], pushed[joint, k]
+            else:
+                sign = 5.0 - 2.0 * k
+                here = bodies.friction * (still[joint, 0] + still[joint, 1]) - sign * still[joint, 2]
+                after = bodies.friction * (pushed[joint, 0] + pushed[joint, 1]) - sign * pushed[joint, 2]
+            gained = after - here
+            here += state.scale[joint]
+            if gained < 0:
+                high = min(high, -here / gained)
+            elif gained > 0:
+                low = max(low, -here / gained)
+            elif here < 0:
+                return 0.0, 0.0
+    return low, high
 
 
 @compiled
@@ -177,16 +306,15 @@ def _fill_scale(bodies, limits, scale):
 
 
 @compiled
-def _pull(bodies, acting, kick, limits, state):
-    """Add to the velocities what the ground, gravity, forces and ties give within a step."""
+def _pull(bodies, acting, kick, fall, limits, state):
+    """Add to the velocities what the ground, gravity, forces, ties and stops give within a step."""
     step, mobility = limits.step, bodies.mobility
     place, velocity, stretched = state.place, state.velocity, state.stretched
-    fall = step * limits.gravity + kick[1]
     for body in range(1, len(place)):
         if mobility[body, 1] > 0:
             velocity[body, 1] -= fall
         if mobility[body, 0] > 0:
-            velocity[body, 0] -= kick[0]
+            velocity[body, 0] -= kick
     for number in range(len(acting.forces)):
         body = int(acting.forces[number, 0])
         across, up = _arm(place[body, 2], acting.forces[number, 1], acting.forces[number, 2])
@@ -211,6 +339,15 @@ def _pull(bodies, acting, kick, limits, state):
             plastic = max(stretched[number] - (tie[5] - tie[4]) / tie[3], 0.0) if tie[5] < np.inf else 0.0
             tension = min(max(tie[4] + tie[3] * (stretch - plastic), 0.0), tie[5])
         _give(velocity, mobility, body, across, up, -step * tension, 0.0)
+    for number in range(len(acting.stops)):
+        stop = acting.stops[number]
+        body = int(stop[0])
+        across, up = _arm(place[body, 2], stop[1], stop[2])
+        pressed = bodies.centres[body, 0] + stop[1] - place[body, 0] - across
+        if pressed > 0:
+            closing = -(velocity[body, 0] - up * velocity[body, 2])
+            force = max(stop[3] * pressed + stop[4] * closing, 0.0)
+            _give(velocity, mobility, body, across, up, step * force, 0.0)
 
 
 @compiled
@@ -287,7 +424,7 @@ def _row(row, joint, x, z, push_x, push_z, place):
 
 
 @compiled
-def _solve(bodies, joints, velocity, scale, step, work):
+def _solve(bodies, joints, velocity, limits, state, guesses):
     """Find what touches and the impulses of this step, and add them to the velocities; return whether it was found."""
     count = len(velocity)
     for joint in range(count - 1):
@@ -297,10 +434,10 @@ def _solve(bodies, joints, velocity, scale, step, work):
         joints.touches[joint] &= facing
         if joints.touches[joint] == OPEN:
             joints.slides[joint] = 0
-    speed = ROUNDING * 10.0 * step
-    for guess in range(MOST_GUESSES):
-        _impulses(bodies, joints, velocity, step, work)
-        if _mend(bodies, joints, velocity, scale, step, speed, guess < ALL_AT_ONCE):
+    step, speed = limits.step, ROUNDING * 10.0 * limits.step
+    for guess in range(guesses):
+        _impulses(bodies, joints, velocity, step, state)
+        if _mend(bodies, joints, velocity, state.scale, step, speed, guess < ALL_AT_ONCE):
             for joint in range(count):
                 for k in range(3):
                     _push(bodies, joints, velocity, joint, k, joints.impulse[joint, k])
@@ -320,9 +457,10 @@ def _holds(bodies, joints, joint, k, count):
 
 # Whole on purpose: one elimination over three equations a joint, compiled; cut, its matrix would be handed on.
 @compiled
-def _impulses(bodies, joints, velocity, step, work):
+def _impulses(bodies, joints, velocity, step, state):
     """Solve for the impulses of all joints: three equations each, coupled to those of its neighbours (Thomas)."""
     count, mobility = len(velocity), bodies.mobility
+    work, least = state.work, state.least
     for joint in range(count):
         matrix = work[joint]
         for k in range(3):
@@ -341,6 +479,7 @@ def _impulses(bodies, joints, velocity, step, work):
                 matrix[k, column] = 0.0
             if not held[k]:
                 matrix[k, k] = 1.0
+                least[k] = 0.0
                 continue
             rate = joints.gap[joint, k] / step if k < 2 else 0.0
             for axis in range(3):
@@ -358,6 +497,7 @@ def _impulses(bodies, joints, velocity, step, work):
                     if joint < count - 1:
                         value += row[3 + axis] * mobility[joint + 1, axis] * push[3 + axis]
                 matrix[k, other] = value
+            least[k] = SINGULAR * matrix[k, k]
             if joint == 0:
                 continue
             # The joint beneath acts on the lower body of this one; its impulses are those it has, less what they owe
@@ -374,7 +514,7 @@ def _impulses(bodies, joints, velocity, step, work):
                         matrix[k, here] -= value * before[other, 3 + here]
         if joint < count - 1:
             _couple(bodies, joints, joint, held, matrix, count)
-        _eliminate(matrix)
+        _eliminate(matrix, joints.slides[joint] == 0, least)
     for joint in range(count - 1, -1, -1):
         matrix = work[joint]
         for k in range(3):
@@ -406,18 +546,28 @@ def _couple(bodies, joints, joint, held, matrix, count):
 
 
 @compiled
-def _eliminate(matrix):
-    """Turn the first three columns of a (3, 7) into the unit matrix, the largest pivot first."""
+def _eliminate(matrix, is_symmetric, least):
+    """Turn the first three columns of a (3, 7) into the unit matrix; symmetric without friction, else by pivots.
+
+    least: (3,) pivots below which an impulse does nothing that others do not, as that of a joint between two bodies
+    which the ground holds upright; it is none.
+    """
     for k in range(3):
         pivot = k
-        for other in range(k + 1, 3):
-            if abs(matrix[other, k]) > abs(matrix[pivot, k]):
-                pivot = other
+        if not is_symmetric:
+            for other in range(k + 1, 3):
+                if abs(matrix[other, k]) > abs(matrix[pivot, k]):
+                    pivot = other
         if pivot != k:
             for column in range(7):
                 matrix[k, column], matrix[pivot, column] = matrix[pivot, column], matrix[k, column]
-        if matrix[k, k] == 0.0:
-            matrix[k, k] = 1e-300
+        if abs(matrix[k, k]) <= least[k]:
+            for column in range(7):
+                matrix[k, column] = 0.0
+            for other in range(3):
+                matrix[other, k] = 0.0
+            matrix[k, k] = 1.0
+            continue
         factor = 1 / matrix[k, k]
         for column in range(k, 7):
             matrix[k, column] *= factor
@@ -498,15 +648,24 @@ def _push(bodies, joints, velocity, joint, k, impulse):
 
 
 @compiled
-def _sweep(bodies, joints, velocity, scale, step):
-    """Find the impulses one after the other (Gauss and Seidel), up and down the stack, until none changes."""
+def _sweep(bodies, joints, velocity, limits, state):
+    """Find the impulses one after the other (Gauss and Seidel), up and down the stack, until none changes.
+
+    What touches and slides then is tried at once now and again, which ends most of these searches. Return whether it
+    did.
+    """
     count = len(velocity)
+    free, kept = state.free, state.still
+    scale, step = state.scale, limits.step
+    pinned = not math.isnan(bodies.pinned[0])
+    for body in range(count):
+        for axis in range(3):
+            free[body, axis] = velocity[body, axis]
     for joint in range(count):
         for k in range(3):
             joints.impulse[joint, k] = 0.0
             for axis in range(6):
                 joints.pushes[joint, k, axis] = joints.rows[joint, k, axis]
-    pinned = not math.isnan(bodies.pinned[0])
     for sweep in range(SWEEPS):
         change = 0.0
         for place in range(count if pinned else count - 1):
@@ -520,14 +679,42 @@ def _sweep(bodies, joints, velocity, scale, step):
                 elif k < 2:
                     continue
                 change = max(change, _correct(bodies, joints, velocity, joint, k, step) / scale[joint])
-        if change <= PRECISION:
+        done = change <= PRECISION
+        if not done and (sweep + 1) % TRIED_EVERY != 0:
+            continue
+        for joint in range(count):
+            for k in range(3):
+                kept[joint, k] = joints.impulse[joint, k]
+        _guess(bodies, joints, scale)
+        if _solve(bodies, joints, free, limits, state, ALL_AT_ONCE):
+            for body in range(count):
+                for axis in range(3):
+                    velocity[body, axis] = free[body, axis]
+            return True
+        for joint in range(count):
+            for k in range(3):
+                joints.impulse[joint, k] = kept[joint, k]
+                for axis in range(6):
+                    joints.pushes[joint, k, axis] = joints.rows[joint, k, axis]
+        if done:
             break
-    for joint in range(count - 1):
+    _guess(bodies, joints, scale)
+    return False
+
+
+@compiled
+def _guess(bodies, joints, scale):
+    """Take from the impulses what touches, and what slides."""
+    for joint in range(len(joints.touches) - 1):
         touches = 0
         for end in range(2):
             if joints.impulse[joint, end] > 0:
                 touches |= 1 << end
-        joints.touches[joint], joints.slides[joint] = touches, 0
+        along = joints.impulse[joint, 2]
+        most = bodies.friction * (joints.impulse[joint, 0] + joints.impulse[joint, 1])
+        slides = touches != OPEN and abs(along) >= most - scale[joint]
+        joints.touches[joint] = touches
+        joints.slides[joint] = 0 if not slides else 1 if along > 0 else -1
 
 
 @compiled

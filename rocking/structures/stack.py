@@ -21,6 +21,12 @@ COURSES = 6
 of LMGC90 (docs/pages/validation.md)."""
 FRICTION = 5.0
 """Friction coefficient at the joints: more than courses that only rock need, so that none slides."""
+_STEP = 5e-4
+"""Time step [s] for which stops are made, that of contact dynamics."""
+_STOP_STEPS = 0.25
+"""Circular frequency of a mass on its stop, times that step."""
+_LEAST_RETURNED = 0.01
+"""Share of its velocity that a stop returns at least: less needs a dashpot that the step does not follow."""
 _GAP = 1e-9
 """Distance between two courses that counts as none, over the height of the stack."""
 
@@ -75,17 +81,40 @@ class Course:
 
 
 @dataclass(frozen=True)
+class Stop:
+    """What stands still behind a point: it pushes to the right once the point has moved to the left, and never pulls.
+
+    stiffness: force per m. damping: force per m/s.
+    """
+
+    stiffness: float
+    damping: float
+
+    @classmethod
+    def of_mass(cls, mass: float, restitution: float) -> "Stop":
+        """Return the stop that throws `mass` back with a `restitution`, as stiff as a step of contact dynamics allows.
+
+        A mass that hits a spring and a dashpot which it may leave keeps e^(−πζ/√(1−ζ²)) of its velocity.
+        """
+        lost = -np.log(np.clip(restitution, _LEAST_RETURNED, 1.0))
+        ratio = lost / np.hypot(np.pi, lost)
+        circular_frequency = _STOP_STEPS / _STEP
+        return cls(mass * circular_frequency**2, 2 * ratio * circular_frequency * mass)
+
+
+@dataclass(frozen=True)
 class Held:
-    """A load or tie that acts on a course at a point: a constant force, which grows with gravity, or a tie.
+    """What acts on a course at a point: a constant force, which grows with gravity, a tie, or a stop.
 
     course: its place in the stack from the lowest one, 0. point: at rest, m. force: to the right and upwards. tie:
-    pulls to the left once its point has moved to the right.
+    pulls to the left once its point has moved to the right. stop: pushes to the right once it has moved to the left.
     """
 
     course: int
     point: tuple[float, float]
     force: tuple[float, float] = (0.0, 0.0)
     tie: Tie | None = None
+    stop: Stop | None = None
 
 
 @dataclass(frozen=True)

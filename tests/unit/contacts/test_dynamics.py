@@ -173,6 +173,33 @@ def test_a_body_that_slides_is_slowed_by_friction_alone():
     assert np.abs(response.places[:1000, 0, 2]).max() < 1e-6
 
 
+@pytest.mark.parametrize("share", [0.98, 1.02])
+def test_a_body_at_rest_slides_from_the_push_that_friction_bears(share):
+    """Nothing is solved while it rests: the bound of that is μ g."""
+    slippery = Stack(Block.of_size(2.0, 1.0).stack().courses, friction=0.2)
+    push = share * 0.2 * GRAVITY
+    steady = Accelerogram(np.concatenate([np.linspace(0, push, 2000), np.full(1000, push)]), 1e-3)
+    response = follow_stack(slippery, steady, 1e-3, history=True)
+    assert (np.abs(response.places[:2999, 0, 0]).max() > 1e-4) == (share > 1)
+
+
+def test_between_two_pulses_a_stack_rests_and_the_second_finds_it_as_the_first_did():
+    """Drums that settle exactly come to the second pulse as if it were the first."""
+    stack = LoadedWall.of_size(3.2, 0.25, 18e3, top_load=8e3, top_slab="flat").stack(4)
+    pulse = sampled(Pulse(8.0, 15.0))
+    count = pulse.acceleration.size
+    pause = np.zeros(round(20.0 / pulse.time_step))
+    twice = Accelerogram(
+        np.concatenate([pulse.acceleration, pause, pulse.acceleration, pause]), pulse.time_step
+    )
+    step = pulse.time_step / 16
+    history = follow_stack(stack, twice, step, history=True)
+    turns = np.abs(history.places[..., 2]).max(axis=1)
+    one, other = turns[: count + pause.size].max(), turns[count + pause.size :].max()
+    assert one > 1e-3
+    assert other == pytest.approx(one, rel=1e-2)  # the courses come to rest within microns of where they were
+
+
 def test_the_mass_of_a_spire_is_in_its_courses():
     spire = Spire(width=3.0, height=15.0, wall_thickness=0.25, crack_height=4.0, crack="known")
     body = joined(spire.stack(7).courses)
