@@ -18,7 +18,6 @@ from rocking.structures.structure import (
     Crushable,
     Structure,
     check_pressed,
-    free_to_both_sides,
     inset,
 )
 
@@ -115,11 +114,11 @@ class Block(Crushable):
 
     def stack(self, courses: int | None = None) -> Stack:
         """Return it as one body, or as so many drums."""
-        free_to_both_sides(self)
         number = 1 if courses is None else counted_courses(courses)
         levels = np.linspace(0.0, self.height, number + 1).tolist()
         faces = [(-self.breadth / 2, self.breadth / 2)] * (number + 1)
-        return Stack(courses_between(levels, faces, 1.0, [1.0] * number))
+        drums = courses_between(levels, faces, 1.0, [1.0] * number)
+        return Stack(drums, self._behind(drums))
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         return [(0, rectangle(-self.breadth / 2, self.breadth / 2, 0.0, self.height))]
@@ -201,7 +200,6 @@ class RigidBody(Structure):
 
     def stack(self, courses: int | None = None) -> Stack:
         """Return it as one body, as high as twice its centre of mass, for its courses are not known."""
-        free_to_both_sides(self)
         if courses not in (None, 1):
             raise StructureError(
                 f"courses is {courses!r}, but must be 1 for a body that is known by its centre of mass only; leave "
@@ -209,7 +207,7 @@ class RigidBody(Structure):
             )
         face = (-self.left, self.right)
         body = Course(face, face, 0.0, 2 * self.centre_height, 1.0, (0.0, self.centre_height), self.inertia)
-        return Stack((body,))
+        return Stack((body,), self._behind((body,)))
 
     @property
     def _outline_height(self) -> float:
@@ -377,11 +375,11 @@ class Spire(CrackedAtHeight):
 
     def stack(self, courses: int | None = None) -> Stack:
         """Return the courses above the crack where it is known, else all of them; their number as given, or its own."""
-        free_to_both_sides(self)
         number = counted_courses(self.courses if courses is None else courses)
         foot = self.crack_position if self.crack == "known" else 0.0
         levels = np.linspace(foot, self.height, number + 1)
-        return Stack(tuple(self._course(*ends) for ends in pairwise(levels.tolist())))
+        courses_above = tuple(self._course(*ends) for ends in pairwise(levels.tolist()))
+        return Stack(courses_above, self._behind(courses_above))
 
     def _course(self, low: float, high: float) -> Course:
         """The part between two heights [m]; its mass is its volume."""

@@ -3,7 +3,6 @@
 x = 0 is the outer face, x < 0 the building; the positive side rocks outwards about the outer toe of the crack.
 """
 
-import math
 from collections import Counter
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -20,18 +19,21 @@ from rocking.structures.fields import Value, restitution_value
 from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
 from rocking.structures.linkage import STILL, Hung, Linkage, Restitution, Turning
 from rocking.structures.stack import (
+    MOST_COURSES,
     Course,
     Held,
     PointMass,
     Stack,
+    Stop,
     counted_courses,
     course_at,
     courses_between,
     joined,
+    joints_between,
     loaded,
     slab,
 )
-from rocking.structures.structure import free_to_both_sides, inset
+from rocking.structures.structure import inset
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity, check_inside
 
 _MOST_STOREYS = 50
@@ -366,13 +368,18 @@ class Facade(Tied):
         return hung
 
     def stack(self, courses: int | None = None) -> Stack:
-        """Return all above the crack as one body where it is known, else courses that end at the feet of storeys."""
-        free_to_both_sides(self)
-        whole_body = courses is None and self.crack == "known" and self.opening is None
-        if whole_body:
+        """Return all above the crack as one body where it is known and nothing holds the wall, else courses.
+
+        They end at the feet of storeys and where something holds the wall; of a wall that is held there are by default
+        COURSES a storey, as it bulges within one.
+        """
+        bulges = bool(self.held_wall.holds)
+        if courses is None and self.crack == "known" and self.opening is None and not bulges:
             body = [joined(list(self._storey_courses(1, self.crack_position)))]
         else:
-            body = list(self._storey_courses(counted_courses(courses)))
+            storeys = len(self.storey_heights) if bulges and courses is None else 1
+            number = min(storeys * counted_courses(courses), MOST_COURSES // 2)
+            body = list(self._storey_courses(number))
         held: list[Held] = []
         slabs: tuple[Course, ...] = ()
         foot = body[0].base
@@ -397,6 +404,14 @@ class Facade(Tied):
         for height in self.tie_heights:
             if height > foot:
                 held.append(Held(course_at(body, height), (0.0, height), tie=self._tie))
+        held += self._behind(body)
+        for hold in self.held_wall.holds:
+            if hold.inwards and hold.height > foot:
+                place = course_at(body, hold.height)
+                storey_mass = sum(each.mass for each in body) / len(self.storey_heights)
+                restitution = self.mechanism().positive.restitution
+                stop = Stop.of_mass(body[place].mass, restitution, thrown=max(storey_mass, body[place].mass))
+                held.append(Held(place, (body[place].top[0], hold.height), stop=stop))
         return Stack((*body, *slabs), tuple(held))
 
     def _flat_slab(self, thickness: float, load: float) -> Course:
@@ -414,9 +429,10 @@ class Facade(Tied):
         for (low, high), thickness in zip(pairwise(self.levels), self.thicknesses, strict=True):
             if high <= foot:
                 continue
-            height = high - max(low, foot)
-            number = max(1, math.ceil(courses * height / self.height - 1e-9))
-            levels = max(low, foot) + np.linspace(0.0, height, number + 1)
+            stops = [hold.height for hold in self.held_wall.holds if max(low, foot) < hold.height < high]
+            number_of_part = courses * (high - max(low, foot)) / self.height
+            levels = joints_between([max(low, foot), *stops, high], number_of_part)
+            number = len(levels) - 1
             faces = [(-thickness, 0.0)] * (number + 1)
             made += courses_between(levels, faces, self.unit_weight / GRAVITY, [1.0] * number)
         return tuple(made)

@@ -3,6 +3,7 @@
 x to the right, z up, m. Masses and forces are in one unit per mass: kg and N, or kg per metre of wall and N per metre.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -91,15 +92,16 @@ class Stop:
     damping: float
 
     @classmethod
-    def of_mass(cls, mass: float, restitution: float) -> "Stop":
-        """Return the stop that throws `mass` back with a `restitution`, as stiff as a step of contact dynamics allows.
+    def of_mass(cls, mass: float, restitution: float, thrown: float | None = None) -> "Stop":
+        """Return the stop behind a `mass`, as stiff as a step of contact dynamics allows.
 
-        A mass that hits a spring and a dashpot which it may leave keeps e^(−πζ/√(1−ζ²)) of its velocity.
+        restitution: with which it throws back the mass that leans on it, or `thrown`, of which that is a part. What
+        hits a spring and a dashpot, and may leave them, keeps e^(−πζ/√(1−ζ²)) of its velocity.
         """
         lost = -np.log(np.clip(restitution, _LEAST_RETURNED, 1.0))
-        ratio = lost / np.hypot(np.pi, lost)
-        circular_frequency = _STOP_STEPS / _STEP
-        return cls(mass * circular_frequency**2, 2 * ratio * circular_frequency * mass)
+        ratio = float(lost / np.hypot(np.pi, lost))
+        stiffness = mass * (_STOP_STEPS / _STEP) ** 2
+        return cls(stiffness, 2 * ratio * math.sqrt(stiffness * (thrown or mass)))
 
 
 @dataclass(frozen=True)
@@ -269,6 +271,18 @@ def course_at(courses: Sequence[Course], height: float) -> int:
 def counted_courses(number: int | None) -> int:
     """Return the number of courses, COURSES where none is given. Raises StructureError beyond MOST_COURSES."""
     return COURSES if number is None else whole("courses", number, 1, MOST_COURSES)
+
+
+def joints_between(stops: Sequence[float], courses: float) -> list[float]:
+    """Return levels [m] with a joint at each of `stops`, from the lowest to the highest one, and evenly between them.
+
+    courses: as many in all, or somewhat more where stops are many.
+    """
+    levels = list(stops[:1])
+    for low, high in pairwise(stops):
+        number = max(1, math.ceil(courses * (high - low) / (stops[-1] - stops[0]) - 1e-9))
+        levels += np.linspace(low, high, number + 1)[1:].tolist()
+    return levels
 
 
 def courses_between(

@@ -3,7 +3,7 @@
 import math
 import warnings
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
@@ -30,7 +30,7 @@ from rocking.structures.linkage import (
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.restraint import Restraint
 from rocking.structures.searches import minimum
-from rocking.structures.stack import Stack
+from rocking.structures.stack import Course, Held, Stack, Stop
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -291,6 +291,24 @@ class Structure(ABC):
             f"a {self.type_name} is no stack of courses, so that contact dynamics cannot follow it; choose another "
             "fidelity than contact."
         )
+
+    def _behind(self, courses: Sequence[Course]) -> tuple[Held, ...]:
+        """The stops of what its courses lean on, all along their inner faces; none where it is free.
+
+        Each throws back its part of a course with the restitution of the impact on what stands behind, so that no foot
+        need slide; the impacts of the foot come on top.
+        """
+        if not self.one_sided:
+            return ()
+        restitution = self.mechanism().positive.restitution
+        stops = []
+        for place, each in enumerate(courses):
+            number = max(2, math.ceil(2 * each.height / (each.bottom[1] - each.bottom[0])))
+            stop = Stop.of_mass(each.mass / number, restitution)
+            for share in (np.arange(number) + 0.5) / number:
+                x = each.bottom[0] + share * (each.top[0] - each.bottom[0])
+                stops.append(Held(place, (float(x), float(each.base + share * each.height)), stop=stop))
+        return tuple(stops)
 
     def dimensions(self) -> tuple[Dimension, ...]:
         """Return the dimension lines of the sizes it was described by, at rest; of a list, one for each value."""
@@ -730,15 +748,6 @@ class CrackedAtHeight(Crackable):
     def cracked_by_statics(self) -> Self:
         """Return this structure cracked where statics chooses; the crack is unknown."""
         return replace(self, crack="unknown").cracked_at(self._may_form(CRACKS)[0].position)
-
-
-def free_to_both_sides(structure: Structure) -> None:
-    """Refuse contact dynamics of what leans on something: what it leans on is no course."""
-    if structure.one_sided:
-        raise StructureError(
-            "a one-sided structure leans on what is no course of it, so that contact dynamics cannot follow it; choose "
-            "another fidelity than contact."
-        )
 
 
 def remember_as_typed(

@@ -28,14 +28,17 @@ from rocking.structures.linkage import (
 )
 from rocking.structures.mechanism import Tie
 from rocking.structures.restraint import Restraint
-from rocking.structures.stack import Course, Held, Stack, counted_courses, course_at, courses_between, slab
-from rocking.structures.structure import (
-    HIGHEST_SHARE,
-    CrackedAtHeight,
-    free_to_both_sides,
-    inset,
-    remember_as_typed,
+from rocking.structures.stack import (
+    Course,
+    Held,
+    Stack,
+    counted_courses,
+    course_at,
+    courses_between,
+    joints_between,
+    slab,
 )
+from rocking.structures.structure import HIGHEST_SHARE, CrackedAtHeight, inset, remember_as_typed
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity
 
 _GRIPS = 1e-3
@@ -251,15 +254,20 @@ class CrackedWall(CrackedAtHeight):
 
     def stack(self, courses: int | None = None) -> Stack:
         """Return its two blocks where the hinge is known, else so many courses, held sideways at the top."""
-        free_to_both_sides(self)
-        return Stack(self._wall_courses(courses, 1.0), top_held_at=(0.0, self.height))
+        wall = self._wall_courses(courses, 1.0)
+        return Stack(wall, self._behind(wall), top_held_at=(0.0, self.height))
+
+    @property
+    def _holds_within(self) -> tuple[float, ...]:
+        """The heights between foot and top at which something holds it, m: it may bulge between any two."""
+        return ()
 
     def _wall_courses(self, courses: int | None, density: float) -> tuple[Course, ...]:
         """The wall itself. density: mass per m³."""
-        is_two_blocks = courses is None and self.crack == "known"
-        levels = [0.0, self.lower_height, self.height]
-        if not is_two_blocks:
-            levels = np.linspace(0.0, self.height, counted_courses(courses) + 1).tolist()
+        if courses is None and self.crack == "known" and not self._holds_within:
+            levels = [0.0, self.lower_height, self.height]
+        else:
+            levels = joints_between([0.0, *self._holds_within, self.height], counted_courses(courses))
         number = len(levels) - 1
         faces = [(-self.thickness / 2, self.thickness / 2)] * (number + 1)
         return courses_between(levels, faces, density, [1.0] * number)
@@ -498,6 +506,10 @@ class LoadedWall(CrackedWall, Tied):
         return cls.of_size(height, thickness, unit_weight, hinge, crack=crack, **options)
 
     @property
+    def _holds_within(self) -> tuple[float, ...]:
+        return tuple(sorted({height for height in self.tie_heights if height < self.height}))
+
+    @property
     def symmetric(self) -> bool:
         """Whether no tie and no bearing off the middle tells the sides apart."""
         bears_off_the_middle = self.top_load and self.top_slab == "hinged" and self.eccentricity != 0
@@ -576,16 +588,16 @@ class LoadedWall(CrackedWall, Tied):
         return WallLinkage(self.lower_height, self.upper_height, self.thickness, weight, self._hung(mirrored))
 
     def stack(self, courses: int | None = None) -> Stack:
-        """Return its two blocks where the hinge is known, else so many courses, below the slab or the bearing."""
-        free_to_both_sides(self)
+        """Return its two blocks where the hinge is known and no tie holds it, else courses; below what loads it."""
         wall = self._wall_courses(courses, self.unit_weight / GRAVITY)
         half = self.thickness / 2
         top = (-self.eccentricity, self.height)
-        ties = tuple(
+        held = tuple(
             Held(course_at(wall, height), (half, height), tie=self._tie) for height in self.tie_heights
         )
+        held += self._behind(wall)
         if not self.top_load:
-            return Stack(wall, ties, top_held_at=(0.0, self.height))
+            return Stack(wall, held, top_held_at=(0.0, self.height))
         if self.load_held and self.top_slab == "flat":
             raise StructureError(
                 "load_held is true under a flat slab, but contact dynamics needs the mass of a slab; leave load_held "
@@ -593,12 +605,12 @@ class LoadedWall(CrackedWall, Tied):
             )
         if self.load_held:
             weight = Held(len(wall) - 1, top, force=(0.0, -self.top_load))
-            return Stack(wall, (*ties, weight), top_held_at=(0.0, self.height))
+            return Stack(wall, (*held, weight), top_held_at=(0.0, self.height))
         edges = (-3 * half, 3 * half)
         if self.top_slab == "hinged":
             edges = (top[0] - _BEARING * half, top[0] + _BEARING * half)
         floor = slab(*edges, self.height, self.top_load, guided=True)
-        return Stack((*wall, floor), ties)
+        return Stack((*wall, floor), held)
 
     def _hung(self, mirrored: bool) -> list[Hung]:
         half = self.thickness / 2

@@ -115,7 +115,7 @@ def test_only_what_contact_dynamics_can_follow_is_advised_to_it():
         (SPIRE, True),
         (facade, True),
         (replace(facade, crack="known", crack_storey=2), False),
-        (replace(facade, behind="cross_walls", restitution=0.5), False),
+        (replace(facade, behind="cross_walls", restitution=0.5), True),
         (Block.of_size(0.8, 4.0), False),
         (rocking.Frame(Block.of_size(1.1, 8.0), 4, 0.3), False),
         (as_structure(Block.of_size(0.8, 4.0).mechanism()), False),
