@@ -29,6 +29,7 @@ from rocking.structures.linkage import (
 from rocking.structures.mechanism import Tie
 from rocking.structures.restraint import Restraint
 from rocking.structures.stack import (
+    FRICTION,
     Course,
     Held,
     Stack,
@@ -610,7 +611,8 @@ class LoadedWall(CrackedWall, Tied):
         if self.top_slab == "hinged":
             edges = (top[0] - _BEARING * half, top[0] + _BEARING * half)
         floor = slab(*edges, self.height, self.top_load, guided=True)
-        return Stack((*wall, floor), held)
+        friction = self.top_friction if self.slips and self.top_friction is not None else FRICTION
+        return Stack((*wall, floor), held, friction=friction)
 
     def _hung(self, mirrored: bool) -> list[Hung]:
         half = self.thickness / 2
