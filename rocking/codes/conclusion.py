@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from rocking.assessment.scene import placed
 from rocking.codes.check import Part, ratio_in_words
 from rocking.codes.rows import CodeCheckRow
-from rocking.quantities import percent
+from rocking.quantities import counted, percent
 from rocking.remarks import Kind, Remark
 
 
@@ -52,15 +52,22 @@ class CodeConclusion:
     @property
     def other_sets(self) -> Remark | None:
         """How many sets of other stations would meet the dynamic check, where one was made."""
-        dynamic = next((each for each in self.checks if not math.isnan(each.sets_share_low)), None)
-        if dynamic is None:
-            return None
-        low, high = percent(dynamic.sets_share_low), percent(dynamic.sets_share_high)
-        share = f"{low}–{high}\u00a0%" if low != high else f"{low}\u00a0%"
-        return Remark.of(Kind.OTHER_SETS, share=share)
+        share = self.other_share_in_words
+        return Remark.of(Kind.OTHER_SETS, share=share) if share else None
 
     @property
-    def ratio_in_words(self) -> Mapping[str, str]:
+    def other_share(self) -> tuple[float, float] | None:
+        """The 90 % interval of their share; None without a dynamic check."""
+        shares = ((each.sets_share_low, each.sets_share_high) for each in self.checks)
+        return next((each for each in shares if not math.isnan(each[0])), None)
+
+    @property
+    def other_share_in_words(self) -> str:
+        """That interval: "20–100 %"; "" without one."""
+        return _in_percent(*self.other_share) if self.other_share else ""
+
+    @property
+    def ratios(self) -> Mapping[str, str]:
         """Capacity over demand by the kind of check, "falls" where a motion lets it fall."""
         return {each.check: ratio_in_words(each.ratio) for each in self.checks}
 
@@ -74,6 +81,37 @@ class CodeConclusion:
     def name(self) -> str:
         """Name of the structure, with the period of its support."""
         return placed(self.structure, self.period)
+
+
+_NAMED = 8
+"""Names of a sentence."""
+
+
+def code_conclusion_in_words(concluded: Sequence[CodeConclusion]) -> str:
+    """Return the sentence on all structures: "At the design level 2 of 6 structures are verified: pier, parapet; …".
+
+    It ends in how many sets of other stations would say so, the widest interval of all. "" without any structure.
+    """
+    if not concluded:
+        return ""
+    verified = [each.structure for each in concluded if each.verified]
+    if not verified:
+        return f"At the design level none of {counted(len(concluded), 'structure')} is verified."
+    more = len(verified) - _NAMED
+    names = ", ".join(verified[:_NAMED]) + (f" and {counted(more, 'other')}" if more > 0 else "")
+    verb = "is" if len(verified) == 1 else "are"
+    whole = f"{len(verified)} of {counted(len(concluded), 'structure')}"
+    shares = [each.other_share for each in concluded if each.verified and each.other_share]
+    others = ""
+    if shares:
+        share = _in_percent(min(low for low, _ in shares), max(high for _, high in shares))
+        others = f"; {share} of sets of other stations would say so"
+    return f"At the design level {whole} {verb} verified: {names}{others}."
+
+
+def _in_percent(low: float, high: float) -> str:
+    texts = dict.fromkeys((percent(low), percent(high)))
+    return f"{'–'.join(texts)}\u00a0%"
 
 
 def code_conclusions(rows: Iterable[CodeCheckRow]) -> list[CodeConclusion]:

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -28,6 +28,9 @@ from rocking.reports.panels import moving_span, rotation_ratios
 from rocking.reports.printing import LOOKS, band_text, cell_text, ratio
 from rocking.reports.record import warnings_of
 from rocking.structures import Mechanism, Structure
+
+if TYPE_CHECKING:
+    from rocking.codes.conclusion import CodeConclusion
 
 Content = dict[str, Any]
 """The content that JSON can hold."""
@@ -85,17 +88,25 @@ def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[s
     }
 
 
-def explore_page(records: Iterable[Content], structures: Mapping[str, Structure], title: str = "") -> bytes:
+def explore_page(
+    records: Iterable[Content],
+    structures: Mapping[str, Structure],
+    title: str = "",
+    checked: "Sequence[CodeConclusion]" = (),
+) -> bytes:
     """Return the page as UTF-8 HTML that loads nothing; it stands beside the folders of the records.
 
-    records: their `record_content`, in the order of the catalogue. title: of the study.
+    records: their `record_content`, in the order of the catalogue. title: of the study. checked: the conclusions at its
+    design level, where it has one.
     """
     of_records = list(records)
+    by_code = {each.structure: f"At the design level: {each}." for each in checked}
     of_structures = [
         {
             "name": name,
             "size": structure.described.size,
             "type": structure.described.type_name,
+            "code": by_code.get(name, ""),
             "frames": drawings(structure),
         }
         for name, structure in structures.items()
@@ -109,7 +120,7 @@ def explore_page(records: Iterable[Content], structures: Mapping[str, Structure]
     legend = (f'<span class="cell {_css(word)}">{sign}</span> {word}' for word, (sign, *_) in LOOKS.items())
     pieces = {
         "title": escape(title or "Rocking of structures under recorded earthquakes"),
-        "conclusion": escape(_conclusion(of_records)),
+        "conclusion": escape(f"{_conclusion(of_records)} {_at_design_level(checked)}".rstrip()),
         "count": f"{counted(len(of_records), 'record')}, {counted(len(structures), 'structure')}",
         "verdicts": "".join(f"<option>{verdict}</option>" for verdict in LOOKS),
         "legend": "\n".join(legend),
@@ -133,6 +144,14 @@ def _conclusion(records: Sequence[Content]) -> str:
         for name, each in cases.items():
             words[name] = worse(Verdict(each["verdict"]), words.get(name, Verdict.CANNOT_OVERTURN))
     return conclusion_in_words(words, sum(map(bool, judged)))
+
+
+def _at_design_level(checked: "Sequence[CodeConclusion]") -> str:
+    if not checked:
+        return ""
+    from rocking.codes.conclusion import code_conclusion_in_words  # which a study without one has no need of
+
+    return code_conclusion_in_words(checked)
 
 
 def _css(verdict: Verdict) -> str:

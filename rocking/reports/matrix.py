@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from rocking.assessment.conclusion import Conclusion, worst_of_each
-from rocking.assessment.decide import worst_first
+from rocking.assessment.decide import ORDER, Verdict, worst_first
 from rocking.quantities import GRAVITY, percent
 from rocking.remarks import Kind
-from rocking.reports.printing import LOOKS, number
+from rocking.reports.printing import LOOKS, NOTHING, number
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -16,6 +16,9 @@ MOST_RECORDS = 5
 """Records beside each other; of more the map has a line each."""
 MOST_STRUCTURES = 20
 """Structures below each other, the worst first; verdicts.csv holds all."""
+MOST_IN_WORDS = 2
+"""Records up to which a cell has room for its word and a range; of more it holds the share alone on the word's colour,
+with a legend."""
 _UNSAID = (Kind.STRENGTHEN, Kind.NOTHING_TO_DO, Kind.NOTHING_DECIDES)
 """Remarks that the word itself says."""
 
@@ -24,7 +27,7 @@ def matrix(made: Sequence[Conclusion], records: "DataFrame", pulses: "DataFrame"
     """Return heads and rows: a column for each record, a row for each structure, both the worst first.
 
     Without rows where there are more records than stand beside each other. made: the conclusions on all. records,
-    pulses: the tables.
+    pulses: the tables. The legend is empty where the cells hold their words.
     """
     columns = worst_first((each.verdict.record, each.decision) for each in made)
     by_pair = {(each.verdict.record, each.structure): each for each in made}
@@ -32,16 +35,20 @@ def matrix(made: Sequence[Conclusion], records: "DataFrame", pulses: "DataFrame"
     worst = {each.structure: each for each in worst_of_each(made)}
     names = sorted(shares, key=lambda name: worst[name].decision.word.badness, reverse=True)
     if not 0 < len(columns) <= MOST_RECORDS:
-        return {"heads": [], "rows": [], "left-out": 0}
+        return {"heads": [], "rows": [], "legend": [], "left-out": 0}
+    shown = names[:MOST_STRUCTURES]
+    in_words = len(columns) <= MOST_IN_WORDS
+    present = {by_pair[pair].decision.word for pair in by_pair if pair[1] in shown}
     return {
+        "legend": [] if in_words else [_look(word) for word in ORDER if word in present],
         "heads": [{"name": name, "below": _head(name, records, pulses)} for name in columns],
         "rows": [
             {
                 "name": name,
-                "cells": [_cell(by_pair.get((record, name))) for record in columns],
+                "cells": [_cell(by_pair.get((record, name)), in_words) for record in columns],
                 "remark": _remark(worst[name]),
             }
-            for name in names[:MOST_STRUCTURES]
+            for name in shown
         ],
         "left-out": max(0, len(names) - MOST_STRUCTURES),
     }
@@ -61,14 +68,22 @@ def _head(record: str, records: "DataFrame", pulses: "DataFrame") -> str:
     return text
 
 
-def _cell(conclusion: Conclusion | None) -> dict[str, object]:
+def _cell(conclusion: Conclusion | None, in_words: bool) -> dict[str, object]:
     if conclusion is None:
         return {"word": "", "share": "", "fill": "#ffffff", "ink": "#000000", "hatched": False}
     decision = conclusion.decision
-    _, fill, ink, hatch = LOOKS[decision.word]
-    word = f"? {decision.word}" if hatch else str(decision.word)
-    share = "" if hatch else decision.share_in_words
-    return {"word": word, "share": share, "fill": fill, "ink": ink, "hatched": bool(hatch)}
+    look = _look(decision.word)
+    if not in_words:
+        share = decision.share_in_words.removesuffix("\u00a0%").replace("at least ", "≥")
+        return look | {"word": "", "share": share or ("?" if look["hatched"] else NOTHING)}
+    return look | {"share": "" if look["hatched"] else decision.share_in_words}
+
+
+def _look(verdict: Verdict) -> dict[str, object]:
+    """A word on its colour."""
+    _, fill, ink, hatch = LOOKS[verdict]
+    word = f"? {verdict}" if hatch else str(verdict)
+    return {"word": word, "share": "", "fill": fill, "ink": ink, "hatched": bool(hatch)}
 
 
 def _remark(conclusion: Conclusion) -> str:

@@ -98,7 +98,7 @@ def summary_data(
     """Return what the template of the summary is given: texts, tables and figures.
 
     tables: the summary tables "record", "pulses", "comparison", "verdicts", "structures", "agreement" and "failures",
-    and where they exist "supports", "fragility_summary" and "ida".
+    and where they exist "supports", "code_checks", "fragility_summary" and "ida".
     settings: at least tolerance and acceleration_scale; below "about" what is told of the study, where it is given.
     trade: figure and conclusion, where it was measured. design: None where the study has no design level.
     """
@@ -128,12 +128,15 @@ def _data(
     both = comparison[["predicted_rotation_ratio", "integrated_rotation_ratio"]].max(axis=1, skipna=False)
     drawable = int((both > 0).sum()) >= FEWEST_POINTS
     summary = tables.get("fragility_summary")
+    by_code, checks = _checks(tables.get("code_checks"))
     return {
         "title": "Summary over the records",
         **printing.settings_texts(settings),
         "subtitle": f"{counted(records['record'].nunique(), 'record')}, "
         f"{counted(len(tables['structures']), 'structure')}, {counted(len(shown), 'verdict')}",
         "conclusion": conclusion_in_words(words_of_all, len(judged)),
+        "by-code": by_code,
+        "checks": checks,
         "matrix": matrix(made, records, tables["pulses"]),
         "notices": [notice.data for notice in _notices(records, comparison, len(failures))],
         "outcomes-figure": pictures(
@@ -182,6 +185,28 @@ def _fragility(summary: "DataFrame", ida: "DataFrame") -> list[dict[str, object]
     from rocking.reports.fragility import by_place, fragility_table
 
     return [fragility_table(by_place(summary), by_place(ida))]
+
+
+def _checks(rows: "DataFrame | None") -> tuple[str, dict[str, object]]:
+    """The sentence on the checks at the design level, and their table; both empty without one."""
+    if rows is None:
+        return "", {"rows": []}
+    from rocking.codes.conclusion import code_conclusion_in_words, code_conclusions
+    from rocking.codes.rows import KINDS, CodeCheckRow
+
+    concluded = code_conclusions(rows_of(CodeCheckRow, rows))
+    kinds = [kind for kind in dict.fromkeys(KINDS.values()) if any(kind in each.ratios for each in concluded)]
+    checks = table_of(
+        concluded,
+        ("Structure", "1.4", "l", lambda each: strong(each.name)),
+        *(
+            (printing.sentence(kind), "0.7", "r", lambda each, kind=kind: each.ratios.get(kind, "–"))
+            for kind in kinds
+        ),
+        ("Conclusion", "1.5", "l", lambda each: str(each.remark)),
+        ("Met by sets of other stations", "1.2", "l", lambda each: words(each.other_share_in_words)),
+    )
+    return code_conclusion_in_words(concluded), checks
 
 
 def _design(design: Design | None) -> list[dict[str, object]]:

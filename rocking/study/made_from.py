@@ -59,8 +59,8 @@ class Line:
 
     settings: names of settings and of whole sections; section.name is one setting of a section. files: settings that
     name a file whose content counts. pool: whether the records count from which sets are drawn. terms: whether what the
-    structures say for the checks of a code counts. curves: whether the fragility and the trade that stand beside it
-    count. documents: whether it holds a document whatever the settings say.
+    structures say for the checks of a code counts. curves: whether the checks, the fragility and the trade that
+    stand beside it count. documents: whether it holds a document whatever the settings say.
     """
 
     settings: tuple[str, ...]
@@ -135,7 +135,9 @@ def things_of(product: str, plan: Inputs) -> Things:
         things |= _pool(Path(plan.settings.design_spectrum.pool), plan)
     if line.curves:
         # By hand or in every run; of those made by hand, as they are when the summary is made.
+        design = plan.settings.design_spectrum
         in_every_run = {
+            "checks": bool(design.ag or design.points),
             "fragility": plan.settings.fragility.in_every_run,
             "trade": plan.settings.trade.in_summary,
         }

@@ -20,7 +20,14 @@ from rocking.quantities import counted, shown
 from rocking.study import close_doors
 from rocking.study.folder import REMEMBERED, locked, new_log
 from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_plan, workflow_folder
-from rocking.study.terminal import Progress, closing_lines, fitting, paths_to_read, trade_lines
+from rocking.study.terminal import (
+    Progress,
+    closing_lines,
+    fitting,
+    lines_by_code,
+    paths_to_read,
+    trade_lines,
+)
 from rocking.tables import read_rows, read_table
 
 _LOCK = REMEMBERED / "rocking_run.lock"
@@ -95,7 +102,8 @@ def run(folder: Path, options: Sequence[str]) -> int:
     if options and not options[0].startswith("-"):
         print(f"Finished: {options[0]}; what it wrote lies in {results}")
         return 0
-    return _told_of(results)
+    design = plan.settings.design_spectrum
+    return _told_of(results, checked=bool(design.ag or design.points))
 
 
 def run_trade(folder: Path) -> int:
@@ -123,12 +131,15 @@ def _why(progress: Progress, folder: Path, log: Path) -> str:
     return "; ".join(dict.fromkeys(_in_a_sentence(each, folder, log) for each in reasons))
 
 
-def _told_of(results: Path) -> int:
-    """Tell what came of a whole study, and return the exit status."""
+def _told_of(results: Path, checked: bool) -> int:
+    """Tell what came of a whole study, and return the exit status. checked: whether it has a design level."""
     failures = read_table(FailureRow, results / "summary")
     verdicts = read_table(VerdictRow, results / "summary")
     comparison = read_rows(ComparisonRow, results / "summary" / ComparisonRow.table.file_name)
-    for line in (*closing_lines(verdicts, comparison, failures), *paths_to_read(results, verdicts)):
+    told = [*closing_lines(verdicts, comparison, failures)]
+    if checked:
+        told += lines_by_code(results / "summary")
+    for line in (*told, *paths_to_read(results, verdicts, checked)):
         print(fitting(line, sys.stdout))
     return int(bool(failures))
 

@@ -4,7 +4,7 @@ import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rocking.assessment.cracks import never_lets_go
 from rocking.assessment.rows import (
@@ -33,8 +33,20 @@ from rocking.study.job import Job, Study
 from rocking.study.made_from import package_sha256, structure_hashes, versions
 from rocking.study.results import Outcome, outcomes_of, remove_others
 from rocking.study.terminal import log_error
-from rocking.tables import Row, data_package, frame, rows_written, write_tables, write_whole, written_together
+from rocking.tables import (
+    Row,
+    data_package,
+    frame,
+    read_table,
+    rows_written,
+    write_tables,
+    write_whole,
+    written_together,
+)
 from rocking.tables.workbook import workbook
+
+if TYPE_CHECKING:
+    from rocking.codes.rows import CodeCheckRow
 
 PROVENANCE = "provenance.json"
 """In the folder of the summary: what the results were made from and with."""
@@ -82,13 +94,22 @@ def summarise(job: Job) -> list[Path]:
     write_whole(target / PROVENANCE, (text + "\n").encode())
     files += [target / "datapackage.json", target / PROVENANCE]
     if study.settings.reports:
-        from rocking.reports.explore import explore_page  # matplotlib takes half a second to import
+        # matplotlib takes half a second to import
+        from rocking.codes.conclusion import code_conclusions
+        from rocking.codes.rows import CodeCheckRow
+        from rocking.reports.explore import explore_page
 
         # A fragility that was measured by hand is shown as well, with the next run.
         fragility = None if job.seals.why_again("fragility") else job.results / "fragility"
-        files += _report(target, study, shown, spectra, fragility)
-        write_whole(target / "study.html", explore_page(pages, study.structures, study.settings.study or ""))
+        checks: list[CodeCheckRow] = []
+        if study.settings.design_spectrum.spectrum() is not None:
+            checks = read_table(CodeCheckRow, target)
+        files += _report(target, study, shown, spectra, fragility, checks)
+        page = explore_page(pages, study.structures, study.settings.study or "", code_conclusions(checks))
+        write_whole(target / "study.html", page)
         sheets = {each: rows for each, rows in shown.items() if each not in _NOT_IN_THE_WORKBOOK}
+        if checks:
+            sheets[CodeCheckRow] = list(checks)
         write_whole(target / WORKBOOK, workbook(sheets, study.settings.study or "", opens_on=VerdictRow))
         files += [target / "study.html", target / WORKBOOK]
     remove_others(job.results, [record.id for record in job.records])
@@ -135,10 +156,12 @@ def _report(
     rows: Mapping[type[Row], Sequence[Row]],
     spectra: Sequence[Sequence[float]],
     fragility: Path | None,
+    checks: "Sequence[CodeCheckRow]",
 ) -> list[Path]:
     """Write summary.pdf and its figure beside the summary tables in `folder`, and return the two.
 
-    spectra: of the components, where there is a design level. fragility: its folder, where it was measured.
+    spectra: of the components, where there is a design level; checks: the rows at it. fragility: its folder, where it
+    was measured.
     """
     from rocking.reports.scatter import prediction_scatter
     from rocking.reports.style import svg  # as above
@@ -151,6 +174,8 @@ def _report(
 
         tables["fragility_summary"] = frame(FragilitySummaryRow, fragility / "fragility_summary.csv")
         tables["ida"] = frame(IdaRow, fragility / "ida.csv", _GOVERNING)
+    if checks:
+        tables[type(checks[0]).table.name] = frame(type(checks[0]), checks)
     pictures = trade_picture(folder) if study.settings.trade.in_summary else []
     level = study.settings.design_spectrum.spectrum()
     design = (level, spectra) if level is not None and spectra else None

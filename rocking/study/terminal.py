@@ -144,6 +144,15 @@ def trade_lines(rows: Sequence[TradeRow], report: Path) -> Iterator[str]:
     yield f"{'Open':<8}{report}"
 
 
+def lines_by_code(summary: Path) -> list[str]:
+    """Return the conclusion at the design level of a study, by the table of its checks."""
+    from rocking.codes.conclusion import code_conclusion_in_words, code_conclusions
+    from rocking.codes.rows import CodeCheckRow  # which a study without a design level has no need of
+
+    sentence = code_conclusion_in_words(code_conclusions(read_table(CodeCheckRow, summary)))
+    return wrap(sentence, _WIDTH, subsequent_indent=" " * 8)
+
+
 def _rotation(ratio: float) -> str:
     """A rotation ratio in a column: "0.44", "falls", or a dash."""
     return "–" if math.isnan(ratio) else "falls" if ratio == math.inf else f"{ratio:.2f}"
@@ -171,14 +180,19 @@ def check_any_read(summary: Path, records: Collection[str]) -> None:
         raise RecordError(f"none of {number} could be read; the first: {record}: {message}")
 
 
-def paths_to_read(results: Path, verdicts: Iterable[VerdictRow]) -> Iterator[str]:
-    """Yield a line for each of the files that come next for a reader, the report of the worst record among them."""
+def paths_to_read(results: Path, verdicts: Iterable[VerdictRow], checked: bool = False) -> Iterator[str]:
+    """Yield a line for each of the files that come next for a reader, the report of the worst record among them.
+
+    checked: whether there are pages to sign.
+    """
     summary = results / "summary"
     records = worst_first((each.record, each.decision) for each in verdicts)
     report = summary / "summary.pdf"
     files = {report if report.is_file() else summary: "all records"}
     if records and (of_worst := results / records[0] / "report.pdf").is_file():
         files[of_worst] = "every structure under the worst record"
+    if checked:
+        files[summary / "structures.pdf"] = "a page of each structure, to sign"
     files |= dict.fromkeys(sorted(summary.glob("*.html")), "to explore")
     width = max(len(str(path)) for path in files)
     for path, what in files.items():

@@ -11,6 +11,7 @@ rule summary:
     input:
         unless_sealed("summary"),
         records=OF_RECORDS,
+        checks=seal_of("checks") if CHECKS else [],
         fragility=seal_of("fragility") if SETTINGS.fragility.in_every_run else [],
         trade=seal_of("trade") if SETTINGS.trade.in_summary else [],
     output:

@@ -2,7 +2,9 @@
 
 import csv
 import math
+import zipfile
 from dataclasses import replace
+from io import BytesIO
 from types import SimpleNamespace
 
 import numpy as np
@@ -12,22 +14,27 @@ from rocking import Block, DesignSpectrum, Facade, check
 from rocking.assessment.decide import Verdict
 from rocking.assessment.listed import load_scenes
 from rocking.assessment.reserve import Reserve
-from rocking.assessment.rows import RecordRow, VerdictRow
+from rocking.assessment.rows import RecordRow, RecordRows, VerdictRow
 from rocking.assessment.scene import on_the_ground
 from rocking.codes.check import DynamicCheck
-from rocking.codes.conclusion import code_conclusions
+from rocking.codes.conclusion import code_conclusion_in_words, code_conclusions
 from rocking.codes.rows import CodeCheckRow, code_check_rows
 from rocking.errors import ConfigurationError
 from rocking.motion.response import ModelCheck
 from rocking.remarks import Kind, Remark
+from rocking.reports.explore import explore_page
 from rocking.reports.structures import CheckedStructure, share_interval, structures_data
+from rocking.reports.summary import summary_data
 from rocking.study.checks import shares_by_station, write_checks
 from rocking.study.job import Study
 from rocking.study.settings import Settings, read_settings
-from rocking.tables import read_table
+from rocking.study.terminal import lines_by_code
+from rocking.tables import frame, read_table, write_rows
+from rocking.tables.workbook import workbook
 from tests.made_pools import DESIGN, made_pool
 from tests.unit.assessment import made_rows
 from tests.unit.assessment.made_rows import filled
+from tests.unit.reports.conftest import SETTINGS, summarised
 
 STRUCTURES = {
     "parapet": Block.of_size(0.45, 3.0),
@@ -189,7 +196,44 @@ def test_of_a_support_the_worst_period_counts_and_never_the_ground_below_it():
     assert conclusion.name == "parapet, T_b 0.4 s"
     assert not conclusion.verified
     assert {each.period for each in conclusion.elsewhere} == {0.0, 0.2}
-    assert conclusion.ratio_in_words["dynamic"] == "0.500"
+    assert conclusion.ratios["dynamic"] == "0.500"
+
+
+def test_one_sentence_tells_what_is_verified_and_what_other_stations_would_say():
+    rows = [
+        row
+        for name, low in (("pier", 0.2), ("wall", 0.4))
+        for row in code_check_rows(name, replace(FORMULAS, dynamic=found(True, interval=(low, 1.0))))
+    ]
+    rows += code_check_rows("spire", WEAK)
+    verified = "At the design level 2 of 3 structures are verified: pier, wall"
+    assert code_conclusion_in_words(code_conclusions(rows)) == (
+        f"{verified}; 20–100\u00a0% of sets of other stations would say so."
+    )
+    assert code_conclusion_in_words(code_conclusions(code_check_rows("spire", WEAK))) == (
+        "At the design level none of 1 structure is verified."
+    )
+    assert code_conclusion_in_words([]) == ""
+
+
+def test_the_same_conclusion_stands_in_terminal_summary_workbook_and_page_to_explore(tmp_path):
+    checked = replace(FORMULAS, dynamic=found(True, interval=(0.2, 1.0)))
+    rows = list(code_check_rows("pier", checked))
+    concluded = code_conclusions(rows)
+    sentence = code_conclusion_in_words(concluded)
+    write_rows(CodeCheckRow, rows, tmp_path / "code_checks.csv")
+    assert " ".join(lines_by_code(tmp_path)) == sentence
+    data = summary_data(summarised(RecordRows(), {}) | {"code_checks": frame(CodeCheckRow, rows)}, SETTINGS)
+    assert data["by-code"] == sentence
+    ((name, *ratios, conclusion, others),) = data["checks"]["rows"]
+    assert [name["text"], conclusion] == ["pier", "verified by C8.7.1.2.1.9"]
+    assert ratios == [each.ratio_in_words for each in checked.checks]
+    assert others == "20–100\u00a0%"
+    page = explore_page([], {"pier": STRUCTURES["parapet"]}, "", concluded).decode()
+    assert sentence in page and r"At the design level: verified by C8.7.1.2.1.9 (20\u2013100" in page
+    with zipfile.ZipFile(BytesIO(workbook({CodeCheckRow: rows}))) as book:
+        sheet = book.read("xl/worksheets/sheet2.xml").decode()
+    assert "C8.7.1.2.1.9" in sheet and "decides" in sheet
 
 
 def page_of(checked=FORMULAS, language="en", name="wall", **facts):

@@ -170,7 +170,7 @@ EDITS: list[tuple[str, Callable[[], object], str]] = [
     ("date", _setting(date="1 May"), "a b S C"),
     ("display_units", _setting(display_units="g and cm"), "a b S C"),
     ("details", _setting(details=True), "a b"),
-    ("language", _setting(language="it"), "C"),
+    ("language", _setting(language="it"), "S C"),
     # Where files lie changes nothing; what lies there does.
     ("mirror", _setting(mirror="elsewhere"), ""),
     ("catalogue elsewhere", _move_catalogue, NUMBERS),
@@ -226,10 +226,10 @@ EDITS: list[tuple[str, Callable[[], object], str]] = [
     ("design_spectrum.seed", _section("design_spectrum", seed=1), "S C"),
     ("design_spectrum.pool", _section("design_spectrum", pool=None), "S C"),
     ("content of design.csv", _content("design.csv", "0.06", "0.05"), "a b S C"),
-    ("content of a record of the pool", _bytes("pool/p.AT2", _waves(9)), "C"),
-    ("catalogue of the pool", lambda: _write_catalogue("pool", "p", scale_factor="2"), "C"),
-    ("record of the pool away", lambda: Path("pool/p.AT2").unlink(), "C"),
-    # The fragility and the trade stand in the summary.
+    ("content of a record of the pool", _bytes("pool/p.AT2", _waves(9)), "S C"),
+    ("catalogue of the pool", lambda: _write_catalogue("pool", "p", scale_factor="2"), "S C"),
+    ("record of the pool away", lambda: Path("pool/p.AT2").unlink(), "S C"),
+    # The checks, the fragility and the trade stand in the summary.
     ("fragility.intensity_measure", _section("fragility", intensity_measure="pga"), "S F"),
     ("fragility.members", _section("fragility", members=False), "S F"),
     ("fragility.largest_factor", _section("fragility", largest_factor=5.0), "S F"),
@@ -252,7 +252,7 @@ EDITS: list[tuple[str, Callable[[], object], str]] = [
     ("structure less", _structures(BLOCK), NUMBERS),
     ("structures in another order", _structures(WALL, BLOCK), NUMBERS),
     ("comment in the list", lambda: _content("structures.yaml", "- ", "# old\n- ")(), ""),
-    ("terms of the checks", _structures(BLOCK | {"elastic_period_s": 0.3}, WALL), "C"),
+    ("terms of the checks", _structures(BLOCK | {"elastic_period_s": 0.3}, WALL), "S C"),
     # What was written, and what was remembered.
     *((f"{product} cut", _cut(product), product) for product in PRODUCTS),
     ("summary's seal away", _seal("S", None), "S"),
