@@ -83,12 +83,12 @@ class CodeConclusion:
         return placed(self.structure, self.period)
 
 
-_NAMED = 8
-"""Names of a sentence."""
+_NAMED = 4
+"""Names of a sentence at most."""
 
 
 def code_conclusion_in_words(concluded: Sequence[CodeConclusion]) -> str:
-    """Return the sentence on all structures: "At the design level 2 of 6 structures are verified: pier, parapet; …".
+    """Return the sentence on all structures: "By the code 2 of 6 structures are verified: pier, parapet; …".
 
     It ends in how many sets of other stations would say so, the widest interval of all. "" without any structure.
     """
@@ -96,17 +96,20 @@ def code_conclusion_in_words(concluded: Sequence[CodeConclusion]) -> str:
         return ""
     verified = [each.structure for each in concluded if each.verified]
     if not verified:
-        return f"At the design level none of {counted(len(concluded), 'structure')} is verified."
-    more = len(verified) - _NAMED
-    names = ", ".join(verified[:_NAMED]) + (f" and {counted(more, 'other')}" if more > 0 else "")
+        return f"By the code none of {counted(len(concluded), 'structure')} is verified."
+    others = [each.structure for each in concluded if not each.verified]
+    names = f": {', '.join(verified)}"
+    if len(verified) > _NAMED:
+        names = f", all but {', '.join(others)}" if len(others) <= _NAMED else ""
+    names = names if others else ""
     verb = "is" if len(verified) == 1 else "are"
     whole = f"{len(verified)} of {counted(len(concluded), 'structure')}"
     shares = [each.other_share for each in concluded if each.verified and each.other_share]
-    others = ""
+    end = ""
     if shares:
         share = _in_percent(min(low for low, _ in shares), max(high for _, high in shares))
-        others = f"; {share} of sets of other stations would say so"
-    return f"At the design level {whole} {verb} verified: {names}{others}."
+        end = f"; {share} of sets of other stations agree"
+    return f"By the code {whole} {verb} verified{names}{end}."
 
 
 def _in_percent(low: float, high: float) -> str:

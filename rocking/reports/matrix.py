@@ -41,7 +41,7 @@ def matrix(made: Sequence[Conclusion], records: "DataFrame", pulses: "DataFrame"
     present = {by_pair[pair].decision.word for pair in by_pair if pair[1] in shown}
     return {
         "legend": [] if in_words else [_look(word) for word in ORDER if word in present],
-        "heads": [{"name": name, "below": _head(name, records, pulses)} for name in columns],
+        "heads": [{"name": name, "below": _head(name, records, pulses, in_words)} for name in columns],
         "rows": [
             {
                 "name": name,
@@ -54,15 +54,15 @@ def matrix(made: Sequence[Conclusion], records: "DataFrame", pulses: "DataFrame"
     }
 
 
-def _head(record: str, records: "DataFrame", pulses: "DataFrame") -> str:
-    """The peak of a record, and the share of the energy in its sine: "0.99 g; sine 11–13 %"."""
+def _head(record: str, records: "DataFrame", pulses: "DataFrame", in_words: bool) -> str:
+    """The peak of a record, and where there is room the share of the energy in its sine: "0.99 g; sine 11–13 %"."""
     peak = records.loc[records["record"] == record, "peak_acceleration_m_s2"].max() / GRAVITY
     dominant = pulses[
         (pulses["record"] == record) & (pulses["kind"] == "alternative") & (pulses["rank"] == 1)
     ]
     energy = sorted(dominant["explained_energy"])
     text = f"{number(peak, 2)} g"
-    if energy:
+    if energy and in_words:
         low, high = percent(energy[0]), percent(energy[-1])
         text += f"; sine {low if low == high else f'{low}–{high}'}\u00a0%"
     return text
@@ -75,7 +75,8 @@ def _cell(conclusion: Conclusion | None, in_words: bool) -> dict[str, object]:
     look = _look(decision.word)
     if not in_words:
         share = decision.share_in_words.removesuffix("\u00a0%").replace("at least ", "≥")
-        return look | {"word": "", "share": share or ("?" if look["hatched"] else NOTHING)}
+        untold = "?" if look["hatched"] else NOTHING
+        return look | {"word": "", "share": untold if share in ("", "≥0") else share}
     return look | {"share": "" if look["hatched"] else decision.share_in_words}
 
 

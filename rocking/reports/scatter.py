@@ -133,11 +133,11 @@ def _draw_quadrants(axes: Axes) -> None:
         axes.add_patch(Rectangle(corner, *size, facecolor=shade, edgecolor="0.6", linewidth=0.5))
     axes.plot([low, _ZONE], [low, _ZONE], color="0.3", linewidth=0.8)
     axes.text(low + 0.07, low + 0.13, "agree", rotation=45, color="0.4", fontsize=7)
-    ticks = (_LEAST, 0.1, 0.2, 0.5, 1.0)
+    ticks = (_LEAST, 0.1, 1.0)
     axes.plot([low, _ZONE], [0, 0], color="0.8", linewidth=0.5, zorder=0)
     axes.plot([0, 0], [low, _ZONE], color="0.8", linewidth=0.5, zorder=0)
     places = [*np.log10(ticks), (_ZONE + _END) / 2]
-    names = [f"≤ {_LEAST:g}", "0.1", "0.2", "0.5", "1", "falls"]
+    names = [f"≤ {_LEAST:g}", "0.1", "1", "falls"]
     axes.set_xticks(places, names)
     axes.set_yticks(places, names)
     axes.set(

@@ -153,7 +153,7 @@ def _data(
         ),
         "methods": method_table(tables),
         "structures": structure_table(shown),
-        "scatter": _scatter(tables, _LOW if many or len(words_of_all) > MOST_HIGH else _HIGH)
+        "scatter": _scatter(tables, _LOW if many or by_code or len(words_of_all) > MOST_HIGH else _HIGH)
         if drawable
         else [],
         "agreement": table_of(rows_of(AgreementRow, tables["agreement"]), *AGREEMENT_COLUMNS),
@@ -173,8 +173,7 @@ def _scatter(tables: Mapping[str, "DataFrame"], height: float) -> list[dict[str,
     """The scatter of all cases, so many mm high, with what the closed form saw of the falls as its heading."""
     of_all = next(rows_of(AgreementRow, tables["agreement"]))
     falls = f"{of_all.overturning_hits} of {counted(of_all.overturning, 'fall')}"
-    more = of_all.overturning_false_alarms
-    heading = f"The closed form sees {falls}, and {f'falsely {more} more' if more else 'none falsely'}"
+    heading = f"The closed form sees {falls}"
     alt = "Scatter of the rotation ratio by closed form against that by integration, in four quadrants."
     figure = prediction_scatter(tables["comparison"], tables["pulses"], height)
     return [{**picture(figure, alt), "heading": heading}]
@@ -241,7 +240,7 @@ def _notices(records: "DataFrame", comparison: "DataFrame", failures: int) -> li
     scaled = sorted(records.loc[records["scale_factor"] != 1, "record"].unique())
     if scaled:
         names = printing.listed(scaled, most=20)
-        text = f"Accelerations multiplied by a declared factor, not as recorded: {names}."
+        text = f"By a declared factor, not as recorded: {names}."
         notices.append(Notice(text))
     return notices
 

@@ -4,9 +4,12 @@ import itertools
 
 import pytest
 
+from rocking import DesignSpectrum, check
 from rocking.assessment.rows import RecordRows
+from rocking.codes.rows import CodeCheckRow, code_check_rows
 from rocking.reports.printing import compile_document
 from rocking.reports.summary import summary_report
+from rocking.tables import frame
 
 from .conftest import SETTINGS, SUMMARISED, Word, detailed, of_structures, pages, summarised
 
@@ -117,20 +120,26 @@ def test_the_summary_is_well_laid(example, count, records):
 
 
 @pytest.mark.process
-def test_the_first_page_of_the_summary_holds_matrix_and_scatter_in_at_most_250_words(example):
-    """Of twelve structures with names of two words, under two records."""
+@pytest.mark.parametrize("records", ["two", "four"])
+def test_the_first_page_of_the_summary_holds_matrix_and_scatter_in_at_most_250_words(example, records):
+    """Of twelve structures with names of two words, under two records and under four, at a design level."""
+    named = ("one", "two", "three", "four")[: {"two": 2, "four": 4}[records]]
     kinds = [*example.structures] * 3
     kind = {f"structure {place}": name for place, name in enumerate(kinds[:12])}
-    rows = [of_structures(example, kind, record).tables for record in ("one", "two")]
+    rows = [of_structures(example, kind, record).tables for record in named]
     tables = RecordRows(
         **{table: [row for each in rows for row in getattr(each, table)] for table in SUMMARISED}
     )
     structures = {name: example.structures[each] for name, each in kind.items()}
-    page = pages(summary_report(summarised(tables, structures), SETTINGS))[0]
+    level = DesignSpectrum.ntc(ag=0.3, f0=2.5, tc_star=0.35)
+    checks = [row for name, each in structures.items() for row in code_check_rows(name, check(each, level))]
+    shown = summarised(tables, structures) | {"code_checks": frame(CodeCheckRow, checks)}
+    page = pages(summary_report(shown, SETTINGS))[0]
     assert covered(page) == []
     first = [word[4] for word in page]
     assert len(first) <= 250
     text = " ".join(first)
-    assert "2 records, 12 structures, 24 verdicts" in text
+    assert f"{len(named)} records, 12 structures, {12 * len(named)} verdicts" in text
+    assert "By the code" in text
     seen = [text.index(words) for words in ("under some record", "to know", "The closed form sees", "missed")]
     assert seen == sorted(seen), "the answer, the matrix, then the scatter with its counts"

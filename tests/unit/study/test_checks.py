@@ -206,12 +206,12 @@ def test_one_sentence_tells_what_is_verified_and_what_other_stations_would_say()
         for row in code_check_rows(name, replace(FORMULAS, dynamic=found(True, interval=(low, 1.0))))
     ]
     rows += code_check_rows("spire", WEAK)
-    verified = "At the design level 2 of 3 structures are verified: pier, wall"
+    verified = "By the code 2 of 3 structures are verified: pier, wall"
     assert code_conclusion_in_words(code_conclusions(rows)) == (
-        f"{verified}; 20–100\u00a0% of sets of other stations would say so."
+        f"{verified}; 20–100\u00a0% of sets of other stations agree."
     )
     assert code_conclusion_in_words(code_conclusions(code_check_rows("spire", WEAK))) == (
-        "At the design level none of 1 structure is verified."
+        "By the code none of 1 structure is verified."
     )
     assert code_conclusion_in_words([]) == ""
 
@@ -230,7 +230,7 @@ def test_the_same_conclusion_stands_in_terminal_summary_workbook_and_page_to_exp
     assert ratios == [each.ratio_in_words for each in checked.checks]
     assert others == "20–100\u00a0%"
     page = explore_page([], {"pier": STRUCTURES["parapet"]}, "", concluded).decode()
-    assert sentence in page and r"At the design level: verified by C8.7.1.2.1.9 (20\u2013100" in page
+    assert sentence in page and r"By the code: verified by C8.7.1.2.1.9 (20\u2013100" in page
     with zipfile.ZipFile(BytesIO(workbook({CodeCheckRow: rows}))) as book:
         sheet = book.read("xl/worksheets/sheet2.xml").decode()
     assert "C8.7.1.2.1.9" in sheet and "decides" in sheet
