@@ -15,6 +15,7 @@ from rocking.assessment.cracks import (
     FollowedCrack,
     counting_cracks,
     decided_by,
+    is_own,
     never_lets_go,
     would_tell,
 )
@@ -32,6 +33,7 @@ from rocking.records import Accelerogram
 from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Maximum
 from rocking.structures import EquivalentBlock, Outcome, Structure
+from rocking.structures.structure import Candidate
 from rocking.structures.tied import Tied
 
 DECISIVE = ("responses", "directions")
@@ -301,6 +303,18 @@ class StationResult:
             if each.failure
         )
         return decide(case.facts(self.body, failures))
+
+    def check_of(self, candidate: Candidate) -> ModelCheck | None:
+        """Return the contacts along the run of one of its mechanisms under the worst component as recorded.
+
+        None where that one was not followed alone.
+        """
+        case = self.worst
+        if case is not None and case.crack:
+            if candidate.description == case.crack:
+                return case.check
+            case = case.statics
+        return case.check if case is not None and is_own(candidate, self.body) else None
 
     @property
     def decision(self) -> Decision:

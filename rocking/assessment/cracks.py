@@ -173,6 +173,29 @@ def _forms(structure: Structure) -> tuple[Candidate, ...]:
     return (*several, livelier)
 
 
+@lru_cache(maxsize=256)
+def mechanisms_of(structure: Structure) -> tuple[Candidate, ...]:
+    """Return every mechanism: those that may be followed, and behind them those that statics alone lists."""
+    forms = _forms(structure)
+    return (*forms, *(each for each in structure.mechanisms() if not any(_same(each, own) for own in forms)))
+
+
+def _same(one: Candidate, other: Candidate) -> bool:
+    """Whether two candidates are one mechanism, whose hinge two searches place a little apart."""
+    if one.structure is other.structure or one.description == other.description:
+        return True
+    return not other.refusal and is_own(one, other.structure)
+
+
+def is_own(candidate: Candidate, structure: Structure) -> bool:
+    """Whether a candidate is the mechanism that a structure has as it is described."""
+    if candidate.refusal:
+        return False
+    one, other = candidate.structure.mechanism(), structure.mechanism()
+    alike = math.isclose(one.uplift_multiplier, other.uplift_multiplier, rel_tol=1e-6)
+    return alike and math.isclose(one.critical_rotation, other.critical_rotation, rel_tol=1e-3)
+
+
 def counting_cracks(structure: Structure) -> tuple[Crack, ...]:
     """Return those of the mechanisms that may form that take part in the verdict."""
     return tuple(each for each in cracks(structure) if each.counts)

@@ -96,6 +96,7 @@ class ModelCheck:
     nan where `reason` says why nothing is known of it. bounces: whether a contact would open, or None. reason: why
     nothing is known, in words; "" where it is. ties: which ties yield or break on the way to the largest rotation to
     the positive side, in words; "" where none does. lifting_friction: what a contact needs as the structure lifts.
+    holding: the largest force of each of the structure's `reactions()`, N per metre; () where nothing holds it.
     """
 
     required_friction: float = math.nan
@@ -103,6 +104,7 @@ class ModelCheck:
     reason: str = ""
     ties: str = ""
     lifting_friction: float = math.nan
+    holding: tuple[float, ...] = ()
 
     def slides(self, friction_coefficient: float) -> bool | None:
         """Whether a contact needs more friction than `friction_coefficient`; None where the forces are not known."""
@@ -139,8 +141,9 @@ def check_model(
     ground = _at(accelerogram, times[rocks])
     lift = 0.0 if vertical is None else _at(vertical, times[rocks])
     try:
-        so_far = largest_so_far(turned)[rocks]
-        contacts = structure.contact_forces(turned[rocks], velocity[rocks], None, ground, lift, so_far)
+        states = turned[rocks], velocity[rocks], None, ground, lift, largest_so_far(turned)[rocks]
+        contacts = structure.contact_forces(*states)
+        holding = tuple(float(each.force.max()) for each in structure.reactions(*states))
     except UnknownContacts as why:
         return ModelCheck(reason=str(why))
     largest = min(float(rotation.max()), structure.mechanism().positive.end_rotation)
@@ -149,6 +152,7 @@ def check_model(
         bool(contacts.opens.any()),
         ties=structure.tie_events(largest),
         lifting_friction=lifting_friction(structure),
+        holding=holding,
     )
 
 

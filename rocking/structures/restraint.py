@@ -1,11 +1,35 @@
 """What holds a wall sideways: the force that it needs, and the one that friction and ties give."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
 
 from rocking.remarks import Kind, Remark
 
 FRICTION = 0.6
 """Coefficient of friction of joints where none is given."""
+
+
+class Reaction(NamedTuple):
+    """What holds a wall sideways at a height [m]: a "tie", a "floor" or the "top", with its force, (k,) N per metre.
+
+    pressing: the weight that presses the wall there against what holds it, N per metre, by whose friction it may do so.
+    """
+
+    kind: str
+    height: float
+    force: np.ndarray
+    pressing: float = 0.0
+
+    @property
+    def needed_friction(self) -> np.ndarray:
+        """The friction coefficient at which friction alone gives that force, (k,); inf where nothing presses."""
+        return (
+            np.maximum(self.force, 0.0) / self.pressing
+            if self.pressing
+            else np.where(self.force > 0, np.inf, 0.0)
+        )
 
 
 @dataclass(frozen=True)

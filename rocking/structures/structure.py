@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rocking.errors import DoesNotStandError, StructureError, StructureWarning
-from rocking.quantities import within
+from rocking.quantities import GRAVITY, within
 from rocking.remarks import Remark
 from rocking.structures.capacity import StaticCapacity
 from rocking.structures.capacity import StaticCurve as StaticCurve
@@ -25,10 +25,11 @@ from rocking.structures.linkage import (
     Motion,
     MotionState,
     Restitution,
+    UnknownContacts,
     momentum_balance,
 )
 from rocking.structures.mechanism import Mechanism, Side
-from rocking.structures.restraint import Restraint
+from rocking.structures.restraint import Reaction, Restraint
 from rocking.structures.searches import minimum
 from rocking.structures.stack import Course, Held, Stack, Stop
 
@@ -130,9 +131,29 @@ class Structure(ABC):
         """Return what keeps it from moving outwards above its foot, with the forces that this needs and gives."""
         return ()
 
+    def reactions(
+        self,
+        rotation: ArrayLike = 0.0,
+        angular_velocity: ArrayLike = 0.0,
+        angular_acceleration: ArrayLike | None = None,
+        ground: ArrayLike | None = None,
+        vertical: ArrayLike = 0.0,
+        largest: ArrayLike | None = None,
+    ) -> tuple[Reaction, ...]:
+        """Return the force of everything that holds it sideways above its foot, over k states as of `contact_forces`.
+
+        None of what nothing holds, or of which only the share of its weight is known.
+        """
+        return ()
+
     def with_friction(self, coefficient: float) -> "Structure":
         """Return it on joints of this friction coefficient; itself where friction holds nothing of it, or is given."""
         return self
+
+    @property
+    def does(self) -> str:
+        """How it falls, in words: "overturns"; of a wall that is held "bulges between foot and tie"."""
+        return "overturns"
 
     @property
     def caution(self) -> Remark | None:
@@ -515,10 +536,14 @@ class Candidate:
     description: str
     position: float
     structure: Structure
-    name: str = "overturns"
+    name: str = ""
     limit: float | None = None
     sign: int = 0
     counts: bool = True
+
+    def __post_init__(self) -> None:
+        """Take the name of what its structure does, where it has none of its own."""
+        object.__setattr__(self, "name", self.name or self.structure.does)
 
     @property
     def multiplier(self) -> float:
@@ -533,7 +558,7 @@ class Candidate:
     @property
     def critical_rotation(self) -> float:
         """φ_cr of its mechanism to its side, rad; nan where its motion cannot be followed, as `refusal` says."""
-        return math.nan if self.refusal else self._side.critical_rotation
+        return math.nan if self.refusal else self.side.critical_rotation
 
     @cached_property
     def refusal(self) -> str:
@@ -547,7 +572,22 @@ class Candidate:
         return ""
 
     @property
-    def _side(self) -> Side:
+    def reactions(self) -> tuple[Reaction, ...]:
+        """What holds it back as it starts to its side, N per metre; () of what cannot be followed or is not known."""
+        if self.refusal:
+            return ()
+        wall = self.structure
+        try:
+            if self.sign >= 0:
+                return wall.reactions()
+            least = -1e-12 * self.side.end_rotation
+            return wall.reactions([least], [0.0], ground=[self.side.uplift_multiplier * GRAVITY])
+        except UnknownContacts:
+            return ()
+
+    @property
+    def side(self) -> Side:
+        """The side to which it falls; of two alike the positive one."""
         return self.structure.mechanism().sides[-1 if self.sign < 0 else 0]
 
 

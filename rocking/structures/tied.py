@@ -5,7 +5,7 @@ import warnings
 from abc import abstractmethod
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Annotated, ClassVar, Literal, NamedTuple, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,7 +18,7 @@ from rocking.structures.fields import OneSided, Value
 from rocking.structures.held_wall import HeldWall, Opening
 from rocking.structures.linkage import STILL, Hung, Linkage, MotionState
 from rocking.structures.mechanism import Tie
-from rocking.structures.restraint import Restraint
+from rocking.structures.restraint import Reaction, Restraint
 from rocking.structures.structure import Candidate, CrackedAtHeight
 
 UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"ge": 1e-6})]
@@ -54,27 +54,6 @@ def check_inside(field: str, value: float, height: float) -> None:
     if not 0 < value <= height:
         raise StructureError(
             f"{field} is {value!r} m, but must lie on the wall, above 0 and up to {height:.6g} m."
-        )
-
-
-class Reaction(NamedTuple):
-    """What holds a wall sideways at a height [m]: a "tie", a "floor" or the "top", with its force, (k,) N per metre.
-
-    pressing: the weight that presses the wall there against what holds it, N per metre, by whose friction it may do so.
-    """
-
-    kind: str
-    height: float
-    force: np.ndarray
-    pressing: float = 0.0
-
-    @property
-    def needed_friction(self) -> np.ndarray:
-        """The friction coefficient at which friction alone gives that force, (k,); inf where nothing presses."""
-        return (
-            np.maximum(self.force, 0.0) / self.pressing
-            if self.pressing
-            else np.where(self.force > 0, np.inf, 0.0)
         )
 
 
@@ -236,7 +215,7 @@ class Tied(CrackedAtHeight):
         wall = candidate.structure
         if not self.tie_heights or not isinstance(wall, Tied):
             return candidate
-        outwards = wall.held_wall.multiplier(wall._described_opening or Opening(wall.crack_position))
+        outwards = wall.held_wall.multiplier(wall._opens)
         inwards = [side.uplift_multiplier for side in wall.mechanism().sides[1:]]
         return replace(candidate, limit=min([outwards, *inwards]))
 
@@ -321,7 +300,7 @@ class Tied(CrackedAtHeight):
                 Restraint(
                     hold.kind,
                     hold.height,
-                    weakest.name if weakest.structure.opening else wall.name(self._opening_of(weakest)),
+                    weakest.name,
                     float(reaction.force[0]),
                     friction,
                     friction / reaction.pressing if reaction.pressing else 0.0,
@@ -331,16 +310,21 @@ class Tied(CrackedAtHeight):
             )
         return tuple(found)
 
-    def _opening_of(self, candidate: Candidate) -> Opening:
-        """How a candidate opens: as one of the family, or as it is described."""
-        wall = candidate.structure
-        assert isinstance(wall, Tied)
-        return wall.opening or wall._described_opening or Opening(wall.crack_position)
+    @property
+    def does(self) -> str:
+        """How it falls, in words."""
+        return self.held_wall.name(self._opens)
+
+    @property
+    def _opens(self) -> Opening:
+        """How it opens: as one of the family, or as it is described."""
+        return self.opening or self._described_opening or Opening(self.crack_position)
 
     def _holds_back(self, height: float, candidate: Candidate) -> bool:
         """Whether what holds the wall at `height` [m] stops the upper body of a mechanism that falls outwards."""
-        opening = self._opening_of(candidate)
-        return opening.outwards and opening.hold == height and not candidate.refusal
+        wall = candidate.structure
+        holds = isinstance(wall, Tied) and wall._opens.outwards and wall._opens.hold == height
+        return holds and not candidate.refusal
 
     def _held_back(self, state: MotionState, mirrored: bool) -> list[Reaction]:
         """What each hold gives on one side, in the order of `held_wall.holds`."""

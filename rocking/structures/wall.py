@@ -358,6 +358,10 @@ class Wall(CrackedWall):
     def _opening(self) -> Opening:
         return Opening(0.0, self.lower_height, self.height)
 
+    @property
+    def does(self) -> str:
+        return self._masonry.name(self._opening)
+
     def restraints(self) -> tuple[Restraint, ...]:
         """Return the top, with what it needs as the wall starts: R = (λ S_h + M_h⁻)/(H − h), of one hold."""
         wall = self._masonry

@@ -14,6 +14,7 @@ from rocking.assessment.rows.of_record import FailedCase as FailedCase
 from rocking.assessment.rows.of_record import FailureRow as FailureRow
 from rocking.assessment.rows.of_record import HistoryRow as HistoryRow
 from rocking.assessment.rows.of_record import Identity as Identity
+from rocking.assessment.rows.of_record import MechanismRow as MechanismRow
 from rocking.assessment.rows.of_record import PulseRow as PulseRow
 from rocking.assessment.rows.of_record import ReadComponent as ReadComponent
 from rocking.assessment.rows.of_record import RecordRow as RecordRow

@@ -371,6 +371,7 @@ SUMMARY_TABLES: tuple[type[Row], ...] = (
     rows.ComparisonRow,
     rows.VerdictRow,
     rows.SupportRow,
+    rows.MechanismRow,
     rows.VariationRow,
     AgreementRow,
     StructureRow,
