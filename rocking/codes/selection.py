@@ -8,7 +8,7 @@ would have said.
 
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -113,7 +113,7 @@ class Selection(ScaledPool, Drawn):
         ratios = self.spectra / self.target
         found = []
         number = 0
-        for drawn in _drawn(labels, self.chosen.size, tries, rng):
+        for drawn in random_sets(labels, self.chosen.size, tries, rng):
             sets = places[drawn]
             means = ratios[sets].mean(axis=1)
             allowed = (means.min(axis=1) >= 1 - self.below) & (means.max(axis=1) <= 1 + self.above)
@@ -171,16 +171,8 @@ def select(
     for name, value in (("stations", stations), ("below", below), ("above", above), ("tries", tries)):
         positive(ConfigurationError, name, value)
     pool = scaled_pool(records, spectrum, periods, factors)
-    found, chosen, drawn = search(
-        pool.spectra / pool.target,
-        pool.stations,
-        stations,
-        below=below,
-        above=above,
-        sets=sets,
-        tries=tries,
-        seed=seed,
-    )
+    draws = random_sets(np.array(pool.stations), stations, tries, np.random.default_rng(seed))
+    found, chosen, drawn = search(pool.spectra / pool.target, draws, below, above, sets)
     return Selection(**vars(pool), sets=found, chosen=chosen, drawn=drawn, below=below, above=above)
 
 
@@ -262,34 +254,22 @@ def _begin_alike(one: Sequence[str], other: Sequence[str]) -> bool:
 
 # Whole on purpose: one loop draws, judges and remembers, and a reader has to see all it carries from draw to draw.
 def search(
-    ratios: np.ndarray,
-    stations: Sequence[str],
-    count: int,
-    *,
-    below: float = BELOW,
-    above: float = ABOVE,
-    sets: int = SETS,
-    tries: int = 1_000_000,
-    seed: int = 0,
+    ratios: np.ndarray, draws: Iterable[np.ndarray], below: float, above: float, sets: int = SETS
 ) -> tuple[np.ndarray, np.ndarray, int]:
     """Return sets (s, count) of places whose mean ratio lies within the limits, the nearest one, and how many it drew.
 
-    ratios: (m, k), spectrum over target. All `tries` are drawn unless twice as many sets as asked for were within the
-    limits, or of the first 100 000 none; the nearest one is the least in the mean square of its
-    logarithms. Raises ConfigurationError as `select`.
+    ratios: (m, k), spectrum over target. draws: sets of places, (c, count) each; all are asked for unless twice as
+    many sets as wanted were within the limits, or of the first 100 000 none. The nearest one is the least in the mean
+    square of its logarithms. Raises ConfigurationError where no set is within the limits.
     """
-    names = np.unique(np.asarray(stations))
-    if names.size < count:
-        raise ConfigurationError(
-            f"the records come from {names.size} stations, but a set of {count} needs as many; give more records, or "
-            "ask for fewer stations."
-        )
     found: list[np.ndarray] = []
     distances: list[np.ndarray] = []
     number = drawn = 0
     nearest = math.inf
     extremes = (0.0, 0.0)
-    for places in _drawn(np.asarray(stations), count, tries, np.random.default_rng(seed)):
+    count = 0
+    for places in draws:
+        count = places.shape[1]
         means = ratios[places].mean(axis=1)
         low = means.min(axis=1) - 1
         high = means.max(axis=1) - 1
@@ -317,9 +297,19 @@ def search(
     return others, all_found[chosen], drawn
 
 
-def _drawn(stations: np.ndarray, count: int, tries: int, rng: np.random.Generator) -> Iterator[np.ndarray]:
-    """Yield random sets (c, count) of places, each of as many stations, `tries` in all."""
-    _, of_record = np.unique(stations, return_inverse=True)
+def random_sets(
+    stations: np.ndarray, count: int, tries: int, rng: np.random.Generator
+) -> Iterator[np.ndarray]:
+    """Yield random sets of places, (c, count) each, `tries` in all, every one of as many stations.
+
+    stations: of each place. Raises ConfigurationError where they are fewer than `count`.
+    """
+    names, of_record = np.unique(stations, return_inverse=True)
+    if names.size < count:
+        raise ConfigurationError(
+            f"the records come from {names.size} stations, but a set of {count} needs as many; give more records, or "
+            "ask for fewer stations."
+        )
     order = np.argsort(of_record, kind="stable")
     sizes = np.bincount(of_record)
     begins = np.concatenate([[0], np.cumsum(sizes)[:-1]])

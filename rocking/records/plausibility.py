@@ -7,6 +7,7 @@ real files is accused.
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -36,23 +37,31 @@ _NEIGHBOURS = 3
 """Samples by which the stated time of a peak may be off: it has few digits, and counts from 0 or from 1."""
 
 
+class StatedPeak(NamedTuple):
+    """The peak that a header states in `unit`, which may be half a digit off; None where it states none.
+
+    at: its time, s after the first sample.
+    """
+
+    peak: float | None
+    unit: str
+    half_digit: float = 0.0
+    at: float | None = None
+
+
 def agree_with_header(
     record: Accelerogram,
-    peak: float | None,
-    unit: str,
-    half_digit: float = 0.0,
-    *,
-    at: float | None = None,
+    header: StatedPeak,
     samples: np.ndarray | None = None,
     times: np.ndarray | None = None,
 ) -> Accelerogram:
-    """Return `record` after comparing its peak with the one its header states in `unit`, within 1 % or half a digit.
+    """Return `record` after comparing its peak with the one that its header states, within 1 % or half a digit.
 
     A peak that is more than 0.1 % off, or out of its place, is a warning; without a stated peak nothing is checked.
-    at: time of the stated peak, s after the first sample. samples: (n,) m/s² as the file holds them, where the record's
-    are resampled; times: (n,) s at which those stand, where they are not evenly spaced. Raises RecordError with the
-    factor that would explain the difference.
+    samples: (n,) m/s² as the file holds them, where the record's are resampled; times: (n,) s at which those stand,
+    where they are not evenly spaced. Raises RecordError with the factor that would explain the difference.
     """
+    peak, unit, half_digit, at = header
     if not peak:
         return record
     magnitudes = np.abs(record.acceleration if samples is None else samples)

@@ -19,7 +19,7 @@ from rocking.fragility.rows import (
     IntensityMeasureRow,
 )
 from rocking.quantities import counted
-from rocking.reports.panels import draw_probability
+from rocking.reports.panels import Curve, draw_probability
 from rocking.reports.printing import Column, compile_document, number, plain, table_of, words
 from rocking.reports.style import elided, new_figure, picture, styled, svg
 from rocking.tables import frame, rows_of, write_whole
@@ -242,7 +242,7 @@ def _draw_curve(panel: Axes, curve: "DataFrame") -> None:
     levels, probability, low, high, lognormal = curve[columns].to_numpy(dtype=float).T
     if threshold < math.inf:
         label = f"φ > {threshold:g} φcr"
-        draw_probability(panel, levels, probability, label=label, colour=_COLOURS[threshold])
+        draw_probability(panel, Curve(levels, probability), label, _COLOURS[threshold])
     else:
         label, colour = ("overturns, worst crack", _WORST) if governing else ("overturns", "black")
-        draw_probability(panel, levels, probability, (low, high), lognormal, label, colour)
+        draw_probability(panel, Curve(levels, probability, (low, high), lognormal), label, colour)

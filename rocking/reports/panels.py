@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -134,21 +134,21 @@ def draw_motion(
 
 def draw_rotation(
     axes: Axes,
-    times: np.ndarray,
-    ratio: np.ndarray,
+    history: tuple[np.ndarray, np.ndarray],
     predicted: float = math.nan,
     band: tuple[float, float] | None = None,
     *,
-    level: float = 0.0,
-    scale: float = 1.0,
+    place: tuple[float, float] = (0.0, 1.0),
     most: int = MOST_POINTS,
 ) -> None:
-    """Draw rotation over critical rotation (k,) against time, its impacts as ticks on the line of rest.
+    """Draw a history, times and rotation over critical rotation (k,), with impacts as ticks on the line of rest.
 
     predicted: the largest of the closed form, drawn on both sides. band: the largest of 5 and of 95 % of the members, a
-    bar at the right. level, scale: where rest stands and what a ratio of 1 measures in the units of the axes, for
-    several in one panel.
+    bar at the right. place: where rest stands and what a ratio of 1 measures in the units of the axes, for several in
+    one panel.
     """
+    times, ratio = history
+    level, scale = place
     axes.axhline(level, **ZERO)
     low, high = (min(value, 1.0) * scale for value in band or (0.0, 0.0))
     look: dict[str, Any] = {"color": "#E69F00", "alpha": 0.6, "linewidth": 0}
@@ -251,23 +251,28 @@ def _draw_ranks(axes: Axes, pulses: Sequence[Pulse]) -> None:
         axes.annotate(text, (farthest, place[1]), (4, 3), textcoords="offset points", **look)
 
 
-def draw_probability(
-    axes: Axes,
-    levels: np.ndarray,
-    probability: np.ndarray,
-    interval: tuple[np.ndarray, np.ndarray] | None = None,
-    lognormal: np.ndarray | None = None,
-    label: str = "empirical",
-    colour: str = "C0",
-) -> None:
-    """Draw a fragility curve over the levels of its intensity measure, with its 90 % interval and lognormal curve."""
-    if interval is not None:
+class Curve(NamedTuple):
+    """A fragility curve over the levels of its intensity measure, (k,) each.
+
+    interval: of 90 %, its lower and its upper end. Both it and the lognormal curve may be left out.
+    """
+
+    levels: np.ndarray
+    probability: np.ndarray
+    interval: tuple[np.ndarray, np.ndarray] | None = None
+    lognormal: np.ndarray | None = None
+
+
+def draw_probability(axes: Axes, curve: Curve, label: str = "empirical", colour: str = "C0") -> None:
+    """Draw a fragility curve, with its interval and lognormal curve where it has them."""
+    levels = curve.levels
+    if curve.interval is not None:
         axes.fill_between(
-            levels, *interval, color=colour, alpha=0.2, linewidth=0, label="90 % interval, by stations"
+            levels, *curve.interval, color=colour, alpha=0.2, linewidth=0, label="90 % interval, by stations"
         )
-    axes.plot(levels, probability, ".-", color=colour, linewidth=0.9, markersize=3, label=label)
-    if lognormal is not None:
-        axes.plot(levels, lognormal, "--", color=colour, linewidth=0.7, label="lognormal")
+    axes.plot(levels, curve.probability, ".-", color=colour, linewidth=0.9, markersize=3, label=label)
+    if curve.lognormal is not None:
+        axes.plot(levels, curve.lognormal, "--", color=colour, linewidth=0.7, label="lognormal")
     plain_logarithmic(axes, "x")
     axes.set_ylim(-0.02, 1.02)
 
@@ -307,7 +312,7 @@ def _plot_assessment(assessment: StructureAssessment, axes: Axes) -> None:
     times, rotation = _history(assessment.response, "assess the structure again to plot it")
     mechanism = assessment.mechanism
     band = (assessment.rotation_ratio_low, assessment.rotation_ratio_high)
-    draw_rotation(axes, times, _over_critical(rotation, mechanism), band=band)
+    draw_rotation(axes, (times, _over_critical(rotation, mechanism)), band=band)
     share = f"{assessment.decision.share_in_words} of {assessment.members} members"
     axes.set(xlabel=TIME, ylabel="rotation / critical rotation [-]", ylim=(-1.15, 1.15))
     axes.set_title(f"{assessment.decision.word}: overturns in {share}")
@@ -319,7 +324,8 @@ def _plot_fragility(fragility: Fragility, axes: Axes) -> None:
     event = "overturning" if overturning else f"a rotation above {fragility.threshold:g} of the critical one"
     interval = fragility.probability_low, fragility.probability_high
     label = f"empirical, {len(fragility.stations)} records"
-    draw_probability(axes, fragility.levels, fragility.probability, interval, fragility.lognormal, label)
+    curve = Curve(fragility.levels, fragility.probability, interval, fragility.lognormal)
+    draw_probability(axes, curve, label)
     axes.set(xlabel=f"{fragility.measure} [{fragility.unit or '-'}]", ylabel=f"probability of {event} [-]")
     axes.legend(loc="upper left")
 

@@ -220,12 +220,10 @@ def _draw_history(panel: Axes, history: History, level: int, label: str, several
     band = min(station.rotation_ratio_low, reach), min(station.rotation_ratio_high, reach)
     draw_rotation(
         panel,
-        history.times,
-        np.clip(ratios, -reach, reach),
+        (history.times, np.clip(ratios, -reach, reach)),
         predicted if predicted <= reach else math.inf,
         band if station.members else None,
-        level=level,
-        scale=0.45 / reach,
+        place=(level, 0.45 / reach),
         most=_POINTS,
     )
     component = f", {_component(case.component)}" if several else ""

@@ -9,7 +9,7 @@ import numpy as np
 from rocking.errors import StructureError
 from rocking.structures.drawing import Path, rectangle, span, swept
 from rocking.structures.fields import OneSided, OptionalUnitWeight, Value, count, length, restitution_value
-from rocking.structures.linkage import STILL, Restitution, Turning
+from rocking.structures.linkage import STILL, Parts, Restitution, Turning
 from rocking.structures.searches import root
 from rocking.structures.stack import MOST_COURSES, Course, Stack, counted_courses, courses_between
 from rocking.structures.structure import (
@@ -106,9 +106,7 @@ class Block(Crushable):
         aside = inset(weight, self.compressive_strength, self.breadth)
         return Turning(
             self.breadth / 2 - aside,
-            [1.0],
-            [0.5j * self.height],
-            [inertia],
+            Parts([1.0], [0.5j * self.height], [inertia]),
             slenderness=None if aside else self.slenderness,
         )
 
@@ -196,7 +194,7 @@ class RigidBody(Structure):
         corner = self.left if mirrored else self.right
         centre = 1j * self.centre_height
         end = np.arctan2(corner, self.centre_height) + np.pi / 2
-        return Turning(corner, [1.0], [centre], [self.inertia], end_rotation=float(end))
+        return Turning(corner, Parts([1.0], [centre], [self.inertia]), end_rotation=float(end))
 
     def stack(self, courses: int | None = None) -> Stack:
         """Return it as one body, as high as twice its centre of mass, for its courses are not known."""
@@ -333,9 +331,7 @@ class Spire(CrackedAtHeight):
         centre = first / mass
         return Turning(
             self.half_width - self._pressed_inset(mass) + 1j * self.crack_position,
-            [1.0],
-            [1j * (self.crack_position + centre)],
-            [(second + across) / mass - centre**2],
+            Parts([1.0], [1j * (self.crack_position + centre)], [(second + across) / mass - centre**2]),
             end_rotation=float(np.pi - np.arctan2(2 * self.height, self.width)),
         )
 

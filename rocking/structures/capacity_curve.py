@@ -18,7 +18,7 @@ from rocking.remarks import Kind, Remark
 from rocking.structures.capacity import StaticCapacity, StaticCurve
 from rocking.structures.drawing import rectangle
 from rocking.structures.fields import Description, OneSided, RestitutionNumber, Value
-from rocking.structures.linkage import Contacts, Turning, UnknownContacts
+from rocking.structures.linkage import Contacts, Parts, Turning, UnknownContacts
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.structure import Structure
 from rocking.tables.files import read_whole
@@ -258,7 +258,7 @@ class CapacityCurve(Structure):
         """The slender body as which it is drawn."""
         half = self._reach / 2
         inertia = (4 * half**2 + self.height**2) / 12
-        return Turning(half, [1.0], [0.5j * self.height], [inertia])
+        return Turning(half, Parts([1.0], [0.5j * self.height], [inertia]))
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         return [(0, rectangle(-self._reach / 2, self._reach / 2, 0.0, self.height))]

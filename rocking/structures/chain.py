@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rocking.structures.linkage import (
     Contacts,
@@ -12,6 +11,7 @@ from rocking.structures.linkage import (
     Linkage,
     Motion,
     MotionState,
+    Parts,
     UnknownContacts,
     cross,
     keeps_last,
@@ -25,19 +25,17 @@ class Chain(Linkage):
     """A lower body that turns about its foot, an upper one hinged to it, and perhaps one that stays upright on top.
 
     hinges: of the lower body on what stands still, and between the two bodies. held: the point of the upper body that
-    only moves up and down; None: the upper body does not turn, and moves with its hinge. weights, centres, inertias:
-    (k,) of the parts. bodies: (k,) the body of each part: 0 the lower one, 1 the upper one, 2 what stays upright and
-    rises with `held`, about which the upper body turns against it. forwards: whether the lower body turns towards the
-    side of rocking; it kicks back where it does not. guided: whether the loads move up and down only.
+    only moves up and down; None: the upper body does not turn, and moves with its hinge. bodies: (k,) the body of each
+    part: 0 the lower one, 1 the upper one, 2 what stays upright and rises with `held`, about which the upper body turns
+    against it. forwards: whether the lower body turns towards the side of rocking; it kicks back where it does not.
+    guided: whether the loads move up and down only.
     """
 
     def __init__(
         self,
         hinges: tuple[complex, complex],
         held: complex | None,
-        weights: ArrayLike,
-        centres: ArrayLike,
-        inertias: ArrayLike,
+        parts: Parts,
         hung: Sequence[Hung] = (),
         *,
         bodies: Sequence[int] = (0, 1),
@@ -51,7 +49,7 @@ class Chain(Linkage):
         self._upper = self._held - self._hinge
         self._turn = -1.0 if forwards else 1.0
         self._guided = guided
-        self._hang(weights, centres, inertias, hung)
+        self._hang(parts, hung)
         self._bodies = np.array([*bodies, *(bodies[each.part] for each in self.loads)])
         self.unit = float(self.masses.sum())
 

@@ -17,7 +17,7 @@ from rocking.remarks import Kind, Remark
 from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import Value, restitution_value
 from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
-from rocking.structures.linkage import STILL, Hung, Linkage, Restitution, Turning
+from rocking.structures.linkage import STILL, Hung, Linkage, Parts, Restitution, Turning
 from rocking.structures.stack import (
     MOST_COURSES,
     Course,
@@ -324,9 +324,11 @@ class Facade(Tied):
         weights = self.unit_weight * heights * thicknesses
         return Turning(
             complex(thicknesses[0] if mirrored else 0.0, self.crack_position),
-            weights,
-            -outwards * thicknesses / 2 + 1j * (feet + heights / 2),
-            weights * (heights**2 + thicknesses**2) / 12,
+            Parts(
+                weights,
+                -outwards * thicknesses / 2 + 1j * (feet + heights / 2),
+                weights * (heights**2 + thicknesses**2) / 12,
+            ),
             self._hung(mirrored),
         )
 

@@ -14,6 +14,7 @@ from rocking.structures.linkage import (
     Hung,
     Motion,
     MotionState,
+    Parts,
     PointMotion,
     Restitution,
     Turning,
@@ -154,9 +155,7 @@ class FrameLinkage(Turning):
         self._head = axes[0] - half + insets[1] + 1j * height
         super().__init__(
             axes[0] + half - insets[0],
-            [number],
-            [axes[0] + 0.5j * height],
-            [number * ((2 * half) ** 2 + height**2) / 12],
+            Parts([number], [axes[0] + 0.5j * height], [number * ((2 * half) ** 2 + height**2) / 12]),
             [Hung("load", self._head, 0, mass=number * beam_mass_ratio)],
             slenderness=None if insets[0] else column.slenderness,
         )

@@ -16,7 +16,7 @@ import numpy as np
 
 from rocking.structures.chain import Chain
 from rocking.structures.drawing import rectangle
-from rocking.structures.linkage import STILL, Hung, Linkage, Turning
+from rocking.structures.linkage import STILL, Hung, Linkage, Parts, Turning
 from rocking.structures.searches import minimum
 from rocking.structures.structure import inset
 
@@ -416,22 +416,21 @@ class HeldWall:
             weight * ((each.high - each.low) ** 2 + (each.right - each.left) ** 2) / 12
             for weight, each in zip(weights, moving, strict=True)
         ]
+        parts = Parts(weights, centres, inertias)
         edges = [self._edge(height, turn) for height, turn in opening.kinks]
 
         def seen(point: complex) -> complex:
             return complex(sign * point.real, point.imag)
 
         if opening.hinge is None:
-            return Turning(seen(edges[0]), weights, centres, inertias, hung)
+            return Turning(seen(edges[0]), parts, hung)
         held = None
         if opening.hold is not None:
             held = seen(edges[2] if opening.upright else self._face(opening.hold, opening.outwards))
         return Chain(
             (seen(edges[0]), seen(edges[1])),
             held,
-            weights,
-            centres,
-            inertias,
+            parts,
             hung,
             bodies=[opening.body_at(each.high) for each in moving],
             forwards=opening.forwards,

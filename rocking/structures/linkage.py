@@ -163,6 +163,14 @@ def _sum(weights: np.ndarray, terms: np.ndarray) -> np.ndarray:
     return result
 
 
+class Parts(NamedTuple):
+    """Rigid parts at rest, (k,) each: their masses, centres of mass, complex, and inertias about these."""
+
+    masses: ArrayLike
+    centres: ArrayLike
+    inertias: ArrayLike
+
+
 class Linkage(ABC):
     """Parts that move as one mechanism on one side; a subclass gives their motion and the force at their hinges.
 
@@ -179,13 +187,13 @@ class Linkage(ABC):
     critical: float | None = None
     hung: tuple[Hung, ...] = ()
 
-    def _hang(self, masses: ArrayLike, rest: ArrayLike, inertias: ArrayLike, hung: Sequence[Hung]) -> None:
+    def _hang(self, parts: Parts, hung: Sequence[Hung]) -> None:
         """Take the rigid parts and what of `hung` acts; its `loads`, whose mass moves along, are the last parts."""
         self.hung = tuple(each for each in hung if each.acts)
         self.loads = [each for each in self.hung if each.mass]
-        self.masses = np.append(masses, [each.mass for each in self.loads])
-        self.rest = np.append(rest, [each.start for each in self.loads])
-        self.inertias = np.append(inertias, np.zeros(len(self.loads)))
+        self.masses = np.append(parts.masses, [each.mass for each in self.loads])
+        self.rest = np.append(parts.centres, [each.start for each in self.loads])
+        self.inertias = np.append(parts.inertias, np.zeros(len(self.loads)))
 
     @abstractmethod
     def motion(self, rotation: ArrayLike) -> Motion:
@@ -351,9 +359,7 @@ class Turning(Linkage):
     def __init__(
         self,
         corner: complex,
-        masses: ArrayLike,
-        centres: ArrayLike,
-        inertias: ArrayLike,
+        parts: Parts,
         hung: Sequence[Hung] = (),
         *,
         slenderness: float | None = None,
@@ -361,7 +367,7 @@ class Turning(Linkage):
     ) -> None:
         self.corner = corner
         self.end_rotation = end_rotation
-        self._hang(masses, centres, inertias, hung)
+        self._hang(parts, hung)
         moment = complex(self.masses @ (self.rest - corner))
         self.unit = abs(moment)
         self.slenderness = (

@@ -22,6 +22,7 @@ from rocking.structures.linkage import (
     Linkage,
     Motion,
     MotionState,
+    Parts,
     Restitution,
     cross,
     keeps_last,
@@ -70,7 +71,7 @@ class WallLinkage(Linkage):
         diagonals = np.hypot(heights, thickness) / 2
         masses = weight * (heights / heights.sum())
         centres = [1j * lower_height / 2, 1j * (lower_height + upper_height / 2)]
-        self._hang(masses, centres, masses * diagonals**2 / 3, hung)
+        self._hang(Parts(masses, centres, masses * diagonals**2 / 3), hung)
         self.unit = weight
         slenderness = float(np.arctan2(thickness, lower_height))
         self.critical = None if self.hung else slenderness

@@ -11,7 +11,6 @@ from rocking.assessment.decide import Verdict, worse
 from rocking.assessment.rows import RecordRow, VerdictRow, verdicts_at
 from rocking.assessment.scene import Scene, placed
 from rocking.codes.check import StructureCheck
-from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.dynamic_check import check
 from rocking.codes.rows import KINDS, CodeCheckRow, code_check_rows
 from rocking.codes.selection import Selection
@@ -22,7 +21,6 @@ from rocking.reports.structures import CheckedStructure, structures_report
 from rocking.structures.tied import Tied
 from rocking.study.job import Study
 from rocking.study.selection import pool_of, select_for
-from rocking.study.settings import StudyDesign
 from rocking.tables import write_tables, write_whole
 
 
@@ -47,13 +45,21 @@ def write_checks(
         )
     selection, without_sets, unread = _sets(study)
     station_of = {each.record: _station(each) for each in records}
+    check_at = partial(
+        check,
+        spectrum=spectrum,
+        limit_state=design.limit_state,
+        confidence_factor=design.confidence_factor,
+        behaviour_factor=design.behaviour_factor,
+        records=selection,
+    )
     pages = []
     for name, scene in study.scenes.items():
         own = [each for each in verdicts if each.structure == name]
         for support in scene.place.axis:
             period = scene.place.period_of(support)
             there = verdicts_at(own, period)
-            page = _checked(scene, support, design, spectrum, selection, there, station_of)
+            page = _checked(scene, support, check_at, there, station_of)
             pages.append(page)
             tell(f"{placed(name, period)}: {page.refusal or _told(page.checked)}")
     rows: Iterable[CodeCheckRow] = (
@@ -70,37 +76,31 @@ def write_checks(
 def _checked(
     scene: Scene,
     support: Support | None,
-    design: StudyDesign,
-    spectrum: DesignSpectrum,
-    selection: Selection | None,
+    check_at: Callable[..., StructureCheck],
     verdicts: Sequence[VerdictRow],
     station_of: Mapping[str, str],
 ) -> CheckedStructure:
     """The checks of one scene beside its verdicts in the study; where it cannot be checked, why.
 
-    support: one along the axis of its place. station_of: the station of each record, by its identifier.
+    support: one along the axis of its place. check_at: `check` at the design level of the study. station_of: the
+    station of each record, by its identifier.
     """
     checked: StructureCheck | None = None
     untied: StructureCheck | None = None
     refusal = ""
-    checked_at = partial(
-        check,
-        spectrum=spectrum,
-        limit_state=design.limit_state,
-        confidence_factor=design.confidence_factor,
-        behaviour_factor=design.behaviour_factor,
+    check_here = partial(
+        check_at,
         support=support,
         elastic_period=scene.terms.elastic_period,
         support_loss=scene.terms.support_loss,
-        records=selection,
     )
     try:
-        checked = checked_at(scene.structure)
+        checked = check_here(scene.structure)
     except RockingError as error:
         refusal = str(error)
     if isinstance(scene.structure, Tied) and scene.structure.tie_heights:
         with suppress(RockingError):  # without its ties it may not stand
-            untied = checked_at(scene.structure.without_ties())
+            untied = check_here(scene.structure.without_ties())
     known = [each for each in verdicts if not math.isnan(each.overturning_share)]
     shares = shares_by_station(known, station_of)
     return CheckedStructure(

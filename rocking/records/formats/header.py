@@ -15,7 +15,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Options
 from rocking.records.formats.text import count, fields, lines, number, whole
 from rocking.records.instrument import is_down_hole, refuse_other_quantity, site_warnings
-from rocking.records.plausibility import agree_with_header, agree_with_mean_square
+from rocking.records.plausibility import StatedPeak, agree_with_header, agree_with_mean_square
 from rocking.remarks import Kind, Remark
 
 NUMBER = r"([+-]?(?:\d+\.?\d*|\.\d+)(?:E[+-]?\d+)?)"
@@ -146,15 +146,8 @@ class Layout:
             record = agree_with_mean_square(record, rms, in_unit, digit)
         peak = self.number("peak", head) if peak is None else peak
         at = self.number("peak_time", head) if peak_time is None else peak_time
-        return agree_with_header(
-            record,
-            peak,
-            in_unit,
-            self.half_digit if peak_digit is None else peak_digit,
-            at=at,
-            samples=file_samples,
-            times=file_times,
-        )
+        digit = self.half_digit if peak_digit is None else peak_digit
+        return agree_with_header(record, StatedPeak(peak, in_unit, digit, at), file_samples, file_times)
 
     def channels(
         self,

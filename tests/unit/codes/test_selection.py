@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rocking import DesignSpectrum, select
-from rocking.codes.selection import search
+from rocking.codes.selection import random_sets, search
 from rocking.errors import ConfigurationError
 from tests.made_pools import made_pool
 from tests.oracles.oscillator import spectral_acceleration
@@ -132,4 +132,4 @@ def test_the_nearest_set_is_the_one_whose_excess_is_least():
     """Of four records in sets of three the mean of 1, 1 and 1.2 lies nearest to nothing above 5 %."""
     ratios = np.array([[1.0], [1.0], [1.2], [2.0]])
     with pytest.raises(ConfigurationError, match=r"nearest lies between \+7 and \+7 %"):
-        search(ratios, list("abcd"), 3, below=0.05, above=0.05, tries=2000)
+        search(ratios, random_sets(np.array(list("abcd")), 3, 2000, np.random.default_rng(0)), 0.05, 0.05)

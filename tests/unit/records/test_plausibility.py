@@ -8,7 +8,7 @@ import pytest
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram, Source
-from rocking.records.plausibility import agree_with_header, pass_limits
+from rocking.records.plausibility import StatedPeak, agree_with_header, pass_limits
 from rocking.remarks import Kind, Remark
 
 
@@ -19,13 +19,13 @@ def record(peak: float) -> Accelerogram:
 
 
 def test_the_header_is_believed_within_one_percent() -> None:
-    agree_with_header(record(1.0), 1.0099 / GRAVITY, "g")
-    agree_with_header(record(1.0), -99.1, "gal")
-    agree_with_header(record(1.0), None, "g")
-    agree_with_header(record(1.0), 0.0, "g")
-    agree_with_header(record(0.0014), 0.001, "m/s2", half_digit=5e-4)
+    agree_with_header(record(1.0), StatedPeak(1.0099 / GRAVITY, "g"))
+    agree_with_header(record(1.0), StatedPeak(-99.1, "gal"))
+    agree_with_header(record(1.0), StatedPeak(None, "g"))
+    agree_with_header(record(1.0), StatedPeak(0.0, "g"))
+    agree_with_header(record(0.0014), StatedPeak(0.001, "m/s2", half_digit=5e-4))
     with pytest.raises(RecordError, match=r"^peak acceleration of NS is 1 m/s².* states 1\.02 m/s²"):
-        agree_with_header(record(1.0), 1.02, "m/s2")
+        agree_with_header(record(1.0), StatedPeak(1.02, "m/s2"))
 
 
 @pytest.mark.parametrize(("ratio", "told"), [
@@ -35,7 +35,7 @@ def test_the_header_is_believed_within_one_percent() -> None:
 ])  # fmt: skip
 def test_the_factor_is_explained(ratio: float, told: str) -> None:
     with pytest.raises(RecordError, match=told):
-        agree_with_header(record(ratio), 1.0, "m/s2")
+        agree_with_header(record(ratio), StatedPeak(1.0, "m/s2"))
 
 
 def test_limits() -> None:

@@ -122,7 +122,7 @@ def test_rotations_of_several_records_in_one_panel_stand_at_their_level_in_their
     """Rest at 3, a ratio of 1 two units high: prediction on both sides, band up to a ratio of 1, an impact at 2 s."""
     axes = Figure().subplots()
     times, ratio = np.arange(5.0), np.array([0.0, 0.5, -0.25, -0.5, -0.1])
-    draw_rotation(axes, times, ratio, predicted=0.4, band=(0.2, 1.7), level=3.0, scale=2.0)
+    draw_rotation(axes, (times, ratio), predicted=0.4, band=(0.2, 1.7), place=(3.0, 2.0))
     drawn = [np.unique(line.get_ydata()).tolist() for line in axes.lines]
     assert drawn[:3] == [[3.0], [3.8], [2.2]] and drawn[3] == sorted(3.0 + 2.0 * ratio)
     assert (axes.lines[-1].get_xdata().tolist(), drawn[-1]) == ([2.0], [3.0])

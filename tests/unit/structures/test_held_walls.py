@@ -15,7 +15,7 @@ from rocking.quantities import GRAVITY
 from rocking.structures import Facade, LoadedWall
 from rocking.structures.chain import Chain
 from rocking.structures.held_wall import Opening
-from rocking.structures.linkage import Hung
+from rocking.structures.linkage import Hung, Parts
 
 PER_STOREY = 5
 
@@ -311,7 +311,9 @@ def test_contacts_of_a_chain_are_those_of_a_loaded_wall():
 
 def test_restitution_between_equal_blocks_is_that_of_the_formula():
     """(1 − 4.5 sin²α)/(1 + 3 sin²α), section 4."""
-    chain = Chain((0j, -0.2 + 1.6j), 3.2j, [1, 1], [-0.1 + 0.8j, -0.1 + 2.4j], [(1.6**2 + 0.2**2) / 12] * 2)
+    chain = Chain(
+        (0j, -0.2 + 1.6j), 3.2j, Parts([1, 1], [-0.1 + 0.8j, -0.1 + 2.4j], [(1.6**2 + 0.2**2) / 12] * 2)
+    )
     facade = Facade(
         (3.2,), (0.2,), 18e3, behind="floors", restitution=0.5, tie_heights=(3.2,), tie_stiffness=1e7
     )
@@ -419,8 +421,8 @@ def test_a_known_crack_leaves_the_bulges_alone():
 
 def test_chain_keeps_its_held_point_and_hung_points_on_their_bodies():
     hung = [Hung("load", -0.15 + 3.0j, 1, mass=0.4)]
-    chain = Chain((0j, -0.3 + 1.7j), 3.0j, [1, 0.8, 0.5], [-0.15 + 0.85j, -0.15 + 2.3j, -0.15 + 3.5j], [0.3, 0.2, 0.1],
-                  hung, bodies=(0, 1, 2))  # fmt: skip
+    parts = Parts([1, 0.8, 0.5], [-0.15 + 0.85j, -0.15 + 2.3j, -0.15 + 3.5j], [0.3, 0.2, 0.1])
+    chain = Chain((0j, -0.3 + 1.7j), 3.0j, parts, hung, bodies=(0, 1, 2))
     at = np.linspace(0, 0.2, 9)
     held = chain.point(1, 3.0j, at)
     np.testing.assert_allclose(held.moved.real, 0, atol=1e-15)
