@@ -147,8 +147,9 @@ class Assessor:
         """Return the motion of every scene under the whole record, its members and its reserve.
 
         An ensemble over the directions of a pair speaks for both components, which then get none of their own. A
-        structure on a support meets the motion there, for as many periods as its verdicts ask for, and for comparison
-        that of the ground. The reserve is sought on the ground and at the worst period, which reports print.
+        structure on a support meets the motion there, at three of its periods, at all unless it is quiet at those, and
+        for comparison that of the ground. The reserve is sought on the ground and at the worst period, which reports
+        print.
         """
         scenes = on_friction(scenes, self.settings.friction_coefficient)
         grounds = components
@@ -178,12 +179,12 @@ class Assessor:
                     stations[scene.name, support] = station
             wanted = {}
             for scene in scenes.values():
-                told = {
-                    support: stations[scene.name, support].decision.word
+                quiet = {
+                    support: stations[scene.name, support].is_quiet
                     for support in scene.place.supports
                     if (scene.name, support) in stations
                 }
-                for support in scene.place.to_follow(told):
+                for support in scene.place.to_follow(quiet):
                     wanted.setdefault(support, []).append(scene)
 
         results = {}

@@ -763,8 +763,8 @@ def worst_period_each(verdicts: Iterable[VerdictRow]) -> list[VerdictRow]:
 def verdicts_at(verdicts: Iterable[VerdictRow], period: float | None) -> list[VerdictRow]:
     """Return the verdicts on one structure at a `period` of its support [s], one for each record that has some there.
 
-    Of a record under which that period was not followed it is the worse one of the two periods beside it, between which
-    none is followed unless their words differ; without its reserve, which is of that other period.
+    Of a record under which that period was not followed, as it is quiet there, it is the worse one of the two periods
+    beside it; without its reserve, which is of that other period.
     """
     of_records: dict[str, dict[float | None, VerdictRow]] = {}
     for each in verdicts:
