@@ -26,7 +26,7 @@ KEYS = {
 """Keys of an entry of a structure list, whatever its type, with their meaning."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class CheckTerms:
     """elastic_period: T_0, s; 0 of what is tied rigidly. support_loss: m; inf where nothing falls."""
 

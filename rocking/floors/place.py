@@ -97,7 +97,7 @@ class Place:
             return None
         return support.first_period if support else 0.0
 
-    def measures(self, period: float, ground: Accelerogram, there: Accelerogram) -> FloorMeasures:
+    def measures(self, period: float, *, ground: Accelerogram, there: Accelerogram) -> FloorMeasures:
         """Return what the support of this first period makes of the ground, as the motion `there`; 0: the ground."""
         spectral_acceleration = math.nan
         by_code = math.nan
@@ -154,9 +154,9 @@ def place_from_config(mapping: Mapping[str, Any]) -> Place:
             Support(
                 tuple(
                     Mode(
-                        float(f"{of_mode[place]:.6g}"),
-                        mode.get("damping_ratio", damping),
-                        mode["participation"],
+                        period=float(f"{of_mode[place]:.6g}"),
+                        damping_ratio=mode.get("damping_ratio", damping),
+                        participation=mode["participation"],
                     )
                     for of_mode, mode in zip(periods, modes, strict=True)
                 )

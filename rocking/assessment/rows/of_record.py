@@ -806,7 +806,7 @@ class CarriedStructure(OfStructure):
         """The motion on the support beside that of the ground."""
         ground = (self.floor.ground or self.floor).accelerogram
         period = self.station.support_period_s or 0.0
-        return self.station.scene.place.measures(period, ground, self.floor.accelerogram)
+        return self.station.scene.place.measures(period, ground=ground, there=self.floor.accelerogram)
 
 
 of_support = Columns(CarriedStructure)

@@ -4,14 +4,18 @@ import math
 import zipfile
 from dataclasses import replace
 from io import BytesIO
+from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.decide import Verdict
-from rocking.assessment.rows import VerdictRow, rows_of_record
+from rocking.assessment.listed import load_scenes
+from rocking.assessment.rows import VerdictRow, rows_of_record, verdicts_at
+from rocking.assessment.scene import placed
 from rocking.codes.design_spectrum import DesignSpectrum
+from rocking.records import load_catalogue
 from rocking.remarks import Kind, Remark
 from rocking.reports.explore import explore_page, record_content
 from rocking.reports.printing import LOOKS, cell_text
@@ -19,6 +23,7 @@ from rocking.reports.record import RecordReport
 from rocking.reports.structures import structures_data
 from rocking.reports.summary import summary_data
 from rocking.study.checks import _checked
+from rocking.study.job import Study, assess_catalogued, rows_of
 from rocking.study.settings import StudyDesign
 from rocking.study.terminal import record_line
 from rocking.study.workspace import _told
@@ -27,6 +32,7 @@ from rocking.tables.workbook import workbook
 from tests.unit.assessment.made_rows import members
 from tests.unit.reports.conftest import SETTINGS, detailed, summarised
 
+ROOT = Path(__file__).parents[3]
 NO_BREAK = "\u00a0"
 SPECTRUM = DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
 
@@ -98,10 +104,7 @@ def test_the_tables_hold_it(report, decisions, tmp_path):
 
 
 def test_the_workbook_holds_it(report, decisions):
-    with zipfile.ZipFile(BytesIO(workbook({VerdictRow: report.tables.verdicts}, "A study"))) as book:
-        sheet = ElementTree.fromstring(book.read("xl/worksheets/sheet2.xml"))
-    tag = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}row"
-    lines = ["|".join("".join(cell.itertext()) for cell in line) for line in sheet.iter(tag)]
+    lines = workbook_lines(report.tables)
     for name, decision in decisions.items():
         (line,) = (each for each in lines if f"|{name}|" in f"|{each}|")
         assert f"|{decision.word}|" in line
@@ -171,3 +174,91 @@ def test_the_page_to_sign_says_it(report, decisions):
         if not math.isnan(decision.share):
             assert f"{100 * decision.share:.0f}{NO_BREAK}%" in [each["value"] for each in data["sure"]]
         assert all(f"({doubt})" in share for doubt in decision.doubts)
+
+
+# The shipped example --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("record", load_catalogue(ROOT / "records" / "catalogue.csv"), ids=lambda row: row.id)
+def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undrawn):
+    """Each structure at each period of its support, in each table and on each page that names it."""
+    study = Study(load_scenes(ROOT / "workflow" / "structures.yaml"))
+    result = assess_catalogued(record, study)
+    tables = rows_of(result, record, study)
+    decided = {(each.structure, each.support_period_s): each.decision for each in result.stations}
+    assert {name for name, _ in decided} == set(study.structures)
+
+    write_rows(VerdictRow, tables.verdicts, tmp_path / "verdicts.csv")
+    written = {
+        (row.structure, row.support_period_s): row.decision for row in read_table(VerdictRow, tmp_path)
+    }
+    assert {name: repr(each) for name, each in written.items()} == {
+        name: repr(replace(each, doubts=_kinds(each.doubts), tells=_kinds(each.tells)))
+        for name, each in decided.items()
+    }
+    for row in (*tables.comparison, *tables.supports):
+        decision = decided[row.structure, row.support_period_s]
+        assert row.verdict is decision.word
+        assert row.overturning_share == pytest.approx(decision.share, nan_ok=True)
+
+    report = detailed(RecordReport(result, tables, study.structures, study.settings.mapping()))
+    data = report.data()
+    told = [line for each in result.stations for line in _told(each, 1.0)]
+    of_all = zip(report.stations, data["details"][0]["verdicts"]["rows"], strict=True)
+    lines = workbook_lines(tables)
+    stations = {row.record: row.station for row in tables.record}
+    for station, cells in of_all:
+        name = placed(station.structure, station.support_period_s)
+        decision = station.decision
+        share = decision.share_in_words
+        (own,) = (line for line in told if line.startswith(f"{name}: "))
+        assert own == f"{name}: {decision.word}{f' ({share})' if share else ''}; {decision.why}"
+        texts = [each["text"] if isinstance(each, dict) else each for each in cells]
+        assert texts[3:5] == [decision.word, share]
+        period = [] if station.support_period_s is None else [f"{station.support_period_s:g}"]
+        key = "|".join(["", station.structure, *period, decision.word, ""])
+        (line,) = (each for each in lines if key in each)
+        assert decision.why in line
+        assert all(doubt.kind in line for doubt in decision.doubts)
+        own_rows = [row for row in tables.verdicts if row.structure == station.structure]
+        there = verdicts_at(own_rows, station.support_period_s)
+        page = _checked(station.scene, station.support, StudyDesign(), SPECTRUM, None, there, stations)
+        (signed,) = structures_data([page], SPECTRUM, SETTINGS)["pages"]
+        assert f"{decision.word.predicate} under 1 station" in signed["basis"]["share"]
+        assert all(str(doubt) in signed["basis"]["share"] for doubt in _kinds(decision.doubts))
+
+    worst = {each.structure: each for each in result.worst_periods}
+    content = record_content(result, tables, study.structures)
+    summary = summary_data(summarised(tables, study.structures), SETTINGS)
+    rows = {row["name"]: row for row in data["rows"]}
+    cells = {row["name"]: row["cells"][0] for row in summary["matrix"]["rows"]}
+    table = {line[0]["text"]: line for line in summary["structures"]["rows"]}
+    line = record_line(result.scenes.values(), [])
+    page = explore_page([content], study.structures).decode()
+    assert data["conclusion"] == summary["conclusion"] and data["conclusion"] in page
+    for name, station in worst.items():
+        decision = station.decision
+        for row in (rows[name], cells[name]):
+            assert row["word"].removeprefix("? ") == decision.word
+            assert row["share"] in (decision.share_in_words, "" if row is cells[name] else None)
+        assert decision.share_in_words in table[name]
+        case = content["cases"][name]
+        assert (case["verdict"], case["cell"]) == (decision.word, cell_text(decision))
+        assert decision.why in case["text"]
+        assert all(str(doubt) in case["text"].partition(" Doubtful: ")[2] for doubt in decision.doubts)
+        if f"{decision.word}: " in line and f"{name} (" in line:  # it names eight, and gathers the others
+            assert f"{name} ({decision.share_in_words})" in line
+
+
+def _kinds(remarks):
+    """As a table holds them: their kinds alone."""
+    return tuple(Remark(each.kind) for each in remarks)
+
+
+def workbook_lines(tables):
+    """The lines of the sheet of verdicts."""
+    with zipfile.ZipFile(BytesIO(workbook({VerdictRow: tables.verdicts}, "A study"))) as book:
+        sheet = ElementTree.fromstring(book.read("xl/worksheets/sheet2.xml"))
+    tag = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}row"
+    return ["|".join("".join(cell.itertext()) for cell in line) for line in sheet.iter(tag)]
