@@ -12,6 +12,7 @@ from rocking.errors import StructureError
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.remarks import Kind
+from rocking.structures import LoadedWall
 from tests.made_structures import HELD
 
 ALONE = HELD.mechanism()
@@ -95,6 +96,20 @@ def test_what_it_carries_may_fall_though_it_cannot():
 def test_it_has_no_fragility():
     with pytest.raises(StructureError, match=r"cannot overturn, and has no fragility: it lifts at 0.263 g"):
         rocking.fragility([record(4.0), record(5.0)], ALONE, stations=["a", "b"], levels=[0.2, 0.6])
+
+
+@pytest.mark.parametrize("crack", [None, "known", "unknown"])
+def test_the_verdict_and_the_fragility_ask_the_same_cracks(crack):
+    """A hinge that is given below a tie: no record may stand as a word says where a curve says that none can fall."""
+    wall = LoadedWall.hinged_at(3.2, 1.9, 0.25, 20e3, tie_heights=(3.0,), tie_stiffness=5e5, crack=crack)
+    word = rocking.assess(record(3.0), wall).verdict
+    try:
+        rocking.fragility([record(4.0), record(5.0)], wall, stations=["a", "b"], levels=[0.2, 0.6])
+    except StructureError as refusal:
+        assert "cannot overturn" in str(refusal)
+        assert word is Verdict.CANNOT_OVERTURN
+    else:
+        assert word is not Verdict.CANNOT_OVERTURN
 
 
 def test_its_row_has_no_block():
