@@ -28,7 +28,6 @@ from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
 from rocking.records.formats.layouts import Layouts
 from rocking.records.formats.tables import signature_of
-from rocking.records.formats.text import is_number, lines
 from rocking.records.instrument import channel_warnings, site_warnings
 from rocking.records.plausibility import damage_warnings, pass_limits, repeated_rows
 from rocking.records.sheet import is_workbook, table_of_workbook
@@ -229,27 +228,9 @@ def recognise(content: bytes) -> Format:
     words = head.decode("latin-1").splitlines()[0].strip()
     raise UnknownFormatError(
         f"no reader recognises this file, which begins with {(words if words.isprintable() else head[:8])!r}; "
-        f"rocking read --details says why. {_advice(content)}",
+        "rocking read --details says why. Or: rocking.from_obspy(obspy.read(path), unit=...).",
         details=tuple(f"{form.name}: no {form.signature}" for form in FORMATS),
     )
-
-
-_LOOKED_AT = 400
-"""Lines among which the first numbers of an unknown text are sought."""
-
-
-def _advice(content: bytes) -> str:
-    """Return what to do with a file that no reader takes: a text of numbers may be made a table, obspy reads others."""
-    if b"\0" not in content[:4096]:
-        rows = [re.split(r"\s*[,;]\s*|\s+", line.strip()) for line in lines(content, _LOOKED_AT)]
-        are_numbers = [bool(row[0]) and all(map(is_number, row)) for row in rows]
-        begin = next((at for at in range(len(rows)) if all(are_numbers[at : at + 5])), len(rows))
-        if 0 < begin <= len(rows) - 5:
-            return (
-                f"Its numbers begin on line {begin + 1}, with {len(rows[begin])} on a line: write # before each line "
-                "above them, the last of which names every column with its unit, and it is read as a table."
-            )
-    return "Or: rocking.from_obspy(obspy.read(path), unit=...)."
 
 
 def unpack(raw: bytes, name: str) -> bytes:

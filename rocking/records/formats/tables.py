@@ -6,6 +6,7 @@ What closed lists name is read. What is left open is asked once for all tables a
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -18,8 +19,15 @@ from rocking.records.formats import text
 from rocking.records.formats.dialect import Dialect
 from rocking.records.formats.format import Format, Options, plain
 from rocking.records.formats.labels import ColumnLabel
-from rocking.records.formats.layout import Above, Column, Layout
-from rocking.records.formats.layouts import Answer, AskedError, Question, Signature
+from rocking.records.formats.layouts import (
+    Above,
+    Answer,
+    AskedError,
+    Column,
+    Question,
+    Signature,
+    TableLayout,
+)
 from rocking.records.formats.remarks import Declarations, factor_warnings, meaning, speaks_of_factor
 from rocking.records.instrument import refuse_by_name, refuse_other_quantity
 from rocking.remarks import Kind, Remark
@@ -103,13 +111,14 @@ class Table:
 
     def signature(self, folder: str) -> Signature:
         """Return what it has in common with tables for which the same answer holds; folder: in which it lies."""
-        names = " | ".join(label.text if label.is_known else _shape(label.text) for label in self.labels)
+        # The long numbers of a name that says nothing are those of a station or an event.
+        shapes = (each.text if each.is_known else re.sub(r"\d{3,}", "#", each.text) for each in self.labels)
         above = dict.fromkeys(filter(None, map(meaning, (*self.remarks, *self.words))))
         words = " / ".join([*(["n, dt"] if self.counts else []), *above])
-        names = plain(names).lstrip("=+-@ ")
+        names = plain(" | ".join(shapes)).lstrip("=+-@ ")
         return Signature(names, str(self.width), plain(words), "" if names or words else folder)
 
-    @property
+    @cached_property
     def said(self) -> Declarations:
         """What the text above the numbers declares."""
         return Declarations.of((*self.remarks, *self.words))
@@ -148,11 +157,6 @@ def _counts(line: str) -> tuple[Above, ...]:
         if samples.isdecimal() and int(samples) > 1 and "." in step and 0 < float(step) <= LONGEST_STEP:
             return order
     return ()
-
-
-def _shape(name: str) -> str:
-    """Return a name that says nothing with its long numbers left out: those of a station or an event."""
-    return re.sub(r"\d{3,}", "#", name)
 
 
 def _named(above: Sequence[str], width: int) -> tuple[tuple[ColumnLabel, ...], Sequence[str]]:
@@ -313,7 +317,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     ]
 
 
-def _above(table: Table, layout: Layout | None, content: bytes) -> tuple[dict[Above, float], int]:
+def _above(table: Table, layout: TableLayout | None, content: bytes) -> tuple[dict[Above, float], int]:
     """Return the numbers above a series, by what they are, and the line at which its samples begin.
 
     Raises RecordError where an answer names numbers above it that are not there.
@@ -359,7 +363,7 @@ def _plain_rows(below: bytes, may_be_filled: bool) -> tuple[bytes, tuple[Remark,
     return bare, notes
 
 
-def _drawn(table: Table, values: np.ndarray, is_parted: bool) -> Layout:
+def _drawn(table: Table, values: np.ndarray, is_parted: bool) -> TableLayout:
     """Return the layout of a table as far as its names, and its numbers where it has none, say it; the rest is open.
 
     is_parted: whether commas or semicolons part its numbers.
@@ -370,30 +374,26 @@ def _drawn(table: Table, values: np.ndarray, is_parted: bool) -> Layout:
     rows = values[: values.size - values.size % width].reshape(-1, width)
     if width == 1 or (width > 2 and not table.labels and _runs_along_rows(values, width, is_parted)):
         column = Column("acceleration", unit=labels[0].unit or said.unit)
-        return Layout((column,), is_series=True, per_line=width if width > 1 else 0, time_step=said.time_step)
-    if not table.labels:
-        _refuse_matrix(rows)
-        if _are_wrapped_pairs(values, width):
-            return Layout((Column("time"), Column("acceleration", unit=said.unit)), per_line=width)
-    if any(
-        label.is_plain_acceleration for label in labels
-    ):  # v and u beside "a" are of velocity and displacement
+        return TableLayout(
+            (column,), is_series=True, per_line=width if width > 1 else 0, time_step=said.time_step
+        )
+    if any(label.is_plain_acceleration for label in labels):  # v and u beside it are no directions
         labels = tuple(ColumnLabel("?") if _LETTER.fullmatch(label.text) else label for label in labels)
     columns = tuple(_column(label, column, said) for label, column in zip(labels, rows.T, strict=True))
-    if (
-        table.width == 2 and not table.labels and columns[0].role == "open"
-    ):  # a motion beside times that are none
-        columns = (Column("time"), columns[1])
-    return Layout(columns, time_step=said.time_step)
+    if not table.labels and {column.role for column in columns} <= {
+        "time",
+        "other",
+    }:  # a motion that rises evenly
+        columns = (columns[0], *[Column("open")] * (width - 1))
+    return TableLayout(columns, time_step=said.time_step)
 
 
 def _column(label: ColumnLabel, numbers: np.ndarray, said: Declarations) -> Column:
     """Return what a column holds by its name, or by numbers that rise all the way; open where neither says it."""
     if label.other or label.is_time:
         return Column("other") if label.other else Column("time", seconds=label.seconds)
-    rises = numbers.size >= _FEWEST_ROWS and np.diff(numbers).min() >= 0 and numbers[0] >= 0
-    if not label.unit and (label.is_count or not label.text) and rises and _is_clock(numbers):
-        is_count = label.is_count or bool((np.diff(numbers) == 1).all())
+    if not label.unit and (label.is_count or not label.text) and _is_clock(numbers[1:]):
+        is_count = label.is_count or (numbers.size >= _FEWEST_ROWS and bool((np.diff(numbers) == 1).all()))
         return Column("other" if is_count else "time")
     if label.unit or label.is_direction or label.is_plain_acceleration:
         return Column("acceleration", unit=label.unit or said.unit)
@@ -404,11 +404,14 @@ _LETTER = re.compile(r"(?i)[vdux]")
 
 
 def _is_clock(numbers: np.ndarray) -> bool:
-    """Whether numbers that never fall rise with their place, as times do that are uneven or rounded, and no motion."""
-    return bool(numbers[-1] > numbers[0]) and np.corrcoef(numbers, np.arange(numbers.size))[0, 1] > _ONE_WAY
+    """Whether numbers from zero or above rise with their place, as times do that are uneven, rounded or have a gap."""
+    if numbers.size < 2 or numbers[0] < 0 or not numbers[-1] > numbers[0]:
+        return False
+    return bool(np.corrcoef(numbers, np.arange(numbers.size))[0, 1] > _ONE_WAY)
 
 
-_ONE_WAY = 0.999
+_ONE_WAY = 0.98
+"""Correlation of a column with its place from which on it is a clock: no motion rises so, all the way."""
 _OF_CHANNELS = (3, 4, 6, 9)
 """Numbers of columns that a table of channels without names may well have."""
 
@@ -431,29 +434,7 @@ def _runs_along_rows(values: np.ndarray, width: int, is_parted: bool) -> bool:
     return along <= (1.0 if width in _OF_CHANNELS else 1.5) * across
 
 
-def _are_wrapped_pairs(values: np.ndarray, width: int) -> bool:
-    """Whether several pairs of time and acceleration stand on a row: each time follows from that of the pair before."""
-    if width < 4 or width % 2 or values.size < 2 * _FEWEST_ROWS:
-        return False
-    steps = np.diff(values[: values.size - values.size % 2 : 2])
-    return bool(steps.min() > 0) and float(np.ptp(steps)) < 0.5 * float(np.median(steps))
-
-
-def _refuse_matrix(rows: np.ndarray) -> None:
-    """Refuse columns (n, width) without names that no motion makes: none falls below zero, or they rise unevenly."""
-    if rows.shape[1] < 2 or len(rows) < _FEWEST_ROWS or rows[:, 1:].min() < 0:
-        return
-    steps = np.diff(rows[:, 0])
-    is_uneven_abscissa = steps.min() > 0 and steps.max() > 2 * steps.min()
-    is_matrix = rows.shape[1] > 2 and rows.min() >= 0 and rows.size >= _FEWEST_OF_BOTH_SIGNS
-    if is_uneven_abscissa or is_matrix:
-        raise RecordError(
-            "no number of its columns is below zero: these are spectra or peaks; use the record of acceleration "
-            "against time, or name the columns if they are that."
-        )
-
-
-def _holds(table: Table, drawn: Layout, values: np.ndarray) -> str:
+def _holds(table: Table, drawn: TableLayout, values: np.ndarray) -> str:
     """Return what a table holds as far as it can be seen, for a person who knows the rest."""
     rows = values.size // table.width
     size = f"{rows:,} rows".replace(",", " ")
@@ -473,7 +454,9 @@ def _holds(table: Table, drawn: Layout, values: np.ndarray) -> str:
     return "; ".join([*told, size])
 
 
-def _ask_where_open(table: Table, drawn: Layout, options: Options, question: Question, spaced: bytes) -> None:
+def _ask_where_open(
+    table: Table, drawn: TableLayout, options: Options, question: Question, spaced: bytes
+) -> None:
     """Raise AskedError where a table leaves open what it holds, but for the unit and the step of one series.
 
     One column without a name beside times is that series, and so is one with a strange name whose unit is declared.
@@ -500,7 +483,9 @@ def _ask_where_open(table: Table, drawn: Layout, options: Options, question: Que
 _ANSWER_IT = "answer it once in layouts.csv, of which rocking catalogue writes the line."
 
 
-def _fitted(answer: Answer, layout: Layout, table: Table, drawn: Layout, options: Options) -> Layout:
+def _fitted(
+    answer: Answer, layout: TableLayout, table: Table, drawn: TableLayout, options: Options
+) -> TableLayout:
     """Return the layout of an answer for one table. Raises RecordError where the two contradict each other."""
     a_line = layout.per_line or (table.width if layout.is_series else len(layout.columns))
     if a_line != table.width and not layout.width:
@@ -521,7 +506,7 @@ def _fitted(answer: Answer, layout: Layout, table: Table, drawn: Layout, options
 
 
 def _series(
-    values: np.ndarray, table: Table, layout: Layout, above: dict[Above, float], options: Options
+    values: np.ndarray, table: Table, layout: TableLayout, above: dict[Above, float], options: Options
 ) -> list[Accelerogram]:
     """Return the accelerogram of a table that is one series, `above` the numbers that stand there of it."""
     label = table.labels[0] if table.labels else ColumnLabel("")
@@ -596,7 +581,7 @@ def _whole_numbers(spaced: bytes) -> str:
     return first.decode("latin-1").strip()[:40]
 
 
-def _channels(values: np.ndarray, table: Table, layout: Layout, options: Options) -> list[Accelerogram]:
+def _channels(values: np.ndarray, table: Table, layout: TableLayout, options: Options) -> list[Accelerogram]:
     """Return the channels of a table: each column of acceleration, with the times left of it, else the first ones."""
     columns = layout.columns
     rows = values.reshape(-1, len(columns))

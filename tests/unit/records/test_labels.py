@@ -159,12 +159,6 @@ def test_units_may_stand_below_the_names(tmp_path, units):
     ]
 
 
-def test_pairs_of_time_and_acceleration_on_a_row_are_one_series(tmp_path):
-    pairs = np.transpose([TIMES, FIRST]).reshape(-1, 4)
-    (record,) = opened(tmp_path, table("", *pairs.T, parted=" "), unit="m/s2")
-    assert record.time_step == 0.01 and np.allclose(record.acceleration, FIRST, atol=1e-6)
-
-
 @pytest.mark.parametrize(
     ("remarks", "step"),
     [("# units: cm/s2\n# dt = 0.005 s\n", 0.005), ("% Unidades: cm/s2\n% Tasa de muestreo: 200 Hz\n", 0.005),

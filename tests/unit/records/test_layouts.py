@@ -10,8 +10,7 @@ from rocking.errors import CatalogueError, RecordError
 from rocking.records import load_catalogue, open_record, read
 from rocking.records.files import answers_of
 from rocking.records.folder import list_folder
-from rocking.records.formats.layout import Layout
-from rocking.records.formats.layouts import COLUMNS, NAME, AskedError, Layouts, Question
+from rocking.records.formats.layouts import COLUMNS, NAME, AskedError, Layouts, Question, TableLayout
 from rocking.study.workspace import write_catalogue
 
 TIMES = 0.01 * np.arange(600)
@@ -272,6 +271,6 @@ def test_a_broken_table_of_layouts_is_told_in_a_sentence(tmp_path: Path) -> None
     "one series ?, 10F8, dt 0.01",
 ])  # fmt: skip
 def test_an_answer_is_written_as_it_is_read(answer: str) -> None:
-    layout = Layout.parse(answer.replace("?", "g"))
-    assert Layout.parse(str(layout)) == layout
+    layout = TableLayout.parse(answer.replace("?", "g"))
+    assert TableLayout.parse(str(layout)) == layout
     assert str(layout) == answer.replace("?", "g")

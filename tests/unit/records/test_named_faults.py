@@ -95,8 +95,12 @@ def test_strain_is_no_acceleration_and_a_numbered_letter_no_direction(tmp_path: 
 
 @pytest.mark.parametrize("first", [np.geomspace(0.01, 10, 600), np.linspace(0.1, 60, 600)])
 def test_a_matrix_of_spectra_is_no_record(tmp_path: Path, first: np.ndarray) -> None:
-    with pytest.raises(RecordError, match="no number of its columns is below zero"):
-        opened(tmp_path, rows(first, np.abs(MOTION), 0.5 * np.abs(MOTION)), unit="g", time_step=0.01)
+    for columns in (
+        [first, np.abs(MOTION), 0.5 * np.abs(MOTION)],
+        [np.geomspace(0.01, 10, 600), np.abs(MOTION)],
+    ):
+        with pytest.raises(AskedError, match="what its columns hold is not known"):
+            opened(tmp_path, rows(*columns), unit="g", time_step=0.01)
 
 
 def test_an_even_pair_of_columns_without_negative_numbers_is_told(tmp_path: Path) -> None:

@@ -107,7 +107,7 @@ def test_times_rounded_in_print_are_even_and_uneven_ones_are_resampled(tmp_path:
 
 
 @pytest.mark.parametrize(("text", "message"), [
-    ("0.00 1\n0.01 2\n0.01 3\n0.02 1\n", "times must increase"),
+    ("0.00 1\n0.01 2\n0.02 3\n0.02 1\n0.03 -1\n0.04 2\n0.05 3\n0.06 1\n", "times must increase"),
     ("time,a(g)\n0.00,1\n0.01,\n0.02,3\n", "no reader recognises"),
     ("time,a(g)\n0.00,1\n0.01,2,3\n0.02,3\n", "no reader recognises|columns"),
     ("t,NS,EW\n0,5,6\n1,8,9\n2,2\n", "row 3 of the samples has 2 columns, but the first has 3|no reader"),
