@@ -15,7 +15,7 @@ from rocking.records.archive import archive_of
 from rocking.records.catalogue import CatalogueRecord, RecordFile, catalogue_text, load_catalogue, read_rows
 from rocking.records.formats.by_obspy import may_be_counts
 from rocking.records.formats.layouts import NAME, Layouts
-from rocking.records.read import LARGEST_FILE, answer_to, bytes_of
+from rocking.records.read import LARGEST_FILE, bytes_of, signature_in
 from rocking.records.traces import first_line
 from rocking.tables import read_start, write_whole
 
@@ -76,11 +76,13 @@ def answers_of(record: CatalogueRecord, mirror: str | Path | None = None) -> dic
     """
     layouts = Layouts(record.folder)
     answers = {}
-    for file in record.files if layouts.rows else ():
+    for file in record.files if layouts.are_answered else ():
         with suppress(RecordError):
             if path := beside_catalogue(record, file.name, mirror):
                 place = PurePosixPath(file.name).parent.as_posix()
-                answers[file.name] = answer_to(bytes_of(path), layouts.at(place))
+                answers[file.name] = layouts.text_of(
+                    signature_in(bytes_of(path), place if place != "." else "")
+                )
     return {f"{NAME} of {name}": sha256_of_bytes(text.encode()) for name, text in answers.items() if text}
 
 

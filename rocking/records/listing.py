@@ -13,7 +13,7 @@ from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue import few, stays_inside
 from rocking.records.formats import Options
-from rocking.records.formats.layouts import NAME, AskedError, Layouts, Question
+from rocking.records.formats.layouts import NAME, AskedError, Layouts, Question, Signature
 from rocking.records.plausibility import OF_COUNTS
 from rocking.records.processing import process, velocity
 from rocking.records.read import printable, read_raw
@@ -77,7 +77,8 @@ class Reading:
     """The findings of reading one file, whatever else lies in its folder.
 
     doubts: what is plausibly wrong, about the components where not all are concerned. refusal: why it cannot be read,
-    or "". missing: what it does not declare, of the keys of CELLS. question: what layouts.csv asks of a table.
+    or "". missing: what it does not declare, of the keys of CELLS. question: what layouts.csv asks of a table;
+    signature: of a table, and the answer by which it was read, "" where there was none.
     """
 
     sha256: str
@@ -86,6 +87,8 @@ class Reading:
     refusal: str = ""
     missing: tuple[str, ...] = ()
     question: Question | None = None
+    signature: Signature | None = None
+    answer: str = ""
 
 
 @dataclass

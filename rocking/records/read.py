@@ -26,7 +26,7 @@ from rocking.records.direction import (
 )
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
-from rocking.records.formats.layouts import Layouts
+from rocking.records.formats.layouts import Layouts, Signature
 from rocking.records.formats.tables import signature_of
 from rocking.records.instrument import channel_warnings, site_warnings
 from rocking.records.plausibility import damage_warnings, pass_limits, repeated_rows
@@ -138,18 +138,15 @@ def read_content(
         return records
 
 
-def answer_to(raw: bytes, layouts: Layouts) -> str:
-    """Return the answer of layouts.csv by which the content of a file is read, "" where it is read without.
-
-    It is part of the content of the record: where it is edited, the file is read again.
-    """
-    if not layouts.rows:
-        return ""
+def signature_in(raw: bytes, folder: str) -> Signature | None:
+    """Return the signature of the content of a file, packed or not, as a table of `folder`; None where it is none."""
     with suppress(RecordError):
-        signature = signature_of(bare_text(unpack(raw, "")), layouts.place)
-        answer = signature and layouts.answer(signature)
-        return answer.text if answer else ""
-    return ""
+        return signature_of(bare_text(unpack(raw, "")[:_HEAD]), folder)
+    return None
+
+
+_HEAD = 2**17
+"""Bytes in which what stands above a table ends, and its first rows."""
 
 
 def checked_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:

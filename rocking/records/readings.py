@@ -3,7 +3,7 @@
 import json
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from functools import cache
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
@@ -11,8 +11,9 @@ from typing import Any, get_args, get_type_hints
 from rocking.errors import RecordError, RockingError, fault_in_words, log_fault
 from rocking.hashes import sha256_of_bytes, sha256_of_sources
 from rocking.records.formats.layouts import Layouts, Question, Signature
+from rocking.records.formats.tables import COLUMNS
 from rocking.records.listing import CELLS, ListedChannel, Reading, read_for_listing
-from rocking.records.read import answer_to, bytes_of, printable
+from rocking.records.read import bytes_of, printable, signature_in
 from rocking.remarks import Kind, Remark
 from rocking.tables import read_whole, write_whole
 
@@ -56,12 +57,14 @@ class Readings:
         sha256 = sha256_of_bytes(raw)
         unit = declared["unit"]
         time_step = declared["time_step"]
+        key = json.dumps([sha256, printable(path.name), unit, time_step, self._metadata_beside(path.parent)])
         layouts = self._layouts.at(path.parent.relative_to(self._folder).as_posix())
-        answer = answer_to(raw, layouts)
-        beside = self._metadata_beside(path.parent)
-        key = json.dumps([sha256, printable(path.name), unit, time_step, beside, answer])
         reading = self._before.get(key)
-        if reading is None or reading.sha256 != sha256:
+        if (
+            reading is None
+            or reading.sha256 != sha256
+            or reading.answer != layouts.text_of(reading.signature)
+        ):
             try:
                 reading = read_for_listing(raw, sha256, path, declared, layouts)
             except MemoryError:
@@ -69,6 +72,9 @@ class Readings:
             except Exception as fault:  # a file must cost no other file its row, whatever it holds
                 log_fault(fault, self._log)
                 return Reading(sha256, refusal=printable(fault_in_words(fault, self._log)))
+            if not reading.channels or reading.channels[0].format == COLUMNS.name:
+                signature = signature_in(raw, layouts.place)
+                reading = replace(reading, signature=signature, answer=layouts.text_of(signature))
         self._now[key] = reading
         return reading
 
@@ -131,18 +137,21 @@ def _reading(values: dict[str, Any]) -> Reading:
     if not all(isinstance(text, str) for text in (sha256, refusal)) or not set(missing) <= CELLS.keys():
         raise TypeError("a text is none, or no cell of a catalogue")
     channels = tuple(_channel(channel) for channel in values["channels"])
-    return Reading(sha256, channels, doubts, refusal, missing, _question(values["question"]))
+    signature = Signature(**_texts(values["signature"])) if values["signature"] else None
+    question = values["question"]
+    if question and signature:
+        question = Question(signature, **_texts({name: question[name] for name in ("holds", "proposal")}))
+    return Reading(
+        sha256, channels, doubts, refusal, missing, question, signature, _texts(values, "answer")["answer"]
+    )
 
 
-def _question(values: dict[str, Any] | None) -> Question | None:
-    """Return the question of a table from its JSON. Raises TypeError where a value is no text."""
-    if values is None:
-        return None
-    signature = Signature(**values["signature"])
-    texts = *vars(signature).values(), values["holds"], values["proposal"]
-    if not all(isinstance(text, str) for text in texts):
-        raise TypeError("a text of a question is none")
-    return Question(signature, values["holds"], values["proposal"])
+def _texts(values: dict[str, Any], *names: str) -> dict[str, str]:
+    """Return values by their names, all by default. Raises TypeError where one is no text."""
+    texts = {name: values[name] for name in names or values}
+    if not all(isinstance(text, str) for text in texts.values()):
+        raise TypeError("a text is none")
+    return texts
 
 
 def _remark(values: dict[str, Any]) -> Remark:

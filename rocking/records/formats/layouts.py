@@ -245,6 +245,19 @@ class Layouts:
         """Return the answer for tables of a signature, None where there is none yet."""
         return self._answers.get(signature)
 
+    @property
+    def are_answered(self) -> bool:
+        """Whether layouts.csv answers anything."""
+        return bool(_answers(self.rows, NAME))
+
+    def text_of(self, signature: Signature | None) -> str:
+        """Return the answer for tables of a signature as it is written, "" where there is none.
+
+        It is part of the content of each file that it reads: where it is edited, the file is read again.
+        """
+        answer = self.answer(signature) if signature else None
+        return answer.text if answer else ""
+
     def text(self, questions: Iterable[tuple[str, Question]]) -> str | None:
         """Return the text of layouts.csv with a row for each question that it does not hold yet; None if none is new.
 
