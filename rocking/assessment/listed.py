@@ -105,6 +105,7 @@ def load_scenes(path: str | Path) -> dict[str, Scene]:
                     defects.append(
                         f"{where}: it changes nothing; give a key with another value, or remove it."
                     )
+                scenes[str(name)] = replace(scene, variant_of=base)
         except (ConfigurationError, StructureError) as error:
             defects.append(f"{where}: {error}")
     carrying = {str(each.values.get("stands_on")) for each in entries if isinstance(each.values, Mapping)}

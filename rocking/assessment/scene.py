@@ -72,13 +72,23 @@ class Scene:
     """One structure of a list, where it stands, and what its list says for the checks of a code.
 
     name: in the list, in every table and report. place: the ground, or a support whose periods are an axis of the
-    result.
+    result. variant_of: the name of the structure of which it is a variant; "" of one that is none.
     """
 
     name: str
     structure: Structure
     place: Place = GROUND
     terms: CheckTerms = field(default_factory=CheckTerms)
+    variant_of: str = ""
+
+
+def variants_of(scenes: Mapping[str, Scene]) -> dict[str, list[str]]:
+    """Return the names of the variants of each structure that has some."""
+    groups: dict[str, list[str]] = {}
+    for name, scene in scenes.items():
+        if scene.variant_of:
+            groups.setdefault(scene.variant_of, []).append(name)
+    return groups
 
 
 def on_friction(scenes: Mapping[str, Scene], coefficient: float) -> dict[str, Scene]:

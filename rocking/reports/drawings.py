@@ -38,16 +38,30 @@ _FARTHEST = 1.5
 """Rotation at which it is drawn at most, rad."""
 
 
-def sketch(structure: Structure, rotation: float, width: float, height: float) -> list[str]:
+def _extent(structure: Structure, rotation: float) -> tuple[np.ndarray, np.ndarray]:
+    """The lower left and the upper right corner, m, of a structure turned and at rest."""
+    every = np.vstack([*structure.outline(rotation), *structure.outline()])
+    return every.min(axis=0), every.max(axis=0)
+
+
+def room(structure: Structure, rotation: float, width: float, height: float) -> float:
+    """Return the scale [mm/m] at which `sketch` fills a picture of that size in mm."""
+    bottom, top = _extent(structure, rotation)
+    return float(min((np.array([width, height]) - 1.3) / (top - bottom)))  # circles stand over the edges
+
+
+def sketch(
+    structure: Structure, rotation: float, width: float, height: float, scale: float = 0.0
+) -> list[str]:
     """Return a structure at a signed `rotation` [rad] and dashed at rest, as shapes of SVG that fill a picture in mm.
 
-    With its hinges (circles), loads (arrows), ties and supports (lines), as `draw_structure` draws them.
+    With its hinges (circles), loads (arrows), ties and supports (lines), as `draw_structure` draws them. scale: mm/m;
+    0: that at which it fills the picture.
     """
     parts = structure.outline(rotation)
     at_rest = structure.outline()
-    every = np.vstack([*parts, *at_rest])
-    bottom, top = every.min(axis=0), every.max(axis=0)
-    scale = float(min((np.array([width, height]) - 1.3) / (top - bottom)))  # circles stand over the edges
+    bottom, top = _extent(structure, rotation)
+    scale = scale or room(structure, rotation, width, height)
 
     def path(points: np.ndarray, look: str, closed: bool = False) -> str:
         placed = (points - (bottom + top) / 2) * scale + np.array([width, height]) / 2

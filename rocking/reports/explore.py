@@ -27,6 +27,7 @@ from rocking.reports.drawings import fallen_rotation
 from rocking.reports.panels import moving_span, rotation_ratios
 from rocking.reports.printing import LOOKS, band_text, cell_text, ratio
 from rocking.reports.record import warnings_of
+from rocking.reports.variants import strips_in_html
 from rocking.structures import Mechanism, Structure
 
 if TYPE_CHECKING:
@@ -93,11 +94,12 @@ def explore_page(
     structures: Mapping[str, Structure],
     title: str = "",
     checked: "Sequence[CodeConclusion]" = (),
+    strips: Sequence[Mapping[str, Any]] = (),
 ) -> bytes:
     """Return the page as UTF-8 HTML that loads nothing; it stands beside the folders of the records.
 
     records: their `record_content`, in the order of the catalogue. title: of the study. checked: the conclusions at its
-    design level, where it has one.
+    design level, where it has one. strips: of the variants of structures.
     """
     of_records = list(records)
     by_code = {each.structure: f"By the code: {each}." for each in checked}
@@ -124,6 +126,7 @@ def explore_page(
         "count": f"{counted(len(of_records), 'record')}, {counted(len(structures), 'structure')}",
         "verdicts": "".join(f"<option>{verdict}</option>" for verdict in LOOKS),
         "legend": "\n".join(legend),
+        "variants": strips_in_html(strips) if strips else "",
         "style": (_HERE / "explore.css").read_text(encoding="utf-8") + colours,
         "script": (_HERE / "explore.js").read_text(encoding="utf-8"),
         # no text of a user can end the element that holds it

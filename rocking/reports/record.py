@@ -21,7 +21,7 @@ from rocking.assessment.rows import (
     VerdictRow,
     structure_rows,
 )
-from rocking.assessment.scene import placed
+from rocking.assessment.scene import placed, variants_of
 from rocking.quantities import GRAVITY, counted, percent
 from rocking.records.dates import day_of
 from rocking.remarks import Remark
@@ -95,11 +95,22 @@ class RecordReport:
             **printing.settings_texts(self.settings),
             "notices": [notice.data for notice in _notices(self)],
             **page_one(self.conclusions, self.structures, self.motion, self.dominant),
+            "strips": self._strips(),
             "advice": _advice(self),
             "sentences": _sentences(self),
             **_assumptions(self),
             "details": [_details(self)] if details else [],
         }
+
+    def _strips(self) -> list[dict[str, Any]]:
+        """The variants of structures under this record."""
+        groups = variants_of({name: each.scene for name, each in self.result.scenes.items()})
+        if not groups:
+            return []
+        from rocking.codes.variants import variants  # which a study without variants has no need of
+        from rocking.reports.variants import strips
+
+        return strips(variants(groups, self.conclusions), self.structures)
 
     @property
     def record(self) -> str:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from rocking.assessment.conclusion import Conclusion
 from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.reserve import Reserve
 from rocking.codes.check import LEAST_SHARE, Check, DynamicCheck, Part, StructureCheck
@@ -15,6 +16,7 @@ from rocking.codes.design_spectrum import DesignSpectrum, NtcSpectrum, PointSpec
 from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
 from rocking.codes.rows import KINDS, code_check_rows
 from rocking.codes.selection import SETS, Selection
+from rocking.codes.variants import variants
 from rocking.floors.place import GROUND, Place
 from rocking.floors.support import Support
 from rocking.quantities import GRAVITY, percent
@@ -32,6 +34,7 @@ from rocking.reports.printing import words as or_a_dash
 from rocking.reports.sentences import Language, Sentences
 from rocking.reports.structure_figures import bars_figure, basis_figure, selection_figure
 from rocking.reports.style import picture
+from rocking.reports.variants import strips
 from rocking.structures import Structure
 from rocking.structures.tied import Tied
 
@@ -45,7 +48,8 @@ _OFTEN = 0.1
 class CheckedStructure:
     """The checks of one structure at one place, and what the study says of it there.
 
-    untied: the checks of a structure with ties without them; None where it has none, or cannot stand so.
+    untied: the checks of a structure with ties without them; None where it has none, or cannot stand so. variant_of:
+    the structure of which it is a variant; "" of one that is none. worst: what becomes of it under its worst record.
     place, support: where it stands, and of what stands on a support one along its axis, None on the ground below it.
     checked: None where it could not be checked, and `refusal` then says why. overturning_share: mean over the stations
     of the study, of each the mean over its records, nan without any; records, stations: how many there are, but for
@@ -62,6 +66,8 @@ class CheckedStructure:
     support: Support | None = None
     refusal: str = ""
     untied: StructureCheck | None = None
+    variant_of: str = ""
+    worst: Conclusion | None = None
     overturning_share: float = math.nan
     records: int = 0
     stations: int = 0
@@ -135,7 +141,7 @@ def structures_data(
                     for key in (
                         *("what-governs", "capacity-over-demand", "how-sure", "assumed", "place-and-date"),
                         *("signature", "not-to-sign", "next-page", "figure", "table-checks"),
-                        *("table-periods", "records-title", "table-records"),
+                        *("table-periods", "records-title", "table-records", "variants-title"),
                     )
                 },
             },
@@ -162,6 +168,14 @@ def _pages(
     )
     concluded = {each.structure: each for each in code_conclusions(rows)}
     design = settings.get("design_spectrum", {})
+    groups: dict[str, list[str]] = {}
+    for name, (page, *_) in by_name.items():
+        if page.variant_of in by_name:
+            groups.setdefault(page.variant_of, []).append(name)
+    worst = [page.worst for page, *_ in by_name.values() if page.worst]
+    compared = variants(groups, worst, concluded.values())
+    drawn = {name: page.structure for name, (page, *_) in by_name.items()}
+    strip_of = {each["name"]: each for each in strips(compared, drawn, words)}
     pages = []
     for name, everywhere in by_name.items():
         conclusion = concluded.get(name)
@@ -188,7 +202,11 @@ def _pages(
         pages.append(
             head
             | _answer(page, checked, conclusion, words)
-            | {"signed": True, "basis": _basis(page, checked, conclusion, everywhere, words)}
+            | {
+                "signed": True,
+                "basis": _basis(page, checked, conclusion, everywhere, words),
+                "strips": [strip_of[each] for each in (page.variant_of or name,) if each in strip_of],
+            }
         )
     return pages
 

@@ -84,9 +84,10 @@ def summary_report(
     settings: Mapping[str, Any],
     trade: Sequence[Mapping[str, str]] = (),
     design: Design | None = None,
+    strips: Sequence[Mapping[str, Any]] = (),
 ) -> bytes:
     """Return the PDF over all records. The arguments are those of `summary_data`."""
-    return compile_document("summary.typ", summary_data(tables, settings, trade, design))
+    return compile_document("summary.typ", summary_data(tables, settings, trade, design, strips))
 
 
 def summary_data(
@@ -94,16 +95,18 @@ def summary_data(
     settings: Mapping[str, Any],
     trade: Sequence[Mapping[str, str]] = (),
     design: Design | None = None,
+    strips: Sequence[Mapping[str, Any]] = (),
 ) -> dict[str, object]:
     """Return what the template of the summary is given: texts, tables and figures.
 
     tables: the summary tables "record", "pulses", "comparison", "verdicts", "structures", "agreement" and "failures",
     and where they exist "supports", "code_checks", "fragility_summary" and "ida".
     settings: at least tolerance and acceleration_scale; below "about" what is told of the study, where it is given.
-    trade: figure and conclusion, where it was measured. design: None where the study has no design level.
+    trade: figure and conclusion, where it was measured. design: None where the study has no design level. strips:
+    of the variants of structures.
     """
     with displaying(settings):
-        return _data(tables, settings, trade, design)
+        return _data(tables, settings, trade, design) | {"strips": list(strips)}
 
 
 # Whole on purpose: the parts of the summary by the names of its template.

@@ -4,9 +4,11 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+from rocking.assessment.conclusion import conclusions, worst_of_each
 from rocking.assessment.decide import Verdict, worse
 from rocking.assessment.rows import RecordRow, VerdictRow, verdicts_at
 from rocking.assessment.scene import Scene, placed
@@ -43,6 +45,7 @@ def write_checks(
         raise ConfigurationError(
             "setting design_spectrum.ag_g is null, and so is points, but checks need a design level; give one."
         )
+    worst = {each.structure: each for each in worst_of_each(conclusions(verdicts, []))}
     selection, without_sets, unread = _sets(study)
     station_of = {each.record: _station(each) for each in records}
     check_at = partial(
@@ -59,7 +62,10 @@ def write_checks(
         for support in scene.place.axis:
             period = scene.place.period_of(support)
             there = verdicts_at(own, period)
-            page = _checked(scene, support, check_at, there, station_of)
+            page = replace(
+                _checked(scene, support, check_at, there, station_of),
+                worst=worst.get(name),
+            )
             pages.append(page)
             tell(f"{placed(name, period)}: {page.refusal or _told(page.checked)}")
     rows: Iterable[CodeCheckRow] = (
@@ -111,6 +117,7 @@ def _checked(
         support=support,
         refusal=refusal,
         untied=untied,
+        variant_of=scene.variant_of,
         overturning_share=sum(shares) / len(shares) if shares else math.nan,
         records=len(known),
         stations=len(shares),

@@ -6,6 +6,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rocking.assessment.conclusion import conclusions, worst_of_each
 from rocking.assessment.cracks import never_lets_go
 from rocking.assessment.rows import (
     AGREEMENT_COLUMNS,
@@ -26,6 +27,7 @@ from rocking.assessment.rows import (
     capacity_rows,
     structure_rows,
 )
+from rocking.assessment.scene import variants_of
 from rocking.errors import ConfigurationError, RockingError
 from rocking.records import Accelerogram, CatalogueRecord
 from rocking.structures import Mechanism, Structure
@@ -97,19 +99,29 @@ def summarise(job: Job) -> list[Path]:
         # matplotlib takes half a second to import
         from rocking.codes.conclusion import code_conclusions
         from rocking.codes.rows import CodeCheckRow
+        from rocking.codes.variants import Variant, VariantRow, variants
         from rocking.reports.explore import explore_page
+        from rocking.reports.variants import strips
 
         # A fragility that was measured by hand is shown as well, with the next run.
         fragility = None if job.seals.why_again("fragility") else job.results / "fragility"
         checks: list[CodeCheckRow] = []
         if study.settings.design_spectrum.spectrum() is not None:
             checks = read_table(CodeCheckRow, target)
-        files += _report(target, study, shown, spectra, fragility, checks)
-        page = explore_page(pages, study.structures, study.settings.study or "", code_conclusions(checks))
+        checked = code_conclusions(checks)
+        compared: dict[str, list[Variant]] = {}
+        if groups := variants_of(study.scenes):
+            verdicts = (row for row in shown[VerdictRow] if isinstance(row, VerdictRow))
+            compared = variants(groups, worst_of_each(conclusions(verdicts, [])), checked)
+        drawn = strips(compared, study.structures)
+        files += _report(target, study, shown, spectra, fragility, checks, drawn)
+        page = explore_page(pages, study.structures, study.settings.study or "", checked, drawn)
         write_whole(target / "study.html", page)
         sheets = {each: rows for each, rows in shown.items() if each not in _NOT_IN_THE_WORKBOOK}
         if checks:
             sheets[CodeCheckRow] = list(checks)
+        if compared:
+            sheets[VariantRow] = [VariantRow.of(each) for row in compared.values() for each in row]
         write_whole(target / WORKBOOK, workbook(sheets, study.settings.study or "", opens_on=VerdictRow))
         files += [target / "study.html", target / WORKBOOK]
     remove_others(job.results, [record.id for record in job.records])
@@ -157,11 +169,12 @@ def _report(
     spectra: Sequence[Sequence[float]],
     fragility: Path | None,
     checks: "Sequence[CodeCheckRow]",
+    strips: Sequence[Mapping[str, Any]],
 ) -> list[Path]:
     """Write summary.pdf and its figure beside the summary tables in `folder`, and return the two.
 
     spectra: of the components, where there is a design level; checks: the rows at it. fragility: its folder, where it
-    was measured.
+    was measured. strips: of the variants.
     """
     from rocking.reports.scatter import prediction_scatter
     from rocking.reports.style import svg  # as above
@@ -179,7 +192,9 @@ def _report(
     pictures = trade_picture(folder) if study.settings.trade.in_summary else []
     level = study.settings.design_spectrum.spectrum()
     design = (level, spectra) if level is not None and spectra else None
-    write_whole(folder / "summary.pdf", summary_report(tables, study.settings.mapping(), pictures, design))
+    write_whole(
+        folder / "summary.pdf", summary_report(tables, study.settings.mapping(), pictures, design, strips)
+    )
     figure = folder / "prediction_against_integration.svg"
     write_whole(figure, svg(prediction_scatter(tables["comparison"], tables["pulses"])).encode())
     return [folder / "summary.pdf", figure]

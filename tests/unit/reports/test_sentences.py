@@ -41,7 +41,7 @@ def test_both_languages_name_the_same_values(key):
 
 def test_every_word_that_code_looks_up_stands_in_the_catalogue():
     keys = [
-        *(f"predicate {word}" for word in Verdict),
+        *(f"{place} {word}" for word in Verdict for place in ("predicate", "verdict")),
         *(f"part {part}" for part in Part),
         *(f"field {field.name}" for form in TYPES.values() for each in form for field in each.fields),
     ]
@@ -52,7 +52,7 @@ def test_every_sentence_of_the_catalogue_is_looked_up():
     """By its whole key, or by one whose end is a name of a kind, a word, a part or a field."""
     source = "".join(
         (Path(rocking.__file__).parent / "reports" / f"{name}.py").read_text()
-        for name in ("structures", "structure_figures", "sentences")
+        for name in ("structures", "structure_figures", "sentences", "variants")
     )
     prefixes = re.findall(r'f"([a-z ]+ )\{', source)
     looked_up = set(re.findall(r'"([a-zA-Z &,-]+)"', source)) | {

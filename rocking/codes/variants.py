@@ -1,0 +1,107 @@
+"""The variants of a structure: what becomes of each, its checks, and by how much it differs from the first."""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from rocking.assessment.conclusion import Conclusion
+from rocking.assessment.decide import Verdict
+from rocking.codes.conclusion import CodeConclusion
+from rocking.tables import Columns, RowOf, row
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One of the variants of a structure; the first is the structure itself.
+
+    name: of the scene. conclusion: on it under its worst record; None where no record gave one. checked: at the design
+    level; None without one. first: the structure itself; None of that one.
+    """
+
+    structure: str
+    name: str
+    conclusion: Conclusion | None
+    checked: CodeConclusion | None
+    first: "Variant | None" = None
+
+    @property
+    def label(self) -> str:
+        """Its own name, behind that of the structure and a colon."""
+        return self.name.removeprefix(f"{self.structure}: ")
+
+    @property
+    def share(self) -> float:
+        """Share of the members that overturn; nan where none can be said."""
+        return self.conclusion.decision.share if self.conclusion else math.nan
+
+    @property
+    def reserve(self) -> float:
+        """Factor on the record at which 5 % of the members overturn; nan where none was found."""
+        reserve = self.conclusion.verdict.reserve if self.conclusion else None
+        return reserve.low if reserve else math.nan
+
+    @property
+    def share_difference(self) -> float:
+        """Its share less that of the first; nan of the first itself."""
+        return self.share - self.first.share if self.first else math.nan
+
+    @property
+    def reserve_ratio(self) -> float:
+        """Its reserve over that of the first; nan of the first itself."""
+        return self.reserve / self.first.reserve if self.first else math.nan
+
+    def ratio(self, check: str) -> float:
+        """Return capacity over demand of one kind of check; nan where it was not made."""
+        made = {each.check: each.ratio for each in self.checked.checks} if self.checked else {}
+        return made.get(check, math.nan)
+
+
+of_variant = Columns(Variant)
+
+
+@row("variants")
+class VariantRow(RowOf[Variant]):
+    """One row per variant of a structure, under its worst record; the first is the structure itself."""
+
+    structure: str = of_variant("Name of the structure", lambda of: of.structure)
+    variant: str = of_variant("Name of the variant; that of the structure: the first", lambda of: of.label)
+    record: str = of_variant(
+        "Record that is worst for it", lambda of: of.conclusion.verdict.record if of.conclusion else ""
+    )
+    verdict: Verdict | None = of_variant(
+        "Verdict under it", lambda of: of.conclusion.decision.word if of.conclusion else None
+    )
+    overturning_share: float = of_variant("Share of the members that overturn under it", lambda of: of.share)
+    reserve_factor: float = of_variant(
+        "Factor on that record at which 5 % of the members overturn", lambda of: of.reserve
+    )
+    linear_ratio: float = of_variant("Capacity over demand, linear", lambda of: of.ratio("linear"))
+    nonlinear_ratio: float = of_variant("Capacity over demand, nonlinear", lambda of: of.ratio("nonlinear"))
+    dynamic_ratio: float = of_variant("Capacity over demand, dynamic", lambda of: of.ratio("dynamic"))
+    conclusion: str = of_variant(
+        "Conclusion at the design level", lambda of: str(of.checked.remark) if of.checked else ""
+    )
+    share_difference: float = of_variant("Its share less that of the first", lambda of: of.share_difference)
+    reserve_ratio: float = of_variant("Its reserve over that of the first", lambda of: of.reserve_ratio)
+
+
+def variants(
+    groups: Mapping[str, Sequence[str]],
+    concluded: Iterable[Conclusion],
+    checked: Iterable[CodeConclusion] = (),
+) -> dict[str, list[Variant]]:
+    """Return the variants of each structure that has some, the structure itself first.
+
+    groups: names of the scenes by the structure. concluded: on each scene, under its worst record. checked: at the
+    design level.
+    """
+    conclusion_of = {each.structure: each for each in concluded}
+    check_of = {each.structure: each for each in checked}
+    made = {}
+    for structure, names in groups.items():
+        first = Variant(structure, structure, conclusion_of.get(structure), check_of.get(structure))
+        others = (
+            Variant(structure, name, conclusion_of.get(name), check_of.get(name), first) for name in names
+        )
+        made[structure] = [first, *others]
+    return made

@@ -1,0 +1,124 @@
+"""The strip of the variants of a structure: on one scale, with word, reserve, checks, and difference to the first."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from html import escape
+from typing import TYPE_CHECKING, Any
+
+from rocking.reports.drawings import room, sketch
+from rocking.reports.page_one import reserve_in_figures
+from rocking.reports.printing import LOOKS
+from rocking.reports.sentences import Sentences
+from rocking.reports.style import drawn_by_hand
+
+if TYPE_CHECKING:
+    from rocking.codes.variants import Variant
+    from rocking.structures import Structure
+
+_WIDTH, _HEIGHT = 30.0, 24.0
+"""Size of a drawing, mm."""
+_DRAWN = 0.5
+"""Share of the critical rotation at which it is drawn."""
+
+
+def strips(
+    made: Mapping[str, Sequence[Variant]],
+    structures: Mapping[str, Structure],
+    words: Sentences | None = None,
+) -> list[dict[str, Any]]:
+    """Return what the template takes: a strip for each structure that has variants, a cell for each of these.
+
+    made: the variants of each. structures: by the names of the scenes. words: the language.
+    """
+    said = words or Sentences()
+    return [
+        {"name": name, "cells": _cells([each for each in row if each.name in structures], structures, said)}
+        for name, row in made.items()
+    ]
+
+
+def _cells(
+    row: Sequence[Variant], structures: Mapping[str, Structure], words: Sentences
+) -> list[dict[str, Any]]:
+    turned = {}
+    for each in row:
+        mechanism = structures[each.name].mechanism()
+        side = mechanism.positive
+        rotation = _DRAWN * side.critical_rotation if side.can_overturn else 0.0
+        turned[each.name] = rotation
+    scale = min(room(structures[name], rotation, _WIDTH, _HEIGHT) for name, rotation in turned.items())
+    return [_cell(each, structures[each.name], turned[each.name], scale, words) for each in row]
+
+
+def _cell(
+    variant: Variant, structure: Structure, rotation: float, scale: float, words: Sentences
+) -> dict[str, Any]:
+    conclusion = variant.conclusion
+    shapes = sketch(structure, rotation, _WIDTH, _HEIGHT, scale)
+    cell = {
+        "drawing": drawn_by_hand(shapes, _WIDTH, _HEIGHT, f"{variant.name}, turned, and at rest."),
+        "name": variant.label,
+        "reserve": "",
+        "checks": [],
+        "conclusion": "",
+        "difference": _difference(variant, words),
+        **{"word": words("not judged"), "share": "", "fill": "#ffffff", "ink": "#000000", "hatched": False},
+    }
+    if conclusion is not None:
+        decision = conclusion.decision
+        _, fill, ink, hatch = LOOKS[decision.word]
+        word = words(f"verdict {decision.word}")
+        cell |= {
+            "word": f"? {word}" if hatch else word,
+            "share": words.decimal(decision.share_in_words) if not hatch else "",
+            "fill": fill,
+            "ink": ink,
+            "hatched": bool(hatch),
+        }
+        figures = words.decimal(reserve_in_figures(conclusion.verdict.reserve))
+        if figures:
+            caveat = "strip reserve alone" if conclusion.verdict.reserve_doubts else "strip reserve"
+            cell["reserve"] = words(caveat, reserve=figures)
+    if variant.checked:
+        cell["checks"] = [
+            f"{words(kind)} {words('falls') if ratio == 'falls' else words.decimal(ratio)}"
+            for kind, ratio in variant.checked.ratios.items()
+        ]
+        key = "line verified" if variant.checked.verified else "line not verified"
+        cell["conclusion"] = words(key, clause=variant.checked.decisive.clause)
+    return cell
+
+
+def _difference(variant: Variant, words: Sentences) -> str:
+    """By how much the share and the reserve differ from those of the first, where both are known."""
+    if variant.first is None:
+        return words("the first")
+    texts = []
+    if not math.isnan(variant.share_difference):
+        points = round(100 * variant.share_difference)
+        texts.append(
+            words("share differs", points=f"{points:+d}".replace("-", "−")) if points else words("same share")
+        )
+    if not math.isnan(variant.reserve_ratio):
+        texts.append(words("reserve differs", ratio=words.number(variant.reserve_ratio, 2)))
+    return ", ".join(texts) or words("no difference")
+
+
+def strips_in_html(made: Sequence[Mapping[str, Any]]) -> str:
+    """Return the strips as HTML."""
+    parts = []
+    for strip in made:
+        parts.append(f'<h3>{escape(strip["name"])}</h3><div class="strip">')
+        for cell in strip["cells"]:
+            css = cell["word"].removeprefix("? ").replace(" ", "-")
+            lines = [cell["reserve"], ", ".join(cell["checks"]), cell["conclusion"], cell["difference"]]
+            texts = "".join(f"<p>{escape(line)}</p>" for line in lines if line)
+            parts.append(
+                f"<figure>{cell['drawing']['svg']}<figcaption><strong>{escape(cell['name'])}</strong>"
+                f'<p><span class="cell {css}">{escape(cell["word"])} {escape(cell["share"])}</span></p>{texts}'
+                "</figcaption></figure>"
+            )
+        parts.append("</div>")
+    return "".join(parts)

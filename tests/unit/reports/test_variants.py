@@ -1,0 +1,112 @@
+"""The strip of the variants: what becomes of each, the difference to the first, and drawings on one scale."""
+
+import math
+import re
+from dataclasses import replace
+
+import pytest
+
+from rocking import Block, DesignSpectrum, check
+from rocking.assessment.conclusion import conclusions, worst_of_each
+from rocking.assessment.listed import load_scenes
+from rocking.assessment.reserve import Reserve
+from rocking.assessment.rows import RecordRows
+from rocking.assessment.scene import variants_of
+from rocking.codes.conclusion import code_conclusions
+from rocking.codes.rows import code_check_rows
+from rocking.codes.variants import VariantRow, variants
+from rocking.reports.explore import explore_page
+from rocking.reports.sentences import Sentences
+from rocking.reports.structures import CheckedStructure, structures_data
+from rocking.reports.summary import summary_data
+from rocking.reports.variants import strips
+from rocking.study.settings import Settings
+from rocking.tables import Row
+from tests.unit.assessment import made_rows
+from tests.unit.reports.conftest import SETTINGS, summarised
+
+SPECTRUM = DesignSpectrum.ntc(ag=1.0, f0=2.5, tc_star=0.3)
+THIN, THICK = Block.of_size(0.3, 3.0), Block.of_size(0.6, 3.0)
+STRUCTURES = {"wall": THIN, "wall: thicker": THICK}
+GROUPS = {"wall": ["wall: thicker"]}
+
+
+@pytest.fixture(scope="module")
+def made():
+    """The wall falls in 48 of 64 members, the thicker one in 16; reserves of .5 and .9."""
+    stations = [
+        made_rows.station(
+            replace(
+                made_rows.case("N", math.inf if falls > 32 else 0.5, name, falls=falls),
+                reserve=Reserve(low, 2 * low, math.nan, 3.0),
+            )
+        )
+        for name, falls, low in (("wall", 48, 0.5), ("wall: thicker", 16, 0.9))
+    ]
+    concluded = worst_of_each(conclusions(made_rows.verdicts(stations), []))
+    rows = [row for name, each in STRUCTURES.items() for row in code_check_rows(name, check(each, SPECTRUM))]
+    return variants(GROUPS, concluded, code_conclusions(rows))
+
+
+def test_a_list_says_which_structure_a_variant_is_of(tmp_path):
+    path = tmp_path / "structures.yaml"
+    path.write_text(
+        "- {name: wall, type: block, breadth_m: 0.3, height_m: 3, variants: [{name: thicker, breadth_m: 0.6}]}\n"
+        "- {name: pier, type: block, breadth_m: 2, height_m: 9}\n"
+    )
+    assert variants_of(load_scenes(path)) == GROUPS
+
+
+def test_each_variant_has_its_difference_to_the_first(made):
+    first, thicker = (VariantRow.of(each) for each in made["wall"])
+    assert (first.variant, thicker.variant) == ("wall", "thicker")
+    assert math.isnan(first.share_difference) and math.isnan(first.reserve_ratio)
+    assert thicker.share_difference == pytest.approx(16 / 64 - 48 / 64)
+    assert thicker.reserve_ratio == pytest.approx(0.9 / 0.5)
+    assert thicker.linear_ratio == pytest.approx(check(THICK, SPECTRUM).linear.ratio)
+    assert math.isnan(thicker.dynamic_ratio), "no records, no dynamic check"
+    assert issubclass(VariantRow, Row)
+
+
+def test_the_strip_says_it_in_words(made):
+    (strip,) = strips(made, STRUCTURES)
+    first, thicker = strip["cells"]
+    assert [first["word"], first["difference"]] == ["probably overturns", "the first"]
+    assert thicker["difference"] == "−50 points of share, reserve × 1.8"
+    assert thicker["checks"] == [
+        f"{kind} {getattr(check(THICK, SPECTRUM), kind).ratio_in_words}" for kind in ("linear", "nonlinear")
+    ]
+    (italian,) = strips(made, STRUCTURES, Sentences("it"))
+    assert italian["cells"][1]["difference"] == "−50 punti di quota, riserva × 1,8"
+    assert italian["cells"][0]["word"] == "probabilmente ribalta"
+
+
+def test_the_drawings_have_one_scale(made):
+    """Both walls are 3 m high, and at rest as high in the picture; alone, the thick one would be drawn smaller."""
+    (strip,) = strips(made, STRUCTURES)
+    heights = []
+    for cell in strip["cells"]:
+        at_rest = re.search(r'<polygon points="([^"]*)" fill="none"', cell["drawing"]["svg"]).group(1)
+        up = [float(point.split(",")[1]) for point in at_rest.split()]
+        heights.append(max(up) - min(up))
+    assert heights[0] == pytest.approx(heights[1], abs=2e-3)  # of points to three digits
+
+
+def test_summary_page_to_explore_and_page_to_sign_hold_the_strip(made):
+    drawn = strips(made, STRUCTURES)
+    difference = drawn[0]["cells"][1]["difference"]
+    data = summary_data(summarised(RecordRows(), {}), SETTINGS, strips=drawn)
+    assert data["strips"] == drawn
+    assert difference in explore_page([], STRUCTURES, strips=drawn).decode()
+    pages = [
+        CheckedStructure(
+            name=name,
+            structure=each,
+            checked=check(each, SPECTRUM),
+            variant_of="" if name == "wall" else "wall",
+            worst=made["wall"][place].conclusion,
+        )
+        for place, (name, each) in enumerate(STRUCTURES.items())
+    ]
+    for page in structures_data(pages, SPECTRUM, Settings().mapping())["pages"]:
+        assert [each["difference"] for each in page["strips"][0]["cells"]] == ["the first", difference]
