@@ -48,14 +48,49 @@ class StructureAssessment(StationResult, Drawn):
         return cracks(self.body)[0].mechanism.uplift_multiplier
 
     @property
+    def why(self) -> str:
+        """The reason for the verdict."""
+        return self.decision.why
+
+    @property
+    def members(self) -> int:
+        """Number of members that were followed; 0 without an ensemble."""
+        return self.ensemble.members
+
+    @property
+    def overturning_members(self) -> int:
+        """Number of members that overturn."""
+        return self.ensemble.overturning_members
+
+    @property
+    def rotation_ratio_low(self) -> float:
+        """5 % quantile of the rotation ratio of the members; nan without any."""
+        return self.ensemble.rotation_ratio_low
+
+    @property
+    def rotation_ratio_median(self) -> float:
+        """Median of the rotation ratio of the members; nan without any."""
+        return self.ensemble.rotation_ratio_median
+
+    @property
+    def rotation_ratio_high(self) -> float:
+        """95 % quantile of the rotation ratio of the members; nan without any."""
+        return self.ensemble.rotation_ratio_high
+
+    @property
     def rotation_ratios(self) -> np.ndarray:
         """(m,) largest rotation over critical rotation of every member; inf overturns, 0 does not lift, nan failed."""
-        return np.array([]) if self.ensemble is None else self.ensemble.rotation_ratios
+        return self.ensemble.rotation_ratios
 
     @property
     def causes(self) -> Mapping[str, np.ndarray]:
         """Value of each cause that varied, by member, (m,)."""
-        return {} if self.ensemble is None else self.ensemble.causes
+        return self.ensemble.causes
+
+    @property
+    def statics_crack(self) -> str:
+        """The crack of `statics`, in words; "" where only one may form or that one governs."""
+        return self.statics.description if self.statics else ""
 
     @property
     def falls_to(self) -> int:

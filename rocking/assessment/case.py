@@ -20,9 +20,9 @@ from rocking.assessment.cracks import (
     would_tell,
 )
 from rocking.assessment.decide import BEYOND, Decision, Facts, Verdict, decide
-from rocking.assessment.ensemble import Ensemble
+from rocking.assessment.ensemble import NO_MEMBERS, Ensemble
 from rocking.assessment.fidelity import Answer, Estimate
-from rocking.assessment.methods import BOTH_COMPONENTS, POLARITIES, Method
+from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.motions import Carrier, Component, component_names
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.scene import Scene, periods_in_words
@@ -235,15 +235,6 @@ class CaseResult:
         return self.overturns, _or_least(self.integrated_rotation_ratio)
 
 
-@dataclass(frozen=True, eq=False)
-class Governing:
-    """The mechanism that governs: what opens, the share of members that overturn, and their median rotation ratio."""
-
-    description: str
-    overturning_share: float
-    rotation_ratio: float
-
-
 @dataclass(frozen=True, eq=False, repr=False)
 class StationResult:
     """The result of one structure under one record, all components and directions considered.
@@ -338,9 +329,10 @@ class StationResult:
         return all(not each.failures and each.largest_rotation_ratio <= QUIET for each in every)
 
     @property
-    def ensemble(self) -> Ensemble | None:
-        """The ensemble of the crack that governs; None without one."""
-        return self.decisive.ensemble if self.decisive else None
+    def ensemble(self) -> Ensemble:
+        """The ensemble of the crack that governs; one without members where none ran."""
+        own = self.decisive.ensemble if self.decisive else None
+        return own or NO_MEMBERS
 
     @property
     def ensembles(self) -> CrackEnsembles | None:
@@ -414,7 +406,7 @@ class StationResult:
     @cached_property
     def _fallen_crack(self) -> str:
         """A crack that overturns in a single run, where no ensemble tells more; "" where none does."""
-        if self.ensemble is not None:
+        if self.ensembles is not None:
             return ""
         variations = (each for case in self.cases.values() for each in case.variations)
         fallen = (
@@ -431,24 +423,12 @@ class StationResult:
 
     @property
     def stacks(self) -> ContactShare | None:
-        """The share of contact dynamics over all components together; None where it was not asked."""
+        """The share of contact dynamics over all components together; None where it followed nothing."""
         both = [*self.cases.values(), *([self.directions] if self.directions else [])]
         shares = [each.contact for each in both if each.contact is not None]
-        if not shares:
-            return None
         falls = sum(each.falls for each in shares)
         runs = sum(each.runs for each in shares)
-        return ContactShare(falls, runs, shares[0].reason)
-
-    @property
-    def stack_falls(self) -> int | None:
-        """Stacks of courses that fall; None where contact dynamics followed none."""
-        return self.stacks.falls if self.stacks and self.stacks.runs else None
-
-    @property
-    def stack_runs(self) -> int | None:
-        """Stacks of courses that were followed; None where contact dynamics followed none."""
-        return self.stacks.runs if self.stacks and self.stacks.runs else None
+        return ContactShare(falls, runs, shares[0].reason) if runs else None
 
     @property
     def verdict(self) -> Verdict:
@@ -456,24 +436,9 @@ class StationResult:
         return self.decision.word
 
     @property
-    def why(self) -> str:
-        """The reason for the verdict."""
-        return self.decision.why
-
-    @property
     def severity(self) -> tuple[float, ...]:
         """Key by which the worst of several comes last: verdict, then share of members, then rotation."""
         return *self.decision.severity, _or_least(self.rotation_ratio)
-
-    @property
-    def members(self) -> int:
-        """Number of members; 0 without an ensemble."""
-        return self.ensemble.members if self.ensemble else 0
-
-    @property
-    def overturning_members(self) -> int:
-        """Number of members that overturn."""
-        return self.ensemble.overturning_members if self.ensemble else 0
 
     @property
     def overturning_share(self) -> float:
@@ -486,64 +451,18 @@ class StationResult:
         return self.ensembles.governing.description if self.ensembles else self._fallen_crack
 
     @property
-    def body_crack_is_given(self) -> bool:
-        """Whether the structure says where it is cracked, so that this crack decides."""
-        return self.body.crack_is_given
-
-    @property
-    def statics_crack(self) -> str:
-        """The crack that statics chooses where another one governs; "" elsewhere."""
-        return self.statics.description if self.statics else ""
-
-    @property
-    def statics_members(self) -> int | None:
-        """Members with that crack; None where there is none."""
-        return self.statics.ensemble.members if self.statics else None
-
-    @property
-    def statics_overturning_members(self) -> int | None:
-        """Members that overturn with that crack; None where there is none."""
-        return self.statics.ensemble.overturning_members if self.statics else None
-
-    @property
-    def governing(self) -> Governing:
-        """The mechanism that governs: the worst of those that were followed; "" where there is one only."""
-        median = self.ensemble.rotation_ratio_median if self.ensemble else self.rotation_ratio
-        return Governing(self.crack, self.overturning_share, median)
-
-    @property
     def rotation_ratio(self) -> float:
         """Largest rotation over critical rotation as recorded, the worst component; inf if it overturns."""
         return self.worst.integrated_rotation_ratio if self.worst else math.nan
 
     @property
-    def rotation_ratio_low(self) -> float:
-        """5 % quantile of the rotation ratio of the members; nan without any."""
-        return self.ensemble.rotation_ratio_low if self.ensemble else math.nan
-
-    @property
-    def rotation_ratio_median(self) -> float:
-        """Median of the rotation ratio of the members; nan without any."""
-        return self.ensemble.rotation_ratio_median if self.ensemble else math.nan
-
-    @property
-    def rotation_ratio_high(self) -> float:
-        """95 % quantile of the rotation ratio of the members; nan without any."""
-        return self.ensemble.rotation_ratio_high if self.ensemble else math.nan
-
-    @property
     def direction(self) -> str:
         """Direction of the largest rotation; "" where there is one only."""
-        of_members = self.ensemble.worst("direction") if self.ensemble else ""
+        of_members = self.ensemble.worst("direction")
         if of_members or self.worst is None:
             return of_members
         answered = [each for each in self.cases.values() if each.answer is not None]
         return self.worst.component if len(answered) > 1 else ""
-
-    @property
-    def polarity(self) -> str:
-        """Sign of the motion of the largest rotation: as recorded, reversed; or ""."""
-        return POLARITIES.get(self.ensemble.worst("polarity"), "") if self.ensemble else ""
 
     @property
     def peak_side(self) -> int | None:

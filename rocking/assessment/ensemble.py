@@ -138,6 +138,10 @@ class Ensemble:
         return max(means, key=means.__getitem__)
 
 
+NO_MEMBERS = Ensemble(np.empty(0), {}, EnsembleSettings())
+"""The ensemble of what was followed without one."""
+
+
 def design(settings: EnsembleSettings) -> np.ndarray:
     """Return the points of the members in the order in which they are followed, MOST_NEAR_AN_EDGE at least."""
     return lattice(max(settings.size, MOST_NEAR_AN_EDGE))

@@ -171,7 +171,11 @@ def _case(
     """Return what became of a structure, in words and numbers, and the history that moves its drawing."""
     predicted = row.predicted_rotation_ratio if row else math.nan
     closed = ratio(predicted, 2)
-    band = f" (5 to 95 % of the members: {band_text(station, ' to ')})" if station.members else ""
+    band = (
+        f" (5 to 95 % of the members: {band_text(station.ensemble, ' to ')})"
+        if station.ensemble.members
+        else ""
+    )
     crack = f" Crack that governs: {station.crack}." if station.crack else ""
     reserve = f" Reserve: {station.reserve_in_words}." if station.reserve else ""
     decision = station.decision

@@ -567,10 +567,25 @@ VERDICT_COLUMNS: list[Column] = [
         lambda station: strong(str(station.decision.word), not station.decision.word.stays_up),
     ),
     ("Share that overturns", "0.75", "l", lambda station: words(station.decision.share_in_words)),
-    ("As given", "0.7", "l", lambda station: printing.to_spread(station.rotation_ratio, station)),
-    ("5 %", "0.65", "r", lambda station: printing.to_spread(station.rotation_ratio_low, station)),
-    ("50 %", "0.65", "r", lambda station: printing.to_spread(station.rotation_ratio_median, station)),
-    ("95 %", "0.65", "r", lambda station: printing.to_spread(station.rotation_ratio_high, station)),
+    ("As given", "0.7", "l", lambda station: printing.to_spread(station.rotation_ratio, station.ensemble)),
+    (
+        "5 %",
+        "0.65",
+        "r",
+        lambda station: printing.to_spread(station.ensemble.rotation_ratio_low, station.ensemble),
+    ),
+    (
+        "50 %",
+        "0.65",
+        "r",
+        lambda station: printing.to_spread(station.ensemble.rotation_ratio_median, station.ensemble),
+    ),
+    (
+        "95 %",
+        "0.65",
+        "r",
+        lambda station: printing.to_spread(station.ensemble.rotation_ratio_high, station.ensemble),
+    ),
     *columns_of(VerdictRow, "direction=1.1 polarity=0.75"),
 ]
 STRUCTURE_COLUMNS: list[Column] = [

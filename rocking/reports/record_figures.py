@@ -217,12 +217,13 @@ def _draw_history(panel: Axes, history: History, level: int, label: str, several
     predicted = case.predicted_rotation_ratio
     largest = (each for each in (float(np.abs(ratios).max()), predicted) if 0 < each < math.inf)
     reach = min(1.25 * max(largest, default=1.0), _HIGHEST)
-    band = min(station.rotation_ratio_low, reach), min(station.rotation_ratio_high, reach)
+    members = station.ensemble
+    band = min(members.rotation_ratio_low, reach), min(members.rotation_ratio_high, reach)
     draw_rotation(
         panel,
         (history.times, np.clip(ratios, -reach, reach)),
         predicted if predicted <= reach else math.inf,
-        band if station.members else None,
+        band if members.members else None,
         place=(level, 0.45 / reach),
         most=_POINTS,
     )

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, TypeVar
 from rocking.assessment.decide import Decision, Verdict
 from rocking.assessment.methods import (
     BOTH_COMPONENTS,
+    POLARITIES,
     Agreement,
     Method,
     agreement,
@@ -124,10 +125,12 @@ class CaseRow(ComponentRow[C]):
 class DecidedRow(CaseRow[C]):
     """A row about a case that says what becomes of the structure over all components."""
 
-    verdict: Verdict = of_structure(f"The verdict: {', '.join(Verdict)}", lambda each: each.station.verdict)
+    verdict: Verdict = of_structure(
+        f"The verdict: {', '.join(Verdict)}", lambda each: each.station.decision.word
+    )
     overturning_share: float = of_structure(
         "Share of the members that overturn; of a single run 0 or 1; empty where none can be told",
-        lambda each: each.station.overturning_share,
+        lambda each: each.station.decision.share,
     )
 
 
@@ -612,16 +615,6 @@ class DecidedStation(OfStructure):
         """The factors on the record at which shares of the members overturn."""
         return self.station.reserve
 
-    @property
-    def share_low(self) -> float:
-        """The lower end of the interval of the share."""
-        return self.station.decision.interval[0]
-
-    @property
-    def share_high(self) -> float:
-        """Its upper end."""
-        return self.station.decision.interval[1]
-
 
 of_station = Columns(DecidedStation)
 
@@ -635,9 +628,11 @@ class VerdictRow(DecidedRow[DecidedStation]):
 
     share_low: float = of_station(
         "Least share that overturns, over the cracks and what failed or is not known",
-        lambda of: of.share_low,
+        lambda of: of.station.decision.interval[0],
     )
-    share_high: float = of_station("Largest share that overturns, likewise", lambda of: of.share_high)
+    share_high: float = of_station(
+        "Largest share that overturns, likewise", lambda of: of.station.decision.interval[1]
+    )
     why: str = of_station("Reason for the verdict", lambda of: of.station.decision.why)
     doubts: tuple[Kind, ...] = of_station(
         "Kinds of doubt that may make it worse than said",
@@ -647,14 +642,14 @@ class VerdictRow(DecidedRow[DecidedStation]):
         "Kinds of what would tell more", lambda of: tuple(each.kind for each in of.station.decision.tells)
     )
     overturning_members: int = of_station(
-        "Number of members that overturn", lambda of: of.station.overturning_members
+        "Number of members that overturn", lambda of: of.station.ensemble.overturning_members
     )
     members: int = of_station(
-        "Number of members that were followed; 0 without an ensemble", lambda of: of.station.members
+        "Number of members that were followed; 0 without an ensemble", lambda of: of.station.ensemble.members
     )
     failed_members: int = of_station(
         "Number of members whose integration failed",
-        lambda of: of.station.ensemble.failed_members if of.station.ensemble else 0,
+        lambda of: of.station.ensemble.failed_members,
     )
     crack: str = of_station(
         "Crack that governs, to which the numbers belong; empty where only one may form",
@@ -662,22 +657,27 @@ class VerdictRow(DecidedRow[DecidedStation]):
     )
     statics_crack: str = of_station(
         "Crack of statics where another governs; beside a crack that is given, the worst other",
-        lambda of: of.station.statics_crack,
+        lambda of: of.station.statics.description if of.station.statics else "",
     )
     statics_overturning_members: int | None = of_station(
-        "Members that overturn with that crack", lambda of: of.station.statics_overturning_members
+        "Members that overturn with that crack",
+        lambda of: of.station.statics.ensemble.overturning_members if of.station.statics else None,
     )
     statics_members: int | None = of_station(
-        "Number of members with that crack", lambda of: of.station.statics_members
+        "Number of members with that crack",
+        lambda of: of.station.statics.ensemble.members if of.station.statics else None,
     )
     rotation_ratio_low: float = of_station(
-        "5 % quantile of largest rotation over critical rotation", lambda of: of.station.rotation_ratio_low
+        "5 % quantile of largest rotation over critical rotation",
+        lambda of: of.station.ensemble.rotation_ratio_low,
     )
     rotation_ratio_median: float = of_station(
-        "Median of largest rotation over critical rotation", lambda of: of.station.rotation_ratio_median
+        "Median of largest rotation over critical rotation",
+        lambda of: of.station.ensemble.rotation_ratio_median,
     )
     rotation_ratio_high: float = of_station(
-        "95 % quantile of the same ratio; INF if it overturns", lambda of: of.station.rotation_ratio_high
+        "95 % quantile of the same ratio; INF if it overturns",
+        lambda of: of.station.ensemble.rotation_ratio_high,
     )
     rotation_ratio: float = of_station(
         "Largest rotation over critical rotation as recorded; INF if it overturns",
@@ -688,7 +688,7 @@ class VerdictRow(DecidedRow[DecidedStation]):
     )
     polarity: str = of_station(
         "Sign of the motion of the largest rotation: as recorded, reversed; or empty",
-        lambda of: of.station.polarity,
+        lambda of: POLARITIES.get(of.station.ensemble.worst("polarity"), ""),
     )
     peak_side: int | None = of_station(PEAK_SIDE, lambda of: of.station.peak_side)
     reserve_low: float = of_station(
@@ -716,11 +716,12 @@ class VerdictRow(DecidedRow[DecidedStation]):
         lambda of: of.station.decided_by,
     )
     stack_falls: int | None = of_station(
-        "Stacks of courses that fall in contact dynamics; empty: not asked", lambda of: of.station.stack_falls
+        "Stacks of courses that fall in contact dynamics; empty: not asked",
+        lambda of: of.station.stacks.falls if of.station.stacks else None,
     )
     stack_runs: int | None = of_station(
         "Stacks that were followed, over amplitudes, time steps and directions",
-        lambda of: of.station.stack_runs,
+        lambda of: of.station.stacks.runs if of.station.stacks else None,
     )
 
     @property

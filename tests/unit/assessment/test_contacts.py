@@ -64,9 +64,9 @@ def test_walls_whose_contacts_open_and_whose_blocks_fall_do_not_stand(name, real
     assert alone.decision.share_in_words == "at least 0\u00a0%"
     followed = rocking.assess(motion, wall, settings=CONTACT)
     assert followed.verdict is Verdict.PROBABLY_OVERTURNS
-    assert followed.stack_falls >= 4
-    assert followed.stack_runs == 6
-    assert f"{followed.stack_falls} of 6 stacks of courses fall" in followed.why
+    assert followed.stacks.falls >= 4
+    assert followed.stacks.runs == 6
+    assert f"{followed.stacks.falls} of 6 stacks of courses fall" in followed.why
 
 
 def test_a_spire_that_lifts_never_stands_by_its_mechanisms_alone():
@@ -85,9 +85,9 @@ def test_six_runs_of_contact_dynamics_let_a_spire_probably_stand_where_no_course
     motion = sine(1.3 * SPIRE.static_multiplier * GRAVITY, 0.1)
     stands = rocking.assess(motion, SPIRE, settings=CONTACT)
     assert stands.verdict is Verdict.PROBABLY_STANDS
-    assert (stands.stack_falls, stands.stack_runs) == (0, 6)
+    assert (stands.stacks.falls, stands.stacks.runs) == (0, 6)
     falls = rocking.assess(sine(2 * SPIRE.static_multiplier * GRAVITY, 0.9), SPIRE, settings=CONTACT)
-    assert falls.stack_falls != 0
+    assert falls.stacks.falls != 0
     assert falls.verdict is Verdict.PROBABLY_OVERTURNS
 
 

@@ -94,7 +94,7 @@ def test_a_crack_that_is_given_decides_and_what_falls_beside_it_is_told():
     assert np.array_equal(meant.rotation_ratios, exists.rotation_ratios)
     open_place = rocking.assess(motion, others)
     assert open_place.overturning_members > meant.overturning_members
-    assert meant.statics_overturning_members == open_place.overturning_members
+    assert meant.statics.ensemble.overturning_members == open_place.overturning_members
     assert f"should the {open_place.crack} form instead" in meant.why
     assert exists.statics_crack == "" and "should" not in exists.why
 

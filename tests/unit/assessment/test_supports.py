@@ -93,7 +93,7 @@ def test_a_support_that_the_record_is_too_coarse_for_costs_no_other():
     result = FULL.assess("r", [coarse], on_roof(0.15) | on_the_ground({"pier": BODY}))
     ground, lost, pier = result.stations
     assert (lost.structure, lost.support_period_s, str(lost.verdict)) == ("parapet", 0.15, "cannot be told")
-    assert "at least two samples of the record, 0.2 s" in lost.why
+    assert "at least two samples of the record, 0.2 s" in lost.decision.why
     assert "cannot be told" not in (str(pier.verdict), str(ground.verdict))
     rows = rows_of_record(result)
     assert [row.support_period_s for row in rows.supports] == [0.0]

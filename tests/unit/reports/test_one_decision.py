@@ -3,6 +3,7 @@
 import math
 import zipfile
 from dataclasses import replace
+from functools import partial
 from io import BytesIO
 from pathlib import Path
 from xml.etree import ElementTree
@@ -15,6 +16,7 @@ from rocking.assessment.listed import load_scenes
 from rocking.assessment.rows import VerdictRow, rows_of_record, verdicts_at
 from rocking.assessment.scene import placed
 from rocking.codes.design_spectrum import DesignSpectrum
+from rocking.codes.dynamic_check import check
 from rocking.records import load_catalogue
 from rocking.remarks import Kind, Remark
 from rocking.reports.explore import explore_page, record_content
@@ -24,7 +26,6 @@ from rocking.reports.structures import structures_data
 from rocking.reports.summary import summary_data
 from rocking.study.checks import _checked
 from rocking.study.job import Study, assess_catalogued, rows_of
-from rocking.study.settings import StudyDesign
 from rocking.study.terminal import record_line
 from rocking.study.workspace import _told
 from rocking.tables import read_table, write_rows
@@ -167,7 +168,9 @@ def test_the_page_to_sign_says_it(report, decisions):
     stations = {row.record: row.station for row in report.tables.record}
     for name, decision in decisions.items():
         own = [row for row in report.tables.verdicts if row.structure == name]
-        page = _checked(report.result.scenes[name].scene, None, StudyDesign(), SPECTRUM, None, own, stations)
+        page = _checked(
+            report.result.scenes[name].scene, None, partial(check, spectrum=SPECTRUM), own, stations
+        )
         (data,) = structures_data([page], SPECTRUM, SETTINGS)["pages"]
         share = data["basis"]["share"]
         assert f"{decision.word.predicate} under 1 station" in share
@@ -223,7 +226,7 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
         assert all(doubt.kind in line for doubt in decision.doubts)
         own_rows = [row for row in tables.verdicts if row.structure == station.structure]
         there = verdicts_at(own_rows, station.support_period_s)
-        page = _checked(station.scene, station.support, StudyDesign(), SPECTRUM, None, there, stations)
+        page = _checked(station.scene, station.support, partial(check, spectrum=SPECTRUM), there, stations)
         (signed,) = structures_data([page], SPECTRUM, SETTINGS)["pages"]
         assert f"{decision.word.predicate} under 1 station" in signed["basis"]["share"]
         assert all(str(doubt) in signed["basis"]["share"] for doubt in _kinds(decision.doubts))
