@@ -83,6 +83,20 @@ def test_no_crack_is_followed_beyond_doubt_and_none_by_more_than_its_ensemble(st
     assert max(doubted) > 0
 
 
+def test_the_counts_that_are_told_of_two_cracks_are_not_of_members_that_leave_their_words_open():
+    """With 16 members asked for, the crack of statics and the one that governs grow by the same rule."""
+    settings = AssessmentSettings(ensemble=EnsembleSettings(members=16))
+    both = 0
+    structure = replace(WALL, crack="unknown")
+    for severity in (2.0, 2.5, 3.0, 3.5, 4.0, 5.0):
+        motions = GroundMotions.of(record(severity * structure.static_multiplier * 9.80665))
+        ensembles = ensemble_over_cracks(structure, motions, settings)
+        both += ensembles.governing is not ensembles.statics
+        for each in (ensembles.statics, ensembles.governing):
+            assert each.ensemble.members == 256 or not each.ensemble.is_near_an_edge
+    assert both
+
+
 def test_a_crack_that_is_given_decides_and_what_falls_beside_it_is_told():
     """Hinged at mid-height the wall stands where it falls with the hinge that statics chooses."""
     given = Wall.hinged_at(6.0, 3.0, 0.4)
