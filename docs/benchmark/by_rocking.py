@@ -1,0 +1,101 @@
+"""The benchmark by the Python package rocking: `python by_rocking.py > answers/rocking.csv`."""
+
+import csv
+import math
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import rocking
+
+HERE = Path(__file__).parent
+
+
+def motion(name: str) -> rocking.Accelerogram:
+    """Return motions/NAME.csv."""
+    return rocking.Accelerogram(
+        np.loadtxt(HERE / "motions" / f"{name}.csv", delimiter=",", skiprows=1)[:, 1], 0.005
+    )
+
+
+def answers() -> dict[str, float]:
+    """Return this package's answer to every case of cases.csv."""
+    block = rocking.Block.of_size(breadth=0.6, height=3.0)
+    one_sided = rocking.Block.of_size(0.6, 3.0, restitution=0.7, one_sided=True)
+    pulse, record, vertical = map(motion, ("pulse", "record", "vertical"))
+    still = rocking.Pulse(1e-9, 60.0, 0.0)
+
+    def largest(
+        structure: rocking.Block, shaking: rocking.Accelerogram, up: rocking.Accelerogram | None = None
+    ) -> float:
+        return rocking.integrate(structure, shaking, 1e-9, vertical=up).rotation_ratio
+
+    def released(structure: rocking.Block) -> rocking.Response:
+        half = structure.slenderness / 2
+        return rocking.integrate(structure, still, 1e-12, history=True, initial_rotation=half)
+
+    free = released(block)
+    landing = int(np.argmax(np.asarray(free.rotation) <= 0))
+    return {
+        "free_quarter_period": float(free.times[landing]),
+        "free_first_peak": _peak_after_landing(free),
+        "free_one_sided_first_peak": _peak_after_landing(released(one_sided)),
+        "half_sine_threshold": _threshold(),
+        "pulse_two_sided": largest(block, pulse),
+        "pulse_one_sided": largest(one_sided, pulse),
+        "record_two_sided": largest(block, record),
+        "record_one_sided": largest(one_sided, record),
+        "record_vertical": largest(block, record, vertical),
+        "frame_frequency": rocking.Frame(rocking.Block.of_size(1.1, 8.0), 4, 0.3)
+        .mechanism()
+        .positive.frequency_parameter,
+        "arch_multiplier": _multiplier(rocking.Arch(10.0, 1.05, math.radians(157.5), voussoirs=7)),
+        "wall_multiplier": _multiplier(rocking.Wall(1.6, 1.6, 0.25)),
+        "loaded_wall_multiplier": _multiplier(
+            rocking.LoadedWall.hinged_at(3.2, 1.6, 0.25, 18e3, top_load=20e3, restitution=0.5)
+        ),
+        "tied_facade_multiplier": _tied(),
+        "two_storey_facade_multiplier": rocking.Facade(
+            (3.0, 3.0), (0.6, 0.25), 18e3, restitution=0.9
+        ).static_multiplier,
+    }
+
+
+def _multiplier(structure) -> float:
+    return structure.mechanism().uplift_multiplier
+
+
+def _peak_after_landing(response: rocking.Response) -> float:
+    rotation = np.asarray(response.rotation)
+    landing = int(np.argmax(rotation <= 0))
+    return float(np.abs(rotation[landing:]).max())
+
+
+def _threshold() -> float:
+    block = rocking.Block.of_size(breadth=0.1, height=5.0, restitution=0.9)
+    mechanism = block.mechanism()
+    frequency = 3.0 * mechanism.positive.frequency_parameter
+    time = np.arange(0.0, 2 * math.pi / frequency, 1e-3)
+    sine = np.where(frequency * time <= math.pi, np.sin(frequency * time), 0.0)
+    low, high = 1.0, 10.0
+    while high - low > 1e-5:
+        middle = (low + high) / 2
+        motion = rocking.Accelerogram(middle * mechanism.uplift_multiplier * 9.80665 * sine, 1e-3)
+        falls = math.isinf(rocking.integrate(mechanism, motion).rotation_ratio)
+        low, high = (low, middle) if falls else (middle, high)
+    return high
+
+
+def _tied() -> float:
+    wall = rocking.Facade(
+        (6.0,), (0.6,), 20e3, restitution=0.7, behind="cross_walls", crack="known",
+        tie_heights=(5.8,), tie_stiffness=1e6, tie_strength=8e3,
+    )  # fmt: skip
+    return wall.static_capacity().onset_multiplier
+
+
+if __name__ == "__main__":
+    table = csv.writer(sys.stdout, lineterminator="\n")
+    table.writerow(["case", "value"])
+    table.writerows((case, f"{value:.10g}") for case, value in answers().items())
