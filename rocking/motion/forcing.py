@@ -50,10 +50,15 @@ def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Fo
     """Return what the kernel takes of a record, with its vertical component, or of a pulse.
 
     Those of the directions and processings of a record are remembered.
-    Raises MotionError when `motion` is neither, or `vertical` does not fit it sample by sample.
+    Raises MotionError when `motion` is neither or a pulse that is no full sine, or `vertical` does not fit its samples.
     """
     if not isinstance(motion, Accelerogram | Pulse):
         raise MotionError(f"the ground motion is {kind_of(motion)}, but must be an Accelerogram or a Pulse.")
+    if isinstance(motion, Pulse) and not motion.is_full_sine:
+        raise MotionError(
+            f"the ground motion is {motion!r}, but of pulses one full sine alone is integrated as it stands; give its "
+            "samples: Accelerogram(pulse.acceleration(times), time_step)."
+        )
     if vertical is None:
         return _forcing(motion, None)
     if isinstance(motion, Pulse):

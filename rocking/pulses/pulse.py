@@ -9,7 +9,7 @@ import numpy as np
 from rocking.described import check_described, described
 from rocking.drawn import Drawn, in_a_notebook
 from rocking.errors import PulseError
-from rocking.quantities import GRAVITY, counted, finite, four_digits, positive
+from rocking.quantities import GRAVITY, counted, finite, four_digits, positive, within
 from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Remark
 
@@ -20,31 +20,50 @@ MOST = 200
 """Pulses that are sought at most: each takes about 1 ms, and a record has no more cycles that count."""
 
 
+MOST_CYCLES = 1000.0
+"""Cycles of a pulse; no ground and no floor moves so long at one period."""
+
+
 @dataclass(frozen=True, repr=False)
 class Pulse(Drawn):
-    """a(t) = amplitude · sin(circular_frequency · (t − start_time)) for one period, zero outside.
+    """a(t) = amplitude · sin(circular_frequency · (t − start_time) + phase) for so many cycles, zero outside.
 
-    amplitude: m/s², signed. circular_frequency: rad/s, > 0. start_time: s. `plot` draws the cycle against time.
-    Raises PulseError when a value is not finite or the frequency not positive.
+    amplitude: m/s², signed. circular_frequency: rad/s, > 0. start_time: s. cycles: 1 of a full sine, as it is sought in
+    records; 0.5 of a half sine; up to 1000. phase: rad, 0 to 2π; π/2 of a cosine. `plot` draws it against time.
+    Raises PulseError when a value is not finite or outside what is allowed.
 
     >>> from rocking import Pulse
     >>> Pulse(amplitude=3.0, circular_frequency=5.0).acceleration(np.array([0.0, 0.3, 9.0])).round(2)
     array([0.  , 2.99, 0.  ])
+    >>> Pulse(amplitude=3.0, circular_frequency=5.0, cycles=0.5)
+    Pulse(3 m/s² = 0.3059 g, period 1.257 s, start 0 s, 0.5 cycles)
     """
 
     amplitude: float
     circular_frequency: float
     start_time: float = 0.0
+    cycles: float = 1.0
+    phase: float = 0.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "amplitude", finite(PulseError, "amplitude", self.amplitude, "m/s²"))
         frequency = positive(PulseError, "circular_frequency", self.circular_frequency, "rad/s")
         object.__setattr__(self, "circular_frequency", frequency)
         object.__setattr__(self, "start_time", finite(PulseError, "start_time", self.start_time, "s"))
+        cycles = within(PulseError, "cycles", positive(PulseError, "cycles", self.cycles), 0, MOST_CYCLES)
+        object.__setattr__(self, "cycles", cycles)
+        object.__setattr__(self, "phase", within(PulseError, "phase", self.phase, 0, 2 * np.pi))
 
     def __repr__(self) -> str:
         size = f"{four_digits(self.amplitude, 'm/s²')} = {four_digits(self.amplitude / GRAVITY, 'g')}"
-        return f"Pulse({size}, period {four_digits(self.period, 's')}, start {four_digits(self.start_time, 's')})"
+        parts = [
+            size,
+            f"period {four_digits(self.period, 's')}",
+            f"start {four_digits(self.start_time, 's')}",
+        ]
+        parts += [f"{self.cycles:g} cycles"] * (self.cycles != 1)
+        parts += [f"phase {self.phase:.4g} rad"] * (self.phase != 0)
+        return f"Pulse({', '.join(parts)})"
 
     @property
     def period(self) -> float:
@@ -53,14 +72,24 @@ class Pulse(Drawn):
 
     @property
     def end_time(self) -> float:
-        """Time at which the cycle is complete, s."""
-        return self.start_time + self.period
+        """Time at which it ends, s."""
+        return self.start_time + self.cycles * self.period
+
+    @property
+    def phases(self) -> tuple[float, float]:
+        """Phase at which it begins and at which it ends, rad."""
+        return self.phase, self.phase + 2 * np.pi * self.cycles
+
+    @property
+    def is_full_sine(self) -> bool:
+        """Whether it is one full sine, for which the closed form is printed."""
+        return self.cycles == 1 and self.phase == 0
 
     def acceleration(self, times: np.ndarray) -> np.ndarray:
         """Return the acceleration in m/s² at `times` (any shape, s)."""
         phase = self.circular_frequency * (np.asarray(times, dtype=float) - self.start_time)
-        inside = (phase >= 0) & (phase <= 2 * np.pi)
-        return np.where(inside, self.amplitude * np.sin(phase), 0.0)
+        inside = (phase >= 0) & (phase <= 2 * np.pi * self.cycles)
+        return np.where(inside, self.amplitude * np.sin(phase + self.phase), 0.0)
 
 
 @dataclass(frozen=True)

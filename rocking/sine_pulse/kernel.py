@@ -1,4 +1,7 @@
-"""The compiled course of an equivalent block under one full sine pulse: flight by flight, exactly.
+"""The compiled course of an equivalent block under a sine pulse: flight by flight, exactly.
+
+The pulse is the sine between two phases: one full sine from 0 to 2π, half a one to π, n cycles to 2πn, and one cycle of
+cosine from π/2 to 5π/2.
 
 On one side, with x = φ/φ_cr (or what the block measures in its stead), time t in units of 1/p and the forcing
 f = a sin θ (a signed: positive where the ground lifts this side), θ = θ₀ + ωt, the block obeys x'' = x − 1 + f
@@ -29,7 +32,9 @@ REST_ENERGY = 1e-24
 MOST_IMPACTS = 10_000
 """Impacts followed during the pulse before the prediction gives up; only a restitution within 1e-3 of 1 gets here."""
 
-_PULSE_END = 2 * math.pi
+FULL_SINE = 0.0, 2 * math.pi
+"""The phases at which one full sine begins and ends."""
+
 _SHORT, _VERY_SHORT = 0.3, 1e-3
 """Below these values of max(t, ωt) the motion is summed as a power series of 14 and of 8 terms."""
 
@@ -182,19 +187,10 @@ def _contact(f, low, high, guess, peak):
 
 
 @compiled
-def _quarter(f, phase, duration):
-    """When the pulse has a phase [rad], or infinity outside the flight."""
-    time = (phase - f.phase) / f.omega
-    return time if 0 < time < duration else math.inf
-
-
-@compiled
-def _breaks(f, duration):
-    """The zeros of c and of h within the flight, ascending, infinity in place of those that do not exist."""
-    a, b = _quarter(f, 0.5 * math.pi, duration), _quarter(f, 1.5 * math.pi, duration)
-    c = math.atanh(-f.sine / f.cosine) if abs(f.sine) < abs(f.cosine) else math.inf
-    c = c if 0 < c < duration else math.inf
-    return min(a, b, c), max(min(a, b), min(max(a, b), c)), max(a, b, c)
+def _zero_of_h(f):
+    """The time at which h vanishes; infinity where it does not after the start."""
+    zero = math.atanh(-f.sine / f.cosine) if abs(f.sine) < abs(f.cosine) else math.inf
+    return zero if zero > 0 else math.inf
 
 
 @compiled
@@ -221,11 +217,19 @@ def _follow(f, high, low, rising, peak):
 @compiled
 def land(f, duration):
     """Follow the flight for `duration` (1/p) at most, or to its first contact: contact, time, x, x', highest peak."""
-    breaks, start, before = _breaks(f, duration), 0.0, _monotony(f, 0.0)[0]
+    start, before = 0.0, _monotony(f, 0.0)[0]
     low, rising, peak = 0.0, True, 0.0
     x = velocity = 0.0
-    for n in range(4):
-        high = min(breaks[n] if n < 3 else duration, duration)
+    zero = _zero_of_h(f)
+    quarter = math.floor(f.phase / math.pi + 0.5)  # c vanishes at each odd quarter of a cycle
+    while True:
+        crest = ((quarter + 0.5) * math.pi - f.phase) / f.omega
+        if crest <= start:
+            quarter += 1
+            continue
+        high = min(crest, duration)
+        if start < zero < high:
+            high = zero
         after = _monotony(f, high)[0]
         if before * after < 0:
             way = _FALLING if before > 0 else _RISING
@@ -272,18 +276,20 @@ def _uplift_slope(side):
 
 
 @compiled
-def _next_uplift(sides, phase):
-    """The phase, at or after `phase`, at which a resting block is lifted, and the side; −1 where it is not."""
-    first, index = math.inf, -1
+def _next_uplift(sides, phase, end):
+    """The phase, at or after `phase`, at which a resting block is lifted, and the side; −1 where it is not by `end`."""
+    first, index = end, -1
     for k in range(2):
         side = sides[k]
         if not side.exists or side.amplitude_ratio <= 1:
             continue
         uplift = math.atan2(1.0, _uplift_slope(side))
-        if phase < (k + 1) * math.pi - uplift:
-            start = max(phase, k * math.pi + uplift)
-            if start < first:
-                first, index = start, k
+        half = k  # of the sine, each of which pushes to one side
+        while phase >= (half + 1) * math.pi - uplift:
+            half += 2
+        start = max(phase, half * math.pi + uplift)
+        if start < first:
+            first, index = start, k
     return first, index
 
 
@@ -292,7 +298,8 @@ def _flight_of(side, index, phase, velocity):
     """The flight of a side from rest at its uplift, or from an impact."""
     amplitude = side.amplitude_ratio * (1 - 2 * index)
     slope = _uplift_slope(side) if side.amplitude_ratio > 1 else 0.0
-    if velocity == 0 and side.amplitude_ratio > 1 and phase == index * math.pi + math.atan2(1.0, slope):
+    half = index + 2 * math.floor((phase - index * math.pi) / (2 * math.pi) + 1e-9)
+    if velocity == 0 and side.amplitude_ratio > 1 and phase == half * math.pi + math.atan2(1.0, slope):
         return flight(side.frequency_ratio, amplitude, phase, velocity, 0.0, slope)
     excess = amplitude * math.sin(phase) - 1
     return flight(side.frequency_ratio, amplitude, phase, velocity, excess, amplitude * math.cos(phase))
@@ -309,13 +316,13 @@ def _impact(sides, index, speed):
 @compiled
 def _largest_force(amplitude_ratio, start, end):
     """The largest a |sin θ| for θ in [start, end], rad."""
-    if start < 0.5 * math.pi < end or start < 1.5 * math.pi < end:
+    if (math.floor(start / math.pi + 0.5) + 0.5) * math.pi < end:
         return amplitude_ratio
     return amplitude_ratio * max(abs(math.sin(start)), abs(math.sin(end)))
 
 
 @compiled
-def _settles(sides, phase, index, velocity, unseen):
+def _settles(sides, phase, index, velocity, unseen, pulse_end):
     """A phase by which the chain of impacts is proved to be over, or −1 if that is not proved.
 
     Halfway to the next uplift, d bounds 1 − f on both sides from below. A flight launched with v² ≤ d²/2 has
@@ -323,8 +330,8 @@ def _settles(sides, phase, index, velocity, unseen):
     multiply the velocity by ρ² = η₁η₂ (1 + 8aωv/d²) at most. If ρ² < 1 the times of all flights sum to
     8v/(d (1 − ρ²)). The chain is over if that ends in time and v²/d does not exceed the peak on record.
     """
-    following, lifted = _next_uplift(sides, phase)
-    end = _PULSE_END if lifted < 0 else phase + (following - phase) / 2
+    following, lifted = _next_uplift(sides, phase, pulse_end)
+    end = pulse_end if lifted < 0 else phase + (following - phase) / 2
     least, v, omega, steepest, restitution = math.inf, 0.0, 0.0, 0.0, 1.0
     for k in range(2):
         side = sides[k] if sides[k].exists else sides[1 - k]
@@ -381,18 +388,18 @@ def _ended(first, second, peaks, margin):
 
 
 @entry
-def course(first, second):
+def course(first, second, begin, end):
     """Follow the block from rest at the pulse's start to its last relevant flight.
 
-    first: the side that the pulse's first half lifts; second: the other one.
+    first: the side that the first half of a sine lifts; second: the other one. begin, end: phases of the pulse, rad.
     """
     sides, velocity = (first, second), 0.0
     alike = not (first.exists and second.exists) or first == second
     peaks, at, contacts, impacts, margin, _ = Course((0.0, 0.0), (-1, -1), 0, 0, 1.0, False)
-    phase, index = _next_uplift(sides, 0.0)
+    phase, index = _next_uplift(sides, begin, end)
     while index >= 0:
         f = _flight_of(sides[index], index, phase, velocity)
-        remaining = max(0.0, (_PULSE_END - f.phase) / f.omega)
+        remaining = max(0.0, (end - f.phase) / f.omega)
         duration = min(remaining, LONGEST_TIME)
         unseen = max(peaks) if alike else min(peaks)
         short, landing = hop(f, duration, unseen)
@@ -409,11 +416,13 @@ def course(first, second):
         index, velocity = _impact(sides, index, -speed)
         unseen = max(peaks) if alike else min(peaks)
         rest = (
-            phase if velocity * velocity <= REST_ENERGY else _settles(sides, phase, index, velocity, unseen)
+            phase
+            if velocity * velocity <= REST_ENERGY
+            else _settles(sides, phase, index, velocity, unseen, end)
         )
         if rest >= 0:
             velocity = 0.0
-            phase, index = _next_uplift(sides, rest)
+            phase, index = _next_uplift(sides, rest, end)
         elif impacts >= MOST_IMPACTS:
             return Course(peaks, at, contacts, impacts, math.nan, True)
     peaks, margin = _ended(first, second, peaks, margin)
@@ -421,17 +430,17 @@ def course(first, second):
 
 
 @entry
-def courses(rows, signs, frequencies, amplitudes, peaks, margins):
+def courses(rows, signs, frequencies, amplitudes, begins, ends, peaks, margins):
     """`course` of every block (m,) under every pulse (n,): fill peaks (m, n, 2), positive side first, and margins.
 
     rows: (m, 2, 6) p, gλ, η, velocity scale, end and existence of the positive and of the negative side. signs: (n,) +1
-    where the pulse's first half lifts the positive side, else −1. frequencies, amplitudes: (n,) ω_g, |a_g|. nan:
-    unresolved.
+    where the first half of a sine lifts the positive side, else −1. frequencies, amplitudes: (n,) ω_g, |a_g|. begins,
+    ends: (n,) phases of the pulse, rad. nan: unresolved.
     """
     for i in range(rows.shape[0]):
         for j in range(frequencies.size):
             first = 0 if signs[j] > 0 else 1
-            result = _course_of(rows[i], first, frequencies[j], amplitudes[j])
+            result = _course_of(rows[i], first, frequencies[j], amplitudes[j], begins[j], ends[j])
             peaks[i, j, first], peaks[i, j, 1 - first] = result.peaks
             margins[i, j] = result.margin
             if result.unresolved:
@@ -439,12 +448,14 @@ def courses(rows, signs, frequencies, amplitudes, peaks, margins):
 
 
 @compiled
-def _course_of(rows, first, frequency, amplitude):
-    """The `course` of the block of two rows under one pulse, whose first half lifts the side of row `first`."""
+def _course_of(rows, first, frequency, amplitude, begin, end):
+    """The `course` of the block of two rows under one pulse, where the first half of a sine lifts row `first`."""
     one, other = rows[first], rows[1 - first]
     return course(
         Side(frequency / one[0], amplitude / one[1], one[2], one[3], one[4], one[5] != 0),
         Side(frequency / other[0], amplitude / other[1], other[2], other[3], other[4], other[5] != 0),
+        begin,
+        end,
     )
 
 
@@ -473,5 +484,6 @@ def thresholds(rows, sign, frequencies, amplitudes):
 
 @compiled
 def _overturns(rows, first, frequency, amplitude):
-    """Whether a block overturns under a sine."""
-    return max(_course_of(rows, first, frequency, amplitude).peaks) == math.inf
+    """Whether a block overturns under one full sine."""
+    begin, end = FULL_SINE
+    return max(_course_of(rows, first, frequency, amplitude, begin, end).peaks) == math.inf

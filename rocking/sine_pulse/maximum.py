@@ -1,4 +1,4 @@
-"""The largest rotation of an equivalent block under one full sine pulse: exact in every regime, and as printed.
+"""The largest rotation of an equivalent block under a sine pulse: exact in every regime, and as printed.
 
 The block is followed flight by flight: closed form between impacts, one scalar root per impact. After the pulse the
 energy (x − 1)² − x'² is conserved in each flight, so what is left is algebra. Nothing is assumed monotone, and a
@@ -55,7 +55,8 @@ _SENTENCES = {
     Regime.PRINTED_EXACT: "The structure stays off the ground until the pulse ends and is largest after its first "
     "impact, which is the one course of events for which Eq. 15 is exact.",
     Regime.AFTER_FIRST_IMPACT: "The structure stays off the ground until the pulse ends and is largest after an "
-    "impact; Eq. 15 does not hold, because the two sides differ or the pulse's first half lifts nothing.",
+    "impact; Eq. 15 does not hold, because the two sides differ, the pulse's first half lifts nothing, or it is no "
+    "full sine.",
     Regime.CONTACT_DURING_PULSE: "The structure touches the ground before the pulse ends, so Eq. 15 does not hold.",
     Regime.BEFORE_FIRST_IMPACT: "The largest rotation comes before the first impact, so Eq. 15 does not hold.",
     Regime.OVERTURNS_WITHOUT_IMPACT: "The structure overturns on the side it first rocks to, without any impact.",
@@ -139,7 +140,7 @@ def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
     <Regime.CONTACT_DURING_PULSE: 'contact during the pulse'>
     """
     sides = sides_under(equivalent_block, pulse)
-    course = sine_pulse.kernel.course(*sides)
+    course = sine_pulse.kernel.course(*sides, *pulse.phases)
     if course.unresolved:
         return Maximum(math.nan, Outcome.FAILED, Regime.UNRESOLVED, course.impacts, 0, math.nan)
     peaks = _peaks(equivalent_block, pulse, course)
@@ -152,7 +153,7 @@ def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
     peak = largest if largest.ratio > earliest.ratio * _EQUAL else earliest
 
     # Eq. 15 takes for granted that the first half lifts the block and that what it lands on next is the same.
-    is_as_printed = equivalent_block.other_side is None and sides[0].exists
+    is_as_printed = equivalent_block.other_side is None and sides[0].exists and pulse.is_full_sine
     return Maximum(
         rotation_ratio=peak.ratio,
         outcome=Outcome.OVERTURNS if peak.overturns else Outcome.ROCKS,
@@ -314,7 +315,8 @@ def _followed(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse]) -> _Fo
     margins = np.empty((len(blocks), len(pulses)))
     # A positive ground acceleration rocks the block to its negative side.
     signs = np.where(amplitudes < 0, 1, -1)
-    sine_pulse.kernel.courses(rows, signs, frequencies, np.abs(amplitudes), peaks, margins)
+    begins, ends = np.array([pulse.phases for pulse in pulses]).reshape(-1, 2).T.copy()
+    sine_pulse.kernel.courses(rows, signs, frequencies, np.abs(amplitudes), begins, ends, peaks, margins)
     return _Followed(peaks, margins)
 
 
@@ -350,7 +352,9 @@ def pulse_spectrum(
     omegas, strengths = (each.ravel() for each in np.meshgrid(frequencies, amplitudes, indexing="ij"))
     peaks = np.empty((1, omegas.size, 2))
     margins = np.empty((1, omegas.size))
-    sine_pulse.kernel.courses(rows, np.ones(omegas.size, dtype=int), omegas, strengths, peaks, margins)
+    begins, ends = (np.full(omegas.size, phase) for phase in sine_pulse.kernel.FULL_SINE)
+    signs = np.ones(omegas.size, dtype=int)
+    sine_pulse.kernel.courses(rows, signs, omegas, strengths, begins, ends, peaks, margins)
     result: np.ndarray = peaks[0].max(axis=1).reshape(frequencies.size, amplitudes.size)
     return result
 
@@ -375,7 +379,7 @@ def printed_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> float:
     (a ≤ 1), where Eq. 16 is not defined. It may be negative, and it is wrong outside the regime
     `Regime.PRINTED_EXACT`; `predict_maximum` is not. For a block with two different sides it takes
     the side that the pulse lifts first, as if the other were the same; for a one-sided block its only side, as if the
-    pulse's first half lifted it.
+    pulse's first half lifted it. Raises PulseError for a pulse that is no full sine.
 
     >>> from rocking import EquivalentBlock, Pulse, predict_maximum, printed_maximum
     >>> block = EquivalentBlock(2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9)
@@ -384,6 +388,10 @@ def printed_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> float:
     (0.329, 0.323)
     """
     first, second = sides_under(equivalent_block, pulse)
+    if not pulse.is_full_sine:
+        raise PulseError(
+            f"{pulse!r} is no full sine, for which alone Eq. 15 is printed; use predict_maximum."
+        )
     side = first if first.exists else second
     if side.amplitude_ratio <= 1:
         return 0.0

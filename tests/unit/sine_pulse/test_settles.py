@@ -34,16 +34,18 @@ def test_a_pulse_that_lifts_no_more_leaves_its_rest() -> None:
     phase, v = 11 * math.pi / 6, limit(0.75, 2.0, 1.0, 0.25, math.pi / 6)
     assert v == pytest.approx(math.pi / 8 / (64 / 3 + 16 * math.pi / 27), rel=1e-12)
     for sides in ((ALIKE, ALIKE), (ALIKE, ALIKE._replace(exists=False))):
-        assert _settles(sides, phase, 0, v * 0.9999, 1.0) == 2 * math.pi
-        assert _settles(sides, phase, 0, v * 1.0001, 1.0) == -1
+        assert _settles(sides, phase, 0, v * 0.9999, 1.0, 2 * math.pi) == 2 * math.pi
+        assert _settles(sides, phase, 0, v * 1.0001, 1.0, 2 * math.pi) == -1
 
 
 def test_the_chain_must_end_halfway_to_the_next_uplift() -> None:
     """a = 2 lifts the second side at 7π/6: from π on that leaves π/12, in which 2 |sin θ| stays below 2 sin π/12."""
     one, d = side(1.0, 2.0, 0.6), 1 - 2 * math.sin(math.pi / 12)
     v = limit(d, 1.0, 2.0, 0.36, math.pi / 12)
-    assert _settles((one, one), math.pi, 1, v * 0.9999, 1.0) == pytest.approx(13 * math.pi / 12, rel=1e-14)
-    assert _settles((one, one), math.pi, 1, v * 1.0001, 1.0) == -1
+    assert _settles((one, one), math.pi, 1, v * 0.9999, 1.0, 2 * math.pi) == pytest.approx(
+        13 * math.pi / 12, rel=1e-14
+    )
+    assert _settles((one, one), math.pi, 1, v * 1.0001, 1.0, 2 * math.pi) == -1
 
 
 def test_of_two_unlike_sides_the_worse_counts() -> None:
@@ -51,12 +53,12 @@ def test_of_two_unlike_sides_the_worse_counts() -> None:
     first, second, phase = side(1.0, 0.5, 0.5, 2.0), side(2.0, 0.3, 0.6, 1.0), 11 * math.pi / 6
     v = limit(0.75, 2.0, 0.6, 0.3, math.pi / 6)
     for index, share in ((0, 0.5), (1, 1.0)):
-        assert _settles((first, second), phase, index, share * v * 0.9999, 1.0) == 2 * math.pi
-        assert _settles((first, second), phase, index, share * v * 1.0001, 1.0) == -1
+        assert _settles((first, second), phase, index, share * v * 0.9999, 1.0, 2 * math.pi) == 2 * math.pi
+        assert _settles((first, second), phase, index, share * v * 1.0001, 1.0, 2 * math.pi) == -1
 
 
 def test_a_chain_that_may_rise_above_the_peaks_is_followed() -> None:
     """It rises v²/d at most."""
     phase, v = 11 * math.pi / 6, 0.01
-    assert _settles((ALIKE, ALIKE), phase, 0, v, 1.0001 * v * v / 0.75) == 2 * math.pi
-    assert _settles((ALIKE, ALIKE), phase, 0, v, 0.9999 * v * v / 0.75) == -1
+    assert _settles((ALIKE, ALIKE), phase, 0, v, 1.0001 * v * v / 0.75, 2 * math.pi) == 2 * math.pi
+    assert _settles((ALIKE, ALIKE), phase, 0, v, 0.9999 * v * v / 0.75, 2 * math.pi) == -1
