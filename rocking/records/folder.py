@@ -2,7 +2,7 @@
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass
@@ -69,13 +69,15 @@ def catalogue_of_folder(
     standing: Iterable[Mapping[str, str]] = (),
     keeps_readings: bool = False,
     answers: Path | None = None,
+    watched: Callable[[Sequence[Path]], Iterable[Path]] = iter,
 ) -> FolderCatalogue:
     """Return the catalogue of the files under `folder`: its `standing` rows, and new ones for files that none names.
 
     Files of one event, station and start share a row, the vertical component among them. unit and time_step [s] are
     used only where neither a file nor its row declares them. keeps_readings: whether what was read of each file is kept
-    in the folder for the next time. answers: the folder of layouts.csv, by default this one. Catalogues, and files
-    whose name starts with a dot, are passed over. Raises RecordError when there is no folder.
+    in the folder for the next time. answers: the folder of layouts.csv, by default this one. watched: gives the files
+    again, to who waits for them. Catalogues, and files whose name starts with a dot, are passed over. Raises
+    RecordError when there is no folder.
     """
     folder = Path(folder)
     if not folder.is_dir():
@@ -86,7 +88,7 @@ def catalogue_of_folder(
     layouts = Layouts(answers or folder)
     readings = Readings(folder, layouts, is_kept=keeps_readings)
     listed = []
-    for path in _files(folder):
+    for path in watched(list(_files(folder))):
         own = _declared_in(rows_of.get(path.relative_to(folder).as_posix()), declared)
         listed.append(listed_file(readings.of(path, own), path, folder, own))
     readings.save()

@@ -124,7 +124,7 @@ class Job:
     records: Sequence[CatalogueRecord]
     seals: Seals
     log: Path
-    tell: Callable[[str], None]
+    tell: Callable[..., None]
 
     @property
     def results(self) -> Path:

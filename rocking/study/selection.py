@@ -13,6 +13,7 @@ from rocking.records.catalogue import COLUMNS, catalogue_text, read_rows
 from rocking.study.job import Study
 from rocking.study.plan import check_config_file, config_file
 from rocking.study.settings import Settings, read_settings
+from rocking.study.terminal import bar
 from rocking.tables import write_whole
 
 
@@ -56,7 +57,7 @@ def opened(
     """
     pool: dict[str, list[Accelerogram]] = {}
     reasons: dict[str, str] = {}
-    for record in records:
+    for record in bar(records, "record"):
         try:
             pool[record.id] = study.open(record)[0]
         except RockingError as error:

@@ -205,11 +205,12 @@ def write_fragility(
     records: Iterable[CatalogueRecord],
     study: Study,
     folder: Path,
-    tell: Callable[[str], None] = lambda _: None,
+    tell: Callable[..., None] = lambda *_: None,
 ) -> list[str]:
     """Write the fragility tables of `study` and their description into `folder`; return what could not be used.
 
-    A record that cannot be read, or lacks the intensity measure, costs no other. tell: takes a line for each structure.
+    A record that cannot be read, or lacks the intensity measure, costs no other. tell: takes a line for each structure,
+    how many are done, and of how many.
     Raises ConfigurationError, before anything is written, where the records that are left come from fewer than two
     stations, the hazard curve is none, or no structure can overturn; one that cannot is left out, and said.
     """
@@ -272,7 +273,7 @@ def write_fragility(
                     f"{name}: {rows.IntensityMeasureRow.table.file_name} has no row of it, because of a fault of "
                     f"rocking ({type(error).__name__}: {error}); the log holds its traceback; please report it."
                 )
-        tell(f"{count} of {len(study.scenes)}: {name}")
+        tell(f"{count} of {len(study.scenes)}: {name}", count, len(study.scenes))
     if not tables[rows.FragilityRow]:
         raise ConfigurationError(reasons[-1])
     write_tables(tables, folder, "rocking-fragility")

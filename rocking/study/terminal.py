@@ -13,7 +13,7 @@ from pathlib import Path
 from textwrap import wrap
 from threading import Thread
 from types import TracebackType
-from typing import BinaryIO, TextIO
+from typing import TYPE_CHECKING, BinaryIO, TextIO, TypeVar
 
 from rocking.assessment.case import SceneResult
 from rocking.assessment.conclusion import conclusion_in_words, conclusions, worst_of_each
@@ -24,6 +24,11 @@ from rocking.errors import RecordError, RockingError, log_fault
 from rocking.quantities import counted, escaped
 from rocking.study.folder import new_log
 from rocking.tables import read_table
+
+if TYPE_CHECKING:
+    from tqdm import tqdm
+
+T = TypeVar("T")
 
 _WORST = 5
 """Structures of the table at the end."""
@@ -199,11 +204,33 @@ def paths_to_read(results: Path, verdicts: Iterable[VerdictRow], checked: bool =
         yield f"{'Open' if path in (report, summary) else '':<8}{path!s:<{width}}  {what}"
 
 
+def bar(things: Iterable[T], what: str, total: int | None = None) -> "tqdm[T]":
+    """Return `things`, which show a bar with the time that remains while they are gone through, on a terminal alone.
+
+    what: one of them, "file". total: how many there are; None asks `things`. The bar is gone at the end.
+    """
+    from tqdm import tqdm  # which few verbs show
+
+    tqdm.monitor_interval = 0  # no thread of its own
+    shape = f"{{n:.0f}} of {{total:.0f}} {what}s {{bar}} {{remaining}} left"
+    # None: not where nobody looks. The stream itself, for that of the command writes no control characters.
+    return tqdm(
+        things,
+        total=total,
+        disable=None,
+        leave=False,
+        file=sys.__stderr__,
+        bar_format=shape,
+        dynamic_ncols=True,
+        smoothing=0,
+    )
+
+
 class Progress:
     """Turns what jobs and scheduler tell into lines for a person, and counts what is done.
 
-    records: of the study. On a terminal, lines are cut to its width, and "12 of 44 records, about 1 min left" stands
-    below them.
+    records: of the study. On a terminal, lines are cut to its width, and below them stands a bar with the time that
+    remains. It alone writes there, whatever number of jobs tell something.
     """
 
     in_this_process: "Progress | None" = None
@@ -212,6 +239,7 @@ class Progress:
         self._of_a_job = {"record": 1.0, "batch": records / max(1, batches)}
         self._stream = stream
         self._back = "\r\x1b[K" if stream.isatty() else ""  # to the begin of the line, and the line empty
+        self._what = "record"
         self._total = 0
         self._done = 0
         self._began = time.monotonic()
@@ -246,13 +274,20 @@ class Progress:
         self._total = round(sum(self._of_a_job.get(rule, 0) * number for rule, number in jobs.items()))
         self._show()
 
-    def tell_line(self, rule: str, line: str) -> None:
-        """Show a line of a job; those that assess tell one for each record. Keep the reason why one failed."""
+    def tell_line(self, rule: str, line: str, done: int = 0, total: int = 0) -> None:
+        """Show a line of a job; those that assess tell one for each record. Keep the reason why one failed.
+
+        done, total: what a job that is waited for counts itself; 0 where it counts nothing.
+        """
         if rule == "error":
             self.reasons.append(line)
             return
         of_a_record = rule in ("records", "batches")
         self._done += of_a_record
+        if total and not self._total:
+            self._what = "part"
+        if total and self._what == "part":
+            self._done, self._total = done, total
         self._show(line if of_a_record else f"{rule}: {line}")
 
     def _show(self, *lines: str) -> None:
@@ -260,14 +295,19 @@ class Progress:
             text = fitting(escaped(line), self._stream)
             print(self._back + text, file=self._stream, flush=True)
         if self._back and self._done < self._total:
-            text = f"{self._done} of {counted(self._total, 'record')}"
-            if self._done:
-                rest = (time.monotonic() - self._began) / self._done * (self._total - self._done)
-                text += f", about {rest / 60:.0f} min left" if rest > 90 else f", about {rest:.0f} s left"
-            print(self._back + fitting(text, self._stream), end="", file=self._stream, flush=True)
+            from tqdm import tqdm  # as in `bar`
+
+            shown = tqdm.format_meter(
+                self._done,
+                self._total,
+                time.monotonic() - self._began,
+                ncols=max(columns_of(self._stream) - 1, 0) or None,
+                bar_format=f"{{n}} of {{total}} {self._what}s {{bar}} {{remaining}} left",
+            )
+            print(self._back + shown, end="", file=self._stream, flush=True)
 
 
-def tell(job: str, line: str) -> None:
+def tell(job: str, line: str, done: int = 0, total: int = 0) -> None:
     """Tell the one who waits for a job, another process, or else the terminal."""
     try:
         pipe = os.open(os.environ[_PIPE], os.O_WRONLY | os.O_NONBLOCK)  # who waited may be gone
@@ -275,18 +315,18 @@ def tell(job: str, line: str) -> None:
         print(line, file=sys.stderr, flush=True)
         return
     with os.fdopen(pipe, "wb", buffering=0) as stream:
-        stream.write(json.dumps([job, line[:_LONGEST]], ensure_ascii=False).encode() + b"\n")
+        stream.write(json.dumps([job, line[:_LONGEST], done, total], ensure_ascii=False).encode() + b"\n")
 
 
-def line_writer(log: Path, rule: str) -> Callable[[str], None]:
-    """Return what adds a line to a new `log`, and tells it as one of a job of this `rule`."""
+def line_writer(log: Path, rule: str) -> Callable[..., None]:
+    """Return what adds a line to a new `log`, and tells it as one of a job of this `rule`, with what it counts."""
     new_log(log).close()
     _LOGS[:] = [log]
 
-    def add(line: str) -> None:
+    def add(line: str, done: int = 0, total: int = 0) -> None:
         with log.open("a", encoding="utf-8") as stream:
             print(line, file=stream)
-        tell(rule, line)
+        tell(rule, line, done, total)
 
     return add
 
@@ -312,7 +352,12 @@ def log_error(error: BaseException) -> None:
         log_fault(error, log)
 
 
+def columns_of(stream: TextIO) -> int:
+    """Return the width of the terminal, if `stream` is one, else 0."""
+    return os.get_terminal_size(stream.fileno()).columns if stream.isatty() else 0
+
+
 def fitting(line: str, stream: TextIO) -> str:
     """Return `line`, cut to the width of the terminal if `stream` is one."""
-    columns = os.get_terminal_size(stream.fileno()).columns if stream.isatty() else 0
+    columns = columns_of(stream)
     return line[: columns - 1] + "…" if 0 < columns < len(line) else line

@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Iterable, Iterator
+from functools import partial
 from itertools import chain
 from pathlib import Path
 
@@ -22,6 +23,7 @@ from rocking.study.job import Study, assess_catalogued, rows_of, write_report
 from rocking.study.made_from import settings_sha256
 from rocking.study.plan import workflow_folder
 from rocking.study.settings import Settings, first_yaml
+from rocking.study.terminal import bar
 from rocking.tables import Row, write_tables, write_whole
 
 
@@ -60,6 +62,7 @@ def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: flo
         standing=standing,
         keeps_readings=True,
         answers=target.parent,
+        watched=partial(bar, what="file"),
     )
     files = found.files
     rows = found.new

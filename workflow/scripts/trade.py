@@ -21,7 +21,7 @@ def components(study, records, tell):
     for number, place in enumerate(places, start=1):
         try:
             yield from study.open(records[place])[0]
-            tell(f"{number} of {len(places)}: {records[place].id}")
+            tell(f"{number} of {len(places)}: {records[place].id}", number, len(places))
         except RockingError as error:
             tell(f"{number} of {len(places)}: {records[place].id}: {error}")
 

@@ -2,6 +2,7 @@
 
 import io
 import math
+import re
 from pathlib import Path
 
 import pytest
@@ -9,7 +10,7 @@ import pytest
 from rocking.assessment.case import SceneResult, StationResult
 from rocking.assessment.rows import ComparisonRow
 from rocking.study import terminal
-from rocking.study.terminal import Progress, closing_lines, line_writer, paths_to_read, record_line
+from rocking.study.terminal import Progress, bar, closing_lines, line_writer, paths_to_read, record_line
 from tests.unit.assessment.made_rows import broken, case, compared, failure, station, verdicts
 
 
@@ -158,11 +159,37 @@ class Terminal(io.StringIO):
         return True
 
 
-def test_on_a_terminal_it_says_how_far_it_has_come(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(terminal, "fitting", lambda line, stream: line)
+def test_on_a_terminal_a_bar_says_how_far_it_has_come(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(terminal, "columns_of", lambda stream: 60)
     progress = Progress(40, 2, stream := Terminal())
     progress.tell_plan({"batch": 2, "summary": 1})
-    assert stream.getvalue().endswith("0 of 40 records")
+    assert re.search(r"\r\x1b\[K0 of 40 records .* \? left$", stream.getvalue())
     progress._began -= 600  # ten minutes for the first record
     progress.tell_line("batches", "one: stands: pier")
-    assert stream.getvalue().endswith("1 of 40 records, about 390 min left")
+    *_, line, shown = stream.getvalue().split("\n")
+    assert line.endswith("one: stands: pier")
+    assert re.search(r"\r\x1b\[K1 of 40 records .* 6:30:0\d left$", shown)
+    assert len(shown.removeprefix("\r\x1b[K")) < 60
+
+
+def test_a_job_that_counts_itself_has_a_bar_and_plain_lines_elsewhere(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """As a fragility does, of which there is one job; without a terminal no character moves the line."""
+    monkeypatch.setattr(terminal, "columns_of", lambda stream: 60 if stream.isatty() else 0)
+    told = []
+    for stream in (Terminal(), io.StringIO()):
+        progress = Progress(40, 2, stream)
+        progress.tell_plan({"fragility": 1})
+        progress.tell_line("fragility", "3 of 12: pier", 3, 12)
+        told.append(stream.getvalue())
+    assert "3 of 12 parts" in told[0]
+    assert told[1] == "fragility: 3 of 12: pier\n"
+
+
+def test_what_is_gone_through_is_as_it_was_with_a_bar_or_without(monkeypatch: pytest.MonkeyPatch) -> None:
+    for stream in (Terminal(), io.StringIO()):
+        monkeypatch.setattr("sys.__stderr__", stream)
+        assert list(bar([3, 1, 2], "file")) == [3, 1, 2]
+        assert ("of 3 files" in stream.getvalue()) == stream.isatty()
+    assert "\n" not in stream.getvalue(), "it leaves no line behind"
