@@ -39,28 +39,52 @@
     return child;
   }
 
-  // What the rows may be ordered by, the largest on top; the sum over a row puts the worst record there
+  // The longer side lies down the page, where there is room: a row for each record, or for each structure.
+  const turned = structures.length > records.length;
+  const [ROWS, COLUMNS] = turned ? [structures, records] : [records, structures];
+  const LEAD = turned ? 1 : 3; // cells of a row before the first case
+  const nameOf = (each) => each.id || each.name;
+  const placesOf = (row, column) => (turned ? [column, row] : [row, column]); // of record and structure
+  const caseAt = (row, column) => {
+    const [r, s] = placesOf(row, column);
+    return caseOf(records[r], structures[s]);
+  };
+
+  // Positive where the key `b` is larger: the first value that differs decides
+  function compared(a, b) {
+    const place = a.findIndex((value, k) => value !== b[k]);
+    return place < 0 ? 0 : b[place] - a[place];
+  }
+  // The worst case of a row or a column, then the sum of its shares: so the worst cell of all comes first
+  function worstOf(cases) {
+    const [worst] = cases.map((each) => each.severity).sort(compared);
+    return [...worst, cases.reduce((sum, each) => sum + (each.share || 0), 0)];
+  }
+  const columnOrder = COLUMNS.map((_, c) => c).sort((a, b) =>
+    compared(...[a, b].map((c) => worstOf(ROWS.map((_, r) => caseAt(r, c))))));
+
+  // What the rows may be ordered by, the largest on top
   const KEYS = {
-    worst: (record) => [structures.reduce((sum, each) => sum + (caseOf(record, each).share || 0), 0)],
-    record: (record) => [-records.indexOf(record)],
+    worst: (_, r) => worstOf(COLUMNS.map((_, c) => caseAt(r, c))),
+    name: (_, r) => [-r],
     pga: (record) => [record.pga],
     pgv: (record) => [record.pgv],
   };
-  structures.forEach((each) => { KEYS[each.name + "/"] = (record) => caseOf(record, each).severity; });
+  COLUMNS.forEach((each, c) => { KEYS[nameOf(each) + "/"] = (_, r) => caseAt(r, c).severity; });
 
   function order(by) {
-    const keys = records.map(KEYS[by]);
-    const rows = [...matrix.tBodies[0].rows].sort((a, b) => {
-      const [first, second] = [keys[a.dataset.record], keys[b.dataset.record]];
-      const place = first.findIndex((value, k) => value !== second[k]);
-      return place < 0 ? 0 : second[place] - first[place];
-    });
+    const keys = ROWS.map(KEYS[by]);
+    const rows = [...matrix.tBodies[0].rows].sort((a, b) => compared(keys[a.dataset.row], keys[b.dataset.row]));
     matrix.tBodies[0].append(...rows);
     for (const head of matrix.tHead.rows[0].cells) {
-      if (head.dataset.by === by) head.setAttribute("aria-sort", by === "record" ? "ascending" : "descending");
+      if (head.dataset.by === by) head.setAttribute("aria-sort", by === "name" ? "ascending" : "descending");
       else head.removeAttribute("aria-sort");
     }
   }
+
+  const rounded = (peak) => (peak === null ? "–" : Number(peak.toPrecision(2)));
+  // A name may part behind its marks, not within a word.
+  const parted = (cell, name) => name.split(/(?<=[_.-])/).forEach((piece) => { cell.append(piece); add(cell, "wbr"); });
 
   function fill() {
     const head = add(add(matrix, "thead"), "tr");
@@ -68,25 +92,34 @@
     const heading = (by, text, title) => {
       const cell = add(head, "th", { scope: "col", title, "data-by": by });
       cell.classList.toggle("long", text.length > LONG);
-      add(cell, "button", { type: "button" }, text);
+      parted(add(cell, "button", { type: "button" }), text);
+      return cell;
     };
-    heading("record", "Record", "order of the catalogue");
-    heading("pga", "PGA [g]", "order by peak acceleration");
-    heading("pgv", "PGV [m/s]", "order by peak velocity");
-    structures.forEach((each) => heading(each.name + "/", each.name, `${each.type}: ${each.size}`));
-    records.forEach((record, r) => {
-      const row = add(body, "tr", { "data-record": r });
+    heading("name", turned ? "Structure" : "Record", turned ? "order of the list" : "order of the catalogue");
+    if (!turned) {
+      heading("pga", "PGA [g]", "order by peak acceleration");
+      heading("pgv", "PGV [m/s]", "order by peak velocity");
+    }
+    columnOrder.forEach((c) => {
+      const each = COLUMNS[c];
+      const cell = heading(nameOf(each) + "/", nameOf(each), turned ? "order by this record" : `${each.type}: ${each.size}`);
+      if (turned) add(cell, "div", { class: "peak" }, `${rounded(each.pga)} g`);
+    });
+    ROWS.forEach((each, r) => {
+      const row = add(body, "tr", { "data-row": r });
       const name = add(row, "th", { scope: "row" });
-      // A name may part behind its marks, not within a word.
-      record.id.split(/(?<=[_.-])/).forEach((piece) => { name.append(piece); add(name, "wbr"); });
-      for (const peak of [record.pga, record.pgv]) add(row, "td", { class: "peak" }, peak === null ? "–" : Number(peak.toPrecision(2)));
-      structures.forEach((structure, s) => {
-        const { verdict, cell, text } = caseOf(record, structure);
-        const title = `${structure.name} under ${record.id}: ${text}`;
-        const names = { title, "aria-label": title, "data-record": r, "data-structure": s, "data-verdict": verdict };
+      if (turned) name.title = `${each.type}: ${each.size}`;
+      parted(name, nameOf(each));
+      if (!turned) [each.pga, each.pgv].forEach((peak) => add(row, "td", { class: "peak" }, rounded(peak)));
+      columnOrder.forEach((c) => {
+        const [record, structure] = placesOf(r, c);
+        const { verdict, cell, text } = caseAt(r, c);
+        const title = `${structures[structure].name} under ${records[record].id}: ${text}`;
+        const names = { title, "aria-label": title, "data-record": record, "data-structure": structure, "data-verdict": verdict };
         add(add(row, "td"), "button", { type: "button", class: `cell ${verdict.replaceAll(" ", "-")}`, tabindex: -1, "aria-pressed": false, ...names }, cell);
       });
     });
+    matrix.classList.toggle("by-record", !turned);
     order("worst");
   }
 
@@ -99,9 +132,12 @@
       const match = matches(records[record].id) || matches(structures[structure].name);
       button.hidden = !match || (verdict && button.dataset.verdict !== verdict);
     }
-    const columns = structures.map((_, s) => matrix.querySelector(`${SHOWN}[data-structure="${s}"]`));
     for (const row of matrix.tBodies[0].rows) row.hidden = !row.querySelector(SHOWN);
-    for (const row of matrix.rows) columns.forEach((cell, s) => { row.cells[s + 3].hidden = !cell; });
+    COLUMNS.forEach((_, place) => {
+      const cells = [...matrix.rows].map((row) => row.cells[LEAD + place]);
+      const hides = !cells.some((cell) => cell.querySelector(`tbody ${SHOWN}`));
+      cells.forEach((cell) => { cell.hidden = hides; });
+    });
     const cells = matrix.querySelectorAll(`tbody ${SHOWN}`);
     at("shown").textContent = `${cells.length} of ${records.length * structures.length} cells`;
     if (cells.length && !matrix.querySelector(`${SHOWN}[tabindex="0"]`)) roam(cells[0]);
@@ -113,14 +149,15 @@
     const { left, right } = matrix.parentElement.getBoundingClientRect();
     const first = matrix.querySelector("tbody tr:not([hidden]) th");
     const from = first ? first.getBoundingClientRect().right : left;
-    const heads = [...matrix.tHead.rows[0].cells].slice(3).filter((head) => !head.hidden);
+    const heads = [...matrix.tHead.rows[0].cells].slice(LEAD).filter((head) => !head.hidden);
     const count = (hides) => heads.filter((head) => hides(head.getBoundingClientRect())).length;
     const sides = [
       [count((box) => box.left < from - 1), "← ", " to the left"],
       [count((box) => box.right > right + 1), "", " to the right →"],
     ];
+    const what = turned ? "records" : "structures";
     const told = sides.filter(([number]) => number);
-    at("beyond").textContent = told.map(([number, before, after]) => `${before}${number} of ${heads.length} structures${after}`).join("; ");
+    at("beyond").textContent = told.map(([number, before, after]) => `${before}${number} of ${heads.length} ${what}${after}`).join("; ");
   }
 
   // One cell is in the order of the tabulator; arrows go on to the next one that is shown
@@ -360,8 +397,7 @@
   addEventListener("hashchange", follow);
   if (!follow()) {
     const cells = [...matrix.querySelectorAll("tbody button")];
-    const moving = cells.filter(({ dataset }) => caseOf(records[dataset.record], structures[dataset.structure]).history);
-    const first = moving.find((each) => each.dataset.verdict === "overturns") || moving[0] || cells[0];
+    const first = cells.find(({ dataset }) => caseOf(records[dataset.record], structures[dataset.structure]).history) || cells[0];
     if (first) choose(first.dataset.record, first.dataset.structure);
   }
 })();

@@ -255,16 +255,12 @@ def test_the_ground_lies_below_the_feet_of_the_piers_and_not_through_them(page, 
 def test_columns_that_the_width_hides_are_told_and_a_dark_screen_gets_a_dark_page(page, browser):
     from selenium.webdriver.support.ui import WebDriverWait
 
-    narrow = {"width": 500, "height": 800, "deviceScaleFactor": 1, "mobile": False}
+    narrow = {"width": 220, "height": 800, "deviceScaleFactor": 1, "mobile": False}
     browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", narrow)
     told = lambda: page("#beyond")[0].text  # noqa: E731
-    WebDriverWait(browser, PATIENCE).until(
-        lambda at: re.fullmatch(r"\d of 7 structures to the right →", told())
-    )
+    WebDriverWait(browser, PATIENCE).until(lambda at: re.fullmatch(r"\d of 2 records to the right →", told()))
     browser.execute_script("document.querySelector('.matrix').scrollLeft = 9999")
-    WebDriverWait(browser, PATIENCE).until(
-        lambda at: re.fullmatch(r"← \d of 7 structures to the left", told())
-    )
+    WebDriverWait(browser, PATIENCE).until(lambda at: re.fullmatch(r"← \d of 2 records to the left", told()))
     browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
     ink = "return getComputedStyle(document.body).{}.match(/\\d+/g).reduce((a, b) => a + Number(b), 0)"
     for scheme, is_dark in (("dark", True), ("light", False)):
@@ -290,12 +286,16 @@ def test_the_filters_leave_what_they_name(page):
 def test_the_keyboard_is_enough(page, browser):
     from selenium.webdriver.common.keys import Keys
 
-    (first,) = page("#matrix button[tabindex='0']")
-    first.send_keys(Keys.ARROW_RIGHT)
+    cells = page("#matrix tbody button[data-record='0']")
+    cells[0].click()
+    cells[0].send_keys(Keys.ARROW_DOWN)
     second = browser.switch_to.active_element
-    assert second.get_attribute("data-structure") == "1"
-    second.send_keys(Keys.ENTER)
-    assert page("#title")[0].text.startswith("parapet")
+    assert second == cells[1]
+    second.send_keys(Keys.ARROW_RIGHT)
+    failed = browser.switch_to.active_element
+    assert failed.get_attribute("data-record") == "1"
+    failed.send_keys(Keys.ENTER)
+    assert "synthetic_00001" in page("#title")[0].text
 
 
 def test_a_record_that_failed_says_why(page):
@@ -313,12 +313,25 @@ def test_each_cell_has_an_address(page, browser, study):
     assert page("#title")[0].text.startswith("colonnade")
 
 
-def test_a_heading_orders_the_rows(page):
-    rows = lambda: [row.get_attribute("data-record") for row in page("#matrix tbody tr")]  # noqa: E731
-    assert rows() == ["0", "1"], "the worst first"
-    for place, order in enumerate([["0", "1"], ["0", "1"]]):
-        page("#matrix thead button")[place].click()
-        assert rows() == order
+def test_with_more_structures_than_records_each_structure_has_a_row_and_the_worst_cell_comes_first(
+    page, content
+):
+    rows = lambda: [int(row.get_attribute("data-row")) for row in page("#matrix tbody tr")]  # noqa: E731
+    heads = [each.text.split("\n")[0] for each in page("#matrix thead th")]
+    assert heads == ["Structure", "synthetic_00000", "synthetic_00001"], "the record that failed comes last"
+    names = [each["name"] for each in content["structures"]]
+    severity = [content["records"][0]["cases"][name]["severity"] for name in names]
+    worst_first = sorted(range(7), key=lambda place: severity[place], reverse=True)
+    assert [severity[place] for place in rows()] == [severity[place] for place in worst_first]
+    first = page("#matrix tbody button")[0]
+    assert (first.get_attribute("data-record"), first.get_attribute("data-structure")) == (
+        "0",
+        str(worst_first[0]),
+    )
+    page("#matrix thead button")[0].click()
+    assert rows() == list(range(7)), "the order of the list"
+    page("#matrix thead button")[1].click()
+    assert [severity[place] for place in rows()] == [severity[place] for place in worst_first]
     assert [each.get_attribute("aria-sort") for each in page("#matrix thead th")][:2] == [None, "descending"]
 
 
