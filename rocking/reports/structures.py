@@ -36,6 +36,7 @@ from rocking.reports.structure_figures import bars_figure, basis_figure, selecti
 from rocking.reports.style import picture
 from rocking.reports.variants import strips
 from rocking.structures import Structure
+from rocking.structures.structure import Candidate
 from rocking.structures.tied import Tied
 
 _QUANTILE = 1.645
@@ -56,7 +57,7 @@ class CheckedStructure:
     those of which it cannot be told. verdicts: stations by the worst verdict on it there, and doubts: what may make
     one worse than said. followed_beside: records under which this period of the support was not followed, so that they
     count as at the worse one beside it. reserves: under each record of the study under which one was sought;
-    reserve_doubts: the kinds of doubt for which they may be too high.
+    reserve_doubts: the kinds of doubt for which they may be too high. mechanisms: all in which it may fall.
     """
 
     name: str
@@ -76,6 +77,7 @@ class CheckedStructure:
     followed_beside: int = 0
     reserves: Sequence[Reserve] = ()
     reserve_doubts: Sequence[Kind] = ()
+    mechanisms: Sequence["ListedMechanism"] = ()
 
     @property
     def period(self) -> float | None:
@@ -86,6 +88,19 @@ class CheckedStructure:
     def has_ties(self) -> bool:
         """Whether ties hold it."""
         return isinstance(self.structure, Tied) and bool(self.structure.tie_heights)
+
+
+@dataclass(frozen=True, eq=False)
+class ListedMechanism:
+    """One mechanism in which a structure may fall, and what the records of the study say of it.
+
+    share: of its members that overturn, the mean over stations; nan where no record asked for them. largest: the
+    largest force of each of its holds over all records, N per metre; nan where it was not followed as recorded.
+    """
+
+    candidate: Candidate
+    share: float = math.nan
+    largest: Sequence[float] = ()
 
 
 def structures_report(
@@ -142,6 +157,7 @@ def structures_data(
                         *("what-governs", "capacity-over-demand", "how-sure", "assumed", "place-and-date"),
                         *("signature", "not-to-sign", "next-page", "figure", "table-checks"),
                         *("table-periods", "records-title", "table-records", "variants-title"),
+                        "table-mechanisms",
                     )
                 },
             },
@@ -401,7 +417,8 @@ def _basis(
             picture(basis_figure(page.structure, checked, words), words("figure alt", name=page.name))
         ],
         "checks": _check_table(checked, words),
-        "sentences": _sentences(checked, words),
+        "mechanisms": _mechanism_table(page, words) if len(page.mechanisms) > 1 else {"rows": []},
+        "sentences": _sentences(page, checked, words),
         "periods": _period_table(others, conclusion, words) if others else {"rows": []},
         "share": _share(page, words),
     }
@@ -435,6 +452,63 @@ def _check_table(checked: StructureCheck, words: Sentences) -> dict[str, object]
     return table(heads, lines)
 
 
+def _mechanism_table(page: CheckedStructure, words: Sentences) -> dict[str, object]:
+    """The weakest mechanism of each kind, and those that were followed, with what holds them back."""
+    heads = [
+        (words("head what falls"), "2.2", "l"),
+        ("λ [g]", "auto", "r"),
+        ("p [rad/s]", "auto", "r"),
+        (words("head overturns"), "auto", "r"),
+        (words("head holds"), "2", "l"),
+    ]
+    weakest: dict[tuple[str, int], ListedMechanism] = {}
+    for each in sorted(page.mechanisms, key=lambda each: each.candidate.uplift_multiplier):
+        weakest.setdefault((each.candidate.name, each.candidate.sign), each)
+    shown = [each for each in page.mechanisms if each in weakest.values() or not math.isnan(each.share)]
+    lines: list[list[Cell]] = []
+    for each in shown:
+        candidate = each.candidate
+        multiplier = candidate.uplift_multiplier
+        lines.append(
+            [
+                _falls(candidate, words),
+                words.number(multiplier) if math.isfinite(multiplier) else words("held shut"),
+                "–" if candidate.refusal else words.number(candidate.side.frequency_parameter),
+                "–" if math.isnan(each.share) else f"{words.decimal(percent(each.share))}\u00a0%",
+                _holds(each, words),
+            ]
+        )
+    return table(heads, lines)
+
+
+def _falls(candidate: Candidate, words: Sentences) -> str:
+    """What falls, and where it opens."""
+    if words.language != "en":
+        return _opens(candidate.structure, candidate.sign, words)
+    opens = candidate.description.removesuffix(f" ({candidate.name})")
+    return candidate.name if opens == "as given" else f"{candidate.name}: {opens}"
+
+
+def _holds(mechanism: ListedMechanism, words: Sentences) -> str:
+    """The force at each height at which something holds it, as it starts and the largest over the records."""
+    candidate = mechanism.candidate
+    holds = candidate.reactions if math.isfinite(candidate.uplift_multiplier) else ()
+    texts = []
+    for place, hold in enumerate(holds):
+        largest = mechanism.largest[place] if place < len(mechanism.largest) else math.nan
+        key = "hold" if math.isnan(largest) else "hold in motion"
+        texts.append(
+            words(
+                key,
+                kind=words(f"held by {hold.kind}"),
+                height=words.number(hold.height),
+                force=words.number(float(hold.force[0]) / 1e3),
+                **({} if math.isnan(largest) else {"largest": words.number(largest / 1e3)}),
+            )
+        )
+    return "; ".join(texts) or "–"
+
+
 def ratio_words(check: Check, words: Sentences) -> str:
     """Return capacity over demand as a page prints it."""
     return words("falls") if not check.ratio else words.decimal(check.ratio_in_words)
@@ -449,7 +523,11 @@ def opening_words(mechanism: LocalMechanism, words: Sentences) -> str:
     """Return what opens, and to which side it falls."""
     if words.language == "en":
         return mechanism.description
-    body = mechanism.body
+    return _opens(mechanism.body, mechanism.sign, words)
+
+
+def _opens(body: Structure, sign: int, words: Sentences) -> str:
+    """What opens of a body with one crack, and to which side it falls."""
     opening = body.opening if isinstance(body, Tied) else None
     position = getattr(body, "crack_position", math.nan)
     if opening is not None:
@@ -464,13 +542,14 @@ def opening_words(mechanism: LocalMechanism, words: Sentences) -> str:
         opens = words("opens at", height=words.number(position))
     else:
         opens = words("opens as given")
-    side = "" if body.symmetric else words(f"side {body.side_names[0 if mechanism.sign > 0 else 1]}")
+    side = "" if body.symmetric else words(f"side {body.side_names[0 if sign >= 0 else 1]}")
     return ", ".join(filter(None, (opens, side)))
 
 
-def _sentences(checked: StructureCheck, words: Sentences) -> list[str]:
+def _sentences(page: CheckedStructure, checked: StructureCheck, words: Sentences) -> list[str]:
     """The basis of the checks, in sentences."""
     mechanism = checked.governing
+    static = mechanism.static
     lines = [
         words(
             "governs",
@@ -496,8 +575,29 @@ def _sentences(checked: StructureCheck, words: Sentences) -> list[str]:
                 period=words.number(point.period),
             )
         )
-    if checked.remark:
+    x, z = static.place
+    lines.append(
+        words(
+            "control point",
+            x=words.number(x),
+            z=words.number(z),
+            factor=words.number(static.displacement_factor),
+        )
+    )
+    letter = static.mass_ratio_of_all
+    if letter < static.participating_mass_ratio * (1 - 1e-9):
+        lines.append(
+            words(
+                "mass by letter",
+                letter=words.number(letter),
+                mass=words.number(static.participating_mass_ratio),
+                factor=words.number(static.participating_mass_ratio / letter),
+            )
+        )
+    if checked.remark and checked.remark.kind is Kind.NO_DISPLACEMENT:
         lines.append(words.of(checked.remark))
+    lines += [words.of(each.remark) for each in checked.restraints]
+    lines += _lowered(checked, page.untied, words)
     dynamic = checked.dynamic
     if dynamic is not None:
         low, high = (words.decimal(percent(each)) for each in dynamic.interval)
@@ -516,6 +616,22 @@ def _sentences(checked: StructureCheck, words: Sentences) -> list[str]:
         if dynamic.caution:
             lines.append(words.of(dynamic.caution))
     return lines
+
+
+def _lowered(checked: StructureCheck, untied: StructureCheck | None, words: Sentences) -> list[str]:
+    """The sentence on a tie that brings a mechanism of a lower nonlinear ratio to govern; none where it does not."""
+    if untied is None or untied.nonlinear is None or checked.nonlinear is None:
+        return []
+    if checked.nonlinear.ratio >= untied.nonlinear.ratio * (1 - 1e-6):  # the same but for rounding
+        return []
+    said = words(
+        "tie lowers",
+        tied=ratio_words(checked.nonlinear, words),
+        mechanism=opening_words(checked.governing, words),
+        untied=ratio_words(untied.nonlinear, words),
+        other=opening_words(untied.governing, words),
+    )
+    return [said]
 
 
 def _period_table(

@@ -8,9 +8,12 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+import numpy as np
+
 from rocking.assessment.conclusion import conclusions, worst_of_each
+from rocking.assessment.cracks import mechanisms_of
 from rocking.assessment.decide import Verdict, worse
-from rocking.assessment.rows import RecordRow, VerdictRow, verdicts_at
+from rocking.assessment.rows import MechanismRow, RecordRow, VerdictRow, verdicts_at
 from rocking.assessment.scene import Scene, placed
 from rocking.codes.check import StructureCheck
 from rocking.codes.dynamic_check import check
@@ -19,7 +22,7 @@ from rocking.codes.selection import Selection
 from rocking.errors import ConfigurationError, RockingError
 from rocking.floors.support import Support
 from rocking.records import load_catalogue
-from rocking.reports.structures import CheckedStructure, structures_report
+from rocking.reports.structures import CheckedStructure, ListedMechanism, structures_report
 from rocking.structures.tied import Tied
 from rocking.study.job import Study
 from rocking.study.selection import pool_of, select_for
@@ -32,12 +35,13 @@ def write_checks(
     verdicts: Sequence[VerdictRow],
     records: Iterable[RecordRow],
     tell: Callable[[str], None] = lambda _: None,
+    mechanisms: Sequence[MechanismRow] = (),
 ) -> None:
     """Write code_checks.csv and structures.pdf of `study` into `folder`.
 
-    verdicts, records: the rows of all records of the study. tell: takes a line for each structure. A structure that
-    cannot be checked costs no other, and without sets of records the dynamic check alone is left out; both are said.
-    Raises ConfigurationError where there is no design level.
+    verdicts, records, mechanisms: the rows of all records of the study. tell: takes a line for each structure. A
+    structure that cannot be checked costs no other, and without sets of records the dynamic check alone is left out;
+    both are said. Raises ConfigurationError where there is no design level.
     """
     design = study.settings.design_spectrum
     spectrum = design.spectrum()
@@ -66,6 +70,11 @@ def write_checks(
                 _checked(scene, support, check_at, there, station_of),
                 worst=worst.get(name),
             )
+            of_scene = [
+                each for each in mechanisms if (each.structure, each.support_period_s) == (name, period)
+            ]
+            if page.checked:
+                page = replace(page, mechanisms=_mechanisms(scene, of_scene, station_of))
             pages.append(page)
             tell(f"{placed(name, period)}: {page.refusal or _told(page.checked)}")
     rows: Iterable[CodeCheckRow] = (
@@ -127,6 +136,34 @@ def _checked(
         reserves=[each.reserve for each in verdicts if each.reserve is not None],
         reserve_doubts=sorted({kind for each in verdicts for kind in each.reserve_doubts}),
     )
+
+
+def _mechanisms(
+    scene: Scene, rows: Sequence[MechanismRow], station_of: Mapping[str, str]
+) -> list[ListedMechanism]:
+    """Every mechanism of a scene with what its rows say: the mean share over stations, the largest forces of holds."""
+    found: dict[str, list[MechanismRow]] = {}
+    for row in rows:
+        found.setdefault(row.crack, []).append(row)
+    listed = []
+    for candidate in mechanisms_of(scene.structure):
+        shares: dict[str, dict[str, float]] = {}
+        forces: dict[float, float] = {}
+        for row in found.get(candidate.description, ()):
+            if row.members and row.overturning_members is not None:
+                share = row.overturning_members / row.members
+                shares.setdefault(station_of[row.record], {})[row.record] = share
+            so_far = forces.get(row.hold_height_m, math.nan)
+            forces[row.hold_height_m] = float(np.fmax(so_far, row.largest_hold_force_n_per_m))
+        of_stations = [sum(each.values()) / len(each) for each in shares.values()]
+        listed.append(
+            ListedMechanism(
+                candidate,
+                sum(of_stations) / len(of_stations) if of_stations else math.nan,
+                [forces.get(each.height, math.nan) for each in candidate.reactions],
+            )
+        )
+    return listed
 
 
 def shares_by_station(verdicts: Iterable[VerdictRow], station_of: Mapping[str, str]) -> list[float]:

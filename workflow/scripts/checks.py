@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from rocking.assessment.rows import RecordRow, VerdictRow
+from rocking.assessment.rows import MechanismRow, RecordRow, VerdictRow
 from rocking.study.checks import write_checks
 from rocking.study.job import begin_job
 from rocking.study.results import outcomes_of
@@ -12,5 +12,7 @@ if __name__ == "__main__":
     rows = [outcome.rows for outcome in outcomes_of(job.results, job.records)]
     verdicts = [row for each in rows for row in each[VerdictRow]]
     records = [row for each in rows for row in each[RecordRow]]
-    write_checks(job.study, Path(snakemake.output.pdf).parent, verdicts, records, job.tell)
+    mechanisms = [row for each in rows for row in each[MechanismRow]]
+    folder = Path(snakemake.output.pdf).parent
+    write_checks(job.study, folder, verdicts, records, job.tell, mechanisms)
     job.finish(snakemake.output)

@@ -94,7 +94,7 @@ def test_stronger_and_more_ductile_ties_never_lower_a_capacity():
 
     To 1e-9, as levels are sought to 1e-14 and a break is followed to 1e-12.
     """
-    strengths = (0.5e3, 2e3, 5e3, 8e3, 12e3, 21e3, 40e3, 63e3)
+    strengths = (0.5e3, 2e3, 5e3, 8e3, 12e3, 21e3, 40e3, 63e3, 80e3, 100e3)
     for elongation in (0.0, 0.02, 0.08):
         linear, nonlinear = [], []
         walls = [
