@@ -18,7 +18,13 @@ import pandas as pd
 from docs.research import scores, sites
 from docs.research.report import Tables, Target
 from rocking.assessment.causes import CAUSES, lattice
-from rocking.assessment.cracks import CrackEnsembles, FollowedCrack, cracks, ensemble_over_cracks
+from rocking.assessment.cracks import (
+    CrackEnsembles,
+    FollowedCrack,
+    cracks,
+    ensemble_over_cracks,
+    slides_first,
+)
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.ensemble import drawn, ensemble
 from rocking.assessment.methods import NEGLIGIBLE
@@ -188,12 +194,15 @@ def screening_trials(
     record = component.accelerogram
     draw = sites.draw_of(component.identifier)
     for structure_name, structure in SCALES * list(structures.items()):
-        forms = cracks(structure)
-        if len(forms) == 1 or structure.crack_is_given:
+        every = cracks(structure)
+        if len(every) == 1 or structure.crack_is_given:
             continue
-        factor = sites.lifting_factor(record, forms[0].mechanism.uplift_multiplier, sites.UPLIFTS, draw)
+        factor = sites.lifting_factor(record, every[0].mechanism.uplift_multiplier, sites.UPLIFTS, draw)
         motions = GroundMotions.of(record.scaled(factor))
-        in_study = ensemble_over_cracks(structure, motions, AssessmentSettings())
+        settings = AssessmentSettings()
+        in_study = ensemble_over_cracks(structure, motions, settings)
+        # What slides before it lifts is left out where another crack is left.
+        forms = tuple(each for each in every if not slides_first(each, motions, settings)) or every
         in_full = CrackEnsembles(
             tuple(
                 FollowedCrack(form.description, form.position, ensemble(form.mechanism, motions))
