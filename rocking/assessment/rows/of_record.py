@@ -125,12 +125,10 @@ class CaseRow(ComponentRow[C]):
 class DecidedRow(CaseRow[C]):
     """A row about a case that says what becomes of the structure over all components."""
 
-    verdict: Verdict = of_structure(
-        f"The verdict: {', '.join(Verdict)}", lambda each: each.station.decision.word
-    )
+    verdict: Verdict = of_structure(f"The verdict: {', '.join(Verdict)}", lambda each: each.station.verdict)
     overturning_share: float = of_structure(
         "Share of the members that overturn; of a single run 0 or 1; empty where none can be told",
-        lambda each: each.station.decision.share,
+        lambda each: each.station.overturning_share,
     )
 
 
@@ -615,6 +613,16 @@ class DecidedStation(OfStructure):
         """The factors on the record at which shares of the members overturn."""
         return self.station.reserve
 
+    @property
+    def share_low(self) -> float:
+        """The lower end of the interval of the share."""
+        return self.station.decision.interval[0]
+
+    @property
+    def share_high(self) -> float:
+        """Its upper end."""
+        return self.station.decision.interval[1]
+
 
 of_station = Columns(DecidedStation)
 
@@ -628,11 +636,9 @@ class VerdictRow(DecidedRow[DecidedStation]):
 
     share_low: float = of_station(
         "Least share that overturns, over the cracks and what failed or is not known",
-        lambda of: of.station.decision.interval[0],
+        lambda of: of.share_low,
     )
-    share_high: float = of_station(
-        "Largest share that overturns, likewise", lambda of: of.station.decision.interval[1]
-    )
+    share_high: float = of_station("Largest share that overturns, likewise", lambda of: of.share_high)
     why: str = of_station("Reason for the verdict", lambda of: of.station.decision.why)
     doubts: tuple[Kind, ...] = of_station(
         "Kinds of doubt that may make it worse than said",
