@@ -99,3 +99,85 @@ def test_a_remark_is_kept_with_its_values(monkeypatch, value):
     again = decoded(Remark, encoded(remark))
     assert again == remark
     assert type(again["force"]) is type(value)
+
+
+SEARCHES = set(
+    "startswith endswith removeprefix removesuffix find index partition rpartition split rsplit count replace match "
+    "search fullmatch findall finditer sub compile".split()
+)
+"""Methods of texts and patterns that take words apart."""
+NAMED = re.compile(r"remarks?|doubts?|warnings?|warned|notes?")
+SENTENCES = [re.sub(r"\{[^}]*\}", "0", text).lower() for kind in Kind for text in (kind.sentence, kind.brief)]
+
+
+def searches_of_words(source: str) -> list[str]:
+    """The places of a source that take the words of a remark apart, or seek a phrase that stands in one.
+
+    The words are `.sentence`, `.brief` and str() of what is called a remark; a phrase is two words in a row.
+    """
+    found = []
+    for node in ast.walk(ast.parse(source)):
+        operands: list[ast.expr] = []
+        if isinstance(node, ast.Compare) and any(isinstance(each, ast.In | ast.NotIn) for each in node.ops):
+            operands = [node.left, *node.comparators]
+        elif (
+            isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in SEARCHES
+        ):
+            operands = [node.func.value, *node.args]
+        if any(map(_are_words, operands)) or any(map(_is_phrase, operands)):
+            found.append(ast.unparse(node))
+    return found
+
+
+def _are_words(operand: ast.expr) -> bool:
+    """Whether an expression holds the words of a remark."""
+    for each in ast.walk(operand):
+        if isinstance(each, ast.Attribute) and each.attr in ("sentence", "brief"):
+            return True
+        if isinstance(each, ast.Call) and isinstance(each.func, ast.Name) and each.func.id in ("str", "map"):
+            named = [part for part in ast.walk(each) if isinstance(part, ast.Name | ast.Attribute)]
+            is_text = each.func.id == "str" or (named and ast.unparse(each.args[0]) == "str")
+            if is_text and any(
+                NAMED.fullmatch(getattr(part, "id", getattr(part, "attr", ""))) for part in named
+            ):
+                return True
+    return False
+
+
+def _is_phrase(operand: ast.expr) -> bool:
+    """Whether an expression holds two words in a row that stand so in a sentence."""
+    texts = [each.value for each in ast.walk(operand) if isinstance(each, ast.Constant)]
+    phrases = [
+        each
+        for text in texts
+        if isinstance(text, str)
+        for each in re.findall(r"[A-Za-z]+(?: [A-Za-z]+)+", text)
+    ]
+    return any(phrase.lower() in sentence for phrase in phrases for sentence in SENTENCES)
+
+
+@pytest.mark.parametrize("source", [
+    "'may be vertical' in text", "text.startswith('The direction of the component')", "str(remark).removeprefix('x')",
+    "'x' in remark.sentence", "re.search('(is unknown|repeats the first)', text)", "'x' in ' '.join(map(str, doubts))",
+    "pattern.match(str(channel.warnings[0]))", "kind.brief.partition(';')",
+    "[t for t in l if 'contacts open' not in t]",
+])  # fmt: skip
+def test_a_search_of_words_is_found(source):
+    assert searches_of_words(source)
+
+
+@pytest.mark.parametrize(
+    "source", ["remark.kind in KINDS", "doubt in self.doubts", "'x' in text", "str(path).split('/')"]
+)
+def test_what_compares_kinds_is_none(source):
+    assert not searches_of_words(source)
+
+
+def test_no_code_takes_the_words_of_a_remark_apart():
+    """Kinds are compared and values are read; the words are for people alone."""
+    wrong = {
+        path.relative_to(PACKAGE).as_posix(): found
+        for path in sorted(PACKAGE.rglob("*.py"))
+        if path != PACKAGE / "remarks.py" and (found := searches_of_words(path.read_text(encoding="utf-8")))
+    }
+    assert wrong == {}
