@@ -101,10 +101,20 @@ def test_a_remark_is_kept_with_its_values(monkeypatch, value):
     assert type(again["force"]) is type(value)
 
 
-SEARCHES = set(
-    "startswith endswith removeprefix removesuffix find index partition rpartition split rsplit count replace match "
-    "search fullmatch findall finditer sub compile".split()
-)
+SEARCHES = {
+    *(
+        "startswith",
+        "endswith",
+        "removeprefix",
+        "removesuffix",
+        "find",
+        "index",
+        "partition",
+        "rpartition",
+        "split",
+    ),
+    *("rsplit", "count", "replace", "match", "search", "fullmatch", "findall", "finditer", "sub", "compile"),
+}
 """Methods of texts and patterns that take words apart."""
 NAMED = re.compile(r"remarks?|doubts?|warnings?|warned|notes?")
 SENTENCES = [re.sub(r"\{[^}]*\}", "0", text).lower() for kind in Kind for text in (kind.sentence, kind.brief)]

@@ -56,6 +56,8 @@ _LEADING = re.compile(r"(?i)^(?:acc(?:el(?:eration)?)?|a)(?=(?:ns|ew|ud|up|[xyzn
 """The word for acceleration at the head of one word, as in "AccUD" and "az"."""
 _NUMBERED = re.compile(r"(?i)[nsew]-\d+")
 """A letter with a number behind a dash, as "S-1", which counts soils or sites."""
+_COUNTED = re.compile(r"(?i)(ch)?\d+")
+"""What counts the columns, or the channels of a logger."""
 _SEED_ID = re.compile(r"[\w-]+([._ -][\w-]*)*[._ -]([A-Z][HNGL][A-Z\d])")
 """A channel code at the end of what names network and station: "IV.AMT..HNZ"."""
 _AXES = {"x", "y", "z"}
@@ -133,8 +135,10 @@ class ColumnLabel:
 
     @property
     def is_direction(self) -> bool:
-        """Whether it says where the component points."""
-        return not self.is_strange and Direction.of(self.component).is_known
+        """Whether it says where the component points, or which of two axes it is."""
+        direction = Direction.of(self.component)
+        is_axis = bool(direction.relative) and not _COUNTED.fullmatch(self.component)
+        return not self.is_strange and (direction.is_known or is_axis)
 
     @cached_property
     def component(self) -> str:

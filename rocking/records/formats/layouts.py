@@ -96,9 +96,14 @@ class TableLayout:
         return layout
 
     def proposal(self, has_step: bool) -> str:
-        """Return it as an answer that a person completes; has_step: whether something else says the time step."""
-        has_step = has_step or bool(self.time_step) or any(column.role == "time" for column in self.columns)
-        return str(replace(self, time_step=None)) + ("" if has_step else f", dt {OPEN}")
+        """Return it as an answer that a person completes; has_step: whether something else says the time step.
+
+        Where nothing in it is open, it begins with the sign for what is: to take that away is the answer.
+        """
+        is_timed = any(column.role == "time" for column in self.columns) or {"dt", "hz"} & set(self.above)
+        has_step = has_step or bool(self.time_step) or bool(is_timed)
+        answer = str(replace(self, time_step=None)) + ("" if has_step else f", dt {OPEN}")
+        return answer if OPEN in answer else f"{OPEN} {answer}"
 
     def __str__(self) -> str:
         columns = ", ".join(map(str, self.columns))

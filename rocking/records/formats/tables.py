@@ -190,7 +190,7 @@ _G_SUFFIX = re.compile(r"(?i)(.*(?<![a-z])acc(el(eration)?)?(_\w+)?)_g")
 def _without_suffixes(names: tuple[str, ...]) -> tuple[str, ...]:
     """Return names like "acc_g" with the unit in brackets where times stand beside them: elsewhere "_g" may be of the
     ground."""
-    if not ColumnLabel(names[0]).is_time:
+    if not any(ColumnLabel(name).is_time for name in names):
         return names
     return tuple(_G_SUFFIX.sub(r"\1 (g)", name) if _G_SUFFIX.fullmatch(name) else name for name in names)
 
@@ -286,7 +286,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     else:
         values = text.numbers(spaced)
         _check_rows(spaced, table.width, may_end_short=not table.labels)
-    drawn = _drawn(table, values, b"," in body or b";" in body)
+    drawn = _drawn(table, values, b"," in body or b";" in body, options.time_step)
     question = Question(
         signature, _holds(table, drawn, values), drawn.proposal(bool(above) or bool(options.time_step))
     )
@@ -363,29 +363,30 @@ def _plain_rows(below: bytes, may_be_filled: bool) -> tuple[bytes, tuple[Remark,
     return bare, notes
 
 
-def _drawn(table: Table, values: np.ndarray, is_parted: bool) -> TableLayout:
+def _drawn(table: Table, values: np.ndarray, is_parted: bool, declared: float | None) -> TableLayout:
     """Return the layout of a table as far as its names, and its numbers where it has none, say it; the rest is open.
 
-    is_parted: whether commas or semicolons part its numbers.
+    is_parted: whether commas or semicolons part its numbers. declared: the time step that the caller declares, s.
     """
     said = table.said
     width = table.width
     labels = table.labels or (ColumnLabel(""),) * width
-    rows = values[: values.size - values.size % width].reshape(-1, width)
     if width == 1 or (width > 2 and not table.labels and _runs_along_rows(values, width, is_parted)):
-        column = Column("acceleration", unit=labels[0].unit or said.unit)
-        return TableLayout(
-            (column,), is_series=True, per_line=width if width > 1 else 0, time_step=said.time_step
-        )
-    if any(label.is_plain_acceleration for label in labels):  # v and u beside it are no directions
-        labels = tuple(ColumnLabel("?") if _LETTER.fullmatch(label.text) else label for label in labels)
-    columns = tuple(_column(label, column, said) for label, column in zip(labels, rows.T, strict=True))
-    if not table.labels and {column.role for column in columns} <= {
-        "time",
-        "other",
-    }:  # a motion that rises evenly
-        columns = (columns[0], *[Column("open")] * (width - 1))
-    return TableLayout(columns, time_step=said.time_step)
+        series = Column("acceleration", unit=labels[0].unit or said.unit)
+        above = () if table.counts else _first_numbers(values, declared)
+        a_line = width if width > 1 else 0
+        return TableLayout((series,), True, per_line=a_line, above=above, time_step=said.time_step)
+    rows = values[: values.size - values.size % width].reshape(-1, width)
+    columns = [_column(label, column, said) for label, column in zip(labels, rows.T, strict=True)]
+    times = [label.is_time for label in labels]
+    for place, label in enumerate(labels):
+        if label.text == "T" and sum(times) > 1 and not _is_clock(rows[1:, place]):
+            columns[place] = Column("acceleration", unit=said.unit)  # transverse
+        if _LETTER.fullmatch(label.text) and any(each.is_plain_acceleration for each in labels):
+            columns[place] = Column("open")  # v and u beside "a" are of velocity and displacement
+    if not table.labels and {column.role for column in columns} <= {"time", "other"}:
+        columns[1:] = [Column("open")] * (width - 1)  # a motion that rises evenly
+    return TableLayout(tuple(columns), time_step=said.time_step)
 
 
 def _column(label: ColumnLabel, numbers: np.ndarray, said: Declarations) -> Column:
@@ -516,7 +517,7 @@ def _series(
     (column,) = layout.columns
     notes: tuple[Remark, ...] = ()
     if not above:
-        roles = _first_numbers(values, options.time_step)
+        roles = layout.above or _first_numbers(values, options.time_step)
         above = dict(zip(roles, values.tolist(), strict=False))
         notes = (
             (Remark.of(Kind.FIRST_NUMBERS, what=", ".join(_MEANT[role] for role in roles)),) if roles else ()

@@ -1,6 +1,7 @@
 """Layouts: what a table leaves open is asked once, answered in layouts.csv, and read by the answer ever after."""
 
 import csv
+import re
 from pathlib import Path
 
 import numpy as np
@@ -149,6 +150,71 @@ def test_a_layout_that_ships_is_not_asked(tmp_path: Path, name: str, content: st
     (record,) = read(path)
     assert record.acceleration == pytest.approx(MOTION, abs=1e-5) and record.time_step == 0.01
     assert record.source.answer == f"read as {answer!r}, by the layouts of rocking"
+
+
+def test_what_is_only_to_be_confirmed_is_not_answered_by_the_question(tmp_path: Path) -> None:
+    path = tmp_path / "made.txt"
+    path.write_text("Scale: 0.5\nt,acc (g)\n" + table(TIMES, MOTION / G, parted=","))
+    with pytest.raises(AskedError) as asked:
+        read(path)
+    question = asked.value.question
+    assert question.proposal == "? t, a g"
+    answered(tmp_path, question, question.proposal)
+    with pytest.raises(AskedError):
+        read(path)
+    (tmp_path / NAME).unlink()
+    answered(tmp_path, question, "t, a g")
+    (record,) = read(path)
+    assert record.acceleration == pytest.approx(MOTION, abs=1e-5)
+
+
+SPECTRUM = np.abs(MOTION) + 0.01
+PERIODS = np.geomspace(0.01, 10, 600)
+TOLD: list[tuple[str, str]] = [
+    (
+        "# Shear Strain Time Series\n# Time (s),S-1\n" + table(TIMES, MOTION, parted=","),
+        "a file of shear strain",
+    ),
+    ("Time (s),Stress (kPa)\n" + table(TIMES, MOTION, parted=","), "'Stress (kPa)' is stress"),
+    ("Time,Force\n" + table(TIMES, MOTION, parted=","), "'Force' is force"),
+    ("Time,Moment (kNm)\n" + table(TIMES, MOTION, parted=","), "'Moment (kNm)' is moment"),
+    ("Time,Velocity\n" + table(TIMES, MOTION, parted=","), "a file of velocity"),
+    ("time disp\n" + table(TIMES, MOTION), "a file of displacement"),
+    ("T (s),PSA (g)\n" + table(PERIODS, SPECTRUM, parted=","), "this is a spectrum (T (s), PSA (g))"),
+    ("Period,Sa\n" + table(PERIODS, SPECTRUM, parted=","), "this is a spectrum"),
+    ("f,FAS\n" + table(PERIODS, SPECTRUM, parted=","), "this is a spectrum"),
+    (table(PERIODS, SPECTRUM, SPECTRUM), "column 2: ?; column 3: ?; 600 rows"),
+    (table(PERIODS, SPECTRUM), "column 1: ?; column 2: ?; 600 rows"),
+    ("t,CH1,CH2,CH3\n" + table(TIMES, MOTION, OTHER, UP, parted=","), "column 2 (CH1): ?"),
+    ("t (s),CH1 (V)\n" + table(TIMES, MOTION, parted=","), "'CH1 (V)' is in v"),
+    ("t,normalized acc (g)\n" + table(TIMES, MOTION, parted=","), "is normalized"),
+    ("t,acc (0.01 gal)\n" + table(TIMES, MOTION, parted=","), "column 2 (acc (0.01 gal)): ?"),
+    ("time,counts\n" + table(TIMES, 1e4 * MOTION, parted=","), "'counts' is counts"),
+    ("AGENCY\nCODE 12\nLAT 34.2\nFULL SCALE 2G\n" + wrapped(MOTION, 8), "text above its numbers says"),
+    (table(MOTION, OTHER, UP), "column 1: ?; column 2: ?; column 3: ?"),
+]
+"""The text of a file that holds no acceleration, or leaves open where, and what is said of it."""
+
+
+@pytest.mark.parametrize(("content", "words"), TOLD)
+def test_nothing_of_this_is_read_whatever_is_declared(tmp_path: Path, content: str, words: str) -> None:
+    (tmp_path / "made.txt").write_text(content)
+    for declared in ({}, {"unit": "m/s2"}, {"unit": "m/s2", "time_step": 0.01}):
+        with pytest.raises(RecordError, match=re.escape(words)):
+            read(tmp_path / "made.txt", **declared)
+
+
+@pytest.mark.parametrize("head", ["t L T V", "time,H1,H2,V", "t  FN FP UP"])
+def test_names_of_axes_are_directions(tmp_path: Path, head: str) -> None:
+    parted = "," if "," in head else " "
+    (tmp_path / "made.txt").write_text(head + "\n" + table(TIMES, MOTION, OTHER, UP, parted=parted))
+    with pytest.raises(AskedError) as asked:
+        read(tmp_path / "made.txt")
+    assert asked.value.question.proposal == "t, a ?, a ?, a ?"
+    records = read(tmp_path / "made.txt", unit="m/s2")
+    assert [record.component for record in records] == re.split(r"[, ]+", head)[1:]
+    assert [record.vertical for record in records] == [False, False, True]
+    assert records[1].acceleration == pytest.approx(OTHER, abs=2e-6)
 
 
 def office(folder: Path, files: int) -> None:
