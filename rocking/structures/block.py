@@ -12,14 +12,7 @@ from rocking.structures.fields import OneSided, OptionalUnitWeight, Value, count
 from rocking.structures.linkage import STILL, Parts, Restitution, Turning
 from rocking.structures.searches import root
 from rocking.structures.stack import MOST_COURSES, Course, Stack, counted_courses, courses_between
-from rocking.structures.structure import (
-    PRESSED,
-    CrackedAtHeight,
-    Crushable,
-    Structure,
-    check_pressed,
-    inset,
-)
+from rocking.structures.structure import PRESSED, CrackedAtHeight, Crushable, check_pressed, inset
 
 Balanced = Annotated[Restitution, restitution_value("momentum", "housner")]
 
@@ -135,7 +128,7 @@ class Block(Crushable):
 
 
 @dataclass(frozen=True, repr=False)
-class RigidBody(Structure):
+class RigidBody(Crushable):
     """A body known by its centre of mass and inertia; it rocks about the right corner on the positive side.
 
     left, right: horizontal distance of the left and the right corner from the centre of mass, m. centre_height: height
@@ -143,7 +136,8 @@ class RigidBody(Structure):
     restitution: η in [0, 1] on both sides, or "momentum" or "housner" (the same balance, the default): angular momentum
     about the corner to come, which differs from side to side. A one-sided body needs a number.
     one_sided: it rocks about the right corner only, and is thrown back at every impact. height: of its outline, m, for
-    drawings and what they measure; None: twice centre_height.
+    drawings and what they measure; None: twice centre_height. compressive_strength, Pa, with unit_weight, N/m³, and
+    section, the volume per metre of the edge about which it turns, m²: its foot crushes there.
     Its outline is not known, so each side is followed until the centre of mass is level with the corner.
     Raises StructureError when it cannot stand.
 
@@ -176,6 +170,17 @@ class RigidBody(Structure):
         float | None,
         length("Height of its outline; left out: twice that of the centre of mass", 4.0, (0.05, 100), "h"),
     ] = field(default=None, kw_only=True)
+    unit_weight: OptionalUnitWeight = field(default=None, kw_only=True)
+    section: Annotated[
+        float | None,
+        Value(
+            "Volume per metre of the edge about which it turns; needed where a compressive strength is given",
+            4.0,
+            "m²",
+            (1e-3, 1e3),
+            bounds={"ge": 1e-8, "le": 1e10},
+        ),
+    ] = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -183,6 +188,12 @@ class RigidBody(Structure):
             raise StructureError(
                 f"height is {self.height!r} m, but must be above the centre of mass, at {self.centre_height!r} m."
             )
+        if self.compressive_strength is not None and self.section is None:
+            raise StructureError(
+                "section is missing, but must be given with a compressive_strength, for what presses on the edge "
+                "follows from it; give the volume per metre of that edge, m²."
+            )
+        self._stand_crushed()
 
     @property
     def symmetric(self) -> bool:
@@ -192,6 +203,9 @@ class RigidBody(Structure):
     def _linkage(self, mirrored: bool) -> Turning:
         """Until the centre of mass is level with the corner."""
         corner = self.left if mirrored else self.right
+        pressing = (self.unit_weight or 0.0) * (self.section or 0.0)
+        # The other edge may lie wherever it does: what is pressed ends below the centre of mass, or it does not stand.
+        corner -= inset(pressing, self.compressive_strength, 2 * corner)
         centre = 1j * self.centre_height
         end = np.arctan2(corner, self.centre_height) + np.pi / 2
         return Turning(corner, Parts([1.0], [centre], [self.inertia]), end_rotation=float(end))

@@ -78,6 +78,7 @@ def _triangle(sizes: Sizes) -> dict[str, object]:
         "centre_height": height / 3,
         "inertia": height**2 / 18 + half**2 / 3,
         "height": height,
+        "section": half * height,
     }
 
 
@@ -104,6 +105,7 @@ def _shaft(sizes: Sizes) -> dict[str, object]:
         "right": thickness / 2,
         "centre_height": height / 2,
         "inertia": height**2 / 12 + second_moment / area,
+        "section": area / breadth * height,
     }
 
 

@@ -9,7 +9,8 @@ from scipy.integrate import quad
 import rocking
 from rocking.errors import DoesNotStandError, StructureError
 from rocking.quantities import GRAVITY
-from rocking.structures import Arch, ArchOnPiers, Block, Facade, Frame, LoadedWall, Spire, Wall
+from rocking.structures import Arch, ArchOnPiers, Block, Facade, Frame, LoadedWall, RigidBody, Spire, Wall
+from rocking.structures.building_parts import PARTS
 from rocking.structures.held_wall import Opening
 
 FC = 1.5e6
@@ -224,3 +225,21 @@ def test_a_list_gives_it_in_megapascal():
     assert (
         block.mechanism().uplift_multiplier == Block.of_size(0.9, 5.0, **SOFT).mechanism().uplift_multiplier
     )
+
+
+@pytest.mark.parametrize("flue", [None, 0.12])
+def test_chimney_and_gable_turn_about_points_within_their_feet(flue):
+    """By hand: a chimney presses γ A h/b on its edge, a gable γ t h/2; λ = (t/2 − N/(1.7 f_c))/z."""
+    sizes = {"height": 6.0, "thickness": 0.6, "breadth": 0.9, "wall_thickness": flue}
+    masonry = {"unit_weight": 18e3, "compressive_strength": 1.2e6}
+    chimney = PARTS["chimney"].construct(**sizes, **masonry)
+    area = 0.6 * 0.9 - (0.0 if flue is None else (0.6 - 0.24) * (0.9 - 0.24))
+    aside = 18e3 * area * 6.0 / 0.9 / (1.7 * 1.2e6)
+    assert chimney.mechanism().uplift_multiplier == pytest.approx((0.3 - aside) / 3.0, rel=1e-9)
+    gable = PARTS["gable"].construct(height=4.0, thickness=0.4, **masonry)
+    aside = 18e3 * 0.4 * 4.0 / 2 / (1.7 * 1.2e6)
+    assert gable.mechanism().uplift_multiplier == pytest.approx((0.2 - aside) / (4.0 / 3), rel=1e-9)
+    with pytest.raises(StructureError, match="unit_weight is missing"):
+        PARTS["gable"].construct(height=4.0, thickness=0.4, compressive_strength=1.2e6)
+    with pytest.raises(StructureError, match="section is missing"):
+        RigidBody(0.4, 0.4, 1.5, 1.0, **masonry)
