@@ -310,12 +310,12 @@ def compile_document(template: str | Path, data: Mapping[str, object]) -> bytes:
     text = json.dumps(data, ensure_ascii=False)
     rare = set(map(ord, text)) - COMMON
     foreign = bool(rare) and not glyphs().issuperset(rare)
-    carried = _fonts(False).families()
-    families = [each for each in _fonts(foreign).families() if each not in carried]
+    carried = document_fonts(False).families()
+    families = [each for each in document_fonts(foreign).families() if each not in carried]
     return typst.compile(  # type: ignore[call-overload,no-any-return]  # its stub wants input and root of one type
         template.read_bytes() if isinstance(template, Path) else _FOLDER / template,
         root=_FOLDER,
-        font_paths=_fonts(foreign),
+        font_paths=document_fonts(foreign),
         ignore_system_fonts=True,
         sys_inputs={"data": text, "families": json.dumps(families)},
         pdf_standards="a-2a",
@@ -324,6 +324,6 @@ def compile_document(template: str | Path, data: Mapping[str, object]) -> bytes:
 
 
 @cache
-def _fonts(system: bool) -> typst.Fonts:
+def document_fonts(system: bool) -> typst.Fonts:
     """The fonts that typst and matplotlib carry, and the machine's where another script needs them."""
     return typst.Fonts(include_system_fonts=system, font_paths=[FONT_FOLDER])

@@ -77,9 +77,9 @@ class RecordReport:
     settings: Mapping[str, Any]
     level: "DesignSpectrum | None" = None
 
-    def pdf(self) -> bytes:
-        """Return the document."""
-        return compile_document("record.typ", self.data())
+    def pdf(self, data: Mapping[str, object] | None = None) -> bytes:
+        """Return the document. data: its own, where it was made before."""
+        return compile_document("record.typ", self.data() if data is None else data)
 
     def data(self) -> dict[str, object]:
         """Return what the template is given: texts, tables and figures."""

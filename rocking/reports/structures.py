@@ -23,7 +23,6 @@ from rocking.quantities import GRAVITY, percent
 from rocking.remarks import Kind, Remark
 from rocking.reports.printing import (
     Cell,
-    compile_document,
     displaying,
     settings_texts,
     strong,
@@ -101,19 +100,6 @@ class ListedMechanism:
     candidate: Candidate
     share: float = math.nan
     largest: Sequence[float] = ()
-
-
-def structures_report(
-    structures: Sequence[CheckedStructure],
-    spectrum: DesignSpectrum,
-    settings: Mapping[str, Any],
-    selection: Selection | None = None,
-    without_sets: str = "",
-    unread: Sequence[str] = (),
-) -> bytes:
-    """Return the PDF. The arguments are those of `structures_data`."""
-    data = structures_data(structures, spectrum, settings, selection, without_sets, unread)
-    return compile_document("structures.typ", data)
 
 
 def structures_data(

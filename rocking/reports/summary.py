@@ -32,7 +32,6 @@ from rocking.reports.printing import (
     Column,
     Notice,
     columns_of,
-    compile_document,
     displaying,
     number,
     plain,
@@ -77,17 +76,6 @@ _HEAD = 26
 
 Design = tuple["DesignSpectrum", Sequence[Sequence[float]]]
 """The design level of a study, and the spectra [m/s²] of the components as `component_spectra` gives them."""
-
-
-def summary_report(
-    tables: Mapping[str, "DataFrame"],
-    settings: Mapping[str, Any],
-    trade: Sequence[Mapping[str, str]] = (),
-    design: Design | None = None,
-    strips: Sequence[Mapping[str, Any]] = (),
-) -> bytes:
-    """Return the PDF over all records. The arguments are those of `summary_data`."""
-    return compile_document("summary.typ", summary_data(tables, settings, trade, design, strips))
 
 
 def summary_data(

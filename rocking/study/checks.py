@@ -22,7 +22,9 @@ from rocking.codes.selection import Selection
 from rocking.errors import ConfigurationError, RockingError
 from rocking.floors.support import Support
 from rocking.records import load_catalogue
-from rocking.reports.structures import CheckedStructure, ListedMechanism, structures_report
+from rocking.reports.figures import figures_archive
+from rocking.reports.printing import compile_document
+from rocking.reports.structures import CheckedStructure, ListedMechanism, structures_data
 from rocking.structures.tied import Tied
 from rocking.study.job import Study
 from rocking.study.selection import pool_of, select_for
@@ -84,8 +86,10 @@ def write_checks(
         for row in code_check_rows(page.name, page.checked, page.place.period_of(page.support))
     )
     write_tables({CodeCheckRow: rows}, folder, "rocking-code-checks", "code_checks.json")
-    report = structures_report(pages, spectrum, study.settings.mapping(), selection, without_sets, unread)
-    write_whole(folder / "structures.pdf", report)
+    data = structures_data(pages, spectrum, study.settings.mapping(), selection, without_sets, unread)
+    write_whole(folder / "structures.pdf", compile_document("structures.typ", data))
+    if study.settings.figures != "none":
+        write_whole(folder / "structures_figures.zip", figures_archive(data, study.settings.figures))
 
 
 def _checked(

@@ -262,12 +262,19 @@ def write_report(result: RecordResult, rows: RecordRows, study: Study, folder: P
     """Write report.pdf of one record into `folder`, beside the tables that it names."""
     from rocking.reports.record import RecordReport, failure_report  # matplotlib takes a second to import
 
+    data: dict[str, object] = {}
     if rows.comparison:
         level = study.settings.design_spectrum.spectrum()
-        report = RecordReport(result, rows, study.structures, study.settings.mapping(), level).pdf()
+        report = RecordReport(result, rows, study.structures, study.settings.mapping(), level)
+        data = report.data()
+        document = report.pdf(data)
     else:
-        report = failure_report(result.record, " ".join(failure.message for failure in rows.failures))
-    write_whole(folder / "report.pdf", report)
+        document = failure_report(result.record, " ".join(failure.message for failure in rows.failures))
+    write_whole(folder / "report.pdf", document)
+    if study.settings.figures != "none":
+        from rocking.reports.figures import figures_archive
+
+        write_whole(folder / "figures.zip", figures_archive(data, study.settings.figures))
 
 
 def assess_catalogued(

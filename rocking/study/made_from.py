@@ -77,7 +77,7 @@ class Line:
 
 TABLE: Mapping[str, Line] = {
     "records": Line(
-        (*_NUMBERS, *_TOLD, "reports", "details", "histories", *_LEVEL),
+        (*_NUMBERS, *_TOLD, "reports", "details", "figures", "histories", *_LEVEL),
         files=("design_spectrum.points",),
         documents=False,
     ),
@@ -87,6 +87,7 @@ TABLE: Mapping[str, Line] = {
             *_NUMBERS,
             *_TOLD,
             "reports",
+            "figures",
             "histories",
             "records_per_job",
             "design_spectrum",
@@ -98,7 +99,7 @@ TABLE: Mapping[str, Line] = {
         documents=False,
     ),
     "checks": Line(
-        (*_NUMBERS, *_TOLD, "language", "design_spectrum"),
+        (*_NUMBERS, *_TOLD, "language", "figures", "design_spectrum"),
         files=("design_spectrum.points",),
         pool=True,
         terms=True,

@@ -172,6 +172,12 @@ class Settings(AssessmentSettings):
         heading=Heading.OUTPUT,
         changes_numbers=False,
     )
+    figures: Literal["none", "svg", "png", "svg and png"] = described(
+        "none",
+        "none; svg, png or svg and png: figures.zip beside each report holds all its figures so, png at 200 per inch",
+        heading=Heading.OUTPUT,
+        changes_numbers=False,
+    )
     language: Literal["en", "it"] = described(
         "en",
         "language of structures.pdf, the pages to sign: en or it; all other documents and tables are English",

@@ -171,14 +171,16 @@ def _report(
     checks: "Sequence[CodeCheckRow]",
     strips: Sequence[Mapping[str, Any]],
 ) -> list[Path]:
-    """Write summary.pdf and its figure beside the summary tables in `folder`, and return the two.
+    """Write summary.pdf and its figures beside the summary tables in `folder`, and return the files.
 
     spectra: of the components, where there is a design level; checks: the rows at it. fragility: its folder, where it
     was measured. strips: of the variants.
     """
+    from rocking.reports.figures import figures_archive  # as above
+    from rocking.reports.printing import compile_document
     from rocking.reports.scatter import prediction_scatter
-    from rocking.reports.style import svg  # as above
-    from rocking.reports.summary import summary_report
+    from rocking.reports.style import svg
+    from rocking.reports.summary import summary_data
     from rocking.reports.trade import trade_picture
 
     tables = {each.table.name: frame(each, rows[each]) for each in _SHOWN}
@@ -192,12 +194,15 @@ def _report(
     pictures = trade_picture(folder) if study.settings.trade.in_summary else []
     level = study.settings.design_spectrum.spectrum()
     design = (level, spectra) if level is not None and spectra else None
-    write_whole(
-        folder / "summary.pdf", summary_report(tables, study.settings.mapping(), pictures, design, strips)
-    )
+    data = summary_data(tables, study.settings.mapping(), pictures, design, strips)
+    write_whole(folder / "summary.pdf", compile_document("summary.typ", data))
+    files = [folder / "summary.pdf"]
+    if study.settings.figures != "none":
+        files.append(folder / "figures.zip")
+        write_whole(files[-1], figures_archive(data, study.settings.figures))
     figure = folder / "prediction_against_integration.svg"
     write_whole(figure, svg(prediction_scatter(tables["comparison"], tables["pulses"])).encode())
-    return [folder / "summary.pdf", figure]
+    return [*files, figure]
 
 
 # Whole on purpose: one loop fills the tables, of which a structure costs no other.

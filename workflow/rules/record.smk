@@ -17,6 +17,7 @@ rule record:
             if SETTINGS.reports
             else []
         ),
+        figures=f"{RESULTS}/{{record}}/figures.zip" if DRAWS else [],
         outcome=str(outcome_of(Path(RESULTS), "{record}")),
         seal=seal_of("records/{record}"),
     log:

@@ -29,7 +29,9 @@ from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings
 from rocking.pulses import Pulse
 from rocking.records.accelerogram import Accelerogram, Source
+from rocking.reports.printing import compile_document
 from rocking.reports.record import RecordReport
+from rocking.reports.summary import summary_data
 from rocking.structures import Arch, Block, Wall
 from rocking.tables import frame
 from tests.unit.assessment.made_rows import case, station
@@ -101,6 +103,11 @@ def of_structures(report: RecordReport, kinds: dict[str, str], record: str = "on
     return RecordReport(
         result, rows, {name: report.structures[kind] for name, kind in kinds.items()}, SETTINGS
     )
+
+
+def summary_report(tables: dict[str, object], settings: dict[str, object]) -> bytes:
+    """The summary as a PDF."""
+    return compile_document("summary.typ", summary_data(tables, settings))
 
 
 def summarised(tables: RecordRows, structures: dict[str, object]) -> dict[str, object]:

@@ -8,10 +8,9 @@ from rocking import DesignSpectrum, check
 from rocking.assessment.rows import RecordRows
 from rocking.codes.rows import CodeCheckRow, code_check_rows
 from rocking.reports.printing import compile_document
-from rocking.reports.summary import summary_report
 from rocking.tables import frame
 
-from .conftest import SETTINGS, SUMMARISED, Word, detailed, of_structures, pages, summarised
+from .conftest import SETTINGS, SUMMARISED, Word, detailed, of_structures, pages, summarised, summary_report
 
 TEMPLATE = """
 #import "layout.typ": data, document-page, ruled

@@ -36,12 +36,12 @@ from rocking.reports.design_figure import (
 from rocking.reports.fragility import fragility_data, fragility_figure
 from rocking.reports.scatter import prediction_scatter
 from rocking.reports.style import svg
-from rocking.reports.summary import outcomes_figure, severity_map, summary_data, summary_report
+from rocking.reports.summary import outcomes_figure, severity_map, summary_data
 from rocking.tables import frame
 from tests.unit.assessment.made_rows import case as run
 from tests.unit.assessment.made_rows import filled, station, verdicts
 
-from .conftest import SETTINGS, summarised
+from .conftest import SETTINGS, summarised, summary_report
 
 
 def case(structure: str, predicted: float, integrated: float, record: str = "one") -> ComparisonRow:

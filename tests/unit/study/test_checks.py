@@ -378,7 +378,8 @@ def test_the_page_to_sign_carries_the_caveat_of_page_one(study, monkeypatch):
     verdicts = made_rows.verdicts([station])
     records = [filled(RecordRow, record="a", samples=2)]
     pages = []
-    monkeypatch.setattr("rocking.study.checks.structures_report", lambda made, *_: pages.extend(made) or b"")
+    monkeypatch.setattr("rocking.study.checks.structures_data", lambda made, *_: pages.extend(made) or {})
+    monkeypatch.setattr("rocking.study.checks.compile_document", lambda *_: b"")
     changed = read_settings(settings | {"design_spectrum": DESIGN})
     write_checks(Study(on_the_ground(STRUCTURES), changed), folder, verdicts, records)
     data = structures_data(pages, DesignSpectrum.ntc(1.0, 2.5, 0.3), Settings().mapping())
@@ -489,9 +490,10 @@ def test_each_page_tells_the_share_of_its_own_structure(study, monkeypatch):
 
     def report(structures, *_):
         pages.update((each.name, each) for each in structures)
-        return b"%PDF"
+        return {}
 
-    monkeypatch.setattr("rocking.study.checks.structures_report", report)
+    monkeypatch.setattr("rocking.study.checks.structures_data", report)
+    monkeypatch.setattr("rocking.study.checks.compile_document", lambda *_: b"")
     changed = read_settings(settings | {"design_spectrum": DESIGN})
     write_checks(Study(on_the_ground(STRUCTURES), changed), folder, verdicts, records)
     assert {name: page.overturning_share for name, page in pages.items()} == shares

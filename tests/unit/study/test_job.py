@@ -140,9 +140,10 @@ def test_a_summary_draws_the_trade_where_its_study_measures_it(tmp_path, monkeyp
     """Whether or not an earlier run has left the table."""
     trades: list[list] = []
     monkeypatch.setattr(
-        "rocking.reports.summary.summary_report",
-        lambda _tables, _settings, trade, _design: trades.append(trade) or b"",
+        "rocking.reports.summary.summary_data",
+        lambda _tables, _settings, trade, *_: trades.append(trade) or {},
     )
+    monkeypatch.setattr("rocking.reports.printing.compile_document", lambda *_: b"")
     results = tmp_path / "results"
     changed = {"reports": True, "trade": StudyTrade(in_summary), "results": str(results)}
     study = replace(_study(), settings=replace(_study().settings, **changed))

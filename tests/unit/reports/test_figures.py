@@ -1,0 +1,45 @@
+"""The figures of a report as files: every one of the report, as vectors and as pixels, the same bytes at every run."""
+
+import io
+import zipfile
+from xml.etree import ElementTree
+
+import pytest
+from PIL import Image
+
+from rocking.reports.figures import figures_archive
+
+from .conftest import detailed
+
+
+@pytest.fixture(scope="module")
+def data(example):
+    return detailed(example).data()
+
+
+def opened(content):
+    return zipfile.ZipFile(io.BytesIO(content))
+
+
+def test_every_figure_of_a_report_is_a_file_of_each_kind(data):
+    archive = opened(figures_archive(data, "svg and png"))
+    names = [name.rsplit(".", 1) for name in archive.namelist()]
+    vectors = [name for name, kind in names if kind == "svg"]
+    assert vectors == [name for name, kind in names if kind == "png"]
+    drawn = str(data).count("'alt': ")
+    assert len(vectors) == drawn > len(data["rows"])
+    for name in vectors:
+        svg = ElementTree.fromstring(archive.read(f"{name}.svg"))
+        width, height = (
+            float(svg.get(each).removesuffix("pt").removesuffix("mm")) for each in ("width", "height")
+        )
+        pixels = Image.open(io.BytesIO(archive.read(f"{name}.png"))).size
+        assert pixels[0] / pixels[1] == pytest.approx(width / height, rel=0.25), "but for the margin of 4 pt"
+    assert vectors[0].startswith("01_acceleration-of-the-ground")
+
+
+def test_one_kind_alone_and_the_same_bytes_twice(data):
+    only = opened(figures_archive({"rows": data["rows"][:1]}, "png")).namelist()
+    assert only and all(name.endswith(".png") for name in only)
+    assert figures_archive(data, "svg") == figures_archive(data, "svg")
+    assert opened(figures_archive({}, "svg")).namelist() == []
