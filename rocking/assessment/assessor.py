@@ -178,7 +178,7 @@ class Assessor:
                         station = self._with_reserve(station, shaking, failures)
                     stations[scene.name, support] = station
             wanted = {}
-            for scene in scenes.values():
+            for scene in (each for each in scenes.values() if each.place.supports):
                 quiet = {
                     support: stations[scene.name, support].is_quiet
                     for support in scene.place.supports
@@ -190,7 +190,9 @@ class Assessor:
         results = {}
         for scene in scenes.values():
             along = [
-                stations[scene.name, each] for each in scene.place.axis if (scene.name, each) in stations
+                stations[scene.name, each]
+                for each in (None, *scene.place.supports)
+                if (scene.name, each) in stations
             ]
             with_members = [station for station in along if station.support and station.decisive]
             if with_members:

@@ -226,9 +226,9 @@ def _scene(
         )
     place = known[stands_on] or GROUND
 
-    for remark in (*structure.described.remarks, place.warning(name)):
-        if remark:
-            warnings.warn(f"{where}: {remark}", StructureWarning, stacklevel=3)
+    heavy = place.warning(name) if place.supports else None
+    for remark in (*structure.described.remarks, *([heavy] if heavy else [])):
+        warnings.warn(f"{where}: {remark}", StructureWarning, stacklevel=3)
     return Scene(name, structure, place, terms)
 
 

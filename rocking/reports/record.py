@@ -271,7 +271,7 @@ def _sentences(report: RecordReport) -> list[str]:
         *(_pulse_sentence(report.tables, motion) for motion in report.motions if motion.pulses),
         *_doubts(report.tables.comparison, several=len(report.motions) > 1),
         *(f"{scene.sentence}." for scene in carried[:MOST_DRAWN]),
-        *floor_sentences(report.support_panels),
+        *(floor_sentences(report.support_panels) if carried else []),
         *([contacts] if failing else []),
         *_cautions(report),
         *([remark] if depends else []),

@@ -20,7 +20,7 @@ from rocking.assessment.reserve import Reserve
 from rocking.floors.place import FloorMeasures
 from rocking.pulses import Pulse, PulseEvidence, VelocityPulse
 from rocking.pulses.pulse import PulseAnalysis, worth
-from rocking.records import Accelerogram, RotD
+from rocking.records import Accelerogram
 from rocking.records.measures import RecordMeasures, record_measures
 from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Regime
@@ -33,13 +33,12 @@ if TYPE_CHECKING:  # else who reads a table would load numba
     from rocking.assessment.case import (
         CaseResult,
         Failure,
-        Prediction,
         RecordResult,
         StationResult,
         Variation,
     )
     from rocking.assessment.cracks import FollowedCrack
-    from rocking.assessment.fidelity import Answer, Estimate
+    from rocking.assessment.fidelity import Answer
     from rocking.assessment.motions import Component
     from rocking.motion.response import ModelCheck, Response
 
@@ -157,20 +156,10 @@ class ReadComponent(Identified):
         """The number of its samples."""
         return self.accelerogram.acceleration.size
 
-    @property
-    def vertical(self) -> Accelerogram | None:
-        """The vertical component that acts as well."""
-        return self.component.vertical
-
     @cached_property
     def measures(self) -> RecordMeasures:
         """Its measures of intensity."""
         return record_measures(self.accelerogram)
-
-    @property
-    def rotd(self) -> RotD | None:
-        """The peaks of the pair over its directions."""
-        return self.component.motion.rotd
 
     @property
     def velocity_pulse(self) -> VelocityPulse | None:
@@ -238,11 +227,11 @@ class RecordRow(ComponentRow[ReadComponent]):
     )
     vertical_component: str = of_component(
         "Vertical component that acts as well; empty where none acts",
-        lambda read: (read.vertical.component or "not named") if read.vertical else "",
+        lambda read: (read.component.vertical.component or "not named") if read.component.vertical else "",
     )
     vertical_peak_acceleration_m_s2: float = of_component(
         "Largest magnitude of the vertical acceleration",
-        lambda read: read.vertical.peak_acceleration if read.vertical else math.nan,
+        lambda read: read.component.vertical.peak_acceleration if read.component.vertical else math.nan,
     )
     samples: int = of_component("Number of samples", lambda read: read.samples)
     time_step_s: float = of_component("Time step", lambda read: read.accelerogram.time_step)
@@ -268,11 +257,11 @@ class RecordRow(ComponentRow[ReadComponent]):
     )
     rotd50_peak_acceleration_m_s2: float = of_component(
         "Peak acceleration of the pair, median over directions",
-        lambda read: read.rotd.rotd50 if read.rotd else math.nan,
+        lambda read: read.component.motion.rotd.rotd50 if read.component.motion.rotd else math.nan,
     )
     rotd100_peak_acceleration_m_s2: float = of_component(
         "Peak acceleration of the pair, largest over directions",
-        lambda read: read.rotd.rotd100 if read.rotd else math.nan,
+        lambda read: read.component.motion.rotd.rotd100 if read.component.motion.rotd else math.nan,
     )
     velocity_pulse_period_s: float = of_component(
         "Period T_p of the velocity pulse (Shahi & Baker 2014)",
@@ -328,11 +317,6 @@ class FoundPulse(Identified):
     evidence: PulseEvidence
 
     @property
-    def pulse(self) -> Pulse:
-        """The pulse itself."""
-        return self.evidence.pulse
-
-    @property
     def gain_ratio(self) -> float:
         """Its gain over that of the dominant pulse."""
         return self.evidence.gain / self.analysis.evidence.gain
@@ -379,13 +363,15 @@ class PulseRow(ComponentRow[FoundPulse]):
         lambda found: found.kind,
     )
     rank: int = of_pulse("Rank among the pulses of its kind, from 1", lambda found: found.rank)
-    amplitude_m_s2: float = of_pulse("Signed amplitude a_g of the pulse", lambda found: found.pulse.amplitude)
-    circular_frequency_rad_s: float = of_pulse(
-        "Circular frequency of the pulse", lambda found: found.pulse.circular_frequency
+    amplitude_m_s2: float = of_pulse(
+        "Signed amplitude a_g of the pulse", lambda found: found.evidence.pulse.amplitude
     )
-    period_s: float = of_pulse("Period of the pulse", lambda found: found.pulse.period)
+    circular_frequency_rad_s: float = of_pulse(
+        "Circular frequency of the pulse", lambda found: found.evidence.pulse.circular_frequency
+    )
+    period_s: float = of_pulse("Period of the pulse", lambda found: found.evidence.pulse.period)
     start_time_s: float = of_pulse(
-        "Start of the pulse after the first sample", lambda found: found.pulse.start_time
+        "Start of the pulse after the first sample", lambda found: found.evidence.pulse.start_time
     )
     gain_m2_s3: float = of_pulse("Energy gain of the matched filter", lambda found: found.evidence.gain)
     gain_ratio: float = of_pulse(
@@ -436,29 +422,9 @@ class ComparedCase(OfStructure):
         return self.case.answer
 
     @property
-    def prediction(self) -> "Prediction | None":
-        """The closed forms; None without a pulse."""
-        return self.case.prediction
-
-    @property
     def block(self) -> EquivalentBlock | None:
         """The side of the block that predicts which the pulse lifts first."""
-        return self.prediction.side if self.prediction else None
-
-    @property
-    def response(self) -> "Response | None":
-        """The integration of the mechanism under the record."""
-        return self.case.response
-
-    @property
-    def check(self) -> "ModelCheck":
-        """Whether the model held along it."""
-        return self.case.check
-
-    @property
-    def estimate(self) -> "Estimate | None":
-        """The share that overturns by the peak velocity, where no ensemble ran."""
-        return self.case.overturning_estimate
+        return self.case.prediction.side if self.case.prediction else None
 
     @property
     def both(self) -> tuple[float, float]:
@@ -508,7 +474,8 @@ class ComparisonRow(DecidedRow[ComparedCase]):
         lambda of: agreement(*of.both),
     )
     regime: Regime | None = of_case(
-        "Regime of the closed form", lambda of: of.prediction.maximum.regime if of.prediction else None
+        "Regime of the closed form",
+        lambda of: of.case.prediction.maximum.regime if of.case.prediction else None,
     )
     block_restitution: float = of_case(
         "Ratio of angular velocities of the block after and before an impact",
@@ -523,20 +490,21 @@ class ComparisonRow(DecidedRow[ComparedCase]):
     )
     pulse_rank: int | None = of_case(
         "Rank of the pulse that predicts among those of its method",
-        lambda of: of.prediction.pulse_rank if of.prediction else None,
+        lambda of: of.case.prediction.pulse_rank if of.case.prediction else None,
     )
     amplitude_ratio: float = of_case(
         "Amplitude ratio a = a_g/(gλ) of the pulse",
-        lambda of: of.prediction.amplitude_ratio if of.prediction else math.nan,
+        lambda of: of.case.prediction.amplitude_ratio if of.case.prediction else math.nan,
         equation="Eq. 16",
     )
     frequency_ratio: float = of_case(
         "Circular frequency of the pulse over p",
-        lambda of: of.prediction.frequency_ratio if of.prediction else math.nan,
+        lambda of: of.case.prediction.frequency_ratio if of.case.prediction else math.nan,
         equation="Eq. 16",
     )
     impacts: int | None = of_case(
-        "Number of impacts in the integration", lambda of: of.response.impacts if of.response else None
+        "Number of impacts in the integration",
+        lambda of: of.case.response.impacts if of.case.response else None,
     )
     crack: str = of_case(
         "Crack to which the row belongs, where it is not the structure's own but the one that governs",
@@ -552,46 +520,47 @@ class ComparisonRow(DecidedRow[ComparedCase]):
     )
     peak_time_s: float = of_case(
         "Time of the largest rotation after the first sample",
-        lambda of: of.response.peak_time if of.response else math.nan,
+        lambda of: of.case.response.peak_time if of.case.response else math.nan,
     )
     fragile: bool | None = of_case(
         "Whether a change of the ground motion by 1 % decides the outcome, or chaos does",
-        lambda of: of.response.fragile if of.response else None,
+        lambda of: of.case.response.fragile if of.case.response else None,
     )
     lifting_friction: float = of_case(
-        "Friction that a contact needs as the structure lifts", lambda of: of.check.lifting_friction
+        "Friction that a contact needs as the structure lifts", lambda of: of.case.check.lifting_friction
     )
     required_friction: float = of_case(
-        "Largest friction that a contact needs; INF without pressure", lambda of: of.check.required_friction
+        "Largest friction that a contact needs; INF without pressure",
+        lambda of: of.case.check.required_friction,
     )
     slides: bool | None = of_case(
         "Whether a contact slides, so that the model fails",
-        lambda of: of.check.slides(of.friction_coefficient),
+        lambda of: of.case.check.slides(of.friction_coefficient),
     )
     bounces: bool | None = of_case(
-        "Whether a contact lifts off, so that the model fails", lambda of: of.check.bounces
+        "Whether a contact lifts off, so that the model fails", lambda of: of.case.check.bounces
     )
     ties: str = of_case(
-        "Which ties yield or break on the way to the largest rotation", lambda of: of.check.ties
+        "Which ties yield or break on the way to the largest rotation", lambda of: of.case.check.ties
     )
     warning: str = of_case(
         "Warning about what the model leaves out; or empty",
-        lambda of: str(of.response.warning) if of.response and of.response.warning else "",
+        lambda of: str(of.case.response.warning) if of.case.response and of.case.response.warning else "",
     )
     answer_reason: str = of_case(
         "Reason why that method sufficed, with fidelity: auto", lambda of: of.answer.reason
     )
     overturning_estimate: float = of_case(
         "Overturning share by p PGV/(gλ), where no ensemble ran",
-        lambda of: of.estimate.share if of.estimate else math.nan,
+        lambda of: of.case.overturning_estimate.share if of.case.overturning_estimate else math.nan,
     )
     overturning_estimate_low: float = of_case(
         "Lower end of the 90 % interval of the estimate",
-        lambda of: of.estimate.low if of.estimate else math.nan,
+        lambda of: of.case.overturning_estimate.low if of.case.overturning_estimate else math.nan,
     )
     overturning_estimate_high: float = of_case(
         "Upper end of the 90 % interval of the estimate",
-        lambda of: of.estimate.high if of.estimate else math.nan,
+        lambda of: of.case.overturning_estimate.high if of.case.overturning_estimate else math.nan,
     )
 
 
@@ -607,11 +576,6 @@ RATIO_COLUMNS = {
 @dataclass(frozen=True)
 class DecidedStation(OfStructure):
     """The result of one structure. identity: of the component that rotates most, but for the name of the component."""
-
-    @property
-    def reserve(self) -> Reserve | None:
-        """The factors on the record at which shares of the members overturn."""
-        return self.station.reserve
 
     @property
     def share_low(self) -> float:
@@ -699,23 +663,23 @@ class VerdictRow(DecidedRow[DecidedStation]):
     peak_side: int | None = of_station(PEAK_SIDE, lambda of: of.station.peak_side)
     reserve_low: float = of_station(
         "Factor on the record at which 5 % of the members overturn; empty: none",
-        lambda of: of.reserve.low if of.reserve else math.nan,
+        lambda of: of.station.reserve.low if of.station.reserve else math.nan,
     )
     reserve_median: float = of_station(
         "Factor on the record at which half of the members overturn; empty: none",
-        lambda of: of.reserve.median if of.reserve else math.nan,
+        lambda of: of.station.reserve.median if of.station.reserve else math.nan,
     )
     reserve_high: float = of_station(
         "Factor on the record at which 95 % of the members overturn; empty: none",
-        lambda of: of.reserve.high if of.reserve else math.nan,
+        lambda of: of.station.reserve.high if of.station.reserve else math.nan,
     )
     reserve_limit: float = of_station(
         "Largest factor on the record that was tried; empty without a reserve (on a support, but at its worst period)",
-        lambda of: of.reserve.limit if of.reserve else math.nan,
+        lambda of: of.station.reserve.limit if of.station.reserve else math.nan,
     )
     reserve_doubts: tuple[Kind, ...] = of_station(
         "Kinds of doubt for which the reserve may be too high: it is that of the mechanism alone",
-        lambda of: tuple(each.kind for each in of.station.reserve_doubts) if of.reserve else (),
+        lambda of: tuple(each.kind for each in of.station.reserve_doubts) if of.station.reserve else (),
     )
     decided_by: str = of_station(
         "What decides where the members disagree, with its share of the variance",
