@@ -1,7 +1,7 @@
 """The document of a study's fragility: curves with intervals, their medians, and which records govern them."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,7 +22,7 @@ from rocking.quantities import counted
 from rocking.reports.panels import Curve, draw_probability
 from rocking.reports.printing import Column, compile_document, number, plain, table_of, words
 from rocking.reports.style import elided, new_figure, picture, styled, svg
-from rocking.tables import frame, rows_of, write_whole
+from rocking.tables import Row, frame, rows_of, write_whole
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -59,14 +59,13 @@ def by_place(table: "DataFrame") -> "DataFrame":
     return table.assign(structure=[placed(name, period) for name, period in pairs])
 
 
-def write_fragility_report(folder: Path, pdf: Path, image: Path) -> None:
-    """Set the tables of fragility in `folder` as the files `pdf` and `image` (SVG)."""
-    curves, summary = (
-        by_place(frame(each, folder / each.table.file_name)) for each in (FragilityRow, FragilitySummaryRow)
+def write_fragility_report(rows: Mapping[type[Row], Sequence[Row]], pdf: Path, image: Path) -> None:
+    """Set the rows of the tables of fragility as the files `pdf` and `image` (SVG)."""
+    curves, summary, measures = (
+        by_place(frame(each, rows[each])) for each in (FragilityRow, FragilitySummaryRow, IntensityMeasureRow)
     )
     write_whole(image, svg(fragility_figure(curves)).encode())
-    ida = by_place(frame(IdaRow, folder / IdaRow.table.file_name, _READ))
-    measures = by_place(frame(IntensityMeasureRow, folder / IntensityMeasureRow.table.file_name))
+    ida = by_place(frame(IdaRow, rows[IdaRow], _READ))
     write_whole(pdf, compile_document("plain.typ", fragility_data(curves, summary, ida, measures)))
 
 

@@ -1,4 +1,4 @@
-"""The report of the trade of error for time, from its table."""
+"""The report of the trade of error for time, from its rows."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,7 +12,7 @@ from rocking.assessment.trade import break_even, what_follows
 from rocking.reports import printing
 from rocking.reports.printing import compile_document
 from rocking.reports.style import PREDICTED, RECORD, new_figure, picture, plain_logarithmic, styled, svg
-from rocking.tables import read_table, write_whole
+from rocking.tables import write_whole
 
 _LOOKS = {
     TradeMethod.ONE_SINE: (PREDICTED, "-"),
@@ -29,9 +29,8 @@ _MOST_STRUCTURES = 1000
 """Structures a record up to which the cost is drawn."""
 
 
-def write_trade_report(folder: Path, pdf: Path, image: Path) -> None:
-    """Set the table in `folder` as the files `pdf` and `image` (SVG)."""
-    rows = read_table(TradeRow, folder)
+def write_trade_report(rows: Sequence[TradeRow], pdf: Path, image: Path) -> None:
+    """Set the table as the files `pdf` and `image` (SVG)."""
     table = printing.table_of(
         rows,
         ("Method", "1.4", "l", lambda row: row.method),
@@ -48,7 +47,7 @@ def write_trade_report(folder: Path, pdf: Path, image: Path) -> None:
         "Errors: of the largest rotation where both rock. Unsafe: verdicts that say less than the reference. A record: "
         "the search for its sines. The ensemble answers for all alike cases; its error is that of its median."
     )
-    parts = [{"list": list(what_follows(rows))}, *trade_picture(folder), {**table, "caption": caption}]
+    parts = [{"list": list(what_follows(rows))}, *trade_picture(rows), {**table, "caption": caption}]
     machine = rows[0].machine if rows else "no machine"
     subtitle = f"Processor times of {machine}, on the records and structures of the study."
     data = {"title": "What accuracy costs", "subtitle": subtitle, "parts": parts}
@@ -56,9 +55,9 @@ def write_trade_report(folder: Path, pdf: Path, image: Path) -> None:
     write_whole(image, svg(trade_figure(rows)).encode())
 
 
-def trade_picture(folder: Path) -> list[dict[str, str]]:
+def trade_picture(of_each: Sequence[TradeRow]) -> list[dict[str, str]]:
     """Return the figure and its conclusion for another document; nothing where no structure was followed."""
-    rows = [row for row in read_table(TradeRow, folder) if row.structure == ""]
+    rows = [row for row in of_each if row.structure == ""]
     if not rows:
         return []
     figure = picture(

@@ -38,8 +38,8 @@ def write_checks(
     records: Iterable[RecordRow],
     tell: Callable[[str], None] = lambda _: None,
     mechanisms: Sequence[MechanismRow] = (),
-) -> None:
-    """Write code_checks.csv and structures.pdf of `study` into `folder`.
+) -> list[CodeCheckRow]:
+    """Write code_checks.csv and structures.pdf of `study` into `folder`, and return the rows of the first.
 
     verdicts, records, mechanisms: the rows of all records of the study. tell: takes a line for each structure. A
     structure that cannot be checked costs no other, and without sets of records the dynamic check alone is left out;
@@ -79,17 +79,18 @@ def write_checks(
                 page = replace(page, mechanisms=_mechanisms(scene, of_scene, station_of))
             pages.append(page)
             tell(f"{placed(name, period)}: {page.refusal or _told(page.checked)}")
-    rows: Iterable[CodeCheckRow] = (
+    rows = [
         row
         for page in pages
         if page.checked
         for row in code_check_rows(page.name, page.checked, page.place.period_of(page.support))
-    )
+    ]
     write_tables({CodeCheckRow: rows}, folder, "rocking-code-checks", "code_checks.json")
     data = structures_data(pages, spectrum, study.settings.mapping(), selection, without_sets, unread)
     write_whole(folder / "structures.pdf", compile_document("structures.typ", data))
     if study.settings.figures != "none":
         write_whole(folder / "structures_figures.zip", figures_archive(data, study.settings.figures))
+    return rows
 
 
 def _checked(

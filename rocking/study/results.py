@@ -3,6 +3,7 @@
 import json
 import shutil
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -46,6 +47,11 @@ def outcome_of(results: Path, record: str) -> Path:
     return results / MADE_FROM / "outcomes" / f"{record}.json"
 
 
+def kept_of(results: Path, product: str) -> Path:
+    """Return the file that keeps the rows of a product over all records: the checks, the fragility or the trade."""
+    return results / MADE_FROM / "rows" / f"{product}.json"
+
+
 def cases_of(results: Path, record: str) -> Path:
     """Return the file that keeps the results of the cases of a record, for the next run."""
     return results / MADE_FROM / "cases" / f"{record}.json"
@@ -76,9 +82,27 @@ def write_outcome(
 
 def read_outcome(path: Path) -> Outcome:
     """Return the outcome of a record. Raises RockingError where it is not what this version writes."""
-    try:
+    with _undamaged(path):
         content = json.loads(read_whole(path, _LARGEST, RockingError))
         return Outcome(decoded_rows(content["rows"], RECORD_TABLES), content["page"], content["spectra"])
+
+
+def keep_rows(path: Path, rows: Rows) -> None:
+    """Keep the rows of a product over all records."""
+    write_whole(path, json.dumps(encoded_rows(rows), separators=(",", ":")).encode())
+
+
+def kept_rows(path: Path, tables: Iterable[type[Row]]) -> dict[type[Row], list[Row]]:
+    """Return the rows of some tables of a product. Raises RockingError where they are not what this version writes."""
+    with _undamaged(path):
+        return decoded_rows(json.loads(read_whole(path, _LARGEST, RockingError)), tables)
+
+
+@contextmanager
+def _undamaged(path: Path) -> Iterator[None]:
+    """Raise RockingError, which names the file, for what only a damaged one gives."""
+    try:
+        yield
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise RockingError(f"{path}: it is damaged ({error}); remove it and run the study again.") from None
 

@@ -4,7 +4,7 @@ import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rocking.assessment.conclusion import conclusions, worst_of_each
 from rocking.assessment.cracks import never_lets_go
@@ -21,6 +21,7 @@ from rocking.assessment.rows import (
     StructureRow,
     SupportRow,
     TimingRow,
+    TradeRow,
     VariationRow,
     VerdictRow,
     agreement_rows,
@@ -33,22 +34,18 @@ from rocking.records import Accelerogram, CatalogueRecord
 from rocking.structures import Mechanism, Structure
 from rocking.study.job import Job, Study
 from rocking.study.made_from import package_sha256, structure_hashes, versions
-from rocking.study.results import Outcome, outcomes_of, remove_others
+from rocking.study.results import Outcome, kept_of, kept_rows, outcomes_of, remove_others
 from rocking.study.terminal import log_error
 from rocking.tables import (
     Row,
     data_package,
     frame,
-    read_table,
     rows_written,
     write_tables,
     write_whole,
     written_together,
 )
 from rocking.tables.workbook import workbook
-
-if TYPE_CHECKING:
-    from rocking.codes.rows import CodeCheckRow
 
 PROVENANCE = "provenance.json"
 """In the folder of the summary: what the results were made from and with."""
@@ -65,14 +62,6 @@ _SHOWN = (
     StructureRow,
     AgreementRow,
     FailureRow,
-)
-_GOVERNING = (
-    "structure",
-    "support_period_s",
-    "record",
-    "level",
-    "overturning_share",
-    "governing_overturning_share",
 )
 
 
@@ -103,23 +92,20 @@ def summarise(job: Job) -> list[Path]:
         from rocking.reports.explore import explore_page
         from rocking.reports.variants import strips
 
-        # A fragility that was measured by hand is shown as well, with the next run.
-        fragility = None if job.seals.why_again("fragility") else job.results / "fragility"
-        checks: list[CodeCheckRow] = []
-        if study.settings.design_spectrum.spectrum() is not None:
-            checks = read_table(CodeCheckRow, target)
+        beside = _beside(job)
+        checks = [row for row in beside.get(CodeCheckRow, ()) if isinstance(row, CodeCheckRow)]
         checked = code_conclusions(checks)
         compared: dict[str, list[Variant]] = {}
         if groups := variants_of(study.scenes):
             verdicts = (row for row in shown[VerdictRow] if isinstance(row, VerdictRow))
             compared = variants(groups, worst_of_each(conclusions(verdicts, [])), checked)
         drawn = strips(compared, study.structures)
-        files += _report(target, study, shown, spectra, fragility, checks, drawn)
+        files += _report(target, study, shown | beside, spectra, drawn)
         page = explore_page(pages, study.structures, study.settings.study or "", checked, drawn)
         write_whole(target / "study.html", page)
         sheets = {each: rows for each, rows in shown.items() if each not in _NOT_IN_THE_WORKBOOK}
         if checks:
-            sheets[CodeCheckRow] = list(checks)
+            sheets[CodeCheckRow] = beside[CodeCheckRow]
         if compared:
             sheets[VariantRow] = [VariantRow.of(each) for row in compared.values() for each in row]
         write_whole(target / WORKBOOK, workbook(sheets, study.settings.study or "", opens_on=VerdictRow))
@@ -162,19 +148,35 @@ def write_summary(
     return kept, pages, spectra
 
 
+def _beside(job: Job) -> dict[type[Row], list[Row]]:
+    """The rows of the other products over all records that documents of the summary show, as far as there are any."""
+    from rocking.codes.rows import CodeCheckRow
+    from rocking.fragility.rows import FragilitySummaryRow, IdaRow  # a quarter of a second
+
+    tables: dict[str, tuple[type[Row], ...]] = {}
+    if job.study.settings.design_spectrum.spectrum() is not None:
+        tables["checks"] = (CodeCheckRow,)
+    if job.study.settings.trade.in_summary:
+        tables["trade"] = (TradeRow,)
+    # One that was measured by hand is shown as well, with the next run.
+    if not job.seals.why_again("fragility"):
+        tables["fragility"] = (FragilitySummaryRow, IdaRow)
+    rows: dict[type[Row], list[Row]] = {}
+    for product, wanted in tables.items():
+        rows |= kept_rows(kept_of(job.results, product), wanted)
+    return {each: of_it for each, of_it in rows.items() if of_it}
+
+
 def _report(
     folder: Path,
     study: Study,
     rows: Mapping[type[Row], Sequence[Row]],
     spectra: Sequence[Sequence[float]],
-    fragility: Path | None,
-    checks: "Sequence[CodeCheckRow]",
     strips: Sequence[Mapping[str, Any]],
 ) -> list[Path]:
     """Write summary.pdf and its figures beside the summary tables in `folder`, and return the files.
 
-    spectra: of the components, where there is a design level; checks: the rows at it. fragility: its folder, where it
-    was measured. strips: of the variants.
+    spectra: of the components, where there is a design level. strips: of the variants.
     """
     from rocking.reports.figures import figures_archive  # as above
     from rocking.reports.printing import compile_document
@@ -183,15 +185,9 @@ def _report(
     from rocking.reports.summary import summary_data
     from rocking.reports.trade import trade_picture
 
-    tables = {each.table.name: frame(each, rows[each]) for each in _SHOWN}
-    if fragility is not None:
-        from rocking.fragility.rows import FragilitySummaryRow, IdaRow  # a quarter of a second
-
-        tables["fragility_summary"] = frame(FragilitySummaryRow, fragility / "fragility_summary.csv")
-        tables["ida"] = frame(IdaRow, fragility / "ida.csv", _GOVERNING)
-    if checks:
-        tables[type(checks[0]).table.name] = frame(type(checks[0]), checks)
-    pictures = trade_picture(folder) if study.settings.trade.in_summary else []
+    shown = [each for each in rows if each in _SHOWN or each not in SUMMARY_TABLES]
+    tables = {each.table.name: frame(each, rows[each]) for each in shown}
+    pictures = trade_picture([row for row in rows.get(TradeRow, ()) if isinstance(row, TradeRow)])
     level = study.settings.design_spectrum.spectrum()
     design = (level, spectra) if level is not None and spectra else None
     data = summary_data(tables, study.settings.mapping(), pictures, design, strips)
@@ -211,8 +207,10 @@ def write_fragility(
     study: Study,
     folder: Path,
     tell: Callable[..., None] = lambda *_: None,
-) -> list[str]:
-    """Write the fragility tables of `study` and their description into `folder`; return what could not be used.
+) -> tuple[dict[type[Row], list[Row]], list[str]]:
+    """Write the fragility tables of `study` and their description into `folder`.
+
+    Returned are their rows, and what could not be used.
 
     A record that cannot be read, or lacks the intensity measure, costs no other. tell: takes a line for each structure,
     how many are done, and of how many.
@@ -282,7 +280,7 @@ def write_fragility(
     if not tables[rows.FragilityRow]:
         raise ConfigurationError(reasons[-1])
     write_tables(tables, folder, "rocking-fragility")
-    return list(dict.fromkeys(reasons))
+    return tables, list(dict.fromkeys(reasons))
 
 
 def _opened(

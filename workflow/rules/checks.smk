@@ -10,6 +10,7 @@ rule checks:
         description=f"{SUMMARY}/code_checks.json",
         pdf=f"{SUMMARY}/structures.pdf",
         figures=f"{SUMMARY}/structures_figures.zip" if SETTINGS.figures != "none" else [],
+        rows=str(kept_of(Path(RESULTS), "checks")),
         seal=seal_of("checks"),
     log:
         f"{SUMMARY}/logs/checks.log",

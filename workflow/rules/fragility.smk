@@ -12,6 +12,7 @@ rule fragility:
         description=f"{RESULTS}/fragility/datapackage.json",
         pdf=f"{RESULTS}/fragility/fragility.pdf",
         svg=f"{RESULTS}/fragility/fragility.svg",
+        rows=str(kept_of(Path(RESULTS), "fragility")),
         seal=seal_of("fragility"),
     log:
         f"{SUMMARY}/logs/fragility.log",

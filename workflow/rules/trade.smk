@@ -9,6 +9,7 @@ rule trade:
         description=f"{SUMMARY}/trade.json",
         pdf=f"{SUMMARY}/trade.pdf",
         svg=f"{SUMMARY}/trade.svg",
+        rows=str(kept_of(Path(RESULTS), "trade")),
         seal=seal_of("trade"),
     log:
         f"{SUMMARY}/logs/trade.log",

@@ -3,9 +3,10 @@
 from pathlib import Path
 
 from rocking.assessment.rows import MechanismRow, RecordRow, VerdictRow
+from rocking.codes.rows import CodeCheckRow
 from rocking.study.checks import write_checks
 from rocking.study.job import begin_job
-from rocking.study.results import outcomes_of
+from rocking.study.results import keep_rows, outcomes_of
 
 if __name__ == "__main__":
     job = begin_job(snakemake.config, snakemake.params, snakemake.log[0])
@@ -14,5 +15,6 @@ if __name__ == "__main__":
     records = [row for each in rows for row in each[RecordRow]]
     mechanisms = [row for each in rows for row in each[MechanismRow]]
     folder = Path(snakemake.output.pdf).parent
-    write_checks(job.study, folder, verdicts, records, job.tell, mechanisms)
+    checks = write_checks(job.study, folder, verdicts, records, job.tell, mechanisms)
+    keep_rows(Path(snakemake.output.rows), {CodeCheckRow: checks})
     job.finish(snakemake.output)

@@ -4,13 +4,15 @@ from pathlib import Path
 
 from rocking.reports.fragility import write_fragility_report
 from rocking.study.job import begin_job
+from rocking.study.results import keep_rows
 from rocking.study.summary import write_fragility
 
 if __name__ == "__main__":
     job = begin_job(snakemake.config, snakemake.params, snakemake.log[0])
     output = snakemake.output
     folder = Path(output.pdf).parent
-    reasons = write_fragility(job.records, job.study, folder, job.tell)
-    write_fragility_report(folder, Path(output.pdf), Path(output.svg))
+    rows, reasons = write_fragility(job.records, job.study, folder, job.tell)
+    keep_rows(Path(output.rows), rows)
+    write_fragility_report(rows, Path(output.pdf), Path(output.svg))
     job.tell("\n".join(reasons) or "All records were used.")
     job.finish(output)

@@ -9,6 +9,7 @@ from rocking.assessment.trade import trade
 from rocking.errors import RockingError
 from rocking.reports.trade import write_trade_report
 from rocking.study.job import begin_job
+from rocking.study.results import keep_rows
 from rocking.tables import write_tables
 
 MOST_RECORDS = 70
@@ -34,5 +35,6 @@ if __name__ == "__main__":
     tried = components(study, job.records, job.tell)
     rows = trade(tried, study.structures, settings=study.settings, tell=job.tell)
     write_tables({TradeRow: rows}, folder, "rocking-trade", "trade.json")
-    write_trade_report(folder, Path(output.pdf), Path(output.svg))
+    keep_rows(Path(output.rows), {TradeRow: rows})
+    write_trade_report(rows, Path(output.pdf), Path(output.svg))
     job.finish(output)

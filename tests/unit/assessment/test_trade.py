@@ -8,7 +8,6 @@ from rocking.assessment.rows import TradeRow
 from rocking.assessment.trade import TradeMethod, break_even, what_follows
 from rocking.reports.trade import write_trade_report
 from rocking.study.terminal import trade_lines
-from rocking.tables import write_tables
 
 STRUCTURES = {"block": rocking.Block(2.0, 0.15), "stout": rocking.Block(2.0, 0.7)}
 
@@ -95,8 +94,7 @@ def test_the_report_says_what_the_table_says_in_percent_and_milliseconds(tmp_pat
     monkeypatch.setattr(
         "rocking.reports.trade.compile_document", lambda _, data: documents.append(data) or b"%PDF"
     )
-    write_tables({TradeRow: [ONE_SINE, MECHANISM]}, tmp_path)
-    write_trade_report(tmp_path, tmp_path / "trade.pdf", tmp_path / "trade.svg")
+    write_trade_report([ONE_SINE, MECHANISM], tmp_path / "trade.pdf", tmp_path / "trade.svg")
     said, picture, table = documents[0]["parts"]
     assert picture["conclusion"] == " ".join(said["list"]) == " ".join(what_follows([ONE_SINE, MECHANISM]))
     assert table["rows"][1] == [TradeMethod.MECHANISM, "all", "200", "1.2", "30", "3", "1", "0.28", "0.0"]

@@ -53,7 +53,7 @@ def _records(folder: Path, count: int) -> list[CatalogueRecord]:
 def test_what_cannot_overturn_is_left_out_and_said(tmp_path):
     records = _records(tmp_path, 2)
     both = replace(_study(), scenes=on_the_ground({"held": ALONE, "slender": STRUCTURES["slender"]}))
-    (unused,) = write_fragility(records, both, tmp_path / "out")
+    _, (unused,) = write_fragility(records, both, tmp_path / "out")
     assert unused.startswith("held: it cannot overturn, and has no fragility: it lifts at 0.263 g")
     rows = read_rows(FragilitySummaryRow, tmp_path / "out" / FragilitySummaryRow.table.file_name)
     assert {row.structure for row in rows} == {"slender"}
@@ -71,7 +71,7 @@ def test_a_table_beside_the_curves_fails_alone(tmp_path, monkeypatch):
     monkeypatch.setattr(import_module("rocking.fragility.rows"), "explanation", singular)
     tell = line_writer(tmp_path / "fragility.log", "fragility")
     study = replace(_study(), scenes=on_the_ground({"slender": STRUCTURES["slender"]}))
-    (reason,) = write_fragility(_records(tmp_path, 2), study, tmp_path / "out", tell)
+    _, (reason,) = write_fragility(_records(tmp_path, 2), study, tmp_path / "out", tell)
     assert reason.startswith("slender: intensity_measures.csv has no row of it")
     assert "LinAlgError: Singular matrix\n" in (tmp_path / "fragility.log").read_text()
     rows = {name: read_table(each, tmp_path / "out") for name, each in FRAGILITY_TABLES.items()}
@@ -82,7 +82,9 @@ def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):
     records = _records(tmp_path, 3)
     (tmp_path / "made2.AT2").write_bytes(b"not a record")
     told: list[str] = []
-    (unused,) = write_fragility(records, _study(), tmp_path / "out", told.append)
+    written, (unused,) = write_fragility(
+        records, _study(), tmp_path / "out", lambda line, *_: told.append(line)
+    )
     assert "made2" in unused and told == ["1 of 3: slender", "2 of 3: stout", "3 of 3: spire"]
     rows = {
         name: list(read_rows(each, tmp_path / "out" / each.table.file_name))
@@ -106,7 +108,8 @@ def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):
     for structure, each in STRUCTURES.items():
         names = {row.intensity_measure for row in rows["intensity_measures"] if row.structure == structure}
         assert names == {measure.name for measure in compared(each.mechanism())}
-    write_fragility_report(tmp_path / "out", tmp_path / "curves.pdf", tmp_path / "curves.svg")
+    assert {each.table.name: of_it for each, of_it in written.items()} == rows
+    write_fragility_report(written, tmp_path / "curves.pdf", tmp_path / "curves.svg")
     assert (tmp_path / "curves.pdf").read_bytes().startswith(b"%PDF")
 
 
@@ -156,7 +159,7 @@ def test_each_structure_has_the_measure_that_follows_from_it(tmp_path):
     records = _records(tmp_path, 3)
     for place, record in enumerate(records):
         records[place] = replace(record, high_pass=0.1)
-    reasons = write_fragility(records, replace(study, scenes=on_the_ground(structures)), tmp_path / "out")
+    _, reasons = write_fragility(records, replace(study, scenes=on_the_ground(structures)), tmp_path / "out")
     rows = list(read_rows(FragilitySummaryRow, tmp_path / "out" / "fragility_summary.csv"))
     assert {row.structure for row in rows} == {"slender", "one-sided"}
     for row in rows:
@@ -219,7 +222,8 @@ def test_the_rate_of_each_period_of_a_support_is_the_one_by_hand(tmp_path):
     carried = {"parapet": Scene("parapet", BODY, Place("roof", supports))}
     study = replace(_study(hazard=str(hazard), intensity_measure="pga"), scenes=carried)
     records = _records(tmp_path, 3)
-    assert write_fragility(records, study, tmp_path / "out") == []
+    _, unused = write_fragility(records, study, tmp_path / "out")
+    assert unused == []
 
     outcomes = list(read_rows(IdaRow, tmp_path / "out" / "ida.csv"))
     summaries = read_rows(FragilitySummaryRow, tmp_path / "out" / "fragility_summary.csv")

@@ -30,11 +30,11 @@ from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SHIPPED, SyntheticRecord, at2_text
 from rocking.structures import Block
 from rocking.study.job import Study, assess_catalogued, rows_of
-from rocking.study.results import Results, outcome_of, outcomes_of, read_outcome
+from rocking.study.results import Results, keep_rows, kept_of, outcome_of, outcomes_of, read_outcome
 from rocking.study.settings import Settings, StudyTrade
 from rocking.study.summary import summarise, write_summary
 from rocking.study.terminal import line_writer
-from rocking.tables import csv_lines, frame, read_rows, write_tables
+from rocking.tables import csv_lines, frame, read_rows
 from tests.unit.assessment.made_rows import Impossible, filled
 from tests.unit.study.made_jobs import made_job, take_steps, worked
 
@@ -137,7 +137,7 @@ def test_a_damaged_outcome_is_told_with_its_path(of_four, damaged) -> None:
 
 @pytest.mark.parametrize("in_summary", [False, True])
 def test_a_summary_draws_the_trade_where_its_study_measures_it(tmp_path, monkeypatch, in_summary) -> None:
-    """Whether or not an earlier run has left the table."""
+    """Whether or not an earlier run has left its rows."""
     trades: list[list] = []
     monkeypatch.setattr(
         "rocking.reports.summary.summary_data",
@@ -150,14 +150,15 @@ def test_a_summary_draws_the_trade_where_its_study_measures_it(tmp_path, monkeyp
     job = worked([_record(tmp_path)], study, results)
     row = filled(
         TradeRow,
-        method=TradeMethod.FINE,
+        method=TradeMethod.MECHANISM,
+        preparation_record_s=1e-3,
         cases=1,
         wrong_verdicts=0,
         unsafe_verdicts=0,
         error=1e-7,
         cpu_s=1e-3,
     )
-    write_tables({TradeRow: [row]}, results / "summary")
+    keep_rows(kept_of(results, "trade"), {TradeRow: [row]})
     summarise(job)
     assert len(trades[0]) == in_summary
 
