@@ -50,6 +50,7 @@ class Kind(StrEnum):
     COMPONENT_MISSING = auto(), "a component gave no result"
     OTHER_CRACK_WORSE = auto(), "another crack than the one given is worse", "another crack is worse"
     MEMBERS_FAILED = auto(), "members could not be followed", "some members failed"
+    NO_STACK = auto(), "contact dynamics cannot follow it, for it is no stack of courses", "no stack of courses"
     HELD_BEYOND = auto(), "a held wall turns so far that its mechanism may say too little", "turns far"
     CURVE_ALONE = auto(), "a capacity curve tells neither impacts nor sliding nor which contacts open", "curve alone"
 
@@ -66,7 +67,7 @@ class Kind(StrEnum):
     PROCESSING = auto(), (
         "take a processed record of the network instead of the raw one"
     ), "take a processed record"
-    CONTACT_DYNAMICS = auto(), "follow it by contact dynamics (fidelity: contact)", "contact dynamics"
+    CONTACT_DYNAMICS = auto(), "follow it by 64 runs of contact dynamics (fidelity: contact)", "contact dynamics"
     COMPONENT = auto(), "find the component that gave no result", "find missing component"
 
     # What explains a decision of which nothing more would tell.

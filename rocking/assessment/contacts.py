@@ -12,6 +12,9 @@ from typing import Protocol
 
 import numpy as np
 
+from rocking.assessment.decide import UNANIMOUS
+from rocking.assessment.decide import step as step_of
+from rocking.assessment.fidelity import peak_velocity
 from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
@@ -25,9 +28,13 @@ from rocking.structures import Structure
 from rocking.structures.linkage import Turning
 from rocking.structures.stack import COURSES, Stack
 
-AMPLITUDES = (0.9, 1.0, 1.1)
-"""Factors on the motion at which contact dynamics follows a case: its steps are of first order, so that near a limit
-its outcome is a draw, which several amplitudes show."""
+AMPLITUDES = (0.9, 1.1)
+"""Least and largest factor on the motion at which contact dynamics follows a case: its steps are of first order, so
+that near a limit its outcome is a draw, which several amplitudes show."""
+RUNS = 24
+"""Runs of contact dynamics of a case that cannot be told else: none may fall of so few, and it probably stands."""
+MOST_RUNS = UNANIMOUS
+"""Runs with fidelity: contact, none of which falls where the word is "stands"."""
 LEAST_KEPT = 0.3
 """Restitution by the balance of momentum below which joints close one after the other: 2 of 6 walls that stand so fell
 in contact dynamics, none of 41 above (theory: section 11)."""
@@ -129,7 +136,8 @@ MANY_COURSES = 12
 class ContactShare:
     """The number of stacks of rigid courses that fall, of those that contact dynamics followed.
 
-    falls, runs: over amplitudes, time steps, directions and signs. reason: why none was followed; "" where they were.
+    falls, runs: over amplitudes, time steps, directions and signs, the strongest motions first, as far as they were
+    followed. reason: why none was; "" where they were.
     """
 
     falls: int = 0
@@ -156,39 +164,46 @@ def stackable(structure: Laid) -> bool:
 
 
 def contact_share(
-    structure: Laid, motions: GroundMotions, settings: AssessmentSettings | None = None
+    structure: Laid, motions: GroundMotions, settings: AssessmentSettings | None = None, runs: int = RUNS
 ) -> ContactShare:
-    """Return how many stacks of the structure fall, at AMPLITUDES and STEPS.
+    """Return how many stacks of the structure fall, between AMPLITUDES and at STEPS.
 
-    Over several directions the steps take turns, so that each direction is followed at every amplitude; of unlike sides
-    every other direction is, with both signs of the motion. The bodies are those of the mechanism where the crack is
-    known, else the courses that `Structure.stack` gives; a tapering member that does not state its courses is followed
-    with COURSES and MANY_COURSES in turn.
+    Every direction of a pair, of unlike sides every other one with both signs of the motion, is followed at as many
+    amplitudes, at which steps and stacks take turns: so that there are `runs` in all. The strongest come first, and no
+    more are followed once the rest cannot change the word. The bodies are those of the mechanism where the crack is
+    known and nothing holds it, else the courses that `Structure.stack` gives; a tapering member that does not state its
+    courses is followed with COURSES and MANY_COURSES in turn.
     """
     settings = settings or AssessmentSettings()
-    directions, signs = _directions(motions), _signs(structure, settings)
-    directions = directions[:: len(signs)]
-    several = len(directions) > 1
-    cases = [
-        (motion, sign * amplitude, step)
-        for place, motion in enumerate(directions)
-        for sign in signs
-        for turn, (amplitude, step) in enumerate(product(AMPLITUDES, STEPS))
-        if not several or (turn + turn // len(STEPS) + place) % len(STEPS) == 0
+    signs = _signs(structure, settings)
+    directions = _directions(motions)[:: len(signs)]
+    ways = [
+        (motion, sign) for motion in sorted(directions, key=peak_velocity, reverse=True) for sign in signs
     ]
+    amplitudes = np.linspace(*AMPLITUDES, max(runs // len(ways), 1))[::-1]
+    cases = [
+        (amplitude, motion, sign, turn + way)
+        for turn, amplitude in enumerate(amplitudes.tolist())
+        for way, (motion, sign) in enumerate(ways)
+    ]
+    falls = followed = 0
     try:
         stacks = _stacks(structure)
         if len(stacks[0].courses) == 1:
             return ContactShare(reason="one rigid body moves as its mechanism does, whose members say more")
-        falls = []
-        for place, (motion, factor, step) in enumerate(cases):
-            # Each stack meets every amplitude in turn with either step.
-            stack = stacks[(place + place // len(STEPS)) % len(stacks)]
+        for followed, (amplitude, motion, sign, place) in enumerate(cases, start=1):
+            # Each stack meets either step in turn.
+            step = STEPS[place % len(STEPS)]
+            stack = stacks[place // len(STEPS) % len(stacks)]
             short_enough = min(step, stack.longest_step * step / STEP)
-            falls.append(_falls(stack, motion.scaled(factor), short_enough, motions.vertical))
+            falls += _falls(stack, motion.scaled(sign * amplitude), short_enough, motions.vertical)
+            left = len(cases) - followed
+            words = [step_of(each, len(cases), risk=settings.ensemble.risk) for each in (falls, falls + left)]
+            if words[0] is words[1]:
+                break
     except RockingError as error:
         return ContactShare(reason=str(error))
-    return ContactShare(int(np.sum(falls)), len(falls))
+    return ContactShare(falls, followed)
 
 
 def _stacks(structure: Laid) -> list[Stack]:

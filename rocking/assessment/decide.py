@@ -365,6 +365,8 @@ def decide(facts: Facts) -> Decision:
     beside = (*unsettled, *missing, *([Remark(Kind.OTHER_CRACK_WORSE)] if worse_beside else []))
     asks_for_stacks = facts.stackable and facts.stacks is None
     contact_dynamics = (Remark(Kind.CONTACT_DYNAMICS),) if asks_for_stacks else ()
+    if unsettled and not facts.stackable:
+        beside = (*beside, Remark(Kind.NO_STACK))
     tells: tuple[Remark, ...]
 
     # 1, 2, 3: what no member needs to tell.
@@ -434,6 +436,8 @@ def decide(facts: Facts) -> Decision:
         fallen, runs = facts.stacks
         of_stacks = step(fallen, runs, risk=risk)
         why = f"{why}; {fallen} of {runs} stacks of courses fall in contact dynamics"
+        if of_stacks.badness > word.badness and runs < UNANIMOUS and not fallen:
+            tells = (*tells, Remark(Kind.CONTACT_DYNAMICS))  # more runs of which none falls would say more
         if of_stacks is not word:
             interval = min(interval[0], fallen / runs), max(interval[1], fallen / runs)
         word = worse(word, of_stacks)

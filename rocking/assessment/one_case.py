@@ -9,7 +9,7 @@ from functools import lru_cache, partial
 from time import process_time
 
 from rocking.assessment.case import CaseResult, Failure, Prediction, Variation
-from rocking.assessment.contacts import contact_share, doubt
+from rocking.assessment.contacts import MOST_RUNS, RUNS, contact_share, doubt
 from rocking.assessment.cracks import counting_cracks, cracks, ensemble_over_cracks, slides_first
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
@@ -22,6 +22,7 @@ from rocking.motion.members import Members, integrate_members
 from rocking.motion.response import UNKNOWN, Response, check_model
 from rocking.pulses import Pulse, PulseEvidence, predicting_pulse
 from rocking.records import Accelerogram
+from rocking.remarks import Kind
 from rocking.sine_pulse import predict_maximum
 from rocking.structures import Mechanism, Structure
 
@@ -150,8 +151,9 @@ def with_contacts(
 ) -> CaseResult:
     """Return the case with what its joints say: whether they slide, a doubt, and contact dynamics where that is asked.
 
-    A doubt is asked for every word below "probably overturns", and contact dynamics where there is a doubt. bounces:
-    whether a contact opens in a run as recorded; None where that is not known.
+    A doubt is asked for every word below "probably overturns". Contact dynamics is asked, unless with fidelity: auto,
+    where it cannot be told else; with fidelity: contact by MOST_RUNS runs, and also where a held wall turns so far that
+    it only probably stands. bounces: whether a contact opens in a run as recorded; None where that is not known.
     """
     counting = counting_cracks(structure)
     if all(slides_first(each, motions, settings) for each in counting):
@@ -159,8 +161,16 @@ def with_contacts(
     if decide(case.facts(structure)).word.badness < Verdict.PROBABLY_OVERTURNS.badness:
         reason = doubt(structure, motions, case.largest_rotation_ratio, settings, bounces)
         case = replace(case, doubt=reason)
-    if settings.fidelity == "contact" and case.doubt is not None:
-        return replace(case, contact=contact_share(structure, motions, settings))
+    decision = decide(case.facts(structure))
+    advised = any(each.kind is Kind.CONTACT_DYNAMICS for each in decision.tells)
+    asking = {
+        "auto": (),
+        "full": (Verdict.CANNOT_BE_TOLD,),
+        "contact": (Verdict.CANNOT_BE_TOLD, Verdict.PROBABLY_STANDS),
+    }
+    if advised and decision.word in asking[settings.fidelity]:
+        runs = MOST_RUNS if settings.fidelity == "contact" else RUNS
+        return replace(case, contact=contact_share(structure, motions, settings, runs))
     return case
 
 

@@ -74,8 +74,9 @@ class PredictingPulse(PulseSettings):
 class AssessmentSettings:
     """The settings of every method. Raises ConfigurationError when a value is outside what is allowed.
 
-    fidelity: auto stops at the first method that settles whether a structure overturns to fidelity_risk. contact
-    follows as stacks of rigid courses what has contacts that open, or tapers in courses.
+    fidelity: full follows as 24 stacks of rigid courses what cannot be told else, as contacts open or courses may be
+    thrown; contact as 64, and also walls that something holds and that turn far. auto stops at the first method that
+    settles whether a structure overturns to fidelity_risk, and follows no stacks.
     """
 
     acceleration_scale: Scale = described(
@@ -93,8 +94,9 @@ class AssessmentSettings:
     )
     fidelity: Literal["full", "auto", "contact"] = described(
         "full",
-        "full runs every method, to compare them; auto runs what settles the verdict of a case, where no PDFs are "
-        "made; contact is full, with contact dynamics of what cannot be told else",
+        "full runs every method, to compare them, and contact dynamics of what cannot be told else (24 runs: at best "
+        "probably stands); auto runs what settles the verdict of a case, where no PDFs are made; contact is full with "
+        "64 runs, which may say stands, and follows held walls that turn far too",
     )
     fidelity_risk: float = described(
         0.01, "largest probability of a wrong verdict with which fidelity: auto stops; 0: none", ge=0, le=0.2

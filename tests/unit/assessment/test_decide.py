@@ -214,13 +214,21 @@ def test_8b_a_held_wall_that_turns_far_needs_contact_dynamics_of_many_runs(runs,
 
 @pytest.mark.parametrize("far", [{"doubts": (OPEN,)}, {"held": True, "beyond": True}])
 def test_contact_dynamics_is_advised_only_where_it_may_still_tell(far):
-    """Not where it ran already, nor of what it cannot follow."""
+    """Not where it ran often enough already, nor of what it cannot follow, of which a doubt says so."""
     facts = Facts(cracks=(crack(0),), **far)
     assert kinds(decide(facts).tells) == [Kind.CONTACT_DYNAMICS]
     cannot = decide(replace(facts, stackable=False))
     assert cannot.tells == ()
-    assert replace(cannot, tells=decide(facts).tells) == decide(facts)
-    assert decide(replace(facts, stacks=(0, 24))).tells == ()
+    assert cannot.word is decide(facts).word
+    told = [Remark(Kind.NO_STACK)] if facts.doubts else []
+    assert [each for each in cannot.doubts if each not in decide(facts).doubts] == told
+    assert decide(replace(facts, stacks=(0, 64))).tells == ()
+
+
+def test_more_runs_are_advised_where_none_of_few_falls_and_the_members_all_stand():
+    facts = Facts(cracks=(crack(0),), doubts=(OPEN,))
+    assert kinds(decide(replace(facts, stacks=(0, 18))).tells) == [Kind.CONTACT_DYNAMICS]
+    assert decide(replace(facts, stacks=(1, 19))).tells == ()
 
 
 @pytest.mark.parametrize(
