@@ -160,7 +160,8 @@ def test_the_page_to_explore_says_it(report, decisions):
         assert cases[name]["verdict"] == decision.word
         assert cases[name]["cell"] == cell_text(decision)
         assert cases[name]["text"].startswith(f"{decision.word}, {decision.share_in_words}: {decision.why}.")
-        assert all(f" Doubtful: {doubt}." in cases[name]["text"] for doubt in decision.doubts)
+        doubts = "; ".join(map(str, decision.doubts))
+        assert not doubts or f" Doubtful: {doubts}." in cases[name]["text"]
 
 
 def test_the_page_to_sign_says_it(report, decisions):
@@ -176,7 +177,8 @@ def test_the_page_to_sign_says_it(report, decisions):
         assert f"{decision.word.predicate} under 1 station" in share
         if not math.isnan(decision.share):
             assert f"{100 * decision.share:.0f}{NO_BREAK}%" in [each["value"] for each in data["sure"]]
-        assert all(f"({doubt})" in share for doubt in decision.doubts)
+        doubts = "; ".join(map(str, decision.doubts))
+        assert not doubts or f"({doubts})" in share
 
 
 # The shipped example --------------------------------------------------------------------------------------------
