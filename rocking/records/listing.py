@@ -286,9 +286,11 @@ def _sentences(listed: Sequence[ListedFile]) -> Iterator[str]:
         if file.companions:
             joined.setdefault(file.record, []).append(file.file)
     read = [file for file in listed if not file.refusal]
+    # Of tables with one signature the first is told: the others hold other numbers of rows.
+    asked = {file.question.signature: file.question.holds for file in reversed(listed) if file.question}
     sections = {
         f"Answer once, in {NAME}:": [
-            (file.file, file.question.holds) for file in _one_of_each_question(listed) if file.question
+            (file.file, asked[file.question.signature]) for file in listed if file.question
         ],
         "Fill in, in the catalogue:": [
             (file.file, " and ".join(file.blanks)) for file in read if file.blanks and not file.question
@@ -303,15 +305,6 @@ def _sentences(listed: Sequence[ListedFile]) -> Iterator[str]:
             for name, text in lines:
                 alike.setdefault(text, []).append(name)
             yield from ("", heading, *(f"  {few(names)}: {text}" for text, names in alike.items()))
-
-
-def _one_of_each_question(listed: Sequence[ListedFile]) -> Iterator[ListedFile]:
-    """Yield the first file of each signature that layouts.csv asks about."""
-    seen = set()
-    for file in listed:
-        if file.question and file.question.signature not in seen:
-            seen.add(file.question.signature)
-            yield file
 
 
 def _doubts(file: ListedFile) -> str:

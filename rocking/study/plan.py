@@ -18,6 +18,7 @@ from rocking.quantities import shown
 from rocking.records.catalogue import CatalogueRecord, load_catalogue, repeated
 from rocking.records.files import answers_of, fill_hashes, local_files, with_hashes
 from rocking.records.folder import unlisted
+from rocking.records.formats.layouts import Layouts
 from rocking.records.read import LARGEST_FILE
 from rocking.remarks import Kind, Remark
 from rocking.study.contents import ContentHashes
@@ -119,9 +120,9 @@ class Plan:
 
 
 def make_plan(config: Mapping[str, Any]) -> Plan:
-    """Check `config`, the catalogue and the structures it names; write nothing.
+    """Check `config`, the catalogue with its layouts, and the structures it names; write nothing.
 
-    Raises ConfigurationError with every defect of the three, and of the place for the results, in one message.
+    Raises ConfigurationError with every defect of these, and of the place for the results, in one message.
     """
     defects: list[str] = []
 
@@ -136,6 +137,7 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
     missing = dict(missing_files(settings))
     defects += missing.values()
     catalogue = () if "catalogue" in missing else attempt(load_catalogue, settings.catalogue) or ()
+    attempt(Layouts(Path(settings.catalogue).parent).check)
     scenes = {} if "structures" in missing else attempt(load_scenes, settings.structures) or {}
     attempt(_check_results, settings)
     if "design_spectrum.points" not in missing:

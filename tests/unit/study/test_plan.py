@@ -67,8 +67,18 @@ def test_all_defects_of_all_three_files_stand_in_one_message(tmp_path: Path) -> 
     structures = "[{name: pier, type: block, breadth_m: 1, hieght_m: 6}, {name: pier, type: blok}]"
     settings = _write(tmp_path, f"a/b,a.AT2,{SHA256}\nc,../c,1\n", structures, tolerance=5, tolerence=1e-6)
     (tmp_path / "taken").touch()
+    (tmp_path / "layouts.csv").write_text("answer,hodls\n")
     message = _refusal(settings | {"results": str(tmp_path / "taken" / "results")})
-    for defect in ("'a/b'", "'../c'", "hieght_m", "height_m", "'blok'", "setting tolerance", "tolerence"):
+    for defect in (
+        "'a/b'",
+        "'../c'",
+        "hieght_m",
+        "height_m",
+        "'blok'",
+        "setting tolerance",
+        "tolerence",
+        "'hodls'",
+    ):
         assert defect in message
     assert "taken is a file, but must be a folder" in message
 
