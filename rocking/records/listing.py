@@ -288,6 +288,7 @@ def _sentences(listed: Sequence[ListedFile]) -> Iterator[str]:
     read = [file for file in listed if not file.refusal]
     # Of tables with one signature the first is told: the others hold other numbers of rows.
     asked = {file.question.signature: file.question.holds for file in reversed(listed) if file.question}
+    first = {_family(file): file.refusal for file in reversed(listed) if file.refusal}
     sections = {
         f"Answer once, in {NAME}:": [
             (file.file, asked[file.question.signature]) for file in listed if file.question
@@ -297,7 +298,9 @@ def _sentences(listed: Sequence[ListedFile]) -> Iterator[str]:
         ],
         "Joined:": [(record, ", ".join(files)) for record, files in joined.items()],
         "To know:": [(file.file, text) for file in read if (text := _doubts(file))],
-        "Not read:": [(file.file, file.refusal) for file in listed if file.refusal],
+        "Not read:": [
+            (file.file, first[_family(file)]) for file in listed if file.refusal and not file.question
+        ],
     }
     for heading, lines in sections.items():
         if lines:
@@ -305,6 +308,11 @@ def _sentences(listed: Sequence[ListedFile]) -> Iterator[str]:
             for name, text in lines:
                 alike.setdefault(text, []).append(name)
             yield from ("", heading, *(f"  {few(names)}: {text}" for text, names in alike.items()))
+
+
+def _family(file: ListedFile) -> str:
+    """Return what files that are refused alike share: each names its own numbers in the sentence, and its own name."""
+    return re.sub(r"\d+", "", file.refusal.replace(Path(file.file).name, ""))
 
 
 def _doubts(file: ListedFile) -> str:

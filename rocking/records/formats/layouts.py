@@ -243,7 +243,7 @@ class Layouts:
         return read_edited(self._path, CatalogueError, COLUMNS, COLUMNS[:1])
 
     def check(self) -> None:
-        """Raise CatalogueError where layouts.csv is no table of answers; a single wrong answer costs its files alone."""
+        """Raise CatalogueError where layouts.csv is no table of answers; one wrong answer costs its own files alone."""
         _ = self.rows
 
     @cached_property
