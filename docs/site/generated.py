@@ -1,14 +1,17 @@
 """The parts of the pages that the code itself says: formats, settings, structures, tables, equations, names."""
 
+import csv
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import rocking
 from docs.paper.report import equation_rows, equivalence_figures
 from docs.site.drawings import forms
-from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, HistoryRow, SpectrumRow
+from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, HistoryRow, SpectrumRow, TradeRow
+from rocking.assessment.trade import what_follows as sentences_of_trade
 from rocking.codes.rows import CodeCheckRow
 from rocking.described import described_values, parts_of
 from rocking.pulses import PULSE_METHODS
@@ -18,7 +21,10 @@ from rocking.sine_pulse import Regime
 from rocking.structures.fields import Form
 from rocking.study.settings import Settings
 from rocking.study.strengthening import StrengtheningRow
-from rocking.tables import data_package
+from rocking.tables import data_package, read_table
+
+MEASURED = Path(__file__).parents[1] / "measured"
+"""The tables that were measured once, each with what made it in docs/pages/trade.md."""
 
 
 def formats() -> str:
@@ -113,9 +119,59 @@ def api(topic: str) -> str:
     )
 
 
+def measured_trade() -> list[TradeRow]:
+    """The rows over all structures of the trade that was measured on the shipped example."""
+    return [row for row in read_table(TradeRow, MEASURED) if row.structure == ""]
+
+
+def what_follows() -> str:
+    """What the measured trade says of the closed form beside the integration, and the machine."""
+    rows = measured_trade()
+    lines = [f"* {sentence}" for sentence in sentences_of_trade(rows)]
+    return "\n".join([*lines, f"* Measured on {rows[0].machine}."])
+
+
+def trade() -> str:
+    """The measured trade over all structures."""
+    head = (
+        "method",
+        "cases",
+        "median error",
+        "wrong verdicts",
+        "of them unsafe",
+        "ms a structure",
+        "ms a record",
+    )
+    body = []
+    for each in measured_trade():
+        error = f"{100 * each.error:.2g} %"
+        counts = (str(each.wrong_verdicts), str(each.unsafe_verdicts))
+        times = (f"{1e3 * each.cpu_s:.2g}", f"{1e3 * each.preparation_record_s:.2g}")
+        body.append((each.method, str(each.cases), error, *counts, *times))
+    return table(head, body)
+
+
+def pulse_shapes() -> str:
+    """What each shape of pulse is worth on all records, with 90 % intervals."""
+    scores: dict[str, dict[str, str]] = {}
+    with (MEASURED / "pulse_shapes.csv").open(encoding="utf-8", newline="") as stream:
+        for line in csv.DictReader(stream):
+            if line["part"] == "all records":
+                value, low, high = (
+                    f"{100 * float(line[key]):.0f}" for key in ("value", "value_low", "value_high")
+                )
+                scores.setdefault(line["subject"], {})[line["measure"]] = f"{value} % ({low}–{high})"
+    measures = ("explained energy", "wrong verdicts", "unsafe verdicts", "median error of the rotation")
+    rows = ((name, *(own[measure] for measure in measures)) for name, own in scores.items())
+    return table(("pulse", *measures), rows)
+
+
 GENERATED: Mapping[str, Callable[[], str]] = {
     part.__name__: part
-    for part in (formats, units, settings, structures, tables, equations, pulse_methods, blocks, regimes)
+    for part in (
+        *(formats, units, settings, structures, tables, equations, pulse_methods, blocks, regimes),
+        *(what_follows, trade, pulse_shapes),
+    )
 } | {f"api_{topic}": partial(api, topic) for topic in TOPICS}
 """What may stand behind `generated:` in a page."""
 

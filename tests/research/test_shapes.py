@@ -1,0 +1,40 @@
+"""The fit of each shape of pulse finds the one that was planted, and tells the shapes apart."""
+
+import math
+
+import numpy as np
+import pytest
+
+from docs.research.shapes import BAND, SHAPES, Case, fitted, scores_of
+from rocking import Accelerogram, Pulse
+
+STEP = 0.01
+TIMES = np.arange(3000) * STEP
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_planted_pulse_is_found_by_its_shape_and_explains_all(shape):
+    cycles, phase = SHAPES[shape]
+    frequency = BAND[0] * 2 ** (60 / 24)  # on the grid
+    planted = Pulse(-2.0, 2 * math.pi * frequency, 6.0, cycles, phase)
+    record = Accelerogram(planted.acceleration(TIMES), STEP)
+    found = {name: fitted(record, *SHAPES[name]) for name in SHAPES}
+    own = found[shape]
+    assert own.pulse.amplitude == pytest.approx(-2.0, rel=1e-2)
+    assert own.pulse.start_time == pytest.approx(6.0, abs=STEP)
+    # A cosine loses the half sample at which it jumps.
+    assert own.explained == pytest.approx(1.0, abs=0.02)
+    assert own.explained == max(each.explained for each in found.values())
+
+
+def test_a_verdict_is_wrong_where_one_falls_and_the_other_does_not():
+    cases = [
+        Case("a", math.inf, {"one sine": 0.4, "half sine": 0.2}, {"one sine": 0.3, "half sine": math.inf}),
+        Case("b", 0.5, {"one sine": 0.4, "half sine": 0.2}, {"one sine": 0.4, "half sine": 0.5}),
+    ]
+    scores = {(each.subject, each.part, each.measure): each.value for each in scores_of(cases)}
+    assert scores["one sine", "all records", "wrong verdicts"] == 0.5
+    assert scores["one sine", "all records", "unsafe verdicts"] == 0.5
+    assert scores["one sine", "all records", "median error of the rotation"] == pytest.approx(0.2)
+    assert scores["half sine", "all records", "wrong verdicts"] == 0.0
+    assert scores["the best of each record", "all records", "wrong verdicts"] == 0.5
