@@ -57,15 +57,17 @@ def list_folder(
 
     unit and time_step [s] are used only where a file does not declare them. Raises RecordError when there is no folder.
     """
-    catalogue = catalogue_of_folder(folder, unit=unit, time_step=time_step)
+    catalogue = catalogue_of_folder(folder, declared={"unit": unit, "time_step": time_step})
     return catalogue.files, catalogue.new
+
+
+NOTHING_DECLARED: Mapping[str, str | float | None] = {"unit": None, "time_step": None}
 
 
 def catalogue_of_folder(
     folder: str | Path,
     *,
-    unit: str | None = None,
-    time_step: float | None = None,
+    declared: Mapping[str, str | float | None] = NOTHING_DECLARED,
     standing: Iterable[Mapping[str, str]] = (),
     keeps_readings: bool = False,
     answers: Path | None = None,
@@ -73,10 +75,10 @@ def catalogue_of_folder(
 ) -> FolderCatalogue:
     """Return the catalogue of the files under `folder`: its `standing` rows, and new ones for files that none names.
 
-    Files of one event, station and start share a row, the vertical component among them. unit and time_step [s] are
-    used only where neither a file nor its row declares them. keeps_readings: whether what was read of each file is kept
-    in the folder for the next time. answers: the folder of layouts.csv, by default this one. watched: gives the files
-    again, to who waits for them. Catalogues, and files whose name starts with a dot, are passed over. Raises
+    Files of one event, station and start share a row, the vertical component among them. declared: unit and time_step
+    [s], used only where neither a file nor its row declares them. keeps_readings: whether what was read of each file is
+    kept in the folder for the next time. answers: the folder of layouts.csv, by default this one. watched: gives the
+    files again, to who waits for them. Catalogues, and files whose name starts with a dot, are passed over. Raises
     RecordError when there is no folder.
     """
     folder = Path(folder)
@@ -84,7 +86,6 @@ def catalogue_of_folder(
         raise RecordError(f"{folder}: this is no folder; give the folder that holds the records.")
     rows = [dict(row) for row in standing]
     rows_of = _rows_by_file(rows)
-    declared = {"unit": unit, "time_step": time_step}
     layouts = Layouts(answers or folder)
     readings = Readings(folder, layouts, is_kept=keeps_readings)
     listed = []

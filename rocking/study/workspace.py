@@ -57,8 +57,7 @@ def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: flo
     standing = [row for _, row in read_rows(target)] if target.exists() else []
     found = catalogue_of_folder(
         folder,
-        unit=unit,
-        time_step=time_step,
+        declared={"unit": unit, "time_step": time_step},
         standing=standing,
         keeps_readings=True,
         answers=target.parent,
