@@ -186,8 +186,9 @@ def _case(
     case: Content = {
         "verdict": str(decision.word),
         "cell": cell_text(decision),
-        "text": f"{place}{decision.word}{share}: {decision.why}.{doubts} Largest rotation over critical rotation: "
-        f"{ratio(station.rotation_ratio, 2)} as given{band}, {closed} by the closed form.{crack}{reserve}",
+        "text": f"{place}{decision.word}{share}: {decision.why}.{doubts} As given: "
+        f"{ratio(station.rotation_ratio, 2)}{band}; by the closed form: {closed} (rotation over the critical one)."
+        f"{crack}{reserve}",
         "share": _number(decision.share),
         "severity": [_number(min(each, 1e9)) for each in station.severity],
         "component": row.component if row else "",
