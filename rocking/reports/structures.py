@@ -246,9 +246,9 @@ def _answer(
         others = _interval(dynamic, words)
         details.append(words("others may not", share=others))
     if dynamic is None:
-        remark = checked.remark
-        cannot = remark is not None and remark.kind is Kind.NO_DISPLACEMENT
-        details.append(words("it cannot overturn" if cannot else "no dynamic"))
+        # Why there are no sets stands above the page.
+        if checked.remark is not None and checked.remark.kind is Kind.NO_DISPLACEMENT:
+            details.append(words("it cannot overturn"))
     elif checked.part_of(dynamic) is Part.NO_ANSWER:
         details.append(words("no answer", sets=dynamic.sets, asked=SETS))
     if page.has_ties:

@@ -322,7 +322,10 @@ def severity_map(
 def _cell(verdict_row: VerdictRow | None) -> dict[str, str]:
     decision = verdict_row.decision if verdict_row else None
     _, fill, ink, _ = printing.LOOKS[decision.word if decision else Verdict.CANNOT_BE_TOLD]
-    return {"text": printing.cell_text(decision), "fill": fill, "ink": ink}
+    text = printing.cell_text(decision)
+    if verdict_row and verdict_row.support_period_s:  # of a support the period that is worst
+        text += f" at\u00a0{verdict_row.support_period_s:.2g}\u00a0s"
+    return {"text": text, "fill": fill, "ink": ink}
 
 
 def structure_table(verdicts: Sequence[VerdictRow]) -> dict[str, object]:
