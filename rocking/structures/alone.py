@@ -1,12 +1,12 @@
 """A mechanism alone, of which no geometry is known, as a structure that can be followed and nothing else."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
-from rocking.structures.linkage import Contacts, Linkage, UnknownContacts
+from rocking.structures.linkage import Linkage
 from rocking.structures.mechanism import Mechanism
 from rocking.structures.stack import Stack
 from rocking.structures.structure import Structure
@@ -15,6 +15,8 @@ from rocking.structures.structure import Structure
 @dataclass(frozen=True, repr=False)
 class MechanismAlone(Structure):
     """A mechanism that somebody gives without its geometry: it has one crack, no outline and unknown contacts."""
+
+    contacts_unknown: ClassVar[str] = "a mechanism alone has no contacts that are known"
 
     of: Mechanism
 
@@ -31,18 +33,6 @@ class MechanismAlone(Structure):
     def linkages(self) -> tuple[Linkage, ...]:
         """None: no moving part is known."""
         return ()
-
-    def contact_forces(
-        self,
-        rotation: ArrayLike,
-        angular_velocity: ArrayLike,
-        angular_acceleration: ArrayLike | None = None,
-        ground: ArrayLike = 0.0,
-        vertical: ArrayLike = 0.0,
-        largest: ArrayLike | None = None,
-    ) -> Contacts:
-        """Raise UnknownContacts."""
-        raise UnknownContacts("a mechanism alone has no contacts that are known")
 
     def stack(self, courses: int | None = None) -> Stack:
         """Raise StructureError."""

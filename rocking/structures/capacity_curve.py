@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Annotated, ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, shown
@@ -18,7 +17,7 @@ from rocking.remarks import Kind, Remark
 from rocking.structures.capacity import StaticCapacity, StaticCurve
 from rocking.structures.drawing import rectangle
 from rocking.structures.fields import Description, OneSided, RestitutionNumber, Value
-from rocking.structures.linkage import Contacts, Parts, Turning, UnknownContacts
+from rocking.structures.linkage import Parts, Turning
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.structure import Structure
 from rocking.tables.files import read_whole
@@ -64,6 +63,7 @@ class CapacityCurve(Structure):
 
     type_name: ClassVar[str] = "capacity_curve"
     _usual_restitution: ClassVar[float | str] = math.nan
+    contacts_unknown: ClassVar[str] = "a capacity curve has no contacts that are known"
     _described_as: ClassVar[dict[str, str]] = {
         "": "Capacity curve of another program, point by point",
         "read": "Capacity curve of another program, in a CSV file",
@@ -241,18 +241,6 @@ class CapacityCurve(Structure):
             "a capacity curve has no geometry of which a static check could take masses and displacements; check it in "
             "the program that it comes from."
         )
-
-    def contact_forces(
-        self,
-        rotation: ArrayLike,
-        angular_velocity: ArrayLike,
-        angular_acceleration: ArrayLike | None = None,
-        ground: ArrayLike = 0.0,
-        vertical: ArrayLike = 0.0,
-        largest: ArrayLike | None = None,
-    ) -> Contacts:
-        """Raise UnknownContacts."""
-        raise UnknownContacts("a capacity curve has no contacts that are known")
 
     def _linkage(self, mirrored: bool) -> Turning:
         """The slender body as which it is drawn."""

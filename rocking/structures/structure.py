@@ -56,10 +56,10 @@ class Structure(ABC):
     type_name: the `type` in a file. _described_as: what each constructor that a file may use describes, by the name of
     its class method, "" for the class itself. crack_name: what its candidates move ("hinge", "crack"); "" without.
     tapers: whether its courses grow smaller upwards, so that each rocks by itself and throws what stands on it
-    (docs/pages/validation.md). hinges_migrate: whether its hinges would move in flight, while the
-    mechanism leaves them. _usual_restitution: where none is given. statics_chooses: whether codes check the
-    mechanism of least λ alone, as between supports limit analysis finds it; otherwise every crack that may open is a
-    mechanism of its own.
+    (docs/pages/validation.md). hinges_migrate: whether its hinges would move in flight, while the mechanism leaves
+    them. _usual_restitution: where none is given. statics_chooses: whether codes check the mechanism of least λ alone,
+    as between supports limit analysis finds it; otherwise every crack that may open is a mechanism of its own.
+    contacts_unknown: why no contact forces are known; "" where the moving parts tell them.
     """
 
     type_name: ClassVar[str] = ""
@@ -70,6 +70,7 @@ class Structure(ABC):
     _usual_restitution: ClassVar[float | str] = "momentum"
     statics_chooses: ClassVar[bool] = False
     one_sided = False
+    contacts_unknown: ClassVar[str] = ""
 
     restitution_range: Annotated[
         float | None,
@@ -168,11 +169,6 @@ class Structure(ABC):
             return (positive,)
         return positive, self._linkage(mirrored=True)
 
-    @property
-    def _linkage_to_negative(self) -> Linkage:
-        """The moving parts on the side of negative rotation, in the mirror; the same where the sides do not differ."""
-        return self.linkages[-1]
-
     def outline(self, rotation: float = 0.0) -> list[np.ndarray]:
         """Return the rigid parts at a signed `rotation` [rad] as polygons (k, 2) in m, x to the right, y up."""
         linkage, motion = self._posed(rotation)
@@ -262,11 +258,13 @@ class Structure(ABC):
         acceleration; the joints of a wall or an arch are statically indeterminate and their forces nan.
         Raises UnknownContacts, in words, where they are not known (a frame's are indeterminate).
         """
+        if self.contacts_unknown:
+            raise UnknownContacts(self.contacts_unknown)
         state, resting = self._motion_state(
             rotation, angular_velocity, angular_acceleration, ground, vertical, largest
         )
         positive = self.linkages[0].contacts(state)
-        negative = self._linkage_to_negative.contacts(state)
+        negative = self.linkages[-1].contacts(state)
         is_positive = state.sign > 0
         unknown = np.where(resting & (len(positive.names) > 1), np.nan, 0.0)
         return Contacts(
@@ -441,7 +439,7 @@ class Structure(ABC):
         positive = self.linkages[0].side(self._impact(mirrored=False))
         negative = None
         if len(self.linkages) > 1:
-            negative = self._linkage_to_negative.side(self._impact(mirrored=True))
+            negative = self.linkages[-1].side(self._impact(mirrored=True))
         built = Mechanism(positive, negative, self.one_sided, self.restitution_range)
         object.__setattr__(built, "structure", self)  # what it is built again from after pickling
         return built
@@ -498,7 +496,7 @@ class Structure(ABC):
     def _momentum_balance(self, mirrored: bool) -> float:
         """η by the balance of momentum as the structure arrives from one side and leaves to the other."""
         arriving = self.linkages[0]
-        leaving = self._linkage_to_negative
+        leaving = self.linkages[-1]
         if mirrored:
             arriving, leaving = leaving, arriving
         before = arriving.motion(0.0)
