@@ -286,6 +286,10 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     else:
         values = text.numbers(spaced)
         _check_rows(spaced, table.width, may_end_short=not table.labels)
+    if values.size < 2:
+        raise RecordError(
+            f"{values.size} numbers stand below what is passed over, but at least 2 are needed."
+        )
     drawn = _drawn(table, values, b"," in body or b";" in body, options.time_step)
     question = Question(
         signature, _holds(table, drawn, values), drawn.proposal(bool(above) or bool(options.time_step))
@@ -445,8 +449,9 @@ def _holds(table: Table, drawn: TableLayout, values: np.ndarray) -> str:
     for place, column in enumerate(drawn.columns):
         name = f" ({table.labels[place].text})" if table.labels and table.labels[place].text else ""
         first = values[place :: table.width][:_HEAD] * column.seconds
+        step = float(np.median(np.diff(first))) if first.size > 1 else 0.0
         kinds = {
-            "time": f"times of {np.median(np.diff(first)):.4g} s",
+            "time": f"times of {step:.4g} s",
             "other": "no acceleration",
             "open": "?",
         }
