@@ -247,6 +247,16 @@ class Kind(StrEnum):
         "behind: floors or cross_walls and the restitution of its impact on them it does not; neither is the safe side "
         "in every case, so follow both."
     )
+    RESTITUTION_TYPED = auto(), (
+        "{about}: the restitution of {typed:.2g} is typed, while the balance of momentum of the geometry gives "
+        "{own:.2g}, with which less energy is lost: both are followed, and where their words differ the share is a "
+        "range."
+    )
+    CRUSHING_WOULD_TELL = auto(), (
+        "{about}: no compressive_strength is given. If the edges of the joints crush at 2 MPa, they start at less "
+        "(static_multiplier_crushing in structures.csv), which by their reserves under this record changes the word or "
+        "moves the share that overturns by more than 0.1: give the strength."
+    )
     HEAVY_ON_SUPPORT = auto(), (
         "{about} has {ratio:.2g} of the mass of {support}: beyond {limit:g} what it gives back changes rotations by "
         "more than a per cent, at 0.1 by 11 % in the median, and is left out here."

@@ -25,6 +25,7 @@ from rocking.records import Accelerogram
 from rocking.remarks import Kind
 from rocking.sine_pulse import predict_maximum
 from rocking.structures import Mechanism, Structure
+from rocking.structures.structure import CRACKS
 
 
 class Clock:
@@ -343,14 +344,17 @@ def with_variations(
 ) -> CaseResult:
     """Return the case with other cracks and other processings of the record beside it.
 
-    A crack that cannot be followed is told by its reason. crack_heights, processing_variants: as the assessor has them.
+    A crack that cannot be followed is told by its reason. crack_heights, processing_variants: as the assessor has them;
+    without an ensemble cracks are followed in any case.
     """
     if case.answer is None:
         return case
     pulse = case.prediction.pulse if case.prediction else None
     record = component.accelerogram
+    # Without members nothing else follows the mechanism that statics chooses.
+    count = crack_heights or (0 if settings.ensemble.members else CRACKS)
     try:
-        of_cracks = other_cracks(structure, record, pulse, crack_heights, settings, component.vertical)
+        of_cracks = other_cracks(structure, record, pulse, count, settings, component.vertical)
         case = replace(case, variations=tuple(of_cracks))
     except RockingError as error:
         case = replace(case, failures=(*case.failures, Failure("variations", str(error))))

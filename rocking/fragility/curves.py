@@ -409,7 +409,7 @@ def fragility(
         raise ConfigurationError("structure is an equivalent block, but must be a structure or a mechanism.")
     names = _checked_stations(records, stations)
     body = as_structure(structure if isinstance(structure, Structure) else reduced)
-    first, *others = (each for each in counting_cracks(body) if not each.of_geometry)
+    first, *others = counting_cracks(body)
     mechanism = first.mechanism
     if held := never_lets_go(body):
         raise StructureError(f"the structure cannot overturn, and has no fragility: it {held}.")

@@ -24,7 +24,7 @@ from rocking.assessment.rows import (
 from rocking.assessment.scene import placed, variants_of
 from rocking.quantities import GRAVITY, counted, percent
 from rocking.records.dates import day_of
-from rocking.remarks import Remark
+from rocking.remarks import Kind, Remark
 from rocking.reports import printing
 from rocking.reports import record_figures as figures
 from rocking.reports.design_figure import design_figure
@@ -48,12 +48,15 @@ from rocking.reports.record_figures import History
 from rocking.reports.style import pictures
 from rocking.reports.supports import SupportPanel, floor_sentences, support_panels, supports_figure
 from rocking.structures import Structure
+from rocking.structures.structure import WEAK_MASONRY
 
 if TYPE_CHECKING:
     from rocking.codes.design_spectrum import DesignSpectrum
 
 MOST_DRAWN = 10
 """Structures of the histories and of the reserve, the worst first; the tables hold all."""
+MOVED = 0.1
+"""Change of a share that is worth telling."""
 MOST_NOTICED = 3
 """Failures that stand above everything; failures.csv holds all."""
 MOST_PULSES = 3
@@ -274,6 +277,7 @@ def _sentences(report: RecordReport) -> list[str]:
         *(floor_sentences(report.support_panels) if carried else []),
         *([contacts] if failing else []),
         *_cautions(report),
+        *_crushing(report),
         *([remark] if depends else []),
         *heavy,
         *warnings_of(report.tables),
@@ -284,13 +288,38 @@ def _cautions(report: RecordReport) -> list[str]:
     """Return what the models of structures that lift leave out, each sentence once."""
     concerned: dict[Remark, list[str]] = {}
     for station in report.stations:
-        caution = station.body.caution
-        if caution and station.rotation_ratio > 0:
-            concerned.setdefault(caution, []).append(report.called(station.structure))
+        if not station.rotation_ratio > 0:
+            continue
+        for caution in (station.body.caution, station.body.typed_restitution):
+            if caution:
+                concerned.setdefault(caution, []).append(report.called(station.structure))
     return [
         str(replace(caution, about=printing.listed(list(dict.fromkeys(names)))))
         for caution, names in concerned.items()
     ]
+
+
+def _crushing(report: RecordReport) -> list[str]:
+    """Return what a compressive strength of 2 MPa would change of structures that state none, in one sentence.
+
+    λ falls, and so does what overturns them in proportion: as far as the reserves on this record tell.
+    """
+    names = []
+    for station in report.stations:
+        reserve = station.reserve
+        crushed = station.body.crushing(WEAK_MASONRY) if reserve else None
+        if reserve is None or crushed is None:
+            continue
+        factor = station.body.static_multiplier / crushed.static_multiplier
+        share = 0.0 if math.isnan(station.overturning_share) else station.overturning_share
+        reached = [(0.95, reserve.high), (0.5, reserve.median), (0.05, reserve.low)]
+        then = next((each for each, at in reached if at <= factor), 0.0)
+        if then - share > MOVED or then >= 0.05 > share:
+            names.append(report.called(station.structure))
+    if not names:
+        return []
+    remark = Remark(Kind.CRUSHING_WOULD_TELL, printing.listed(list(dict.fromkeys(names))))
+    return [str(remark)]
 
 
 def _advice(report: RecordReport) -> list[str]:

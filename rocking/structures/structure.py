@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from rocking.errors import DoesNotStandError, StructureError, StructureWarning
 from rocking.quantities import GRAVITY, within
-from rocking.remarks import Remark
+from rocking.remarks import Kind, Remark
 from rocking.structures.capacity import StaticCapacity
 from rocking.structures.capacity import StaticCurve as StaticCurve
 from rocking.structures.drawing import Dimension, Mark, Path, plane, span
@@ -43,6 +43,10 @@ CRACKS = 11
 """Number of mechanisms that are followed where more than one may form."""
 TYPED_LOWER = 0.05
 """Difference by which a typed restitution may lie below that of the geometry before both are followed."""
+_USUAL_WEIGHT = 20e3
+"""Weight of masonry where none is given, N/m³."""
+WEAK_MASONRY = 2e6
+"""Compressive strength of weak masonry, Pa, of which reports say what it would change."""
 HIGHEST_SHARE = 0.95
 """Share of the height up to which a hinge or a crack is moved; a wall's hinge also stays that far above its base."""
 
@@ -150,6 +154,22 @@ class Structure(ABC):
     def with_friction(self, coefficient: float) -> "Structure":
         """Return it on joints of this friction coefficient; itself where friction holds nothing of it, or is given."""
         return self
+
+    @property
+    def typed_restitution(self) -> Remark | None:
+        """A remark where the restitution that is typed lies far below that of the geometry; else None."""
+        own = self.restitution_of_geometry
+        typed = self._given_restitution
+        if own is None or not isinstance(typed, float):
+            return None
+        return Remark.of(Kind.RESTITUTION_TYPED, typed=typed, own=own)
+
+    def crushing(self, strength: float) -> "Structure | None":
+        """Return it of masonry that crushes at a `strength` [Pa], of a usual weight where none is given.
+
+        None of what is not of masonry, states its own strength, or does not stand so.
+        """
+        return None
 
     @property
     def does(self) -> str:
@@ -634,6 +654,17 @@ class Crushable(Structure):
                 f"unit_weight is missing, but must be given with a compressive_strength of "
                 f"{self.compressive_strength!r} Pa, for what presses on the joints follows from it; give it in N/m³."
             )
+
+    def crushing(self, strength: float) -> "Structure | None":
+        if self.compressive_strength is not None:
+            return None
+        values: dict[str, float] = {"compressive_strength": strength}
+        if getattr(self, "unit_weight", None) is None:
+            values["unit_weight"] = _USUAL_WEIGHT
+        try:
+            return replace(self, **values)
+        except StructureError:
+            return None
 
     def _stand_crushed(self) -> None:
         """Refuse what its own weight crushes; called once its other values are checked."""

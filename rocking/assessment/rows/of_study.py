@@ -17,6 +17,7 @@ from rocking.records import Accelerogram
 from rocking.structures import Mechanism, Side, Structure
 from rocking.structures.capacity import StaticCurve
 from rocking.structures.equivalent_block import BlockDefects, EquivalentBlock, Scale
+from rocking.structures.structure import WEAK_MASONRY
 from rocking.tables import Columns, Row, RowOf, row
 
 if TYPE_CHECKING:
@@ -93,6 +94,12 @@ class ListedStructure(Named):
         """The distance of its block from the mechanism; None where it has no block."""
         return self.mechanism.block_defects if self.side else None
 
+    @property
+    def static_multiplier_crushing(self) -> float:
+        """λ of it made of weak masonry, whose joints crush at their edges; nan where that is not known."""
+        crushed = self.body.crushing(WEAK_MASONRY)
+        return math.nan if crushed is None else crushed.static_multiplier
+
     def block(self, scale: Scale) -> EquivalentBlock | None:
         """Return its equivalent block; None where it has none, as what cannot overturn."""
         return self.mechanism.equivalent_block(scale) if self.side else None
@@ -133,6 +140,10 @@ class StructureRow(StructureNameRow[ListedStructure]):
     )
     static_multiplier: float = of_listed(
         "Least uplift acceleration in g over all cracks", lambda of: of.body.static_multiplier
+    )
+    static_multiplier_crushing: float = of_listed(
+        "The same if the edges of its joints crush at 2 MPa; empty where it states a strength or would not stand",
+        lambda of: of.static_multiplier_crushing,
     )
     acceleration_scale_linearised: float = of_listed(
         "Scale a_sc of the linearised block",

@@ -243,3 +243,14 @@ def test_chimney_and_gable_turn_about_points_within_their_feet(flue):
         PARTS["gable"].construct(height=4.0, thickness=0.4, compressive_strength=1.2e6)
     with pytest.raises(StructureError, match="section is missing"):
         RigidBody(0.4, 0.4, 1.5, 1.0, **masonry)
+
+
+def test_what_a_strength_would_change_is_asked_of_masonry_that_states_none():
+    """Of a block λ falls by 2c/b, c = γ b h/(1.7 f_c)."""
+    block = Block.of_size(0.6, 4.0, unit_weight=18e3)
+    ratio = block.crushing(2e6).mechanism().uplift_multiplier / block.mechanism().uplift_multiplier
+    assert ratio == pytest.approx(1 - 2 * 18e3 * 4.0 / (1.7 * 2e6), rel=1e-9)
+    assert Block.of_size(0.6, 4.0).crushing(2e6).unit_weight == 20e3
+    assert Block.of_size(0.6, 4.0, **SOFT).crushing(2e6) is None
+    assert RigidBody(0.4, 0.4, 1.5, 1.0).crushing(2e6) is None  # nobody knows what it weighs
+    assert Block.of_size(0.6, 200.0).crushing(2e6) is None  # it would not stand
