@@ -221,7 +221,6 @@ def ensemble_over_cracks(
     motions: GroundMotions,
     settings: AssessmentSettings,
     *,
-    verdict_only: bool = False,
     exhaustive: bool = False,
 ) -> CrackEnsembles:
     """Return the ensembles of the cracks that may govern.
@@ -229,8 +228,8 @@ def ensemble_over_cracks(
     Where the crack that statics chooses overturns, it says all. Otherwise the bulge of a held wall is followed in full,
     and every crack that `screened` leaves in doubt, and the one that then governs with as many members as its word
     needs. A crack other than a bulge that slides before it lifts is left out where one that counts is left. exhaustive:
-    every crack is followed, whatever the screen says; docs/pages/validation.md counts what it misses. verdict_only: as
-    `ensemble` takes it.
+    every crack is followed, whatever the screen says; docs/pages/validation.md counts what it misses. With fidelity:
+    auto members are followed as far as the verdict alone asks for them.
     Raises MotionError as `integrate` does.
     """
     several = cracks(structure)
@@ -242,7 +241,11 @@ def ensemble_over_cracks(
     lifting = [each for each in counting if each not in sliding] or counting
     first, *others = *lifting, *(each for each in several if not each.counts)
     of_statics = ensemble(
-        first.mechanism, motions, settings.ensemble, tolerance=settings.tolerance, verdict_only=verdict_only
+        first.mechanism,
+        motions,
+        settings.ensemble,
+        tolerance=settings.tolerance,
+        verdict_only=settings.fidelity == "auto",
     )
     name = first.description if len(several) > 1 else ""
     statics = FollowedCrack(name, first.position, of_statics, first in sliding, bulges=first.bulges)

@@ -6,7 +6,7 @@ more.
 """
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -456,18 +456,17 @@ def decide(facts: Facts) -> Decision:
 def _envelope(words: Iterable[tuple[CrackFacts, Verdict]]) -> Verdict:
     """The word of all that may form: of the cracks only one does, but a held wall may bulge with any of them."""
     each_with_word = list(words)
-    of_cracks = _over_cracks([word for each, word in each_with_word if not each.bulges])
-    return worse(of_cracks, *(word for each, word in each_with_word if each.bulges))
-
-
-def _over_cracks(steps: Sequence[Verdict]) -> Verdict:
-    """The word of several cracks, the one that statics chooses first, which is the likeliest to form."""
-    if not steps:
-        return Verdict.STANDS
-    worst = worse(*steps)
-    if steps[0] in (Verdict.STANDS, Verdict.PROBABLY_STANDS):
-        return better(worst, Verdict.UNCERTAIN)
-    return worst if steps[0] is Verdict.OVERTURNS else better(worst, Verdict.PROBABLY_OVERTURNS)
+    of_bulges = [word for each, word in each_with_word if each.bulges]
+    of_cracks = [word for each, word in each_with_word if not each.bulges]
+    if not of_cracks:
+        return worse(Verdict.STANDS, *of_bulges)
+    # The one that statics chooses comes first, which is the likeliest to form: others limit its word, no more.
+    worst = worse(*of_cracks)
+    if of_cracks[0] in (Verdict.STANDS, Verdict.PROBABLY_STANDS):
+        worst = better(worst, Verdict.UNCERTAIN)
+    elif of_cracks[0] is not Verdict.OVERTURNS:
+        worst = better(worst, Verdict.PROBABLY_OVERTURNS)
+    return worse(worst, *of_bulges)
 
 
 def _worse_than_given(facts: Facts) -> CrackFacts | None:

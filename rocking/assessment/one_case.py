@@ -125,22 +125,11 @@ def _case(
         return case
     motions = ground_motions(motion_of(component), settings.ensemble.processing)
     if members and answer.method is Method.MECHANISM_ON_RECORD:
-        case = with_ensembles(case, structure, motions, settings)
+        case = replace(case, ensembles=ensemble_over_cracks(structure, motions, settings))
         return with_contacts(case, structure, motions, settings, check.bounces)
     if vertical is None and component.support is None:
         case = replace(case, overturning_estimate=estimated(Tier.PEAK_VELOCITY, mechanism, record))
     return with_contacts(case, structure, motions, settings, check.bounces)
-
-
-def with_ensembles(
-    case: CaseResult,
-    structure: Structure,
-    motions: GroundMotions,
-    settings: AssessmentSettings,
-) -> CaseResult:
-    """Return the case with the ensembles of its cracks; with fidelity: auto, as far as the verdict asks for them."""
-    auto = settings.fidelity == "auto"
-    return replace(case, ensembles=ensemble_over_cracks(structure, motions, settings, verdict_only=auto))
 
 
 def with_contacts(
@@ -389,7 +378,7 @@ def assess_directions(
     case = CaseResult(component=BOTH_COMPONENTS)
     motions = ground_motions(pair, settings.ensemble.processing)
     try:
-        case = with_ensembles(case, structure, motions, settings)
+        case = replace(case, ensembles=ensemble_over_cracks(structure, motions, settings))
         return with_contacts(case, structure, motions, settings, bounces)
     except RockingError as error:
         return replace(case, failures=(Failure("directions", str(error)),))
