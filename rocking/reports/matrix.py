@@ -12,13 +12,16 @@ from rocking.reports.printing import LOOKS, NOTHING, number
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-MOST_RECORDS = 5
+MOST_RECORDS = 12
 """Records beside each other; of more the map has a line each."""
 MOST_STRUCTURES = 20
 """Structures below each other, the worst first; verdicts.csv holds all."""
 MOST_IN_WORDS = 2
 """Records up to which a cell has room for its word and a range; of more it holds the share alone on the word's colour,
 with a legend."""
+MOST_WITH_ALL = 5
+"""Records up to which a page has room for their peaks, for what there is to know of each structure, and for the cells
+of what stands or cannot be told, which beyond it the colour and the hatch say alone."""
 _UNSAID = (Kind.STRENGTHEN, Kind.NOTHING_TO_DO, Kind.NOTHING_DECIDES)
 """Remarks that the word itself says."""
 
@@ -37,16 +40,21 @@ def matrix(made: Sequence[Conclusion], records: "DataFrame", pulses: "DataFrame"
     if not 0 < len(columns) <= MOST_RECORDS:
         return {"heads": [], "rows": [], "legend": [], "left-out": 0}
     shown = names[:MOST_STRUCTURES]
+    has_room = len(columns) <= MOST_WITH_ALL
     in_words = len(columns) <= MOST_IN_WORDS
     present = {by_pair[pair].decision.word for pair in by_pair if pair[1] in shown}
     return {
         "legend": [] if in_words else [_look(word) for word in ORDER if word in present],
-        "heads": [{"name": name, "below": _head(name, records, pulses, in_words)} for name in columns],
+        "upright": not has_room,
+        "heads": [
+            {"name": name, "below": _head(name, records, pulses, in_words) if has_room else ""}
+            for name in columns
+        ],
         "rows": [
             {
                 "name": name,
-                "cells": [_cell(by_pair.get((record, name)), in_words) for record in columns],
-                "remark": _remark(worst[name]),
+                "cells": [_cell(by_pair.get((record, name)), len(columns)) for record in columns],
+                "remark": _remark(worst[name]) if has_room else "",
             }
             for name in shown
         ],
@@ -68,15 +76,18 @@ def _head(record: str, records: "DataFrame", pulses: "DataFrame", in_words: bool
     return text
 
 
-def _cell(conclusion: Conclusion | None, in_words: bool) -> dict[str, object]:
+def _cell(conclusion: Conclusion | None, records: int) -> dict[str, object]:
     if conclusion is None:
         return {"word": "", "share": "", "fill": "#ffffff", "ink": "#000000", "hatched": False}
     decision = conclusion.decision
     look = _look(decision.word)
-    if not in_words:
+    if records > MOST_IN_WORDS:
         share = decision.share_in_words.removesuffix("\u00a0%").replace("at least ", "≥")
-        untold = "?" if look["hatched"] else NOTHING
-        return look | {"word": "", "share": untold if share in ("", "≥0") else share}
+        if records > MOST_WITH_ALL and (decision.word is Verdict.STANDS or share == "≥0"):
+            share = ""
+        elif share in ("", "≥0"):
+            share = "?" if look["hatched"] else NOTHING
+        return look | {"word": "", "share": share}
     return look | {"share": "" if look["hatched"] else decision.share_in_words}
 
 

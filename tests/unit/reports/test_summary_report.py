@@ -158,7 +158,9 @@ def test_of_many_records_each_has_a_line_of_the_map_and_the_worst_stand_on_the_f
     assert [row["record"] for row in data["map"]["rows"]] == [f"record {39 - number}" for number in range(12)]
     assert len(data["whole-map"]["rows"]) == 40
     few = summary_data(summary_tables(CASES, verdicts=judged[:10]), SETTINGS)
-    assert len(few["map"]["rows"]) == 10 and few["whole-map"]["rows"] == []
+    assert few["map"]["rows"] == few["whole-map"]["rows"] == []
+    (row,) = few["matrix"]["rows"]
+    assert few["matrix"]["upright"] and len(few["matrix"]["heads"]) == len(row["cells"]) == 10
 
 
 def test_each_method_is_held_against_the_integration_and_no_time_is_told(example):
