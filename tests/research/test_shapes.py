@@ -20,9 +20,9 @@ def test_a_planted_pulse_is_found_by_its_shape_and_explains_all(shape):
     record = Accelerogram(planted.acceleration(TIMES), STEP)
     found = {name: fitted(record, *SHAPES[name]) for name in SHAPES}
     own = found[shape]
-    assert own.pulse.amplitude == pytest.approx(-2.0, rel=1e-2)
+    # 118 samples a cycle: of a cosine, which jumps at both ends, the window holds up to two that the pulse does not
+    assert own.pulse.amplitude == pytest.approx(-2.0, rel=0.02)
     assert own.pulse.start_time == pytest.approx(6.0, abs=STEP)
-    # A cosine loses the half sample at which it jumps.
     assert own.explained == pytest.approx(1.0, abs=0.02)
     assert own.explained == max(each.explained for each in found.values())
 
