@@ -4,7 +4,7 @@ import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rocking.assessment.conclusion import conclusions, worst_of_each
 from rocking.assessment.cracks import never_lets_go
@@ -47,6 +47,9 @@ from rocking.tables import (
 )
 from rocking.tables.workbook import workbook
 
+if TYPE_CHECKING:
+    from rocking.codes.conclusion import CodeConclusion
+
 PROVENANCE = "provenance.json"
 """In the folder of the summary: what the results were made from and with."""
 WORKBOOK = "study.xlsx"
@@ -85,29 +88,31 @@ def summarise(job: Job) -> list[Path]:
     write_whole(target / PROVENANCE, (text + "\n").encode())
     files += [target / "datapackage.json", target / PROVENANCE]
     if study.settings.reports:
-        # matplotlib takes half a second to import
-        from rocking.codes.conclusion import code_conclusions
-        from rocking.codes.rows import CodeCheckRow
-        from rocking.codes.variants import Variant, VariantRow, variants
-        from rocking.reports.explore import explore_page
-        from rocking.reports.variants import strips
+        from rocking.reports.explore import explore_page  # matplotlib takes half a second to import
 
         beside = _beside(job)
-        checks = [row for row in beside.get(CodeCheckRow, ()) if isinstance(row, CodeCheckRow)]
-        checked = code_conclusions(checks)
-        compared: dict[str, list[Variant]] = {}
+        sheets = {each: rows for each, rows in shown.items() if each not in _NOT_IN_THE_WORKBOOK}
+        checked: list[CodeConclusion] = []
+        drawn: list[dict[str, Any]] = []
+        # The main job runs without the folder of the codes.
+        if study.settings.design_spectrum.spectrum() is not None:
+            from rocking.codes.conclusion import code_conclusions
+            from rocking.codes.rows import CodeCheckRow
+
+            checks = [row for row in beside.get(CodeCheckRow, ()) if isinstance(row, CodeCheckRow)]
+            checked = code_conclusions(checks)
+            sheets |= {CodeCheckRow: beside[CodeCheckRow]} if checks else {}
         if groups := variants_of(study.scenes):
+            from rocking.codes.variants import VariantRow, variants
+            from rocking.reports.variants import strips
+
             verdicts = (row for row in shown[VerdictRow] if isinstance(row, VerdictRow))
             compared = variants(groups, worst_of_each(conclusions(verdicts, [])), checked)
-        drawn = strips(compared, study.structures)
+            drawn = strips(compared, study.structures)
+            sheets[VariantRow] = [VariantRow.of(each) for row in compared.values() for each in row]
         files += _report(target, study, shown | beside, spectra, drawn)
         page = explore_page(pages, study.structures, study.settings.study or "", checked, drawn)
         write_whole(target / "study.html", page)
-        sheets = {each: rows for each, rows in shown.items() if each not in _NOT_IN_THE_WORKBOOK}
-        if checks:
-            sheets[CodeCheckRow] = beside[CodeCheckRow]
-        if compared:
-            sheets[VariantRow] = [VariantRow.of(each) for row in compared.values() for each in row]
         write_whole(target / WORKBOOK, workbook(sheets, study.settings.study or "", opens_on=VerdictRow))
         files += [target / "study.html", target / WORKBOOK]
     remove_others(job.results, [record.id for record in job.records])
@@ -150,16 +155,17 @@ def write_summary(
 
 def _beside(job: Job) -> dict[type[Row], list[Row]]:
     """The rows of the other products over all records that documents of the summary show, as far as there are any."""
-    from rocking.codes.rows import CodeCheckRow
-    from rocking.fragility.rows import FragilitySummaryRow, IdaRow  # a quarter of a second
-
     tables: dict[str, tuple[type[Row], ...]] = {}
     if job.study.settings.design_spectrum.spectrum() is not None:
+        from rocking.codes.rows import CodeCheckRow
+
         tables["checks"] = (CodeCheckRow,)
     if job.study.settings.trade.in_summary:
         tables["trade"] = (TradeRow,)
     # One that was measured by hand is shown as well, with the next run.
     if not job.seals.why_again("fragility"):
+        from rocking.fragility.rows import FragilitySummaryRow, IdaRow  # a quarter of a second
+
         tables["fragility"] = (FragilitySummaryRow, IdaRow)
     rows: dict[type[Row], list[Row]] = {}
     for product, wanted in tables.items():
