@@ -332,6 +332,10 @@ class Kind(StrEnum):
 
     # What was read of a file, and what was not.
     FIRST_NUMBERS = auto(), "The first of the numbers are no samples, but {what}."
+    UNLIKE_ITS_ANSWER = auto(), (
+        "It is read as {answer!r}, by layouts.csv, but looks otherwise ({holds}): see whether it is like the other "
+        "files of its folder."
+    )
     ROW_FILLED_UP = auto(), "The last row is filled up with NaN, which are left out."
     LINE_ENDS_DOUBLED = auto(), (
         "The line ends are doubled (CR CR LF) by a faulty conversion; the numbers are unharmed."

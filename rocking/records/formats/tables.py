@@ -253,12 +253,6 @@ def _refuse_others(table: Table, file: str) -> None:
         refuse_by_name(file)
 
 
-def _are_columns(content: bytes) -> bool:
-    if _OTHER_FORMAT.match(content) or b"\0" in content[:4096]:
-        return False
-    return Table.of(Dialect.of(content).plain(content) or content) is not None
-
-
 def signature_of(content: bytes, folder: str) -> Signature | None:
     """Return the signature of a table from its first bytes, None of another file; folder: in which it lies."""
     if _OTHER_FORMAT.match(content) or b"\0" in content[:4096]:
@@ -267,12 +261,14 @@ def signature_of(content: bytes, folder: str) -> Signature | None:
     return None if table is None else table.signature(folder)
 
 
+# Whole on purpose: what is seen, what is answered, and what is read by it, each from the one before.
 def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     pointed = Dialect.of(content).plain(content)
     if pointed is None:
         raise RecordError("the commas are decimal signs or part columns; write points, or semicolons.")
     table = Table.of(pointed) or Table((), 1, 0)  # it was recognised by that
     _refuse_others(table, options.file)
+
     signature = table.signature(options.layouts.place)
     answer = options.layouts.answer(signature)
     layout = answer.layout if answer else None
@@ -280,30 +276,26 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     body, filled = _plain_rows(
         text.after_lines(pointed, start), may_be_filled=not table.labels and table.width > 2
     )
-    spaced = _TOUCHING.sub(rb"\1 ", body).replace(b",", b" ").replace(b";", b" ")
-    if layout and layout.width:
-        values = text.fields(text.lines(body), layout.width)
-    else:
-        values = text.numbers(spaced)
-        _check_rows(spaced, table.width, may_end_short=not table.labels)
-    if values.size < 2:
-        raise RecordError(
-            f"{values.size} numbers stand below what is passed over, but at least 2 are needed."
-        )
+    values = _values(body, table, layout)
+
     drawn = _drawn(table, values, b"," in body or b";" in body, options.time_step)
     question = Question(
         signature, _holds(table, drawn, values), drawn.proposal(bool(above) or bool(options.time_step))
     )
+    notes = filled + factor_warnings((*table.remarks, *table.words))
     if answer and layout:
+        if (
+            not table.labels and layout.is_series != drawn.is_series
+        ):  # another file of its folder was answered for
+            notes += (Remark.of(Kind.UNLIKE_ITS_ANSWER, answer=answer.text, holds=question.holds),)
         known = (label if label.is_known else ColumnLabel("") for label in table.labels)
         table = replace(table, labels=tuple(known))
         layout = _fitted(answer, layout, table, drawn, options)
         options = replace(options, time_step=layout.time_step or options.time_step)
     else:
-        _ask_where_open(table, drawn, options, question, spaced)
+        _ask_where_open(table, drawn, options, question, body)
         layout = drawn
-    if not layout.is_series and values.size % len(layout.columns):
-        _check_rows(spaced, table.width, may_end_short=False)
+
     try:
         records = _series(values, table, layout, above, options) if layout.is_series else []
         records = records or _channels(values, table, layout, options)
@@ -311,7 +303,6 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
         raise AskedError(error.args[0], error.field, question) from None
     if len(records) == 1:
         records = [_pointing(records[0], table.said.component)]
-    notes = filled + factor_warnings((*table.remarks, *table.words))
     whose = f"read as {answer.text!r}, by {answer.whose}" if answer else ""
     return [
         replace(record, source=replace(record.source, answer=whose)).warned(
@@ -461,7 +452,7 @@ def _holds(table: Table, drawn: TableLayout, values: np.ndarray) -> str:
 
 
 def _ask_where_open(
-    table: Table, drawn: TableLayout, options: Options, question: Question, spaced: bytes
+    table: Table, drawn: TableLayout, options: Options, question: Question, body: bytes
 ) -> None:
     """Raise AskedError where a table leaves open what it holds, but for the unit and the step of one series.
 
@@ -479,7 +470,7 @@ def _ask_where_open(
         why = "what its columns hold is not known"
     elif not table.is_understood and (not is_complete or any(map(speaks_of_factor, table.words))):
         why = "what the text above its numbers says is not known"
-    elif drawn.is_series and table.width > 1 and (first := _whole_numbers(spaced)):
+    elif drawn.is_series and table.width > 1 and (first := _whole_numbers(body)):
         why = f"the first row of numbers, {first!r}, is of whole numbers and seems to be a header"
     else:
         return
@@ -566,6 +557,21 @@ def _first_numbers(values: np.ndarray, declared: float | None) -> tuple[Above, .
     return ("dt",) if declared is not None and first == declared else ()
 
 
+def _values(body: bytes, table: Table, layout: TableLayout | None) -> np.ndarray:
+    """Return the numbers of rows, of the width that an answer says where they touch. Raises RecordError for others."""
+    if layout and layout.width:
+        values = text.fields(text.lines(body), layout.width)
+    else:
+        spaced = _TOUCHING.sub(rb"\1 ", body).replace(b",", b" ").replace(b";", b" ")
+        values = text.numbers(spaced)
+        _check_rows(spaced, table.width, may_end_short=not table.labels)
+    if values.size < 2:
+        raise RecordError(
+            f"{values.size} numbers stand below what is passed over, but at least 2 are needed."
+        )
+    return values
+
+
 def _check_rows(spaced: bytes, width: int, may_end_short: bool) -> None:
     """Raise RecordError unless every row of numbers has `width` of them; the last row of a series may be short."""
     octets = np.frombuffer(b"\n" + spaced + b"\n", dtype=np.uint8)
@@ -579,9 +585,9 @@ def _check_rows(spaced: bytes, width: int, may_end_short: bool) -> None:
         raise RecordError(f"row {at + 1} of the samples has {counts[at]} columns, but the first has {width}.")
 
 
-def _whole_numbers(spaced: bytes) -> str:
+def _whole_numbers(body: bytes) -> str:
     """Return the first row of a series of decimals where it is of whole numbers, "" else: these are a header's."""
-    first, _, rest = spaced.lstrip().partition(b"\n")
+    first, _, rest = body.lstrip().partition(b"\n")
     if b"." in first or b"." not in rest or not re.search(rb"\d\d", first):
         return ""
     return first.decode("latin-1").strip()[:40]
@@ -590,6 +596,10 @@ def _whole_numbers(spaced: bytes) -> str:
 def _channels(values: np.ndarray, table: Table, layout: TableLayout, options: Options) -> list[Accelerogram]:
     """Return the channels of a table: each column of acceleration, with the times left of it, else the first ones."""
     columns = layout.columns
+    if values.size % len(columns):
+        raise RecordError(
+            f"the last row of the samples has {values.size % len(columns)} of {len(columns)} columns."
+        )
     rows = values.reshape(-1, len(columns))
     said = table.said
     labels = table.labels if len(table.labels) == len(columns) else (ColumnLabel(""),) * len(columns)
@@ -676,7 +686,7 @@ COLUMNS = Format(
     "columns of numbers",
     "spreadsheets, OpenSees and scripts",
     "lines that hold numbers only, below names that leave nothing open",
-    _are_columns,
+    lambda content: signature_of(content, "") is not None,
     _read_columns,
     yields=True,
 )

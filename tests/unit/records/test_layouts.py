@@ -12,6 +12,7 @@ from rocking.records import load_catalogue, open_record, read
 from rocking.records.files import answers_of
 from rocking.records.folder import list_folder
 from rocking.records.formats.layouts import COLUMNS, NAME, AskedError, Layouts, Question, TableLayout
+from rocking.remarks import Kind
 from rocking.study.workspace import write_catalogue
 
 TIMES = 0.01 * np.arange(600)
@@ -313,6 +314,17 @@ def test_a_wrong_line_names_the_column_and_the_file_it_was_drawn_from(
     listed, rows = list_folder(tmp_path)
     assert [row["file"] for row in rows] == ["good.csv"]
     assert [bool(file.refusal) for file in listed] == [False, True]
+
+
+def test_a_file_that_looks_unlike_the_others_of_its_folder_is_told(tmp_path: Path) -> None:
+    (tmp_path / "made.txt").write_text(wrapped(MOTION, 3))
+    with pytest.raises(AskedError) as asked:
+        read(tmp_path / "made.txt")
+    answered(tmp_path, asked.value.question, "one series m/s2, 3 a line, dt 0.01")
+    assert read(tmp_path / "made.txt")[0].warnings == ()
+    (tmp_path / "other.txt").write_text(table(MOTION, OTHER, UP))
+    (record,) = read(tmp_path / "other.txt")
+    assert Kind.UNLIKE_ITS_ANSWER in {each.kind for each in record.warnings}
 
 
 def test_an_answer_that_the_file_contradicts_is_refused(tmp_path: Path) -> None:
