@@ -12,11 +12,13 @@ BYTECODE := $(BIN)/python -m compileall -qq -j 0 -x '/tests?/' $(VENV)/lib || tr
 COMPILE := uv pip compile --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header
 EXECUTOR := snakemake-executor-plugin-slurm
 SLURM := workflow/profiles/slurm/requirements.lock
+OPENQUAKE := $(VENV)/openquake
+ENGINE := openquake-engine==3.26.2
 
 # Tests start many processes, and each would compile the whole package again to bytecode.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all run setup slurm test test-runs test-all bench check schema paper documentation wheel release lock clean
+.PHONY: all run setup slurm openquake test test-runs test-all bench check schema paper documentation wheel release lock clean
 
 all: run
 
@@ -42,6 +44,14 @@ $(TOOLS): $(STAMP) development.lock
 slurm: setup
 	$(PIP) --require-hashes --no-deps -r $(SLURM)
 
+# Apart from the rest, as it pins other versions of what both need. Without GDAL, which it exports rasters with.
+openquake: $(OPENQUAKE)/.installed
+
+$(OPENQUAKE)/.installed: tests/workflow/openquake.lock
+	$(PYTHON) -m venv $(OPENQUAKE)
+	$(OPENQUAKE)/bin/python -m pip install --quiet --no-compile --no-deps --require-hashes -r tests/workflow/openquake.lock
+	touch $(OPENQUAKE)/.installed
+
 test: $(TOOLS)
 	$(BIN)/python -m pytest -n logical --dist loadfile
 
@@ -50,7 +60,7 @@ test-runs: $(TOOLS)
 	$(BIN)/python -m pytest -n logical --dist loadfile -m "process and not slow"
 
 # The slow ones too: research, every page, ten thousand damaged files, and twenty runs that are killed and go on.
-test-all: $(TOOLS)
+test-all: $(TOOLS) openquake
 	ROCKING_KILLS=20 $(BIN)/python -m pytest -n logical --dist loadfile -m "" --hypothesis-profile thorough
 
 bench: $(TOOLS)
@@ -93,6 +103,7 @@ lock:
 	$(COMPILE) pyproject.toml --extra build --extra workflow -o requirements.lock
 	$(COMPILE) pyproject.toml --extra build --extra workflow --extra docs --extra test -c requirements.lock -o development.lock
 	printf '%s\n' $(EXECUTOR) $(EXECUTOR)-jobstep | $(COMPILE) - --no-deps -o $(SLURM)
+	{ $(COMPILE) tests/workflow/openquake.in; echo $(ENGINE) | $(COMPILE) - --no-deps; } > tests/workflow/openquake.lock
 
 clean:
 	rm -rf results .snakemake
