@@ -117,7 +117,7 @@ def _damaged(name: str) -> Callable:
         (_file("design.csv", "0.06", "0.05"), "checks record summary"),
         (_file("hazard.csv", "0.00001", "0.00002"), "fragility summary"),
         (_file("structures.yaml", "3.2", "3.3"), "checks fragility record summary"),
-        (_damaged("summary/structures.pdf"), "checks"),
+        (_damaged("summary/structures.pdf"), "checks summary"),
         (_damaged("good_1/comparison.csv"), "checks record summary"),
         (_damaged("fragility/fragility.csv"), "fragility summary"),
     ],
