@@ -248,9 +248,13 @@ class Kind(StrEnum):
         "in every case, so follow both."
     )
     RESTITUTION_TYPED = auto(), (
-        "{about}: the restitution of {typed:.2g} is typed, while the balance of momentum of the geometry gives "
+        "The restitution of {typed:.2g} is typed, while the balance of momentum of the geometry gives "
         "{own:.2g}, with which less energy is lost: both are followed, and where their words differ the share is a "
         "range."
+    )
+    RESTITUTION_ABOVE = auto(), (
+        "The restitution of {typed:.2g} is typed, above the {own:.2g} that the balance of momentum leaves rigid bodies "
+        "of this geometry: it rocks longer than they would; check it, or leave it out."
     )
     CRUSHING_WOULD_TELL = auto(), (
         "{about}: no compressive_strength is given. If the edges of the joints crush at 2 MPa, they start at less "

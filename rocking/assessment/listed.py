@@ -20,6 +20,7 @@ from rocking.described import kind_in_words
 from rocking.errors import ConfigurationError, StructureError, StructureWarning
 from rocking.floors.place import GROUND, TYPE_NAME, Place, place_from_config, place_schema
 from rocking.quantities import shown
+from rocking.remarks import Kind
 from rocking.structures.structure_list import LONGEST_KEY, NAME, definitions, nearest, structure_from_config
 from rocking.tables.yaml_file import read_yaml
 
@@ -227,7 +228,10 @@ def _scene(
     place = known[stands_on] or GROUND
 
     heavy = place.warning(name) if place.supports else None
-    for remark in (*structure.described.remarks, *([heavy] if heavy else [])):
+    own = structure.typed_restitution
+    # What lies below that of the geometry is followed beside it, and told where it matters.
+    above = own if own is not None and own.kind is Kind.RESTITUTION_ABOVE else None
+    for remark in filter(None, (*structure.described.remarks, above, heavy)):
         warnings.warn(f"{where}: {remark}", StructureWarning, stacklevel=3)
     return Scene(name, structure, place, terms)
 

@@ -47,6 +47,8 @@ _USUAL_WEIGHT = 20e3
 """Weight of masonry where none is given, N/m³."""
 WEAK_MASONRY = 2e6
 """Compressive strength of weak masonry, Pa, of which reports say what it would change."""
+TYPED_ABOVE = 0.02
+"""Difference by which a typed restitution may lie above that of the geometry, as more than rounding, unremarked."""
 HIGHEST_SHARE = 0.95
 """Share of the height up to which a hinge or a crack is moved; a wall's hinge also stays that far above its base."""
 
@@ -157,12 +159,18 @@ class Structure(ABC):
 
     @property
     def typed_restitution(self) -> Remark | None:
-        """A remark where the restitution that is typed lies far below that of the geometry; else None."""
-        own = self.restitution_of_geometry
+        """A remark where the restitution that is typed lies far below that of the geometry, or above it; else None."""
         typed = self._given_restitution
-        if own is None or not isinstance(typed, float):
+        has_balance = not self.one_sided and isinstance(self._usual_restitution, str)
+        if not has_balance or not isinstance(typed, float):
             return None
-        return Remark.of(Kind.RESTITUTION_TYPED, typed=typed, own=own)
+        own = self.restitution_of_geometry
+        if own is not None:
+            return Remark.of(Kind.RESTITUTION_TYPED, typed=typed, own=own)
+        most = max(self._momentum_balance(mirrored) for mirrored in (False, True))
+        if typed - most > TYPED_ABOVE:
+            return Remark.of(Kind.RESTITUTION_ABOVE, typed=typed, own=max(most, 0.0))
+        return None
 
     def crushing(self, strength: float) -> "Structure | None":
         """Return it of masonry that crushes at a `strength` [Pa], of a usual weight where none is given.

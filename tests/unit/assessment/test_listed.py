@@ -14,6 +14,7 @@ from rocking.assessment.listed import load_scenes
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import ConfigurationError, StructureWarning
 from rocking.floors.place import GROUND, PERIODS, place_from_config
+from rocking.remarks import Kind
 
 BLOCK = "type: block, breadth_m: 0.4, height_m: 1.6"
 
@@ -245,3 +246,17 @@ def test_a_variant_that_is_added_computes_no_other_case_again(tmp_path):
     # What is kept has no names, and so the same case may serve structures of two names.
     assert all(store[key] is before[key] for key in before)
     assert len(cases) == sum(isinstance(each, CaseResult) for each in before.values()) / 2
+
+
+def test_a_restitution_above_that_of_the_geometry_is_told(tmp_path):
+    """Of a block 1 − 1.5 sin²α = .942: more than that no rigid bodies keep."""
+    path = tmp_path / "list.yaml"
+    sizes = "type: block, breadth_m: 0.6, height_m: 3"
+    path.write_text(f"- {{name: a, {sizes}, restitution: 0.99}}\n- {{name: b, {sizes}, restitution: 0.7}}\n")
+    with pytest.warns(StructureWarning, match=r"above the 0\.94") as told:
+        scenes = load_scenes(path)
+    assert len(told) == 1
+    kinds = [each.structure.typed_restitution.kind for each in scenes.values()]
+    assert kinds == [Kind.RESTITUTION_ABOVE, Kind.RESTITUTION_TYPED]
+    own = scenes["b"].structure.typed_restitution["own"]
+    assert own == pytest.approx(1 - 1.5 * 0.36 / (0.36 + 9.0), rel=1e-9)
