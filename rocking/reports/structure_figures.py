@@ -20,7 +20,9 @@ from rocking.reports.style import PREDICTED, PULSE, new_figure, panel_at, room_f
 from rocking.structures import Structure
 
 _HEIGHT = 102.0
-"""mm; of the mechanism beside its bars, and of the drawing beside its capacity curve."""
+"""mm; of the mechanism beside its bars."""
+_BASIS_HEIGHT = 72.0
+"""mm; of the drawing beside its capacity curve, which leaves the page room for its tables."""
 _TURNED = 0.5
 """Share of the critical rotation at which a mechanism is drawn."""
 _POINTS = 200
@@ -157,8 +159,8 @@ def _write_beside(axes: Axes, place: float, text: str, **look: Any) -> None:
 @styled
 def basis_figure(structure: Structure, checked: StructureCheck, words: Sentences) -> Figure:
     """Draw the structure with its sizes and loads, and the capacity curve of the mechanism that governs."""
-    figure = new_figure(_HEIGHT)
-    drawn = panel_at(figure, 2, 4, 70, _HEIGHT - 10)
+    figure = new_figure(_BASIS_HEIGHT)
+    drawn = panel_at(figure, 2, 4, 70, _BASIS_HEIGHT - 10)
     draw_structure(drawn, structure, values=words.language == "en")
     draw_dimensions(drawn, structure, values=True, written=words.decimal)
     drawn.set_title(words("sizes and loads"))
@@ -167,7 +169,7 @@ def basis_figure(structure: Structure, checked: StructureCheck, words: Sentences
     drawn.autoscale_view()
     drawn.set_axis_off()
     room_for_texts(figure, drawn)
-    _draw_capacity(panel_at(figure, 94, 4, 74, _HEIGHT - 13), checked.governing, words)
+    _draw_capacity(panel_at(figure, 94, 4, 74, _BASIS_HEIGHT - 13), checked.governing, words)
     return figure
 
 
