@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from rocking import DesignSpectrum, Facade, LoadedWall
+from rocking import Block, DesignSpectrum, Facade, LoadedWall
 from rocking.codes.check import CodeTerms
 from rocking.codes.local_mechanism import LIMIT_STATES
 from rocking.codes.static_check import kinematic_check
@@ -168,3 +168,31 @@ def test_wall_with_a_tie_between_its_supports_is_checked_below_and_above_it():
     names = [each.description for each in kinematic_check(wall, SPECTRUM).mechanisms]
     assert any(name.startswith("bulges between foot and tie") for name in names)
     assert any(name.startswith("bulges between tie and top") for name in names)
+
+
+@pytest.mark.parametrize("factor", [1.35, 1.20, 1.00])
+def test_check_of_a_block_that_crushes_at_its_edge_by_hand(factor):
+    """c = γ h b/(1.7 f_c), α₀ = (b − 2c)/h; d₀ of the corner that moves farthest, T_SLV at .4 d₀; FC as typed."""
+    breadth, height, weight, strength = 0.8, 5.0, 19e3, 1.5e6
+    block = Block.of_size(breadth, height, unit_weight=weight, compressive_strength=strength)
+    check = kinematic_check(block, SPECTRUM, CodeTerms(confidence_factor=factor))
+    arm = breadth / 2 - weight * height * breadth / (1.7 * strength)
+    onset = arm / (height / 2)
+    governing = check.governing
+    assert governing.onset_multiplier == pytest.approx(onset, rel=BY_HAND)
+    assert governing.confidence_factor == factor
+    on_rock = 1.2  # S_S of soil B
+    assert check.linear.capacity == pytest.approx(2 * onset * G / factor / on_rock, rel=BY_HAND)
+    # It turns about a point: λ(φ) = tan(α − φ). The inner corner of the top moves farthest, twice as far as the centre.
+    slope = math.atan(onset)
+
+    def moved(rotation: float) -> float:
+        return (height * math.sin(rotation) + (breadth / 2 + arm) * (1 - math.cos(rotation))) / 2
+
+    ultimate = moved(slope)
+    assert governing.ultimate_displacement == pytest.approx(ultimate, rel=BY_HAND)
+    rotation = brentq(lambda phi: moved(phi) - 0.4 * ultimate, 0.0, slope, xtol=1e-16)
+    acceleration = math.tan(slope - rotation) * G / factor
+    assert check.limit.acceleration == pytest.approx(acceleration, rel=BY_HAND)
+    period = 1.68 * math.pi * math.sqrt(0.4 * ultimate / acceleration)
+    assert check.limit.period == pytest.approx(period, rel=BY_HAND)
