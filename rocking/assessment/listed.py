@@ -220,10 +220,11 @@ def _scene(
     known = {**places, GROUND.name: GROUND}
     stands_on = of_scene.get("stands_on", GROUND.name)
     if not isinstance(stands_on, str) or stands_on not in known:
-        listed = ", ".join([GROUND.name, *map(_repeated, places)])
+        names = [GROUND.name, *map(_repeated, places)]
+        use = f"use one of {', '.join(names)}" if places else f"leave it out for {GROUND.name}"
         raise ConfigurationError(
             f"stands_on is {shown(stands_on)}, but no support of the list has this name{nearest(stands_on, places)}; "
-            f"use one of {listed}, or add the support."
+            f"{use}, or add the support."
         )
     place = known[stands_on] or GROUND
 

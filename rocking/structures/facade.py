@@ -12,7 +12,7 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 
 from rocking.errors import StructureError
-from rocking.quantities import GRAVITY, whole
+from rocking.quantities import GRAVITY, counted, whole
 from rocking.remarks import Kind, Remark
 from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import Value, restitution_value
@@ -161,7 +161,7 @@ class Facade(Tied):
         for name, values in (("thicknesses", thicknesses), ("floor_loads", loads or heights)):
             if len(values) != len(heights):
                 raise StructureError(
-                    f"{name} has {len(values)} values, but must have {len(heights)}, one for each storey."
+                    f"{name} has {counted(len(values), 'value')}, but must have {len(heights)}, one for each storey."
                 )
         bearing = [t for load, t in zip(loads, thicknesses, strict=False) if load]
         check_eccentricity(self.eccentricity, min(bearing or thicknesses))

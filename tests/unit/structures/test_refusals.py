@@ -51,7 +51,7 @@ def facade(**changes):
         (lambda: facade(eccentricity=0.21), "eccentricity is 0.21 m, but must lie within .*, 0.2 m"),
         (
             lambda: facade(floor_loads=(1e3,)),
-            "floor_loads has 1 values, but must have 3, one for each storey",
+            "floor_loads has 1 value, but must have 3, one for each storey",
         ),
         (lambda: facade(thrust=1e6), "does not stand: what acts on it at rest turns it over"),
         (
