@@ -21,7 +21,7 @@ _ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,79}")
 _RESERVED = re.compile(
     r"(con|prn|aux|nul|(com|lpt)\d|summary|datapackage|paper|calibration|documentation|fragility|checks|code_check|code_sets|stability|"
     r"validation|comparison|cracks|calibrate|calibrate_ensemble|cover|cover_rate|trade_fragility|govern|stand|floors|fronts|"
-    r"measure_scatter|screen|validate|compare|halves|strengthening)(\..*)?",
+    r"measure_scatter|pulse_shapes|screen|validate|compare|halves|strengthening)(\..*)?",
     re.I,
 )
 _HASH = re.compile(r"[0-9a-f]{64}")
