@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from rocking.codes.selection import Selection
 from rocking.records import Accelerogram
 from rocking.records.synthetic import SyntheticRecord, noise, pulse
 
@@ -40,3 +41,40 @@ def made_pool(stations, seed=0, duration=12.0, time_step=0.02):
             components.append(Accelerogram(values, time_step, component=name, station=f"S{seed}-{number}"))
         pool[f"R{number}"] = components
     return pool
+
+
+def made_answers(rng, stations, events, median, size=10):
+    """Return sets of stations within earthquakes, (use, falls) of a wall at each, and the share of sets that meet it.
+
+    The largest displacement over its limit is log-normal, of which the earthquake has a half of the variance; it falls
+    beyond 2.5 times the limit, which is d_0 over d_SLV.
+    """
+    event = rng.integers(0, events, stations)
+    use = np.exp(np.log(median) + 0.45 * (rng.normal(size=events)[event] + rng.normal(size=stations)))
+    falls = use > 2.5
+    use = np.where(falls, np.inf, use)
+    ground = np.array([0.0, 1.0, 0.0])
+    sets = np.array([rng.choice(stations, size, replace=False) for _ in range(200)])
+    records = Selection(
+        names=tuple(f"R{place}" for place in range(stations)),
+        stations=tuple(f"S{place}" for place in range(stations)),
+        pairs=tuple(
+            (
+                Accelerogram(
+                    ground, 0.01, event=f"{chr(97 + each // 26)}{chr(97 + each % 26)}", station=f"S{place}"
+                ),
+            )
+            for place, each in enumerate(event)
+        ),
+        factors=np.ones(stations),
+        periods=np.ones(1),
+        target=np.ones(1),
+        spectra=np.ones((stations, 1)),
+        sets=sets,
+        chosen=sets[0],
+        drawn=200,
+        below=0.1,
+        above=0.3,
+    )
+    met = (use[sets].mean(axis=1) <= 1) & ~falls[sets].any(axis=1)
+    return records, use[None], falls[None].astype(int), float(met.mean())

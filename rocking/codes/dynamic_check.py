@@ -17,7 +17,6 @@ from rocking.codes.check import (
     BEHAVIOUR_FACTOR,
     CONFIDENCE_FACTOR,
     LEAST_SHARE,
-    RISK,
     CodeTerms,
     DynamicCheck,
     StructureCheck,
@@ -149,25 +148,57 @@ def _met(use: np.ndarray, falls: np.ndarray, sets: np.ndarray) -> np.ndarray:
 
 
 def _interval(use: np.ndarray, falls: np.ndarray, records: Selection, share: float) -> tuple[float, float]:
-    """The 90 % interval of what sets of other stations say: pools of stations drawn again, and sets of these.
+    """The 90 % interval of what sets of another pool of as many stations say: the widest of four.
 
-    Two pools differ by √2 times what one does from the truth. Where no station of the pool lets it fall, up to
-    1 − .05^(1/S) of all stations may, so that a set of n of them stands with .05^(n/S) at least.
+    Stations are drawn again, and earthquakes with all their stations, and with them the sets: two pools differ by √2
+    times what one does from the truth. That knows nothing of what no station of this pool does. So the stations that
+    fail a set alone are bounded too: k of n here, and of another n a number that is beta-binomial (with Jeffreys'
+    prior); a set then has none of them with a hypergeometric probability. So are the earthquakes of such stations.
     """
-    rng = np.random.default_rng(0)
-    shares = []
-    for _ in range(BOOTSTRAPS):
-        sets = records.redrawn(rng)
-        answered = sets[(~np.isnan(use[:, sets])).all(axis=(0, 2))]
-        if len(answered):
-            shares.append(float(_met(use, falls, answered).mean()))
-    if not shares:
-        return 0.0, 1.0
-    low, high = share + math.sqrt(2) * (np.quantile(shares, INTERVAL) - share)
-    if not falls.any():
-        stations = len(set(records.stations))
-        low = min(low, share * RISK ** (records.chosen.size / stations))
-    return float(np.clip(low, 0, share)), float(np.clip(high, share, 1))
+    alone = np.asarray((falls > 0).any(axis=0) | (use > records.chosen.size).any(axis=0))
+    names, of_record = np.unique(np.asarray(records.stations), return_inverse=True)
+    fails = np.bincount(of_record, weights=alone) > 0
+    lows, highs = [share], [share]
+    for groups in (records.stations, records.events):
+        rng = np.random.default_rng(0)
+        shares = []
+        for _ in range(BOOTSTRAPS):
+            sets = records.redrawn(groups, rng)
+            answered = sets[(~np.isnan(use[:, sets])).all(axis=(0, 2))]
+            if len(answered):
+                shares.append(float(_met(use, falls, answered).mean()))
+        if not shares:
+            return 0.0, 1.0
+        low, high = share + math.sqrt(2) * (np.quantile(shares, INTERVAL) - share)
+        fewest, most = _elsewhere(np.asarray(groups), alone, fails)
+        here, best, worst = (
+            _none_of(names.size, each, records.chosen.size) for each in (fails.sum(), fewest, most)
+        )
+        lows += [low, share * worst / here if here else 0.0]
+        highs += [high, share * best / here if here else best]
+    return float(np.clip(min(lows), 0, share)), float(np.clip(max(highs), share, 1))
+
+
+def _elsewhere(groups: np.ndarray, alone: np.ndarray, fails: np.ndarray) -> tuple[float, float]:
+    """The 5 and 95 % quantiles of the stations that fail a set alone in another pool, by stations or earthquakes.
+
+    alone: (m,) whether a record does here; fails: (n,) whether a station does. Of each earthquake with any as many
+    do as here, all of its stations where none does here.
+    """
+    from scipy.stats import betabinom  # half a second of import, which the rows of this check do not need
+
+    names = np.unique(groups)
+    of_group = sum(bool(alone[groups == each].any()) for each in names)
+    per_group = fails.sum() / of_group if of_group else fails.size / names.size
+    counts = betabinom.ppf(INTERVAL, names.size, of_group + 0.5, names.size - of_group + 0.5)
+    fewest, most = (counts * per_group).tolist()
+    return fewest, most
+
+
+def _none_of(stations: int, failing: float, size: int) -> float:
+    """The probability that a set of `size` stations has none of those that are `failing`."""
+    sound = stations - round(failing)
+    return math.comb(sound, size) / math.comb(stations, size) if sound >= size else 0.0
 
 
 def _sides_together(mechanisms: Sequence[LocalMechanism]) -> list[tuple[LocalMechanism, ...]]:

@@ -101,15 +101,30 @@ class Selection(ScaledPool, Drawn):
         """The records of the chosen set."""
         return tuple(self.names[place] for place in self.chosen)
 
-    def redrawn(self, rng: np.random.Generator, tries: int = 4000, most: int = SETS) -> np.ndarray:
-        """Return sets (s, n), s up to `most`, within the limits, of stations drawn again from those of the pool.
+    @cached_property
+    def events(self) -> tuple[str, ...]:
+        """The earthquake of each record, by the first letters of its name; its station where it has none."""
+        firsts = (re.findall("[a-z]+", pair[0].event.lower()) for pair in self.pairs)
+        names = ("".join(each)[:_LETTERS] for each in firsts)
+        return tuple(name or station for name, station in zip(names, self.stations, strict=True))
 
-        As often as a station is drawn again it counts as another one.
+    def redrawn(
+        self, groups: Sequence[str], rng: np.random.Generator, tries: int = 4000, most: int = SETS
+    ) -> np.ndarray:
+        """Return sets (s, n), s up to `most`, within the limits, where groups of the pool are drawn again.
+
+        groups: the station of each record, or its earthquake, with which all its stations come. As often as one is
+        drawn again its stations count as others; fewer of them than a set has make no set.
         """
-        names, of_record = np.unique(np.asarray(self.stations), return_inverse=True)
+        names, of_record = np.unique(np.asarray(groups), return_inverse=True)
+        _, of_station = np.unique(np.asarray(self.stations), return_inverse=True)
         again = rng.integers(0, names.size, names.size)
-        places = np.concatenate([np.flatnonzero(of_record == each) for each in again])
-        labels = np.repeat(np.arange(names.size), [int((of_record == each).sum()) for each in again])
+        drawn_again = [np.flatnonzero(of_record == each) for each in again]
+        places = np.concatenate(drawn_again)
+        turns = np.repeat(np.arange(names.size), [each.size for each in drawn_again])
+        labels = turns * len(self.stations) + of_station[places]
+        if np.unique(labels).size < self.chosen.size:
+            return np.empty((0, self.chosen.size), dtype=int)
         ratios = self.spectra / self.target
         found = []
         number = 0
