@@ -387,7 +387,8 @@ class Assessor:
         ensemble = self.settings.ensemble
         if case is None or case.ensembles is None or self.settings.fidelity == "auto" or not ensemble.reserve:
             return station
-        if not isnan(case.slides_at):  # the factors of a mechanism that slides first would say nothing of it
+        # The factors of a mechanism would say nothing of what slides first, or falls in contact dynamics alone.
+        if not isnan(case.slides_at) or station.falls_in_stacks_alone:
             return station
         several = cracks(station.body)
         description = case.ensembles.governing.description

@@ -348,13 +348,26 @@ class StationResult:
     def reserve(self) -> Reserve | None:
         """The factors on the record at which 5, 50 and 95 % of the members overturn; None where it was not sought.
 
-        They do not contradict the share that overturns under the record itself.
+        Nor is there one where only the stacks of contact dynamics fall. They do not contradict the share that overturns
+        under the record itself.
         """
         case = self.decisive
-        if case is None or case.reserve is None or case.ensemble is None:
+        if case is None or case.reserve is None or case.ensemble is None or self.falls_in_stacks_alone:
             return None
         share = self.decision.share
         return case.reserve.held_to(case.ensemble.overturning_share if math.isnan(share) else share)
+
+    @cached_property
+    def falls_in_stacks_alone(self) -> bool:
+        """Whether contact dynamics says worse than its mechanisms, and no better than uncertain.
+
+        How far their members are from falling then says nothing of it.
+        """
+        case = self.decisive
+        if case is None or case.contact is None:
+            return False
+        by_mechanisms = decide(replace(case.facts(self.body), stacks=None, doubts=())).word
+        return self.decision.word.badness >= max(Verdict.UNCERTAIN.badness, by_mechanisms.badness + 1)
 
     def with_reserve(self, reserve: Reserve | None) -> "StationResult":
         """Return the result with the reserve of the case that decides."""

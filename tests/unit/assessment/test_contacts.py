@@ -11,6 +11,7 @@ from rocking.assessment.contacts import MOST_RUNS, RUNS, contact_share, doubt, s
 from rocking.assessment.decide import Decision, decide, step
 from rocking.assessment.motions import GroundMotions, component_of
 from rocking.assessment.one_case import assess_case
+from rocking.assessment.reserve import Reserve
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.contacts.dynamics import STEP, follow_stack
 from rocking.errors import MotionError
@@ -74,6 +75,8 @@ def test_walls_whose_contacts_open_and_whose_blocks_fall_do_not_stand(name, real
     assert followed.stacks.falls > followed.stacks.runs / 2
     assert followed.stacks.runs <= RUNS
     assert f"{followed.stacks.falls} of {followed.stacks.runs} stacks of courses fall" in followed.why
+    assert followed.falls_in_stacks_alone
+    assert followed.with_reserve(Reserve(1.8, 2.2, 2.6, 3.0)).reserve is None, "it is none of what falls"
 
 
 def test_a_spire_that_lifts_never_stands_by_its_mechanisms_alone():
@@ -95,6 +98,7 @@ def test_few_runs_of_contact_dynamics_let_a_spire_probably_stand_and_many_let_it
     assert probably.verdict is Verdict.PROBABLY_STANDS
     assert (probably.stacks.falls, probably.stacks.runs) == (0, 18)
     assert [each.kind for each in probably.decision.tells] == [Kind.CONTACT_DYNAMICS]
+    assert probably.with_reserve(Reserve(1.8, 2.2, 2.6, 3.0)).reserve.low == 1.8
     stands = rocking.assess(motion, SPIRE, settings=CONTACT)
     assert stands.verdict is Verdict.STANDS
     assert (stands.stacks.falls, stands.stacks.runs) == (0, 64)
