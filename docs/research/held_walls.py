@@ -132,7 +132,8 @@ def hold(target: Target) -> None:
     """Hold what is said of walls that something holds against stacks of the whole wall."""
     trials: list[HeldTrial] = []
     for component in independent(target.records):
-        trials += held_trials(component, "")
+        catalogue = "fema_p695" if component.identifier.startswith("P695") else "near_fault"
+        trials += held_trials(component, catalogue)
         target.tell(f"{component.identifier}: {len(trials)} trials")
     subtitle = "Walls with ties, floors or cross walls, and walls under light roofs, beside stacks of the whole wall."
     target.publish("Who holds", subtitle, {HeldTrial: trials, scores.Score: list(held_scores(trials))})

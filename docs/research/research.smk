@@ -20,6 +20,11 @@ TARGETS_OF_RESEARCH = {
     "pulse_shapes": ("Try half a sine, a cosine and several cycles beside one sine", REAL_RECORDS[1:], []),
     "measure_scatter": ("Measure by how much the level that overturns scatters", REAL_RECORDS, []),
     "govern": ("Try the governing crack on stacks of courses", REAL_RECORDS, ["cracks.csv"]),
+    "hold": (
+        "Hold walls that something holds beside stacks of the whole wall",
+        REAL_RECORDS,
+        ["held_walls.csv"],
+    ),
     "stand": (
         "Hold verdicts with and without contact dynamics against stacks",
         REAL_RECORDS,
