@@ -219,8 +219,12 @@ class _Ladder:
 
     def crossings(self) -> list[float]:
         """Return the factors at which the rising curve nearest to the shares reaches SHARES; nan where it does not."""
-        curve = rising(self._shares())
-        return [_crossing(self.log_factors, curve, share) for share in SHARES]
+        from scipy.optimize import (
+            isotonic_regression,  # half a second, which who asks for no reserve would pay
+        )
+
+        rising = isotonic_regression(self._shares()).x
+        return [_crossing(self.log_factors, rising, share) for share in SHARES]
 
     def _shares(self) -> np.ndarray:
         """The share of the members that overturn at each of the factors."""
@@ -237,36 +241,13 @@ class _Ladder:
         return shares
 
 
-def _crossing(logs: np.ndarray, curve: np.ndarray, share: float) -> float:
+def _crossing(logs: np.ndarray, rising: np.ndarray, share: float) -> float:
     """The level at which a curve that rises at `logs` reaches `share`, linear in between; nan where it does not."""
-    above = int(np.searchsorted(curve, share - 1e-9))  # but for rounding
-    if above == curve.size:
+    above = int(np.searchsorted(rising, share - 1e-9))  # but for rounding
+    if above == rising.size:
         return math.nan
     if above == 0:
         return math.exp(logs[0])
-    rise = curve[above] - curve[above - 1]
-    part = (share - curve[above - 1]) / rise
+    rise = rising[above] - rising[above - 1]
+    part = (share - rising[above - 1]) / rise
     return math.exp(logs[above - 1] + part * (logs[above] - logs[above - 1]))
-
-
-def rising(values: np.ndarray, weights: np.ndarray | None = None) -> np.ndarray:
-    """Return the values (k,) that nowhere fall and lie nearest to `values` in the sum of weighted squares.
-
-    weights: (k,), > 0; None counts all alike. Neighbours that would fall share their mean. The same as
-    `scipy.optimize.isotonic_regression`, whose import takes a third of a second, which every job would pay.
-    """
-    of_each = [1.0] * len(values) if weights is None else weights.tolist()
-    sums: list[float] = []
-    totals: list[float] = []
-    counts: list[int] = []
-    for value, weight in zip(values.tolist(), of_each, strict=True):
-        total, summed, count = weight, weight * value, 1
-        while sums and sums[-1] * total >= summed * totals[-1]:
-            total += totals.pop()
-            summed += sums.pop()
-            count += counts.pop()
-        sums.append(summed)
-        totals.append(total)
-        counts.append(count)
-    means: np.ndarray = np.repeat(np.array(sums) / np.array(totals), counts)
-    return means

@@ -22,7 +22,6 @@ from rocking.assessment.cracks import counting_cracks, never_lets_go
 from rocking.assessment.ensemble import drawn
 from rocking.assessment.fidelity import peak_velocity, per_velocity
 from rocking.assessment.motions import GroundMotions
-from rocking.assessment.reserve import rising
 from rocking.assessment.settings import EnsembleSettings
 from rocking.drawn import Drawn
 from rocking.errors import ConfigurationError, StructureError
@@ -227,15 +226,17 @@ def crossing(levels: np.ndarray, over: np.ndarray, trials: np.ndarray) -> float:
     """
     tried = trials > 0
     logs = np.log(levels[tried])
-    shares = rising(over[tried] / trials[tried], weights=trials[tried])
-    shares[np.abs(shares - 0.5) < 1e-12] = 0.5  # but for rounding
+    from scipy.optimize import isotonic_regression  # half a second, which every summary would pay
+
+    rising = isotonic_regression(over[tried] / trials[tried], weights=trials[tried]).x
+    rising[np.abs(rising - 0.5) < 1e-12] = 0.5  # but for rounding
     places = []
-    for above in (int(np.searchsorted(shares, 0.5, side)) for side in ("left", "right")):
-        if above == shares.size:
+    for above in (int(np.searchsorted(rising, 0.5, side)) for side in ("left", "right")):
+        if above == rising.size:
             return float("inf")
         below = max(above - 1, 0)
-        rise = shares[above] - shares[below]
-        part = (0.5 - shares[below]) / rise if rise > 0 else 0.0
+        rise = rising[above] - rising[below]
+        part = (0.5 - rising[below]) / rise if rise > 0 else 0.0
         places.append(logs[below] + part * (logs[above] - logs[below]))
     return float(np.exp(np.mean(places)))
 

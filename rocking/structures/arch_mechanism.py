@@ -113,11 +113,9 @@ class FourBar(Linkage):
 
 _DOWN = np.array([0.0, 0.0, 0.0, -1.0])
 _ROUNDS = 100
-_WALLS = 1e4
-"""Bound of the unknowns of the linear programme, in units of the ring: a λ that only it limits has no limit."""
-_FITS = 1e-11
-"""By how much a gap of the solution may be negative."""
-_EXCHANGES = 1000
+_ACCURATELY = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
+_INFEASIBLE = 2
+"""The status of scipy's linear programme for constraints that contradict each other."""
 _CLEARANCE = 1e-12
 """A gap (of order t/r) that is zero to rounding."""
 _ASIDE = 1e-5
@@ -233,33 +231,15 @@ def _touching_line(rows: np.ndarray) -> np.ndarray:
 
 
 def _weakest(rows: np.ndarray) -> np.ndarray:
-    """The four rows that limit λ, in order, by the dual simplex method.
+    """The four rows that limit λ, in order: those whose dual does not vanish."""
+    from scipy.optimize import linprog  # slow to import, and needed by arches only
 
-    Four rows are a mechanism that may turn, whose λ is an upper bound. As long as some gap is negative along its line
-    of thrust, the hinge opens there, and the one shuts that would be the first to turn backwards. It begins with walls
-    about all unknowns in place of hinges. `scipy.optimize.linprog` finds the same in four times as long, and takes a
-    third of a second to import.
-    """
-    unit = np.eye(4)
-    walls = np.append(np.vstack([unit, -unit]), np.full((8, 1), _WALLS), axis=1)
-    every = np.vstack([rows, walls])
-    hinges = len(rows) + np.array([0, 1, 2, 7])  # the last one holds λ from above
-    for _ in range(_EXCHANGES):
-        four = every[hinges, :4]
-        gaps = every @ _touching_line(every[hinges])
-        opens = int(np.argmin(gaps))
-        if gaps[opens] >= -_FITS or opens in hinges:
-            break
-        turns, further = np.linalg.solve(four.T, np.stack([_DOWN, every[opens, :4]], axis=1)).T
-        may_shut = further > _CLEARANCE
-        if not may_shut.any():
-            raise TooThin
-        until = np.where(may_shut, np.maximum(turns, 0.0) / np.where(may_shut, further, 1.0), np.inf)
-        firsts = np.flatnonzero(until <= until.min() + _CLEARANCE)
-        hinges[firsts[np.argmax(further[firsts])]] = opens
-    if hinges.max() >= len(rows):
-        raise NoMechanism
-    return np.sort(hinges)
+    solved = linprog(
+        _DOWN, -rows[:, :4], rows[:, 4], bounds=(None, None), method="highs-ds", options=_ACCURATELY
+    )
+    if solved.status:
+        raise TooThin if solved.status == _INFEASIBLE else NoMechanism
+    return np.sort(np.argsort(solved.ineqlin.marginals)[:4])
 
 
 def _slide_to_tangency(ring: Ring, hinges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

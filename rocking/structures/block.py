@@ -10,7 +10,6 @@ from rocking.errors import StructureError
 from rocking.structures.drawing import Path, rectangle, span, swept
 from rocking.structures.fields import OneSided, OptionalUnitWeight, Value, count, length, restitution_value
 from rocking.structures.linkage import STILL, Parts, Restitution, Turning
-from rocking.structures.searches import root
 from rocking.structures.stack import MOST_COURSES, Course, Stack, counted_courses, courses_between
 from rocking.structures.structure import PRESSED, CrackedAtHeight, Crushable, check_pressed, inset
 
@@ -356,6 +355,8 @@ class Spire(CrackedAtHeight):
         """
         if self.compressive_strength is None or self.unit_weight is None:
             return 0.0
+        from scipy.optimize import brentq  # slow to import, and needed here only
+
         outer = self.half_width
         inner = max(outer - (outer if self.wall_thickness is None else self.wall_thickness), 0.0)
         area = _SECTION[self.plan]
@@ -369,7 +370,7 @@ class Spire(CrackedAtHeight):
             )
             return solid
 
-        depth = root(lambda depth: strip(depth)[0] - pressed, 0.0, 2 * outer, absolute=1e-15, relative=1e-14)
+        depth = brentq(lambda depth: strip(depth)[0] - pressed, 0.0, 2 * outer, xtol=1e-15, rtol=1e-14)
         found = strip(depth)
         return float(found[1] / found[0])
 

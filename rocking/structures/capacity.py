@@ -17,7 +17,6 @@ from rocking.drawn import Drawn
 from rocking.structures.drawing import plane
 from rocking.structures.linkage import Linkage
 from rocking.structures.mechanism import Side, SideTie
-from rocking.structures.searches import root
 
 _CUBED_IS_ROUNDING = 1e-6
 """Halley's method cubes the error: after a relative step this small none is left."""
@@ -184,6 +183,8 @@ class StaticCapacity:
 
         It is φ_cr but where the structure overturns as a tie breaks.
         """
+        from scipy.optimize import brentq  # as above
+
         critical = self.side.critical_rotation
         if not self.ruptures or self.side.untied_gravity is None:
             return critical
@@ -201,7 +202,7 @@ class StaticCapacity:
         exact = self.linkage.untied_zero
         if exact is not None and not lasting:
             return exact
-        return root(gravity, 0.0, critical, absolute=1e-16, relative=1e-14)
+        return float(brentq(gravity, 0.0, critical, xtol=1e-16, rtol=1e-14))
 
 
 def _farthest(

@@ -17,7 +17,6 @@ import numpy as np
 from rocking.structures.chain import Chain
 from rocking.structures.drawing import rectangle
 from rocking.structures.linkage import STILL, Hung, Linkage, Parts, Turning
-from rocking.structures.searches import minimum
 from rocking.structures.structure import inset
 
 _JOINTS = 12
@@ -362,6 +361,8 @@ class HeldWall:
         self, opening: Opening, multiplier: float, heights: Sequence[float]
     ) -> tuple[Opening, float]:
         """The opening with its hinge where λ is least between the joints on either side of it."""
+        from scipy.optimize import minimize_scalar  # slow to import, and needed here only
+
         if opening.hinge is None or opening.hold is None:
             return opening, multiplier
         place = heights.index(opening.hinge)
@@ -372,10 +373,13 @@ class HeldWall:
         def moved(hinge: float) -> Opening:
             return replace(opening, hinge=float(hinge))
 
-        hinge, lowest = minimum(
-            lambda hinge: self.multiplier(moved(hinge)), low, high, accuracy=1e-6 * (high - low)
+        sought = minimize_scalar(
+            lambda hinge: self.multiplier(moved(hinge)),
+            bounds=(low, high),
+            method="bounded",
+            options={"xatol": 1e-6 * (high - low)},
         )
-        return min((opening, multiplier), (moved(hinge), lowest), key=itemgetter(1))
+        return min((opening, multiplier), (moved(sought.x), float(sought.fun)), key=itemgetter(1))
 
     def pieces(self, opening: Opening) -> list[Storey]:
         """Return the masonry cut at the joints of `opening`, from the ground up."""

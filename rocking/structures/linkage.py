@@ -22,7 +22,6 @@ from numpy.typing import ArrayLike
 from rocking.errors import DoesNotStandError, StructureError
 from rocking.quantities import GRAVITY
 from rocking.structures.mechanism import Side, SideTie, Tie
-from rocking.structures.searches import root
 
 
 class UnknownContacts(StructureError):
@@ -313,6 +312,8 @@ class Linkage(ABC):
 
         None where it does not vanish.
         """
+        from scipy.optimize import brentq  # slow to import, and not needed by what has a formula
+
         bends = [bend for tie in self.ties for bend in tie.bends(self.end_rotation)]
         steps = np.linspace(0.0, self.end_rotation, 513)
         places = np.unique(np.concatenate([steps, bends, np.nextafter(bends, np.inf)]))
@@ -326,7 +327,7 @@ class Linkage(ABC):
             before, after = np.nextafter(before, 0.0), before
         while bends and self.gravity(after) > 0:
             after = np.nextafter(after, np.inf)
-        critical = root(self.gravity, before, after, absolute=1e-16, relative=1e-15)
+        critical = float(brentq(self.gravity, before, after, xtol=1e-16, rtol=1e-15))
         while bends and critical < after and self.gravity(critical) > 0:
             critical = float(np.nextafter(critical, np.inf))  # where a tie breaks, the far side of the fall
         return critical

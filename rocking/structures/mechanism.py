@@ -34,7 +34,6 @@ from rocking.structures.equivalent_block import (
     rotation_map,
 )
 from rocking.structures.equivalent_block import EquivalentBlock as EquivalentBlock
-from rocking.structures.searches import root
 
 _ARC_ACCURACY = 2e-14
 _MAP_ACCURACY = 1e-14
@@ -131,6 +130,8 @@ class SideTie:
         return {}
 
     def _sought_rotation(self, stretch: float, end_rotation: float) -> float:
+        from scipy.optimize import brentq  # slow to import, and needed by ties with a strength only
+
         def beyond(rotation: float) -> float:
             return float(self.stretch(np.asarray(rotation))) - stretch
 
@@ -138,7 +139,7 @@ class SideTie:
             return 0.0
         if not beyond(end_rotation) > 0:
             return np.inf
-        return root(beyond, 0.0, end_rotation, absolute=1e-18, relative=1e-15)
+        return float(brentq(beyond, 0.0, end_rotation, xtol=1e-18, rtol=1e-15))
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -30,7 +30,6 @@ from rocking.structures.linkage import (
 )
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.restraint import Reaction, Restraint
-from rocking.structures.searches import minimum
 from rocking.structures.stack import Course, Held, Stack, Stop
 
 if TYPE_CHECKING:
@@ -793,13 +792,16 @@ class CrackedAtHeight(Crackable):
 
     def _weakest_between(self, low: float, high: float) -> Candidate | None:
         """The candidate of least λ between two heights [m]."""
+        from scipy.optimize import minimize_scalar  # slow to import, and needed here only
 
         def multiplier(height: float) -> float:
             candidate = self._candidate(height)
             return candidate.multiplier if candidate else np.inf
 
-        height, _ = minimum(multiplier, low, high, accuracy=1e-3 * (high - low))
-        return self._candidate(height)
+        accuracy = {"xatol": 1e-3 * (high - low)}
+        with np.errstate(invalid="ignore"):  # λ is infinite where a crack leaves no mechanism
+            least = minimize_scalar(multiplier, bounds=(low, high), method="bounded", options=accuracy)
+        return self._candidate(float(least.x))
 
     @cached_property
     def _cracked_there_only(self) -> Self:

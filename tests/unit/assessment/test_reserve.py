@@ -5,14 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.optimize import isotonic_regression
 
 import rocking
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.case import StationResult
 from rocking.assessment.causes import CAUSES, lattice
 from rocking.assessment.motions import GroundMotions
-from rocking.assessment.reserve import Reserve, reserve, rising
+from rocking.assessment.reserve import Reserve, reserve
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.store import RecordStore
@@ -181,19 +180,3 @@ def test_on_a_support_it_is_sought_on_the_ground_and_at_the_worst_period_alone(t
     monkeypatch.setattr("rocking.assessment.assessor.reserve", None)
     again = assessed([0.15, 0.6], RecordStore(tmp_path / "cases"))
     assert {period: each.reserve for period, each in again.items() if each.reserve is not None} == sought
-
-
-def test_neighbours_that_fall_share_their_mean():
-    assert rising(np.array([0.0, 1.0, 0.4, 0.7, 2.0])).tolist() == pytest.approx([0, 0.7, 0.7, 0.7, 2])
-    assert rising(np.array([3.0, 1.0]), np.array([1.0, 3.0])).tolist() == [1.5, 1.5]
-
-
-@pytest.mark.parametrize("seed", range(20))
-def test_the_rising_curve_is_that_of_scipy(seed):
-    generator = np.random.default_rng(seed)
-    values = np.round(generator.normal(size=200) + np.linspace(0, 3, 200), generator.integers(0, 4))
-    weights = generator.integers(1, 5, size=200).astype(float)
-    np.testing.assert_allclose(rising(values), isotonic_regression(values).x, atol=1e-13)
-    np.testing.assert_allclose(
-        rising(values, weights), isotonic_regression(values, weights=weights).x, atol=1e-13
-    )
