@@ -173,7 +173,7 @@ import sys, rocking
 (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
 structures = {"block": rocking.Block.of_size(breadth=1, height=4), "wall": rocking.Wall(1.6, 1.4, 0.4)}
 rocking.assess(record, structures["block"])
-heavy = {"obspy", "matplotlib", "pandas", "typst", "xlsxwriter", "snakemake", "scipy.optimize"}
+heavy = {"obspy", "matplotlib", "pandas", "typst", "xlsxwriter", "snakemake"}
 print(sorted(heavy & set(sys.modules)))
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.rows import rows_of_record

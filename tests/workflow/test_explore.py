@@ -161,8 +161,10 @@ def test_the_page_tells_the_reserve_that_the_table_holds_and_what_it_leaves_out(
     assert cases
     for name, case in cases.items():
         reserve = rows[name].reserve
-        assert reserve is not None and f"Reserve: {reserve}" in case["text"]
-        assert str(Remark(Kind.COURSES_THROWN)) in case["text"] or name != "spire"
+        # None is sought of what falls in contact dynamics alone.
+        assert f"Reserve: {reserve}" in case["text"] if reserve else "Reserve:" not in case["text"]
+        told = str(Remark(Kind.COURSES_THROWN)) in case["text"]
+        assert told or name != "spire" or reserve is None
 
 
 def test_every_case_and_every_failure_is_on_the_page(content, study):

@@ -82,9 +82,16 @@ def shaken(component: str = "EW", scale_factor: float = 1.0, **identity) -> Acce
     return Accelerogram(samples, 0.01, component, source=source, scale_factor=scale_factor, **identity)
 
 
-def assessed(record: str, accelerograms: list[Accelerogram], structures: dict[str, object]) -> RecordReport:
+def assessed(
+    record: str, accelerograms: list[Accelerogram], structures: dict[str, object], fidelity: str = "full"
+) -> RecordReport:
     """Compute every table of `record`, each component for itself, and return its report."""
-    assessor = Assessor(ASSESSMENT, crack_heights=7, processing_variants=True, motion_measures=True)
+    assessor = Assessor(
+        replace(ASSESSMENT, fidelity=fidelity),
+        crack_heights=7,
+        processing_variants=True,
+        motion_measures=True,
+    )
     result = assessor.assess(record, accelerograms, on_the_ground(structures))
     rows = rows_of_record(result, "cd" * 32, "CC0-1.0")
     return RecordReport(result, rows, structures, SETTINGS)
