@@ -70,7 +70,7 @@ class CapacityCurve(Structure):
     }
 
     displacements: Annotated[
-        tuple[float, ...], Value("Displacements d* of the curve, from 0 on", [0.0, 0.05, 0.4], "m")
+        tuple[float, ...], Value("Displacements d* of the curve, from 0 on", [0.0, 0.05, 0.4], "m", (0, 5))
     ]
     multipliers: Annotated[
         tuple[float, ...],

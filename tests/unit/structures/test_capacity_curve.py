@@ -170,6 +170,21 @@ def test_what_is_no_curve_is_refused_in_one_sentence(tmp_path, text, sentence):
     assert sentence in str(error.value)
 
 
+def test_millimetres_under_a_head_in_metres_get_a_remark(tmp_path):
+    path = _written(tmp_path, "displacement_m,multiplier\n0,0.2\n400,0\n")
+    (remark,) = CapacityCurve.read(path, weight=50e3, restitution=0.8).described.remarks
+    assert remark.about == "displacements_m"
+    path = _written(tmp_path, "displacement_mm,multiplier\n0,0.2\n400,0\n")
+    assert not CapacityCurve.read(path, weight=50e3, restitution=0.8).described.remarks
+
+
+def test_the_p_of_a_slender_block_follows_from_its_curve():
+    """d* = 2 h φ/3 and α = b/h − φ of a homogeneous block, so that p² = 3 g/(2 h), as 3 g/(4 R) is for R = h/2."""
+    curve = CapacityCurve((0.0, 2 / 3 * 0.6), (0.1, 0.0), weight=1e3, restitution=0.9)
+    expected = np.sqrt(3 * GRAVITY / (2 * 6.0))
+    assert curve.mechanism().positive.frequency_parameter == pytest.approx(expected, rel=1e-12)
+
+
 def test_a_file_that_is_not_there_is_named(tmp_path):
     with pytest.raises(StructureError, match=r"none\.csv"):
         CapacityCurve.read(tmp_path / "none.csv", weight=50e3, restitution=0.8)
