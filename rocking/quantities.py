@@ -59,6 +59,7 @@ ACCELERATION_UNITS = {
 
 _SPELLINGS = (
     ("sec", "s"),
+    ("cms/", "cm/"),
     ("²", "2"),
     ("^2", "2"),
     ("**2", "2"),

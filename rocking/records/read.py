@@ -190,8 +190,9 @@ _TOLD = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence in (
     (rb"\s*[{\[]\s*[\"{\[]", "this is JSON; export time and acceleration as text, with their units as names."),
     (rb"\s*(raw|uncorrected)\s+(acceleration\s+)?(counts|data)\b.*format v|\s*raw acceleration",
      "this is a COSMOS V0 file of raw counts of a recorder; use the V1 or V2 file of the same record."),
-    (rb"\s*(FILE\s+\d+\s+OF\s+)?CORRECTED ACCELEROGRAM\b", "this is a Volume II file of Caltech or USC, whose layout "
-     "is not known for certain; use the file of the same record from PEER, from the USGS (SMC), or of Volume I."),
+    (rb"\s*(FILE\s+\d+\s+OF\s+)?CORRECTED ACCELEROGRAM\b", "this is a Volume II file without the component (COMP or "
+     "CHAN) in its first line, by which that of USC and CSMIP is read; use the file of the same record from PEER, from "
+     "the USGS (SMC), or of Volume I."),
     (rb"BEGIN (GSE|IMS)|DATA_TYPE WAVEFORM", "this is a message of GSE or IMS; cut off what stands above its line "
      "WID2, and it is read."),
     (rb"(\*.*\n)*\s*(ZEROS|POLES|CONSTANT)\s+-?\d", "this is a SAC file of poles and zeros, which holds a response "

@@ -279,6 +279,30 @@ def csmip_of_1983(stated: float = 1.0) -> str:
     )  # fmt: skip
 
 
+def usc_2(stated: float = 1.0) -> str:
+    """Volume 2 of USC, like 017m30bt.s0a (Northridge 1994): the header's extremes have the samples' sign reversed."""
+    gal = 100 * TRUE
+    at = int(np.abs(gal).argmax())
+    speed = STEP * (np.cumsum(gal) - (gal + gal[0]) / 2)
+
+    def block(quantity: str, unit: str, values: np.ndarray) -> str:
+        announced = f"  {N} POINTS OF {quantity} DATA EQUALLY SPACED AT   {STEP:.3f} SEC.  IN UNITS {unit}\n"
+        return announced + columns(values, 8, "10.3f")
+
+    blocks = block("ACC", "CM/SEC/SEC", gal) + block("VEL", "CM/SEC", speed) + block("DIS", "CM", speed)
+    return (
+        "CORRECTED ACCELEROGRAM  IIBB127  94.610.0 COMP N45E   FILE   0  CORRESPONDING T \n"
+        "FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:\nMADE EARTHQUAKE\nJAN 17, 1994 -1230 GMT\n"
+        "IBB127  94.610.0 N\nSTATION USC# 0061   34 17 11N, 118 13 31W\nMADE, CA\nCOMP N45E\n"
+        "NO. OF POINTS =   8820      DURATION =  37.714 SEC\nUNITS ARE SEC AND G/10\n"
+        "ACCELEROGRAM IS BAND-PASS FILTERED BETWEEN  .225- .325 AND 25.00-27.00 HZ.\n"
+        f"  {N}  INSTRUMENT AND BASELINE CORRECTED DATA\nAT EQUALLY-SPACED INTERVALS OF    {STEP:.3f}  SEC.\n"
+        f"PEAK ACCELERATION = {-stated * gal[at]:.5f}  CMS/SEC/SEC AT    {at * STEP:.3f}   SEC.\n"
+        "MAGNITUDE =  6.7    EPICENTRAL DISTANCE =  29.76 KM    M.M.I. =  8.\n"
+        + columns(np.zeros(100, int), 16, "5d") + columns(np.zeros(100), 8, "10.3f") + blocks
+    )  # fmt: skip
+
+
 def csmip_raw(stated: float = 1.0) -> str:
     """The raw volume of the CDMG, digital: evenly spaced, in g."""
     text = csmip_film(stated).replace("ARE SEC AND G/10.", "IS G.")
@@ -379,6 +403,7 @@ MADE: dict[str, tuple[Callable[..., str], float, Options]] = {
     "CSMIP V1/V2: film": (csmip_film, 5e-4, Options()),
     "USGS SMC": (smc, 5e-4, Options()),
     "USC Volume 1": (usc, 5e-4, Options()),
+    "USC Volume 2": (usc_2, 5e-6, Options()),
     "RENADIC": (renadic, 5e-4, Options()),
     "BHRC": (bhrc, 1e-6, Options()),
     "K-NET/KiK-net": (knet, 2e-6, Options()),

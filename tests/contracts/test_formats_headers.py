@@ -26,6 +26,7 @@ SAID: dict[str, list[tuple[Any, ...]]] = {
     "CSMIP V1/V2: film": [("45", 45.0, "", "", "MADE EARTHQUAKE", False, None)],
     "USGS SMC": [("45", 45.0, "Made", "", "Quake", True, 0.1)],
     "USC Volume 1": [("N45E", 45.0, "", "", "QUAKE", False, None)],
+    "USC Volume 2": [("N45E", 45.0, "USC# 0061", "", "MADE EARTHQUAKE", True, 0.225)],
     "RENADIC": [("EW", 90.0, "", "", "", False, None)],
     "BHRC": [("L1", 45.0, "1", "", "", False, None)],
     "K-NET/KiK-net": [("E-W", 90.0, "MADE01", "BO", "2018-01-24T19:51:00+09:00", False, None)],

@@ -1,4 +1,4 @@
-"""Volumes 1 and 2 of text: COSMOS; USC, RENADIC and BHRC in tenths of g; CSMIP, raw and corrected, of every age.
+"""Volumes 1 and 2 of text: COSMOS; USC, RENADIC and BHRC in tenths of g; CSMIP and USC, corrected, of every age.
 
 COSMOS describes each block itself; in the others 13 lines of text, 7 of integers and 7 of reals head each channel.
 """
@@ -130,6 +130,14 @@ _CSMIP = {
     "event": r"^(?:(?:Rcrd|Record) of\s+(.{10,40}?)(?:\s{2,}|$)|\s*(\S.*\bEARTHQUAKE\b.*))",
     "peak": r"Max\s*=\s*(-?[\d.]+)\s*g",
 }  # fmt: skip
+_USC_2 = Layout("cm/s2", {
+    "component": r"^COMP\s+(\S+)", "station": r"^STATION\s+(USC#\s*\d+)", "event": r"\A(?:.*\n){2}(.{,60})",
+    "unit": r"^PEAK ACCELERATION\s*=\s*\S+\s+([A-Z/]+)", "peak": r"^PEAK ACCELERATION\s*=\s*(-?[\d.]+)",
+    "peak_time": r"^PEAK ACCELERATION\s*=.*?\bAT\s+([\d.]+)\s*SEC", "high_pass": r"FILTERED BETWEEN\s+([\d.]+)",
+    "event_time": r"\A(?:.*\n){3}(\w{3} \d+, \d{4}) ", "magnitude": r"^MAGNITUDE\s*=\s*([\d.]+)",
+    "distance": r"EPICENTRAL DISTANCE\s*=\s*([\d.]+)\s*KM", "place": r"^STATION\s+USC#\s*\d+\s+(.{,34})",
+}, peak_unit="cm/s2", half_digit=5e-4)  # fmt: skip
+"""Corrected motion; the header gives its extremes with the other sign than the samples, and so does that of Caltech."""
 _FILM = Layout("g/10", _CSMIP | _SIZE, peak_unit="g", half_digit=5e-4, width=7)
 _CSMIP_1 = Layout("", _CSMIP | {
     "duration": r"Record length\s*=\s*([\d.]+)", "rms": r"\A(?:.*\n){20}.{30}(.{10})",
@@ -199,6 +207,7 @@ def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
 
 _VOLUME_1 = re.compile(r"Uncorrected Accelerogram Data[ \t]+Processed", re.I)
 _VOLUME_2 = re.compile(r"Corrected accelerogram[ \t].*Chan", re.I)
+_USC_2_FIRST = re.compile(r"Corrected accelerogram[ \t](?!.*Chan).*\bComp\b", re.I)
 _VOLUME_3 = re.compile(r"(Response and )?Fourier amplitude spectr|Response (and|spectr)", re.I)
 _OF_RENADIC = r"(?:.*\n){0,12}.*RENADIC"
 _CSMIP_FIRST = re.compile(rf"{_VOLUME_1.pattern}(?!{_OF_RENADIC})|{_VOLUME_2.pattern}", re.I)
@@ -207,10 +216,9 @@ _DATA_1 = re.compile(
     r"Format:\s*\((?P<per_line>\d+)[FE](?P<width>\d+)"
 )
 _DATA_2 = re.compile(
-    r"(?i)^\s*(?P<n>\d+)\s+points of (?P<quantity>accel|veloc|displ)\w* data equally spaced at\s+(?P<step>[\d.]+)\s*sec"
-    r"[.,]?\s*(?:in|\(units:)\s*(?P<unit>[\w/]+)[.)]*\s*(?:\((?P<per_line>\d+)[FE](?P<width>\d+))?"
+    r"(?i)^\s*(?P<n>\d+)\s+points of (?P<quantity>acc|vel|dis)\w* data equally spaced at\s+(?P<step>[\d.]+)\s*sec"
+    r"[.,]?\s*(?:(?:in units|in|\(units:)\s*(?P<unit>[\w/]+)[.)]*\s*(?:\((?P<per_line>\d+)[FE](?P<width>\d+))?)?"
 )
-_PER_LINE = 8  # of the volumes before 2000, which do not say it
 
 
 def _read_csmip(content: bytes, options: Options) -> list[Accelerogram]:
@@ -232,30 +240,40 @@ def _csmip(block: list[str], options: Options, total: int) -> Accelerogram:
     if not announced and any(re.match(r"UNITS\b.*\bG/10", line, re.I) for line in block[:_TEXT]):
         return _digitised(_FILM, block, options, total)
     facts: dict[str, Any] = announced[0][1].groupdict() if announced else {}
-    if not announced or (facts.get("quantity") or "accel").lower() != "accel":
-        raise RecordError("no line announces points of acceleration: the file is cut or of velocity.")
+    if not announced or (facts.get("quantity") or "acc").lower() != "acc":
+        raise RecordError(
+            "no line like '1500 POINTS OF ACC DATA EQUALLY SPACED AT .020 SEC.' announces its acceleration: the file "
+            "is cut, of velocity, or of another layout; use the file of the same record from another agency."
+        )
     parts = []
     for (i, data), end in zip(announced, [*(i for i, _ in announced[1:]), len(block)], strict=True):
         rows = block[i + 1 : end]
         samples = text.count("number of points", data["n"])
-        width = int(data["width"] or text.column_width(rows[0] if rows else ""))
-        parts.append(text.filled(rows, samples, max(1, int(data["per_line"] or _PER_LINE)), max(1, width)))
+        first = rows[0] if rows else ""  # shows the layout that volumes before 2000 do not say
+        width = int(data["width"] or text.column_width(first))
+        per_line = int(data["per_line"] or first.count("."))
+        parts.append(text.filled(rows, samples, max(1, per_line), max(1, width)))
     head = "\n".join(block[: announced[0][0]])
     values = parts[0]
-    is_corrected = bool(_VOLUME_2.match(head))
+    layout = _USC_2 if _USC_2_FIRST.match(head) else _CSMIP_2 if _VOLUME_2.match(head) else _CSMIP_1
+    is_corrected = layout is not _CSMIP_1
     rate = facts.get("rate")
     step = 1 / max(1e-9, text.number("rate", rate)) if rate else text.number("step", facts["step"])
-    points = r"^\s*(\S+)\s+points of instrument" if is_corrected else r"^No\. of points\s*=\s*(\S+)"
+    points = r"^\s*(\S+)\s+(?:points of )?instrument" if is_corrected else r"^No\. of points\s*=\s*(\S+)"
     if points := header.optional(points, head):
         header.check_equal("the number of points", text.count("number of points", points), values.size, 0)
     interval = header.optional_number(r"^At equally-spaced intervals of\s+([\d.]+)", head)
     if is_corrected and interval:
         header.check_equal("the interval", interval, step)
-    layout = _CSMIP_2 if is_corrected else _CSMIP_1
-    more: dict[str, Any] = {"unit": facts["unit"], "step": step, "processed": is_corrected, "total": total}
+    more: dict[str, Any] = {
+        "unit": facts["unit"] or "",
+        "step": step,
+        "processed": is_corrected,
+        "total": total,
+    }
     record = layout.channel(head, values, options, **more)
     for part, (_, data) in zip(parts[1:], announced[1:], strict=True):
-        if (data.groupdict().get("quantity") or "").lower() == "veloc" and data["unit"].lower() == "cm/sec":
+        if (data.groupdict().get("quantity") or "").lower() == "vel" and data["unit"].lower() == "cm/sec":
             record = agree_with_velocity(record, part / 100)
     return record
 
@@ -283,6 +301,13 @@ USC = Format(
     _USC_FIRST,
     header.in_blocks(_USC_FIRST, partial(_digitised, _USC)),
     "USC_V1",
+)
+USC_2 = Format(
+    "USC Volume 2",
+    "University of Southern California",
+    "first line CORRECTED ACCELEROGRAM with a component (COMP)",
+    _USC_2_FIRST,
+    header.in_blocks(_USC_2_FIRST, _csmip),
 )
 RENADIC = Format(
     "RENADIC",

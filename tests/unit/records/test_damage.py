@@ -66,6 +66,8 @@ def test_what_a_header_tells_is_warned_of(name: str, old: str, new: str, told: K
     ("CWB", "SampleRate(Hz): 100", "SampleRate(Hz): 50"),
     ("CSMIP V1/V2: of 1983", "INTERVALS OF    0.010", "INTERVALS OF    0.020"),
     ("CSMIP V1/V2: of 1983", f"  {N} POINTS OF INSTRUMENT", f"  {N + 8} POINTS OF INSTRUMENT"),
+    ("USC Volume 2", "INTERVALS OF    0.010", "INTERVALS OF    0.020"),
+    ("USC Volume 2", f"  {N}  INSTRUMENT", f"  {N + 8}  INSTRUMENT"),
     ("CSMIP V1/V2: raw", f"LENGTH = {N * STEP:.3f}", f"LENGTH = {2 * N * STEP:.3f}"),
     ("RENADIC", f"LENGTH = {N * STEP:.3f}", f"LENGTH = {2 * N * STEP:.3f}"),
     ("USC Volume 1", f"LENGTH = {N * STEP:.3f}", f"LENGTH = {2 * N * STEP:.3f}"),
@@ -91,6 +93,7 @@ def test_cosmos_has_the_step_of_its_series() -> None:
     ("GeoNet V1A/V2A", r"mm/s/s at [\d.]+ s", "mm/s/s at {} s"),
     ("CSMNC", r"AT [\d.]+ SEC", "AT {} SEC"),
     ("CSMIP V1/V2", r"at  [\d.]+ sec", "at  {} sec"),
+    ("USC Volume 2", r"SEC AT    [\d.]+ ", "SEC AT    {} "),
 ])  # fmt: skip
 def test_a_peak_out_of_its_place_is_warned_of(name: str, old: str, new: str) -> None:
     """Lines missing in one place and repeated in another leave the count as it was, not the time of the peak."""

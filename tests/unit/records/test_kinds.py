@@ -127,9 +127,9 @@ def test_the_disc_of_1999_is_read_as_its_later_files_are(tmp_path):
         ("%PDF-1.5\nxx", "PDF, an archive or a data base"),
         (
             "CORRECTED ACCELEROGRAM  IIA001  40.001.0\nIMPERIAL VALLEY EARTHQUAKE\n",
-            "Volume II file of Caltech or USC",
+            "Volume II file without the component",
         ),
-        ("FILE  1 OF CORRECTED ACCELEROGRAM DATA OF VOLUME II\n", "Volume II file of Caltech or USC"),
+        ("FILE  1 OF CORRECTED ACCELEROGRAM DATA OF VOLUME II\n", "Volume II file without the component"),
     ],
 )
 def test_other_kinds_of_file_are_named_with_what_to_do(tmp_path, content, words):
