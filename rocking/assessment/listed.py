@@ -1,7 +1,8 @@
-"""The list of structures in a file: a YAML list of structures, of their variants and of supports, read into scenes.
+"""The list of structures in a file, YAML or CSV: structures, their variants and supports, read into scenes.
 
-A variant is a structure with some values changed, and stands behind the one that it is of. The list is read safely, all
-defects stand in one message, and each size is remembered as it was typed.
+A variant is a structure with some values changed, and stands behind the one that it is of. In CSV each row is an entry,
+and each column a key. The list is read safely, all defects stand in one message, and each size is remembered as it was
+typed.
 """
 
 import json
@@ -21,8 +22,16 @@ from rocking.errors import ConfigurationError, StructureError, StructureWarning
 from rocking.floors.place import GROUND, TYPE_NAME, Place, place_from_config, place_schema
 from rocking.quantities import shown
 from rocking.remarks import Kind
-from rocking.structures.structure_list import LONGEST_KEY, NAME, definitions, nearest, structure_from_config
-from rocking.tables.yaml_file import read_yaml
+from rocking.structures.structure_list import (
+    LONGEST_KEY,
+    NAME,
+    TYPES,
+    definitions,
+    nearest,
+    structure_from_config,
+)
+from rocking.tables import read_edited
+from rocking.tables.yaml_file import read_yaml, scalar_value
 
 _LONGEST_NAME = 200
 """Characters of the name of a structure: what a table and a page still show."""
@@ -67,14 +76,16 @@ def scenes_schema_file() -> str:
 
 
 def load_scenes(path: str | Path) -> dict[str, Scene]:
-    """Return the scenes that a YAML file lists, by name, in its order.
+    """Return the scenes that a file lists, by name, in its order.
 
-    The file is a list of mappings, each with a `name` of its own; those of type support carry others, which name them
-    by `stands_on`. The variants of a structure follow it, each as "structure: variant". Raises ConfigurationError with
-    every defect at once, one a line; warns with a StructureWarning of a size beyond its plausible range.
+    A YAML file is a list of mappings, each with a `name` of its own; those of type support carry others, which name
+    them by `stands_on`. The variants of a structure follow it, each as "structure: variant". A CSV file has an entry a
+    row, without variants; see `_rows`. Raises ConfigurationError with every defect at once, one a line; warns with a
+    StructureWarning of a size beyond its plausible range.
     """
     defects: list[str] = []
-    entries = _entries(Path(path), defects)
+    path = Path(path)
+    entries = _rows(path, defects) if path.suffix.lower() == ".csv" else _entries(path, defects)
     places: dict[str, Place | None] = {}
     scenes: dict[str, Scene] = {}
     names: list[object] = []
@@ -191,6 +202,43 @@ def _entries(path: Path, defects: list[str]) -> list[_Entry]:
             found.append(
                 _Entry(f"{where}, variant {place} ({_repeated(of_variant)})", values, own, str(name))
             )
+    return found
+
+
+def _rows(path: Path, defects: list[str]) -> list[_Entry]:
+    """The entries of a structure list in CSV: a row each, keys as columns; an empty cell is not given.
+
+    A cell means what it would in YAML. A list is parted by semicolons. Where semicolons part the cells, as in
+    spreadsheets of countries of decimal commas, lists stand in quotation marks, which these write themselves.
+    """
+    of_types = [each for of_kind in TYPES.values() for form in of_kind for each in form.fields]
+    lists = {each.key for each in of_types if each.is_list}
+    texts = {"name", "type", "stands_on", *(each.key for each in of_types if each.kind is str)}
+    of_support = place_schema(NAME)["properties"]
+    assert isinstance(of_support, dict)
+    keys = ("name", "type", *(each.key for each in of_types), *of_support, "stands_on", *CHECK_KEYS)
+    columns = [key for key in dict.fromkeys(keys) if key != "modes"]
+    numbers = [key for key in columns if key not in texts]
+    found = []
+    for line, row in read_edited(path, ConfigurationError, columns, ("name", "type"), numbers):
+        cells = {key: cell.strip() for key, cell in row.items() if cell.strip()}
+        if not cells:
+            continue
+        name = cells.get("name")
+        where = f"{path}: line {line}" + (f" ({_repeated(name)})" if name else "")
+        values: dict[str, object] = dict(cells)
+        for key in cells.keys() - texts:
+            parts = [part.strip() for part in cells[key].split(";") if part.strip()]
+            each = [scalar_value(part) for part in parts]
+            if key in lists and not all(isinstance(value, int | float) for value in each):
+                defects.append(
+                    f"{where}: {key} is {shown(cells[key])}, but must be numbers parted by semicolons, as in 3.4; 3.0."
+                )
+            values[key] = each if key in lists or len(each) != 1 else each[0]
+            cells[key] = ", ".join(parts)
+        found.append(_Entry(where, values, cells))
+    if not found:
+        raise ConfigurationError(f"{path}: the list is empty, but must hold one structure at least.")
     return found
 
 

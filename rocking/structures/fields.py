@@ -110,6 +110,11 @@ class Field(Described):
         return self.default is ...
 
     @property
+    def is_list(self) -> bool:
+        """Whether it holds several numbers."""
+        return any(each.get("type") == "array" for each in self.schema.get("anyOf", [self.schema]))
+
+    @property
     def suffix(self) -> str:
         """The unit as it follows a number."""
         return self.unit if self.unit in ("", "°") else f" {self.unit}"

@@ -124,7 +124,7 @@ class Settings(AssessmentSettings):
     )
     structures: str = described(
         "structures.yaml",
-        "list of the structures, in metres and degrees",
+        "list of the structures, YAML or CSV, in metres and degrees",
         heading=Heading.RECORDS,
         changes_numbers=False,
     )

@@ -3,6 +3,7 @@
 import csv
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from difflib import get_close_matches
 from io import StringIO
 from pathlib import Path
 
@@ -12,6 +13,8 @@ from rocking.tables.files import read_start, read_whole
 
 _LARGEST = 16 * 2**20
 """Bytes: a hundred thousand rows."""
+_MOST_TOLD = 40
+"""Columns that a sentence names, and characters of a name that is compared with them."""
 
 
 def read_edited(
@@ -34,16 +37,26 @@ def read_edited(
         names = list(reader.fieldnames or ())
     except (ValueError, csv.Error) as fault:
         raise error(f"{path}: the {path.stem} cannot be read as UTF-8 CSV, {fault}.") from None
-    defects = [f"column {shown(name)} is not known" for name in names if name not in columns]
+    defects = [_unknown(name, columns) for name in names if name not in columns]
     defects += [f"column {shown(name)} stands {n} times" for name, n in Counter(names).items() if n > 1]
     defects += [f"column {shown(name)} is missing" for name in required if name not in names]
-    defects += [f"line {line} has more cells than there are columns" for line, row in rows if row.get("")]
+    defects += [
+        f"line {line} has more cells than there are columns (a number with a comma?)"
+        for line, row in rows
+        if row.get("")
+    ]
     if defects:
-        raise error(f"{path.name}: {'; '.join(defects)}; the columns are {', '.join(columns)}.")
+        allowed = f"; the columns are {', '.join(columns)}" if len(columns) <= _MOST_TOLD else ""
+        raise error(f"{path.name}: {'; '.join(defects)}{allowed}.")
     if separator == ";":
         for _, row in rows:
             row |= {name: row[name].replace(",", ".") for name in numbers if row.get(name)}
     return rows
+
+
+def _unknown(name: str, columns: Sequence[str]) -> str:
+    near = get_close_matches(name[:_MOST_TOLD], columns, n=1)
+    return f"column {shown(name)} is not known ({f'did you mean {near[0]}?' if near else 'remove it'})"
 
 
 def _separator(content: bytes) -> str:

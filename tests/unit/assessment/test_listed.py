@@ -1,11 +1,14 @@
 """Supports of a structure list: what they may be, what carries nothing, and what stands on them."""
 
+import csv
 import pickle
 import warnings
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 
 import rocking
 from rocking.assessment.assessor import Assessor
@@ -260,3 +263,81 @@ def test_a_restitution_above_that_of_the_geometry_is_told(tmp_path):
     assert kinds == [Kind.RESTITUTION_ABOVE, Kind.RESTITUTION_TYPED]
     own = scenes["b"].structure.typed_restitution["own"]
     assert own == pytest.approx(1 - 1.5 * 0.36 / (0.36 + 9.0), rel=1e-9)
+
+
+SHIPPED = Path(__file__).parents[3] / "workflow" / "structures.yaml"
+FACADE = {
+    "name": "front",
+    "type": "facade",
+    "storey_heights_m": [3.4, 3.0],
+    "thicknesses_m": [0.5, 0.4],
+    "unit_weight_kN_m3": 19,
+    "tie_heights_m": [6.2],
+    "tie_stiffness_kN_m2": 1e4,
+    "crack": "known",
+}
+CURVE = {"name": "curve", "type": "capacity_curve", "weight_kN": 120, "restitution": 0.9}
+CURVE |= {"displacements_m": [0, 0.1, 0.3], "multipliers": [0.1, 0.08, 0]}
+
+
+@pytest.mark.parametrize(("separator", "encoding"), [(",", "utf-8"), (";", "utf-8-sig"), (";", "cp1252")])
+def test_both_doors_give_the_same_structures(tmp_path, separator, encoding):
+    """The shipped list with its supports, a list of one height and one of a curve: as YAML, and as a spreadsheet."""
+    entries = [*yaml.safe_load(SHIPPED.read_text(encoding="utf-8")), FACADE, CURVE]
+    entries = [{key: value for key, value in each.items() if key != "variants"} for each in entries]
+    listed = tmp_path / "structures.yaml"
+    listed.write_text(yaml.safe_dump(entries), encoding="utf-8")
+
+    def cell(value: object) -> str:
+        if isinstance(value, list):
+            return "; ".join(map(cell, value))
+        is_number = isinstance(value, int | float) and not isinstance(value, bool)
+        text = yaml.safe_dump(value).split("\n")[0] if is_number else str(value)
+        return text.replace(".", ",") if is_number and separator == ";" else text
+
+    rows = tmp_path / "structures.csv"
+    with rows.open("w", encoding=encoding, newline="") as file:
+        writer = csv.DictWriter(
+            file, list({key: None for each in entries for key in each}), delimiter=separator
+        )
+        writer.writeheader()
+        writer.writerows({key: cell(value) for key, value in each.items()} for each in entries)
+        file.write(separator * (len(writer.fieldnames) - 1) + "\n")
+    by_yaml = load_scenes(listed)
+    by_csv = load_scenes(rows)
+    assert list(by_csv) == list(by_yaml)
+    assert by_csv == by_yaml
+    for name, scene in by_yaml.items():
+        assert by_csv[name].structure.described.entry == scene.structure.described.entry
+        assert by_csv[name].structure.description == scene.structure.description
+
+
+HEAD = "name,type,breadth_m,height_m,thickness_m"
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        (f"{HEAD},heigth\na,block,1,4,,", r"column 'heigth' is not known \(did you mean height_m\?\)\.$"),
+        ("name,height_m\na,4", r"column 'type' is missing\.$"),
+        (f"{HEAD}\n,block,1,4,", "line 2: name is missing"),
+        (f"{HEAD}\na,block,1,4,\na,block,1,5,", r"line 3 \(a\): the name is already taken"),
+        (f"{HEAD}\na,block,1,4,0.3", r"line 2 \(a\): thickness_m is not a key of a block"),
+        (f"{HEAD}\na,blok,1,4,", r"type is 'blok'.*did you mean block\?"),
+        (f"{HEAD}\na,block,1,tall,", r"height_m is 'tall', but must be a number"),
+        (f'{HEAD}\na,block,1,"4,5",', r"height_m is '4,5', but must be .* written with a point, 4\.5"),
+        (f"{HEAD}\na,block,1,4,5,0", "line 2 has more cells than there are columns"),
+        (f"{HEAD}\na,block,1,,", "a block needs breadth_m and height_m; give it|needs height_m"),
+        (HEAD, "the list is empty"),
+        (
+            "name,type,storey_heights_m\nf,facade,3.4 3.0",
+            "must be numbers parted by semicolons, as in 3.4; 3.0",
+        ),
+        ("name,type,stands_on,breadth_m,height_m\na,block,roof,1,4", "no support of the list has this name"),
+    ],
+)
+def test_rows_that_cannot_be(tmp_path, text, sentence):
+    path = tmp_path / "structures.csv"
+    path.write_text(text + "\n", encoding="utf-8")
+    with pytest.raises(ConfigurationError, match=sentence):
+        load_scenes(path)

@@ -154,6 +154,13 @@ def _move_structures() -> None:
     _write_settings(structures="list.yaml")
 
 
+def _structures_as_csv() -> None:
+    keys = list({key: None for each in STRUCTURES for key in each})
+    lines = [keys, *([str(each.get(key, "")) for key in keys] for each in STRUCTURES)]
+    Path("list.csv").write_text("\n".join(map(",".join, lines)))
+    _write_settings(structures="list.csv")
+
+
 def _add_record() -> None:
     shutil.copy("pool/p.AT2", "records")
     _write_catalogue("records", "a", "b", "p")
@@ -176,6 +183,7 @@ EDITS: list[tuple[str, Callable[[], object], str]] = [
     ("mirror", _setting(mirror="elsewhere"), ""),
     ("catalogue elsewhere", _move_catalogue, NUMBERS),
     ("structures elsewhere", _move_structures, ""),
+    ("structures as CSV", _structures_as_csv, ""),
     ("records_per_job", _setting(records_per_job=5), "S"),
     # Numbers.
     ("tolerance", _setting(tolerance=1e-7), NUMBERS),
