@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse, PulseAnalysis, PulseEvidence, PulseSettings
@@ -209,13 +208,14 @@ class PulseSearch:
 
     def ranked(self, samples: np.ndarray, maxima: Maxima) -> tuple[PulseEvidence, ...]:
         """Return the best pulses that do not cover one another, by refined gain."""
-        best: list[PulseEvidence] = []
-        for evidence in self.refined_maxima(samples, maxima, self.settings.candidates):
-            span = evidence.pulse.start_time, evidence.pulse.end_time
-            others = (each.pulse for each in best)
-            if all(_shared(*span, each.start_time, each.end_time) < self.settings.overlap for each in others):
-                best.append(evidence)
-        return tuple(best[: self.settings.alternatives])
+        from rocking.pulses.scan import apart
+
+        refined = self.refined_maxima(samples, maxima, self.settings.candidates)
+        starts = np.array([each.pulse.start_time for each in refined])
+        ends = np.array([each.pulse.end_time for each in refined])
+        gains = np.array([each.gain for each in refined])
+        chosen = apart(starts, ends, gains, self.settings.alternatives, self.settings.overlap)
+        return tuple(refined[place] for place in chosen)
 
     def refined_maxima(self, samples: np.ndarray, maxima: Maxima, count: int) -> list[PulseEvidence]:
         """Return the best `count` maxima that do not cover one another, refined, by refined gain."""
@@ -272,12 +272,6 @@ class PulseSearch:
         onset = round(sine.start_time / self.time_step)
         angle = sine.circular_frequency * self.time_step
         return replace(evidence, pulse=sine, phase=envelope_phase(samples, onset, angle))
-
-
-def _shared(starts: ArrayLike, ends: ArrayLike, start: float, end: float) -> np.ndarray:
-    """Time that spans share with another over that from the first start to the last end; below 0 where they do not."""
-    common = np.minimum(ends, end) - np.maximum(starts, start)
-    return np.asarray(common / (np.maximum(ends, end) - np.minimum(starts, start)))
 
 
 def _pursued(

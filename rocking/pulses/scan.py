@@ -77,12 +77,19 @@ def _cycles(angles: bytes) -> tuple[np.ndarray, ...]:
 @entry(types.void(_MATRIX, types.int64, _COUNTS, _MATRIX, _CUBE))
 def _start(padded, first, counts, turning, sums):
     """Fill sums with S_j at onset `first`."""
+    m = counts.size
     for c in range(padded.shape[0]):
-        for i in range(counts.size):
-            turn_re, turn_im, re, im = turning[0, i], turning[1, i], 0.0, 0.0
-            for k in range(counts[i] - 1, -1, -1):
-                re, im = re * turn_re - im * turn_im + padded[c, first + k], re * turn_im + im * turn_re
-            sums[c, 0, i], sums[c, 1, i] = re, im
+        real, imaginary = np.zeros(m), np.zeros(m)
+        for k in range(counts[0] - 1, -1, -1):
+            sample = padded[c, first + k]
+            # frequencies ascend: the longest cycles reach this sample first
+            for i in range(m):
+                if counts[i] <= k:
+                    break
+                re, im = real[i], imaginary[i]
+                real[i] = re * turning[0, i] - im * turning[1, i] + sample
+                imaginary[i] = re * turning[1, i] + im * turning[0, i]
+        sums[c, 0], sums[c, 1] = real, imaginary
 
 
 @entry(types.void(_MATRIX, types.int64, types.int64, types.int64, *_SCAN))
