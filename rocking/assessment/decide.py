@@ -304,6 +304,16 @@ class Decision:
         return f"{percent(low)}{between}\u00a0%"
 
     @property
+    def share_low(self) -> float:
+        """The lower end of the interval of the share."""
+        return self.interval[0]
+
+    @property
+    def share_high(self) -> float:
+        """Its upper end."""
+        return self.interval[1]
+
+    @property
     def severity(self) -> tuple[int, float]:
         """Key by which the worst of several comes last: the word, then the share."""
         share = self.interval[0] if math.isnan(self.share) else self.share

@@ -126,7 +126,7 @@ WORTH = ((0.1, 0.56), (0.2, 0.64), (0.3, 0.72), (0.5, 0.77), (1.0, 0.85))
 the pulse ends as the integration under the record does. Measured on 167 stations that took no part in anything here."""
 
 
-def worth(explained_energy: float) -> float:
+def same_outcome_share(explained_energy: float) -> float:
     """Return the share of cases with as much explained energy in which closed form and integration end alike."""
     return next(share for most, share in WORTH if explained_energy <= most or most == 1.0)
 

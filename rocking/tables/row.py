@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Callable, Sequence
+from copy import copy
 from dataclasses import MISSING, dataclass, replace
 from enum import Enum, StrEnum
 from typing import Any, ClassVar, Generic, Self, TypeVar, dataclass_transform, get_args
@@ -67,9 +68,15 @@ class RowOf(Row, Generic[S]):
 
     @classmethod
     def of(cls, subject: S) -> Self:
-        """Return the row about `subject`."""
+        """Return the row about `subject`; a column of a part that it lacks is empty."""
         made: Any = cls
-        row: Self = made(**{each.name: each.more["of"](subject) for each in cls.table.columns})
+        values = {}
+        for each in cls.table.columns:
+            value: Any = subject
+            for read in each.more["reads"]:
+                value = None if value is None else read(value)
+            values[each.name] = empty(each) if value is None else value
+        row: Self = made(**values)
         return row
 
 
@@ -87,14 +94,37 @@ class Columns(Generic[S]):
 
     def __init__(self, subject: type[S]) -> None:
         self.subject = subject
+        self._reads: tuple[Callable[[Any], Any], ...] = ()
+        self._may_lack = False
 
     def __call__(
         self, meaning: str, of: Callable[[S], T], *, equation: str = "", unit: str = "", last: bool = False
     ) -> T:
         """Declare a column that holds what `of` says of a subject; the rest as of `column`."""
-        more: dict[str, Any] = {"of": of, "subject": self.subject}
+        more: dict[str, Any] = {
+            "reads": (*self._reads, of),
+            "subject": self.subject,
+            "may_lack": self._may_lack,
+        }
         value: T = described(MISSING, meaning, unit, equation=equation, last=last, **more)
         return value
+
+    def part(self, read: Callable[[S], T]) -> "Columns[T]":
+        """Return the declaration of columns about a part of the subject.
+
+        of_decision = of_case.part(lambda case: case.decision)
+        """
+        made: Any = copy(self)
+        made._reads = (*self._reads, read)
+        of_part: Columns[T] = made
+        return of_part
+
+    def optional(self, read: Callable[[S], T | None]) -> "Columns[T]":
+        """Return the declaration of columns about a part that may be missing; they are empty where it is None."""
+        made: Any = self.part(read)
+        made._may_lack = True
+        of_part: Columns[T] = made
+        return of_part
 
 
 def column(
@@ -145,6 +175,10 @@ def _check_subjects(row_class: type[Row]) -> None:
                 if own is None or not issubclass(subject, own):
                     raise TypeError(
                         f"{row_class.__name__}.{each.name} is not read from a {subject.__name__}."
+                    )
+                if each.more["may_lack"] and not each.optional and empty(each) is None:
+                    raise TypeError(
+                        f"{row_class.__name__}.{each.name} has no value where its part is missing."
                     )
 
 

@@ -4,16 +4,15 @@ mypy holds a column to the type and the subject of what it reads; what it cannot
 """
 
 import re
-from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import combinations
 from types import CodeType
-from typing import Any
 
 import pytest
 
 from rocking.assessment import rows as of_assessment
 from rocking.codes import rows as of_codes
+from rocking.described import Described
 from rocking.fragility import rows as of_fragility
 from rocking.reports import record as of_records
 from rocking.reports import summary as of_summary
@@ -40,22 +39,24 @@ def words(name: str) -> set[str]:
     return {word.removesuffix("s") if len(word) > 3 else word for word in each} - {""}
 
 
-def words_read(source: Callable[..., Any]) -> set[str]:
-    """The words of all attributes, functions and texts that a source names."""
+def words_read(column: Described) -> set[str]:
+    """The words of all attributes, functions and texts that the sources of a column name, its part and what of it."""
     found: set[str] = set()
-    codes = [source.__code__]
+    codes = [read.__code__ for read in column.more["reads"]]
     while codes:
         code = codes.pop()
         named = [*code.co_names, *(each for each in code.co_consts if isinstance(each, str))]
         found = found.union(*map(words, named))
         codes += [each for each in code.co_consts if isinstance(each, CodeType)]
+    for cell in (cell for read in column.more["reads"] for cell in read.__closure__ or ()):
+        found |= words(str(cell.cell_contents))
     return found
 
 
 def exchangeable(kind: type[Row]) -> list[tuple[str, str]]:
     """Pairs of columns of one type that would fit each other's sources as well as their own."""
     named = {each.name: words(each.name) for each in kind.table.columns}
-    read = {each.name: words_read(each.more["of"]) for each in kind.table.columns}
+    read = {each.name: words_read(each) for each in kind.table.columns}
 
     def fit(column: str, source: str) -> int:
         return len(named[column] & read[source])
@@ -71,7 +72,7 @@ def exchangeable(kind: type[Row]) -> list[tuple[str, str]]:
 
 def unlike(kind: type[Row]) -> list[str]:
     """Columns that share no word with what they read."""
-    return [each.name for each in kind.table.columns if not words(each.name) & words_read(each.more["of"])]
+    return [each.name for each in kind.table.columns if not words(each.name) & words_read(each)]
 
 
 @pytest.mark.parametrize("name", CLASSES)

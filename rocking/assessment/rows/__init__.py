@@ -9,12 +9,12 @@ from rocking.assessment.rows.of_record import RECORD as RECORD
 from rocking.assessment.rows.of_record import RECORD_TABLES as RECORD_TABLES
 from rocking.assessment.rows.of_record import ComparedCase as ComparedCase
 from rocking.assessment.rows.of_record import ComparisonRow as ComparisonRow
-from rocking.assessment.rows.of_record import DecidedStation as DecidedStation
 from rocking.assessment.rows.of_record import FailedCase as FailedCase
 from rocking.assessment.rows.of_record import FailureRow as FailureRow
 from rocking.assessment.rows.of_record import HistoryRow as HistoryRow
 from rocking.assessment.rows.of_record import Identity as Identity
 from rocking.assessment.rows.of_record import MechanismRow as MechanismRow
+from rocking.assessment.rows.of_record import OfStructure as OfStructure
 from rocking.assessment.rows.of_record import PulseRow as PulseRow
 from rocking.assessment.rows.of_record import ReadComponent as ReadComponent
 from rocking.assessment.rows.of_record import RecordRow as RecordRow

@@ -1,7 +1,7 @@
 """The rows of the tables of one record: each column says on its own line what it means and what it reads."""
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -19,12 +19,10 @@ from rocking.assessment.methods import (
 from rocking.assessment.reserve import Reserve
 from rocking.floors.place import FloorMeasures
 from rocking.pulses import Pulse, PulseEvidence, VelocityPulse
-from rocking.pulses.pulse import PulseAnalysis, worth
-from rocking.records import Accelerogram
+from rocking.pulses.pulse import PulseAnalysis, same_outcome_share
 from rocking.records.measures import RecordMeasures, record_measures
 from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Regime
-from rocking.structures import EquivalentBlock, Side
 from rocking.structures.restraint import Reaction
 from rocking.structures.structure import Candidate
 from rocking.tables import Columns, Row, RowOf, row, write_tables, written_together
@@ -38,7 +36,6 @@ if TYPE_CHECKING:  # else who reads a table would load numba
         Variation,
     )
     from rocking.assessment.cracks import FollowedCrack
-    from rocking.assessment.fidelity import Answer
     from rocking.assessment.motions import Component
     from rocking.motion.response import ModelCheck, Response
 
@@ -61,16 +58,6 @@ class Identity:
     component: str
     record_sha256: str
     settings_sha256: str
-
-    @classmethod
-    def of(cls, record: str, accelerogram: Accelerogram, settings_sha256: str) -> "Identity":
-        """Return that of one component of `record`."""
-        return cls(
-            record=record,
-            component=accelerogram.component,
-            record_sha256=accelerogram.source.sha256,
-            settings_sha256=settings_sha256,
-        )
 
 
 @dataclass(frozen=True)
@@ -127,7 +114,7 @@ class DecidedRow(CaseRow[C]):
     verdict: Verdict = of_structure(f"The verdict: {', '.join(Verdict)}", lambda each: each.station.verdict)
     overturning_share: float = of_structure(
         "Share of the members that overturn; of a single run 0 or 1; empty where none can be told",
-        lambda each: each.station.overturning_share,
+        lambda each: each.station.decision.share,
     )
 
 
@@ -142,168 +129,137 @@ class ReadComponent(Identified):
     licence: str
 
     @property
-    def accelerogram(self) -> Accelerogram:
-        """The component itself."""
-        return self.component.accelerogram
-
-    @property
     def file(self) -> str:
         """The path of its file."""
-        return self.accelerogram.source.path
+        return self.component.accelerogram.source.path
 
     @property
     def samples(self) -> int:
         """The number of its samples."""
-        return self.accelerogram.acceleration.size
+        return self.component.accelerogram.acceleration.size
 
     @cached_property
     def measures(self) -> RecordMeasures:
         """Its measures of intensity."""
-        return record_measures(self.accelerogram)
+        return record_measures(self.component.accelerogram)
 
     @property
-    def velocity_pulse(self) -> VelocityPulse | None:
-        """The velocity pulse of the pair."""
-        return self.component.motion.velocity_pulse
-
-    @property
-    def dominant(self) -> Pulse | None:
-        """The sine that explains most of its energy."""
-        return self.component.analysis.dominant if self.component.analysis else None
-
-    @property
-    def pulse_period_ratio(self) -> float:
-        """Its period over that of the velocity pulse; nan where one of them is missing."""
-        if self.velocity_pulse is None or self.dominant is None:
-            return math.nan
-        return self.dominant.period / self.velocity_pulse.period
-
-    @property
-    def pulse_periods_unlike(self) -> bool | None:
-        """Whether these two periods are of two features; None where one of them is missing."""
-        if self.velocity_pulse is None or self.dominant is None:
-            return None
-        return self.velocity_pulse.is_unlike(self.dominant)
+    def both_pulses(self) -> tuple[Pulse, VelocityPulse] | None:
+        """The sine that explains most of its energy, and the velocity pulse of the pair; None without one of them."""
+        analysis = self.component.analysis
+        velocity_pulse = self.component.motion.velocity_pulse
+        return (analysis.dominant, velocity_pulse) if analysis and velocity_pulse else None
 
 
 of_component = Columns(ReadComponent)
+of_accelerogram = of_component.part(lambda read: read.component.accelerogram)
+of_vertical = of_component.optional(lambda read: read.component.vertical)
+of_measures = of_component.part(lambda read: read.measures)
+of_directions = of_component.optional(lambda read: read.component.motion.rotd)
+of_velocity_pulse = of_component.optional(lambda read: read.component.motion.velocity_pulse)
+of_both_pulses = of_component.optional(lambda read: read.both_pulses)
 
 
 @row("record")
 class RecordRow(ComponentRow[ReadComponent]):
     """One row per component: what was read and what was done to it before use."""
 
-    event: str = of_component("Earthquake", lambda read: read.accelerogram.event)
-    magnitude: float | None = of_component(
-        "Magnitude of the earthquake; empty where nothing states it", lambda read: read.accelerogram.magnitude
+    event: str = of_accelerogram("Earthquake", lambda read: read.event)
+    magnitude: float | None = of_accelerogram(
+        "Magnitude of the earthquake; empty where nothing states it", lambda read: read.magnitude
     )
-    epicentral_distance_m: float | None = of_component(
-        "Distance to the epicentre; empty where nothing states it",
-        lambda read: read.accelerogram.epicentral_distance,
+    epicentral_distance_m: float | None = of_accelerogram(
+        "Distance to the epicentre; empty where nothing states it", lambda read: read.epicentral_distance
     )
-    magnitude_type: str = of_component(
-        "Scale of the magnitude; empty where nothing states it", lambda read: read.accelerogram.magnitude_type
+    magnitude_type: str = of_accelerogram(
+        "Scale of the magnitude; empty where nothing states it", lambda read: read.magnitude_type
     )
-    event_time: str = of_component(
+    event_time: str = of_accelerogram(
         "Date of the earthquake, and its time as far as the file says it, ISO 8601 in the zone of the file",
-        lambda read: read.accelerogram.event_time,
+        lambda read: read.event_time,
     )
-    station: str = of_component("Recording station", lambda read: read.accelerogram.station)
-    station_latitude_deg: float | None = of_component(
-        "Latitude of the station, north", lambda read: read.accelerogram.latitude
+    station: str = of_accelerogram("Recording station", lambda read: read.station)
+    station_latitude_deg: float | None = of_accelerogram(
+        "Latitude of the station, north", lambda read: read.latitude
     )
-    station_longitude_deg: float | None = of_component(
-        "Longitude of the station, east", lambda read: read.accelerogram.longitude
+    station_longitude_deg: float | None = of_accelerogram(
+        "Longitude of the station, east", lambda read: read.longitude
     )
-    start_time: str = of_component(
-        "Time of the first sample, as the file states it", lambda read: read.accelerogram.start_time
+    start_time: str = of_accelerogram(
+        "Time of the first sample, as the file states it", lambda read: read.start_time
     )
     file: str = of_component("File of the record", lambda read: read.file)
-    format: str = of_component("Format of the file", lambda read: read.accelerogram.source.format)
-    unit: str = of_component("Unit of the numbers in the file", lambda read: read.accelerogram.source.unit)
-    scale_factor: float = of_component(SCALE_FACTOR, lambda read: read.accelerogram.scale_factor)
+    format: str = of_accelerogram("Format of the file", lambda read: read.source.format)
+    unit: str = of_accelerogram("Unit of the numbers in the file", lambda read: read.source.unit)
+    scale_factor: float = of_accelerogram(SCALE_FACTOR, lambda read: read.scale_factor)
     licence: str = of_component(
         "Licence of the record, as the catalogue declares it", lambda read: read.licence
     )
-    vertical_component: str = of_component(
+    vertical_component: str = of_vertical(
         "Vertical component that acts as well; empty where none acts",
-        lambda read: (read.component.vertical.component or "not named") if read.component.vertical else "",
+        lambda vertical: vertical.component or "not named",
     )
-    vertical_peak_acceleration_m_s2: float = of_component(
-        "Largest magnitude of the vertical acceleration",
-        lambda read: read.component.vertical.peak_acceleration if read.component.vertical else math.nan,
+    vertical_peak_acceleration_m_s2: float = of_vertical(
+        "Largest magnitude of the vertical acceleration", lambda vertical: vertical.peak_acceleration
     )
     samples: int = of_component("Number of samples", lambda read: read.samples)
-    time_step_s: float = of_component("Time step", lambda read: read.accelerogram.time_step)
-    duration_s: float = of_component(
-        "Time from the first to the last sample", lambda read: read.accelerogram.duration
+    time_step_s: float = of_accelerogram("Time step", lambda read: read.time_step)
+    duration_s: float = of_accelerogram("Time from the first to the last sample", lambda read: read.duration)
+    peak_acceleration_m_s2: float = of_measures(
+        "Largest magnitude of the acceleration", lambda measures: measures.peak_acceleration
     )
-    peak_acceleration_m_s2: float = of_component(
-        "Largest magnitude of the acceleration", lambda read: read.measures.peak_acceleration
+    peak_velocity_m_s: float = of_measures(
+        "Largest magnitude of the velocity, by the trapezoidal rule", lambda measures: measures.peak_velocity
     )
-    peak_velocity_m_s: float = of_component(
-        "Largest magnitude of the velocity, by the trapezoidal rule", lambda read: read.measures.peak_velocity
+    peak_displacement_m: float = of_measures(
+        "Largest magnitude of the displacement, by the same rule", lambda measures: measures.peak_displacement
     )
-    peak_displacement_m: float = of_component(
-        "Largest magnitude of the displacement, by the same rule",
-        lambda read: read.measures.peak_displacement,
+    arias_intensity_m_s: float = of_measures(
+        "Arias intensity", lambda measures: measures.arias_intensity, equation="π/(2g) ∫a² dt"
     )
-    arias_intensity_m_s: float = of_component(
-        "Arias intensity", lambda read: read.measures.arias_intensity, equation="π/(2g) ∫a² dt"
-    )
-    significant_duration_s: float = of_component(
+    significant_duration_s: float = of_measures(
         "Time between 5 and 95 % of the Arias intensity (D5–95)",
-        lambda read: read.measures.significant_duration,
+        lambda measures: measures.significant_duration,
     )
-    rotd50_peak_acceleration_m_s2: float = of_component(
-        "Peak acceleration of the pair, median over directions",
-        lambda read: read.component.motion.rotd.rotd50 if read.component.motion.rotd else math.nan,
+    rotd50_peak_acceleration_m_s2: float = of_directions(
+        "Peak acceleration of the pair, median over directions", lambda pair: pair.rotd50
     )
-    rotd100_peak_acceleration_m_s2: float = of_component(
-        "Peak acceleration of the pair, largest over directions",
-        lambda read: read.component.motion.rotd.rotd100 if read.component.motion.rotd else math.nan,
+    rotd100_peak_acceleration_m_s2: float = of_directions(
+        "Peak acceleration of the pair, largest over directions", lambda pair: pair.rotd100
     )
-    velocity_pulse_period_s: float = of_component(
-        "Period T_p of the velocity pulse (Shahi & Baker 2014)",
-        lambda read: read.velocity_pulse.period if read.velocity_pulse else math.nan,
+    velocity_pulse_period_s: float = of_velocity_pulse(
+        "Period T_p of the velocity pulse (Shahi & Baker 2014)", lambda pulse: pulse.period
     )
-    velocity_pulse_peak_velocity_m_s: float = of_component(
-        "Peak velocity along the axis of the velocity pulse",
-        lambda read: read.velocity_pulse.peak_velocity if read.velocity_pulse else math.nan,
+    velocity_pulse_peak_velocity_m_s: float = of_velocity_pulse(
+        "Peak velocity along the axis of the velocity pulse", lambda pulse: pulse.peak_velocity
     )
-    velocity_pulse_orientation_rad: float = of_component(
-        "Axis of the velocity pulse, from the first component",
-        lambda read: read.velocity_pulse.orientation if read.velocity_pulse else math.nan,
+    velocity_pulse_orientation_rad: float = of_velocity_pulse(
+        "Axis of the velocity pulse, from the first component", lambda pulse: pulse.orientation
     )
     velocity_pulse_azimuth_deg: float | None = of_component(
         "Axis of the velocity pulse, clockwise from north",
         lambda read: read.component.motion.velocity_pulse_azimuth,
     )
-    velocity_pulse_indicator: float = of_component(
-        "Pulse indicator of Shahi & Baker (2014)",
-        lambda read: read.velocity_pulse.indicator if read.velocity_pulse else math.nan,
+    velocity_pulse_indicator: float = of_velocity_pulse(
+        "Pulse indicator of Shahi & Baker (2014)", lambda pulse: pulse.indicator
     )
-    velocity_pulse_like: bool | None = of_component(
-        "Whether Shahi & Baker call the motion pulse-like",
-        lambda read: read.velocity_pulse.pulse_like if read.velocity_pulse else None,
+    velocity_pulse_like: bool | None = of_velocity_pulse(
+        "Whether Shahi & Baker call the motion pulse-like", lambda pulse: pulse.pulse_like
     )
-    pulse_period_ratio: float = of_component(
-        "Period of the dominant sine pulse over T_p",
-        lambda read: read.pulse_period_ratio,
+    pulse_period_ratio: float = of_both_pulses(
+        "Period of the dominant sine pulse over T_p", lambda both: both[0].period / both[1].period
     )
-    pulse_periods_unlike: bool | None = of_component(
-        "Whether these periods differ by more than a factor of 2",
-        lambda read: read.pulse_periods_unlike,
+    pulse_periods_unlike: bool | None = of_both_pulses(
+        "Whether these periods differ by more than a factor of 2", lambda both: both[1].is_unlike(both[0])
     )
-    high_pass_frequency_hz: float | None = of_component(
-        "Corner of the high-pass that the file or catalogue states",
-        lambda read: read.accelerogram.high_pass_frequency,
+    high_pass_frequency_hz: float | None = of_accelerogram(
+        "Corner of the high-pass that the file or catalogue states", lambda read: read.high_pass_frequency
     )
-    processing: tuple[str, ...] = of_component(
-        "Steps applied to the numbers of the file, in order", lambda read: read.accelerogram.processing
+    processing: tuple[str, ...] = of_accelerogram(
+        "Steps applied to the numbers of the file, in order", lambda read: read.processing
     )
-    warnings: tuple[str, ...] = of_component(
-        "Warnings of the reader about the file", lambda read: tuple(map(str, read.accelerogram.warnings))
+    warnings: tuple[str, ...] = of_accelerogram(
+        "Warnings of the reader about the file", lambda read: tuple(map(str, read.warnings))
     )
 
 
@@ -320,16 +276,6 @@ class FoundPulse(Identified):
     def gain_ratio(self) -> float:
         """Its gain over that of the dominant pulse."""
         return self.evidence.gain / self.analysis.evidence.gain
-
-    @property
-    def same_outcome_share(self) -> float:
-        """The share of cases with such pulses whose closed form ends as the integration does."""
-        return worth(self.evidence.explained_energy)
-
-    @property
-    def is_dominant(self) -> bool:
-        """Whether it is the dominant pulse, about which the analysis has its doubts."""
-        return self.evidence is self.analysis.evidence and self.kind == "alternative"
 
 
 def pulses_found(identity: Identity, component: "Component") -> Iterator[FoundPulse]:
@@ -384,14 +330,18 @@ class PulseRow(ComponentRow[FoundPulse]):
     )
     same_outcome_share: float = of_pulse(
         "Share of cases with such pulses that end as the integration does",
-        lambda found: found.same_outcome_share,
+        lambda found: same_outcome_share(found.evidence.explained_energy),
     )
     effective_length_m: float = of_pulse(
         "Length scale: amplitude times period squared", lambda found: found.evidence.effective_length
     )
     flags: tuple[Kind, ...] = of_pulse(
         "Kinds of reason to doubt the pulse",
-        lambda found: tuple(each.kind for each in found.analysis.flags) if found.is_dominant else (),
+        lambda found: (
+            tuple(each.kind for each in found.analysis.flags)
+            if found.kind == "alternative" and found.rank == 1
+            else ()
+        ),
     )
 
     @property
@@ -415,29 +365,15 @@ class ComparedCase(OfStructure):
     case: "CaseResult"
     friction_coefficient: float
 
-    @property
-    def answer(self) -> "Answer":
-        """The answer that settled the case."""
-        assert self.case.answer is not None
-        return self.case.answer
-
-    @property
-    def block(self) -> EquivalentBlock | None:
-        """The side of the block that predicts which the pulse lifts first."""
-        return self.case.prediction.side if self.case.prediction else None
-
-    @property
-    def both(self) -> tuple[float, float]:
-        """Predicted and integrated rotation ratio."""
-        return self.case.predicted_rotation_ratio, self.case.integrated_rotation_ratio
-
-    def rotation_ratio(self, method: Method) -> float:
-        """Return the rotation ratio of a method that integrates; nan where it was not asked."""
-        response = self.case.responses.get(method)
-        return response.rotation_ratio if response else math.nan
-
 
 of_case = Columns(ComparedCase)
+of_prediction = of_case.optional(lambda of: of.case.prediction)
+of_response = of_case.optional(lambda of: of.case.response)
+of_block_response = of_case.optional(lambda of: of.case.responses.get(Method.BLOCK_ON_RECORD))
+of_pulse_response = of_case.optional(lambda of: of.case.responses.get(Method.MECHANISM_ON_PULSE))
+of_own_crack = of_case.optional(lambda of: of.case.statics)
+of_check = of_case.part(lambda of: of.case.check)
+of_estimate = of_case.optional(lambda of: of.case.overturning_estimate)
 
 
 _FIRST = (
@@ -460,107 +396,99 @@ class ComparisonRow(DecidedRow[ComparedCase]):
     """
 
     predicted_rotation_ratio: float = of_case(
-        "Rotation ratio of the equivalent block under the pulse",
-        lambda of: of.case.predicted_rotation_ratio,
+        "Rotation ratio of the equivalent block under the pulse", lambda of: of.case.predicted_rotation_ratio
     )
     integrated_rotation_ratio: float = of_case(
         "Rotation ratio of the mechanism under the record", lambda of: of.case.integrated_rotation_ratio
     )
     within_factor_two: bool | None = of_case(
-        "Whether their ratio lies between 1/2 and 2", lambda of: within_factor_two(*of.both)
+        "Whether their ratio lies between 1/2 and 2",
+        lambda of: within_factor_two(of.case.predicted_rotation_ratio, of.case.integrated_rotation_ratio),
     )
     agreement: Agreement = of_case(
         "Closed form against integration: same outcome, too low or too high",
-        lambda of: agreement(*of.both),
+        lambda of: agreement(of.case.predicted_rotation_ratio, of.case.integrated_rotation_ratio),
     )
-    regime: Regime | None = of_case(
-        "Regime of the closed form",
-        lambda of: of.case.prediction.maximum.regime if of.case.prediction else None,
+    regime: Regime | None = of_prediction(
+        "Regime of the closed form", lambda closed_form: closed_form.maximum.regime
     )
-    block_restitution: float = of_case(
+    block_restitution: float = of_prediction(
         "Ratio of angular velocities of the block after and before an impact",
-        lambda of: of.block.restitution if of.block else math.nan,
+        lambda closed_form: closed_form.side.restitution,
     )
-    block_on_record_rotation_ratio: float = of_case(
-        "Rotation ratio of the block under the record", lambda of: of.rotation_ratio(Method.BLOCK_ON_RECORD)
+    block_on_record_rotation_ratio: float = of_block_response(
+        "Rotation ratio of the block under the record", lambda response: response.rotation_ratio
     )
-    mechanism_on_pulse_rotation_ratio: float = of_case(
-        "Rotation ratio of the mechanism under the pulse",
-        lambda of: of.rotation_ratio(Method.MECHANISM_ON_PULSE),
+    mechanism_on_pulse_rotation_ratio: float = of_pulse_response(
+        "Rotation ratio of the mechanism under the pulse", lambda response: response.rotation_ratio
     )
-    pulse_rank: int | None = of_case(
+    pulse_rank: int | None = of_prediction(
         "Rank of the pulse that predicts among those of its method",
-        lambda of: of.case.prediction.pulse_rank if of.case.prediction else None,
+        lambda closed_form: closed_form.pulse_rank,
     )
-    amplitude_ratio: float = of_case(
+    amplitude_ratio: float = of_prediction(
         "Amplitude ratio a = a_g/(gλ) of the pulse",
-        lambda of: of.case.prediction.amplitude_ratio if of.case.prediction else math.nan,
+        lambda closed_form: closed_form.amplitude_ratio,
         equation="Eq. 16",
     )
-    frequency_ratio: float = of_case(
+    frequency_ratio: float = of_prediction(
         "Circular frequency of the pulse over p",
-        lambda of: of.case.prediction.frequency_ratio if of.case.prediction else math.nan,
+        lambda closed_form: closed_form.frequency_ratio,
         equation="Eq. 16",
     )
-    impacts: int | None = of_case(
-        "Number of impacts in the integration",
-        lambda of: of.case.response.impacts if of.case.response else None,
+    impacts: int | None = of_response(
+        "Number of impacts in the integration", lambda response: response.impacts
     )
     crack: str = of_case(
         "Crack to which the row belongs, where it is not the structure's own but the one that governs",
         lambda of: of.case.crack,
     )
-    statics_predicted_rotation_ratio: float = of_case(
+    statics_predicted_rotation_ratio: float = of_own_crack(
         "Beside such a row, the closed form with the structure's own crack",
-        lambda of: of.case.statics.predicted_rotation_ratio if of.case.statics else math.nan,
+        lambda case: case.predicted_rotation_ratio,
     )
-    statics_integrated_rotation_ratio: float = of_case(
-        "Likewise the mechanism under the record",
-        lambda of: of.case.statics.integrated_rotation_ratio if of.case.statics else math.nan,
+    statics_integrated_rotation_ratio: float = of_own_crack(
+        "Likewise the mechanism under the record", lambda case: case.integrated_rotation_ratio
     )
-    peak_time_s: float = of_case(
-        "Time of the largest rotation after the first sample",
-        lambda of: of.case.response.peak_time if of.case.response else math.nan,
+    peak_time_s: float = of_response(
+        "Time of the largest rotation after the first sample", lambda response: response.peak_time
     )
-    fragile: bool | None = of_case(
+    fragile: bool | None = of_response(
         "Whether a change of the ground motion by 1 % decides the outcome, or chaos does",
-        lambda of: of.case.response.fragile if of.case.response else None,
+        lambda response: response.fragile,
     )
-    lifting_friction: float = of_case(
-        "Friction that a contact needs as the structure lifts", lambda of: of.case.check.lifting_friction
+    lifting_friction: float = of_check(
+        "Friction that a contact needs as the structure lifts", lambda check: check.lifting_friction
     )
-    required_friction: float = of_case(
-        "Largest friction that a contact needs; INF without pressure",
-        lambda of: of.case.check.required_friction,
+    required_friction: float = of_check(
+        "Largest friction that a contact needs; INF without pressure", lambda check: check.required_friction
     )
     slides: bool | None = of_case(
         "Whether a contact slides, so that the model fails",
         lambda of: of.case.check.slides(of.friction_coefficient),
     )
-    bounces: bool | None = of_case(
-        "Whether a contact lifts off, so that the model fails", lambda of: of.case.check.bounces
+    bounces: bool | None = of_check(
+        "Whether a contact lifts off, so that the model fails", lambda check: check.bounces
     )
-    ties: str = of_case(
-        "Which ties yield or break on the way to the largest rotation", lambda of: of.case.check.ties
+    ties: str = of_check(
+        "Which ties yield or break on the way to the largest rotation", lambda check: check.ties
     )
-    warning: str = of_case(
+    warning: str = of_response(
         "Warning about what the model leaves out; or empty",
-        lambda of: str(of.case.response.warning) if of.case.response and of.case.response.warning else "",
+        lambda response: str(response.warning) if response.warning else "",
     )
     answer_reason: str = of_case(
-        "Reason why that method sufficed, with fidelity: auto", lambda of: of.answer.reason
+        "Reason why that method sufficed, with fidelity: auto",
+        lambda of: of.case.answer.reason if of.case.answer else "",
     )
-    overturning_estimate: float = of_case(
-        "Overturning share by p PGV/(gλ), where no ensemble ran",
-        lambda of: of.case.overturning_estimate.share if of.case.overturning_estimate else math.nan,
+    overturning_estimate: float = of_estimate(
+        "Overturning share by p PGV/(gλ), where no ensemble ran", lambda estimate: estimate.share
     )
-    overturning_estimate_low: float = of_case(
-        "Lower end of the 90 % interval of the estimate",
-        lambda of: of.case.overturning_estimate.low if of.case.overturning_estimate else math.nan,
+    overturning_estimate_low: float = of_estimate(
+        "Lower end of the 90 % interval of the estimate", lambda estimate: estimate.low
     )
-    overturning_estimate_high: float = of_case(
-        "Upper end of the 90 % interval of the estimate",
-        lambda of: of.case.overturning_estimate.high if of.case.overturning_estimate else math.nan,
+    overturning_estimate_high: float = of_estimate(
+        "Upper end of the 90 % interval of the estimate", lambda estimate: estimate.high
     )
 
 
@@ -573,125 +501,108 @@ RATIO_COLUMNS = {
 """The columns of the comparison with the largest rotation by method, over the critical one; INF if it overturns."""
 
 
-@dataclass(frozen=True)
-class DecidedStation(OfStructure):
-    """The result of one structure. identity: of the component that rotates most, but for the name of the component."""
-
-    @property
-    def share_low(self) -> float:
-        """The lower end of the interval of the share."""
-        return self.station.decision.interval[0]
-
-    @property
-    def share_high(self) -> float:
-        """Its upper end."""
-        return self.station.decision.interval[1]
-
-
-of_station = Columns(DecidedStation)
+of_decision = of_structure.part(lambda of: of.station.decision)
+of_ensemble = of_structure.part(lambda of: of.station.ensemble)
+of_statics = of_structure.optional(lambda of: of.station.statics)
+of_reserve = of_structure.optional(lambda of: of.station.reserve)
+of_stacks = of_structure.optional(lambda of: of.station.stacks)
 
 
 @row("verdicts")
-class VerdictRow(DecidedRow[DecidedStation]):
+class VerdictRow(DecidedRow[OfStructure]):
     """One row per record and structure: the decision over all components, and the numbers of the crack that governs.
 
     The component is that of the governing case.
     """
 
-    share_low: float = of_station(
+    share_low: float = of_decision(
         "Least share that overturns, over the cracks and what failed or is not known",
-        lambda of: of.share_low,
+        lambda decision: decision.share_low,
     )
-    share_high: float = of_station("Largest share that overturns, likewise", lambda of: of.share_high)
-    why: str = of_station("Reason for the verdict", lambda of: of.station.decision.why)
-    doubts: tuple[Kind, ...] = of_station(
+    share_high: float = of_decision(
+        "Largest share that overturns, likewise", lambda decision: decision.share_high
+    )
+    why: str = of_decision("Reason for the verdict", lambda decision: decision.why)
+    doubts: tuple[Kind, ...] = of_decision(
         "Kinds of doubt that may make it worse than said",
-        lambda of: tuple(each.kind for each in of.station.decision.doubts),
+        lambda decision: tuple(each.kind for each in decision.doubts),
     )
-    tells: tuple[Kind, ...] = of_station(
-        "Kinds of what would tell more", lambda of: tuple(each.kind for each in of.station.decision.tells)
+    tells: tuple[Kind, ...] = of_decision(
+        "Kinds of what would tell more", lambda decision: tuple(each.kind for each in decision.tells)
     )
-    overturning_members: int = of_station(
-        "Number of members that overturn", lambda of: of.station.ensemble.overturning_members
+    overturning_members: int = of_ensemble(
+        "Number of members that overturn", lambda ensemble: ensemble.overturning_members
     )
-    members: int = of_station(
-        "Number of members that were followed; 0 without an ensemble", lambda of: of.station.ensemble.members
+    members: int = of_ensemble(
+        "Number of members that were followed; 0 without an ensemble", lambda ensemble: ensemble.members
     )
-    failed_members: int = of_station(
-        "Number of members whose integration failed",
-        lambda of: of.station.ensemble.failed_members,
+    failed_members: int = of_ensemble(
+        "Number of members whose integration failed", lambda ensemble: ensemble.failed_members
     )
-    crack: str = of_station(
+    crack: str = of_structure(
         "Crack that governs, to which the numbers belong; empty where only one may form",
         lambda of: of.station.crack,
     )
-    statics_crack: str = of_station(
+    statics_crack: str = of_statics(
         "Crack of statics where another governs; beside a crack that is given, the worst other",
-        lambda of: of.station.statics.description if of.station.statics else "",
+        lambda crack: crack.description,
     )
-    statics_overturning_members: int | None = of_station(
-        "Members that overturn with that crack",
-        lambda of: of.station.statics.ensemble.overturning_members if of.station.statics else None,
+    statics_overturning_members: int | None = of_statics(
+        "Members that overturn with that crack", lambda crack: crack.ensemble.overturning_members
     )
-    statics_members: int | None = of_station(
-        "Number of members with that crack",
-        lambda of: of.station.statics.ensemble.members if of.station.statics else None,
+    statics_members: int | None = of_statics(
+        "Number of members with that crack", lambda crack: crack.ensemble.members
     )
-    rotation_ratio_low: float = of_station(
+    rotation_ratio_low: float = of_ensemble(
         "5 % quantile of largest rotation over critical rotation",
-        lambda of: of.station.ensemble.rotation_ratio_low,
+        lambda ensemble: ensemble.rotation_ratio_low,
     )
-    rotation_ratio_median: float = of_station(
-        "Median of largest rotation over critical rotation",
-        lambda of: of.station.ensemble.rotation_ratio_median,
+    rotation_ratio_median: float = of_ensemble(
+        "Median of largest rotation over critical rotation", lambda ensemble: ensemble.rotation_ratio_median
     )
-    rotation_ratio_high: float = of_station(
-        "95 % quantile of the same ratio; INF if it overturns",
-        lambda of: of.station.ensemble.rotation_ratio_high,
+    rotation_ratio_high: float = of_ensemble(
+        "95 % quantile of the same ratio; INF if it overturns", lambda ensemble: ensemble.rotation_ratio_high
     )
-    rotation_ratio: float = of_station(
+    rotation_ratio: float = of_structure(
         "Largest rotation over critical rotation as recorded; INF if it overturns",
         lambda of: of.station.rotation_ratio,
     )
-    direction: str = of_station(
+    direction: str = of_structure(
         "Direction of the largest rotation; empty with one", lambda of: of.station.direction
     )
-    polarity: str = of_station(
+    polarity: str = of_ensemble(
         "Sign of the motion of the largest rotation: as recorded, reversed; or empty",
-        lambda of: POLARITIES.get(of.station.ensemble.worst("polarity"), ""),
+        lambda ensemble: POLARITIES.get(ensemble.worst("polarity"), ""),
     )
-    peak_side: int | None = of_station(PEAK_SIDE, lambda of: of.station.peak_side)
-    reserve_low: float = of_station(
-        "Factor on the record at which 5 % of the members overturn; empty: none",
-        lambda of: of.station.reserve.low if of.station.reserve else math.nan,
+    peak_side: int | None = of_structure(PEAK_SIDE, lambda of: of.station.peak_side)
+    reserve_low: float = of_reserve(
+        "Factor on the record at which 5 % of the members overturn; empty: none", lambda reserve: reserve.low
     )
-    reserve_median: float = of_station(
+    reserve_median: float = of_reserve(
         "Factor on the record at which half of the members overturn; empty: none",
-        lambda of: of.station.reserve.median if of.station.reserve else math.nan,
+        lambda reserve: reserve.median,
     )
-    reserve_high: float = of_station(
+    reserve_high: float = of_reserve(
         "Factor on the record at which 95 % of the members overturn; empty: none",
-        lambda of: of.station.reserve.high if of.station.reserve else math.nan,
+        lambda reserve: reserve.high,
     )
-    reserve_limit: float = of_station(
+    reserve_limit: float = of_reserve(
         "Largest factor on the record that was tried; empty without a reserve (on a support, but at its worst period)",
-        lambda of: of.station.reserve.limit if of.station.reserve else math.nan,
+        lambda reserve: reserve.limit,
     )
-    reserve_doubts: tuple[Kind, ...] = of_station(
+    reserve_doubts: tuple[Kind, ...] = of_structure(
         "Kinds of doubt for which the reserve may be too high: it is that of the mechanism alone",
         lambda of: tuple(each.kind for each in of.station.reserve_doubts) if of.station.reserve else (),
     )
-    decided_by: str = of_station(
+    decided_by: str = of_structure(
         "What decides where the members disagree, with its share of the variance",
         lambda of: of.station.decided_by,
     )
-    stack_falls: int | None = of_station(
-        "Stacks of courses that fall in contact dynamics; empty: not asked",
-        lambda of: of.station.stacks.falls if of.station.stacks else None,
+    stack_falls: int | None = of_stacks(
+        "Stacks of courses that fall in contact dynamics; empty: not asked", lambda stacks: stacks.falls
     )
-    stack_runs: int | None = of_station(
-        "Stacks that were followed, over amplitudes, time steps and directions",
-        lambda of: of.station.stacks.runs if of.station.stacks else None,
+    stack_runs: int | None = of_stacks(
+        "Stacks that were followed, over amplitudes, time steps and directions", lambda stacks: stacks.runs
     )
 
     @property
@@ -781,6 +692,7 @@ class CarriedStructure(OfStructure):
 
 
 of_support = Columns(CarriedStructure)
+of_floor_measures = of_support.part(lambda of: of.measures)
 
 
 @row("supports")
@@ -788,18 +700,18 @@ class SupportRow(DecidedRow[CarriedStructure]):
     """One row per component and structure on a support: the motion there, and the verdict over all components."""
 
     support: str = of_support("Name of the support in the list", lambda of: of.support_name)
-    floor_peak_acceleration_m_s2: float = of_support(
-        "Largest magnitude of the acceleration on the support", lambda of: of.measures.peak_acceleration
+    floor_peak_acceleration_m_s2: float = of_floor_measures(
+        "Largest magnitude of the acceleration on the support", lambda measures: measures.peak_acceleration
     )
-    amplification: float = of_support(
-        "Peak acceleration on the support over that of the ground", lambda of: of.measures.amplification
+    amplification: float = of_floor_measures(
+        "Peak acceleration on the support over that of the ground", lambda measures: measures.amplification
     )
-    floor_spectral_acceleration_m_s2: float = of_support(
-        "5 % floor spectrum at the period of the support", lambda of: of.measures.spectral_acceleration
+    floor_spectral_acceleration_m_s2: float = of_floor_measures(
+        "5 % floor spectrum at the period of the support", lambda measures: measures.spectral_acceleration
     )
-    code_spectral_acceleration_m_s2: float = of_support(
+    code_spectral_acceleration_m_s2: float = of_floor_measures(
         "The same by the code's formula from the ground's spectrum",
-        lambda of: of.measures.code_spectral_acceleration,
+        lambda measures: measures.code_spectral_acceleration,
         equation="C7.2.5",
     )
 
@@ -843,8 +755,7 @@ class VariationRow(CaseRow[VariedCase]):
         lambda of: of.variation.predicted_rotation_ratio,
     )
     integrated_rotation_ratio: float = of_variation(
-        "Rotation ratio of its mechanism under the record",
-        lambda of: of.variation.integrated_rotation_ratio,
+        "Rotation ratio of its mechanism under the record", lambda of: of.variation.integrated_rotation_ratio
     )
 
 
@@ -876,10 +787,6 @@ class HeldMechanism(OfStructure):
         """What opens, and where."""
         return self.candidate.description
 
-    def of_side(self, read: Callable[[Side], float]) -> float:
-        """Return a figure of its side; nan where its motion cannot be followed."""
-        return math.nan if self.candidate.refusal else read(self.candidate.side)
-
     @property
     def at_rest(self) -> float:
         """The force of the hold as the mechanism starts, N per metre; nan where it never does."""
@@ -894,6 +801,10 @@ class HeldMechanism(OfStructure):
 
 
 of_mechanism = Columns(HeldMechanism)
+of_candidate = of_mechanism.part(lambda of: of.candidate)
+of_side = of_mechanism.optional(lambda of: None if of.candidate.refusal else of.candidate.side)
+of_members = of_mechanism.optional(lambda of: of.followed.ensemble if of.followed else None)
+of_hold = of_mechanism.optional(lambda of: of.hold)
 
 
 @row("mechanisms")
@@ -905,38 +816,31 @@ class MechanismRow(CaseRow[HeldMechanism]):
 
     mechanism: str = of_mechanism("What it does, in words", lambda of: of.mechanism)
     crack: str = of_mechanism("What opens and where, as in the other tables", lambda of: of.crack)
-    counts: bool = of_mechanism(
-        "Whether it takes part in the verdict, where it is followed", lambda of: of.candidate.counts
+    counts: bool = of_candidate(
+        "Whether it takes part in the verdict, where it is followed", lambda candidate: candidate.counts
     )
     governs: bool = of_mechanism(
-        "Whether it governs, so that the numbers of verdicts.csv are its own",
-        lambda of: of.governs,
+        "Whether it governs, so that the numbers of verdicts.csv are its own", lambda of: of.governs
     )
-    uplift_multiplier: float = of_mechanism(
+    uplift_multiplier: float = of_candidate(
         "Acceleration in g at which it starts, ties with the force at which they yield",
-        lambda of: of.candidate.uplift_multiplier,
+        lambda candidate: candidate.uplift_multiplier,
     )
-    frequency_parameter_rad_s: float = of_mechanism(
-        "p; empty where its motion cannot be followed",
-        lambda of: of.of_side(lambda side: side.frequency_parameter),
+    frequency_parameter_rad_s: float = of_side(
+        "p; empty where its motion cannot be followed", lambda side: side.frequency_parameter
     )
-    critical_rotation_rad: float = of_mechanism(
-        "Critical rotation, likewise", lambda of: of.candidate.critical_rotation
+    critical_rotation_rad: float = of_candidate(
+        "Critical rotation, likewise", lambda candidate: candidate.critical_rotation
     )
-    overturning_members: int | None = of_mechanism(
+    overturning_members: int | None = of_members(
         "Members that overturn in it; empty where it was not followed",
-        lambda of: of.followed.ensemble.overturning_members if of.followed else None,
+        lambda ensemble: ensemble.overturning_members,
     )
-    members: int | None = of_mechanism(
-        "Members that were followed in it", lambda of: of.followed.ensemble.members if of.followed else None
+    members: int | None = of_members("Members that were followed in it", lambda ensemble: ensemble.members)
+    hold: str = of_hold(
+        "What holds it at a height: tie, floor or top; empty: nothing", lambda hold: hold.kind
     )
-    hold: str = of_mechanism(
-        "What holds it at a height: tie, floor or top; empty: nothing",
-        lambda of: of.hold.kind if of.hold else "",
-    )
-    hold_height_m: float = of_mechanism(
-        "That height above the ground", lambda of: of.hold.height if of.hold else math.nan
-    )
+    hold_height_m: float = of_hold("That height above the ground", lambda hold: hold.height)
     hold_force_at_rest_n_per_m: float = of_mechanism(
         "Force there as the mechanism starts; empty where ties keep it shut", lambda of: of.at_rest
     )
@@ -1121,7 +1025,9 @@ def rows_of_record(
     settings_sha256: names settings, structures and package. friction_coefficient: beyond which a contact slides.
     """
     record = result.record
-    identities = [Identity.of(record, each, settings_sha256) for each in result.accelerograms]
+    identities = [
+        Identity(record, each.component, each.source.sha256, settings_sha256) for each in result.accelerograms
+    ]
     by_component = dict(zip(result.names, identities, strict=True))
     comparison: list[ComparisonRow] = []
     variations: list[VariationRow] = []
@@ -1148,9 +1054,9 @@ def rows_of_record(
     mechanisms: list[MechanismRow] = []
     for station in result.stations:
         identity = by_component[station.worst.component] if station.worst else identities[0]
-        judged = DecidedStation(replace(identity, component=station.component), station)
-        verdicts.append(VerdictRow.of(judged))
-        mechanisms += [MechanismRow.of(each) for each in held_mechanisms(station, judged.identity)]
+        identity = replace(identity, component=station.component)
+        verdicts.append(VerdictRow.of(OfStructure(identity, station)))
+        mechanisms += [MechanismRow.of(each) for each in held_mechanisms(station, identity)]
     components = list(zip(identities, result.components, strict=True))
     return RecordRows(
         record=[RecordRow.of(ReadComponent(*each, licence)) for each in components],

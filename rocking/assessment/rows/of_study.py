@@ -1,7 +1,7 @@
 """Rows about a whole study: its structures, their blocks, its counts, its spectrum and what accuracy costs."""
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
@@ -14,9 +14,9 @@ import numpy as np
 from rocking.assessment.methods import Agreement, agreement, ratio, rests
 from rocking.assessment.rows import of_record as rows
 from rocking.records import Accelerogram
-from rocking.structures import Mechanism, Side, Structure
+from rocking.structures import Side, Structure
 from rocking.structures.capacity import StaticCurve
-from rocking.structures.equivalent_block import BlockDefects, EquivalentBlock, Scale
+from rocking.structures.equivalent_block import EquivalentBlock, Scale
 from rocking.structures.structure import WEAK_MASONRY
 from rocking.tables import Columns, Row, RowOf, row
 
@@ -79,38 +79,22 @@ class ListedStructure(Named):
         """Its sizes with their units."""
         return self.body.description
 
-    @cached_property
-    def mechanism(self) -> Mechanism:
-        """Its mechanism."""
-        return self.body.mechanism()
-
     @property
     def side(self) -> Side | None:
         """The positive side; None where it cannot overturn to it."""
-        return self.mechanism.positive if self.mechanism.positive.can_overturn else None
-
-    @property
-    def defects(self) -> BlockDefects | None:
-        """The distance of its block from the mechanism; None where it has no block."""
-        return self.mechanism.block_defects if self.side else None
-
-    @property
-    def static_multiplier_crushing(self) -> float:
-        """λ of it made of weak masonry, whose joints crush at their edges; nan where that is not known."""
-        crushed = self.body.crushing(WEAK_MASONRY)
-        return math.nan if crushed is None else crushed.static_multiplier
-
-    def block(self, scale: Scale) -> EquivalentBlock | None:
-        """Return its equivalent block; None where it has none, as what cannot overturn."""
-        return self.mechanism.equivalent_block(scale) if self.side else None
-
-    def of_block(self, scale: Scale, read: Callable[[EquivalentBlock], float]) -> float:
-        """Return a figure of its equivalent block; nan where it has none."""
-        block = self.block(scale)
-        return read(block) if block else math.nan
+        positive = self.body.mechanism().positive
+        return positive if positive.can_overturn else None
 
 
 of_listed = Columns(ListedStructure)
+of_side = of_listed.optional(lambda of: of.side)
+of_block_defects = of_listed.optional(lambda of: of.body.mechanism().block_defects if of.side else None)
+of_crushing = of_listed.optional(lambda of: of.body.crushing(WEAK_MASONRY))
+
+
+def of_block(scale: Scale) -> Columns[EquivalentBlock]:
+    """Return the declaration of columns about an equivalent block, which what cannot overturn has not."""
+    return of_listed.optional(lambda of: of.body.mechanism().equivalent_block(scale) if of.side else None)
 
 
 @row("structures")
@@ -124,45 +108,42 @@ class StructureRow(StructureNameRow[ListedStructure]):
     crack: str = of_listed(
         "Hinge or crack, whose place is open; empty where none is", lambda of: of.body.crack_name
     )
-    frequency_parameter_rad_s: float = of_listed(
-        _P, lambda of: of.side.frequency_parameter if of.side else math.nan, equation="Eq. 11"
-    )
-    frequency_parameter_at_rest_rad_s: float = of_listed(
+    frequency_parameter_rad_s: float = of_side(_P, lambda side: side.frequency_parameter, equation="Eq. 11")
+    frequency_parameter_at_rest_rad_s: float = of_block("rest")(
         "p of the block exact at rest, which predicts unless the settings name another one",
-        lambda of: of.of_block("rest", lambda block: block.frequency_parameter),
+        lambda block: block.frequency_parameter,
     )
-    critical_rotation_rad: float = of_listed(
-        "Critical rotation; empty to a side it cannot overturn to",
-        lambda of: of.side.critical_rotation if of.side else math.nan,
+    critical_rotation_rad: float = of_side(
+        "Critical rotation; empty to a side it cannot overturn to", lambda side: side.critical_rotation
     )
     uplift_multiplier: float = of_listed(
-        "Uplift acceleration in g", lambda of: of.mechanism.uplift_multiplier, equation="Eq. 7"
+        "Uplift acceleration in g", lambda of: of.body.mechanism().uplift_multiplier, equation="Eq. 7"
     )
     static_multiplier: float = of_listed(
         "Least uplift acceleration in g over all cracks", lambda of: of.body.static_multiplier
     )
-    static_multiplier_crushing: float = of_listed(
+    static_multiplier_crushing: float = of_crushing(
         "The same if the edges of its joints crush at 2 MPa; empty where it states a strength or would not stand",
-        lambda of: of.static_multiplier_crushing,
+        lambda crushed: crushed.static_multiplier,
     )
-    acceleration_scale_linearised: float = of_listed(
+    acceleration_scale_linearised: float = of_block("linearised")(
         "Scale a_sc of the linearised block",
-        lambda of: of.of_block("linearised", lambda block: block.acceleration_scale),
+        lambda block: block.acceleration_scale,
         equation="Eq. 11",
     )
-    acceleration_scale_uplift: float = of_listed(
+    acceleration_scale_uplift: float = of_block("uplift")(
         "Scale a_sc,alt of the true uplift",
-        lambda of: of.of_block("uplift", lambda block: block.acceleration_scale),
+        lambda block: block.acceleration_scale,
         equation="Eq. 13",
     )
-    restitution: float = of_listed(_ETA, lambda of: of.mechanism.positive.restitution, equation="Eq. 2")
-    restoring_defect: float = of_listed(
-        "Largest error of the block's restoring force, relative",
-        lambda of: of.defects.restoring if of.defects else math.nan,
+    restitution: float = of_listed(
+        _ETA, lambda of: of.body.mechanism().positive.restitution, equation="Eq. 2"
     )
-    forcing_defect: float = of_listed(
-        "Growth of the forcing up to φ_cr; unsafe where above 0",
-        lambda of: of.defects.forcing if of.defects else math.nan,
+    restoring_defect: float = of_block_defects(
+        "Largest error of the block's restoring force, relative", lambda defects: defects.restoring
+    )
+    forcing_defect: float = of_block_defects(
+        "Growth of the forcing up to φ_cr; unsafe where above 0", lambda defects: defects.forcing
     )
 
 
@@ -294,25 +275,16 @@ class AgreementRow(RowOf[CountedCases]):
     cases: int = of_cases("Number of cases with a prediction and an integration", lambda of: len(of.cases))
     both_rock: int = of_cases("Number of cases in which both rock", lambda of: of.both_rock)
     within_factor_two: int = of_cases(
-        "Number of these with a ratio between 1/2 and 2",
-        lambda of: int(of.cases["within_factor_two"].sum()),
+        "Number of these with a ratio between 1/2 and 2", lambda of: int(of.cases["within_factor_two"].sum())
     )
     median_ratio: float = of_cases(
-        "Median of predicted over integrated rotation where both rock",
-        lambda of: float(of.ratios.median()),
+        "Median of predicted over integrated rotation where both rock", lambda of: float(of.ratios.median())
     )
     overturning: int = of_cases("Number of cases that overturn in the integration", lambda of: of.overturning)
-    overturning_hits: int = of_cases(
-        "Number of these that overturn in the closed form",
-        lambda of: of.hits,
-    )
-    overturning_misses: int = of_cases(
-        "Number of these that stand in the closed form",
-        lambda of: of.misses,
-    )
+    overturning_hits: int = of_cases("Number of these that overturn in the closed form", lambda of: of.hits)
+    overturning_misses: int = of_cases("Number of these that stand in the closed form", lambda of: of.misses)
     overturning_false_alarms: int = of_cases(
-        "Number of cases that overturn in the closed form alone",
-        lambda of: of.false_alarms,
+        "Number of cases that overturn in the closed form alone", lambda of: of.false_alarms
     )
 
 
@@ -348,9 +320,7 @@ class SpectrumRow(RowOf[BlockUnderRecord]):
     component: str = of_spectrum(rows.COMPONENT, lambda of: of.accelerogram.component)
     frequency_parameter_rad_s: float = of_spectrum(_P, lambda of: of.frequency_parameter, equation="Eq. 11")
     uplift_multiplier: float = of_spectrum(
-        "Uplift acceleration of the equivalent block in g",
-        lambda of: of.uplift_multiplier,
-        equation="Eq. 12",
+        "Uplift acceleration of the equivalent block in g", lambda of: of.uplift_multiplier, equation="Eq. 12"
     )
     restitution: float = of_spectrum(_ETA, lambda of: of.restitution, equation="Eq. 2")
     rotation_ratio: float = of_spectrum(
@@ -494,20 +464,14 @@ class TradeRow(RowOf[TriedMethod]):
         lambda of: of.cases,
     )
     error: float = of_tried(
-        "Median relative error of the largest rotation where method and reference rock",
-        lambda of: of.error,
+        "Median relative error of the largest rotation where method and reference rock", lambda of: of.error
     )
-    error_high: float = of_tried(
-        "95 % quantile of that error",
-        lambda of: of.error_high,
-    )
+    error_high: float = of_tried("95 % quantile of that error", lambda of: of.error_high)
     wrong_verdicts: int = of_tried(
-        "Cases that rest, rock or overturn otherwise than the reference",
-        lambda of: of.wrong_verdicts,
+        "Cases that rest, rock or overturn otherwise than the reference", lambda of: of.wrong_verdicts
     )
     unsafe_verdicts: int = of_tried(
-        "Those in which the method says less than the reference",
-        lambda of: of.unsafe_verdicts,
+        "Those in which the method says less than the reference", lambda of: of.unsafe_verdicts
     )
     cpu_s: float = of_tried(
         "Processor time of one response, median, with all preparations at hand",

@@ -18,10 +18,10 @@ from rocking.assessment.fidelity import Answer
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.rows import (
     ComparisonRow,
-    DecidedStation,
     FailedCase,
     FailureRow,
     Identity,
+    OfStructure,
     VerdictRow,
 )
 from rocking.assessment.scene import Scene
@@ -106,9 +106,7 @@ def station(*cases: CaseResult, falls_in_directions: int | None = None) -> Stati
 
 def verdicts(stations: Sequence[StationResult], record: str = "a") -> list[VerdictRow]:
     """Their rows."""
-    return [
-        VerdictRow.of(DecidedStation(Identity(record, each.component, "", ""), each)) for each in stations
-    ]
+    return [VerdictRow.of(OfStructure(Identity(record, each.component, "", ""), each)) for each in stations]
 
 
 def failure(component: str, structure: str = "pier", message: str = "No.", record: str = "a") -> FailureRow:

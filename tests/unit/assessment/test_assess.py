@@ -38,7 +38,7 @@ PULSE = Pulse(3.0, 2 * np.pi / 0.8, 2.0)
 RECORD = Accelerogram(PULSE.acceleration(np.arange(1000) * STEP), STEP, component="H1")
 BLOCK = Block(2.0, 0.2)
 SETTINGS = AssessmentSettings()
-IDENTITY = Identity.of("made", RECORD, "")
+IDENTITY = Identity("made", RECORD.component, RECORD.source.sha256, "")
 MOTION = Pulse(3.0, math.pi, 10.0).acceleration(np.arange(3000) * STEP)
 
 
