@@ -9,6 +9,7 @@ from rocking.errors import RecordError, about
 from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.records.direction import directed
+from rocking.records.formats.format import without_offset
 from rocking.records.joining import SAME_STEP
 from rocking.records.read import checked_channels
 from rocking.records.traces import OBSPY_EXTRAS, calibrated, joined, names, quantity_order, site, unit_left_by
@@ -95,6 +96,11 @@ def _from_trace(trace: Any, inventory: Any, unit: str | None, response: str) -> 
             processing.append(
                 f"Samples multiplied by the calibration that the trace states, {calibration:g}."
             )
+        if "remove_sensitivity(" in " ".join(steps):  # which leaves the offset of the recorder in
+            samples, sentence = without_offset(samples, "m/s2")
+            processing.append(sentence)
+            is_raw = all("remove_sensitivity(" in step or "trim(" in step for step in steps)
+            fields["processed"] = False if is_raw else fields["processed"]
     fields["processing"] = tuple(processing)
     source = Source(format="obspy", unit=declared or "m/s2")
     return Accelerogram(samples, float(trace.stats.delta), source=source, **directed(fields))

@@ -51,8 +51,9 @@ def test_pieces_of_a_channel_with_unlike_rates_are_refused() -> None:
 
 @pytest.mark.parametrize(("units", "says"), [("M/S**2", ""), ("M/S", "leaves M/S"), ("V", "neither|removed")])
 def test_removing_the_sensitivity_leaves_the_unit_that_the_response_states(units: str, says: str) -> None:
-    """As remove_sensitivity leaves a trace: its samples divided, and its response attached."""
+    """As remove_sensitivity leaves a trace: divided, with the offset of the recorder, and its response attached."""
     done = trace()
+    done.data += 5000
     done.stats.response = inventory(units).get_response(done.id, done.stats.starttime)
     done.stats.processing = ["ObsPy 1.5.1: remove_sensitivity()"]
     done.data = done.data / 200000
@@ -61,7 +62,10 @@ def test_removing_the_sensitivity_leaves_the_unit_that_the_response_states(units
             Accelerogram.from_obspy(done)
     else:
         (record,) = Accelerogram.from_obspy(done)
-        assert np.allclose(record.acceleration, COUNTS / 200000)
+        assert np.allclose(record.acceleration, (COUNTS - COUNTS.mean()) / 200000, rtol=0, atol=1e-12)
+        assert record.processed is False and record.processing[-1].startswith(
+            "Mean of the whole record removed, 0.0249"
+        )
 
 
 @pytest.mark.parametrize(("dip", "is_told", "vertical"), [

@@ -372,6 +372,11 @@ def test_a_stored_answer_of_a_data_centre_reads_as_its_files_do(real_records: Pa
     inventory = read_inventory(str(folder / "CI.CLC.xml"), format="STATIONXML")
     found = Accelerogram.from_obspy(stream, inventory)
     assert [r.sha256 for r in found] == [read(file)[0].sha256 for file in files]
+    for each in stream:
+        each.stats.response = inventory.get_response(each.id, each.stats.starttime)
+    divided = Accelerogram.from_obspy(stream.remove_sensitivity())
+    for one, record in zip(divided, found, strict=True):
+        assert np.allclose(one.acceleration, record.acceleration, rtol=0, atol=1e-9)
 
 
 @pytest.mark.real_records
