@@ -1,14 +1,16 @@
-"""The figures of a report as files of their own, SVG and PNG, in one archive."""
+"""A document as a file, and beside it its figures as files of their own, SVG and PNG, in one archive."""
 
 import io
 import re
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any, Literal
 
 import typst
 
-from rocking.reports.printing import document_fonts
+from rocking.reports.printing import compile_document, document_fonts
+from rocking.tables import write_whole
 
 Figures = Literal["none", "svg", "png", "svg and png"]
 _PAGE = b"""#set page(width: auto, height: auto, margin: 4pt)
@@ -19,6 +21,19 @@ _MADE = (2000, 1, 1, 0, 0, 0)
 """Stands in the archive as the date of each file, so that two runs of a study give the same bytes."""
 _LONGEST = 60
 """Letters of the name of a file behind its number."""
+
+
+def write_document(pdf: Path, template: str, data: Mapping[str, object], kinds: Figures) -> list[Path]:
+    """Write the document that `template` makes of `data` and, where asked for, its figures; return the files.
+
+    The figures of summary.pdf stand beside it in summary_figures.zip.
+    """
+    write_whole(pdf, compile_document(template, data))
+    if kinds == "none":
+        return [pdf]
+    archive = pdf.with_name(f"{pdf.stem}_figures.zip")
+    write_whole(archive, figures_archive(data, kinds))
+    return [pdf, archive]
 
 
 def figures_archive(data: object, kinds: Figures) -> bytes:

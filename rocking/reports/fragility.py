@@ -19,8 +19,9 @@ from rocking.fragility.rows import (
     IntensityMeasureRow,
 )
 from rocking.quantities import counted
+from rocking.reports.figures import Figures, write_document
 from rocking.reports.panels import Curve, draw_probability
-from rocking.reports.printing import Column, compile_document, number, plain, table_of, words
+from rocking.reports.printing import Column, number, plain, table_of, words
 from rocking.reports.style import elided, new_figure, picture, styled, svg
 from rocking.tables import Row, frame, rows_of, write_whole
 
@@ -59,14 +60,16 @@ def by_place(table: "DataFrame") -> "DataFrame":
     return table.assign(structure=[placed(name, period) for name, period in pairs])
 
 
-def write_fragility_report(rows: Mapping[type[Row], Sequence[Row]], pdf: Path, image: Path) -> None:
-    """Set the rows of the tables of fragility as the files `pdf` and `image` (SVG)."""
+def write_fragility_report(
+    rows: Mapping[type[Row], Sequence[Row]], pdf: Path, image: Path, figures: Figures = "none"
+) -> None:
+    """Set the rows of the tables of fragility as the files `pdf` and `image` (SVG), and its figures beside them."""
     curves, summary, measures = (
         by_place(frame(each, rows[each])) for each in (FragilityRow, FragilitySummaryRow, IntensityMeasureRow)
     )
     write_whole(image, svg(fragility_figure(curves)).encode())
     ida = by_place(frame(IdaRow, rows[IdaRow], _READ))
-    write_whole(pdf, compile_document("plain.typ", fragility_data(curves, summary, ida, measures)))
+    write_document(pdf, "plain.typ", fragility_data(curves, summary, ida, measures), figures)
 
 
 def fragility_data(

@@ -80,9 +80,9 @@ class RecordReport:
     settings: Mapping[str, Any]
     level: "DesignSpectrum | None" = None
 
-    def pdf(self, data: Mapping[str, object] | None = None) -> bytes:
-        """Return the document. data: its own, where it was made before."""
-        return compile_document("record.typ", self.data() if data is None else data)
+    def pdf(self) -> bytes:
+        """Return the document."""
+        return compile_document("record.typ", self.data())
 
     def data(self) -> dict[str, object]:
         """Return what the template is given: texts, tables and figures."""
@@ -202,18 +202,17 @@ def _unique(texts: Iterable[str]) -> str:
     return ", ".join(dict.fromkeys(filter(None, texts)))
 
 
-def failure_report(record: str, message: str) -> bytes:
-    """Return a one-page PDF that says why `record` gave no result."""
+def failure_data(record: str, message: str) -> dict[str, object]:
+    """Return what the plain template is given for a page that says why `record` gave no result."""
     text = (
         "Nothing was computed for this record, so no structure was assessed under it. The other records of the run are "
         "not affected. The sentence above also stands in summary/failures.csv."
     )
-    data = {
+    return {
         "title": f"Rocking assessment: {record}",
         "subtitle": "This record gave no result.",
         "parts": [{"notice": message or "No reason was given."}, {"text": text}],
     }
-    return compile_document("plain.typ", data)
 
 
 # Sentences -----------------------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from rocking.assessment.rows import TradeMethod, TradeRow
 from rocking.assessment.trade import break_even, what_follows
 from rocking.reports import printing
-from rocking.reports.printing import compile_document
+from rocking.reports.figures import Figures, write_document
 from rocking.reports.style import PREDICTED, RECORD, new_figure, picture, plain_logarithmic, styled, svg
 from rocking.tables import write_whole
 
@@ -29,8 +29,10 @@ _MOST_STRUCTURES = 1000
 """Structures a record up to which the cost is drawn."""
 
 
-def write_trade_report(rows: Sequence[TradeRow], pdf: Path, image: Path) -> None:
-    """Set the table as the files `pdf` and `image` (SVG)."""
+def write_trade_report(
+    rows: Sequence[TradeRow], pdf: Path, image: Path, figures: Figures = "none"
+) -> None:
+    """Set the table as the files `pdf` and `image` (SVG), and its figure beside them."""
     table = printing.table_of(
         rows,
         ("Method", "1.4", "l", lambda row: row.method),
@@ -51,7 +53,7 @@ def write_trade_report(rows: Sequence[TradeRow], pdf: Path, image: Path) -> None
     machine = rows[0].machine if rows else "no machine"
     subtitle = f"Processor times of {machine}, on the records and structures of the study."
     data = {"title": "What accuracy costs", "subtitle": subtitle, "parts": parts}
-    write_whole(pdf, compile_document("plain.typ", data))
+    write_document(pdf, "plain.typ", data, figures)
     write_whole(image, svg(trade_figure(rows)).encode())
 
 

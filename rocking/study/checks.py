@@ -22,13 +22,12 @@ from rocking.codes.selection import Selection
 from rocking.errors import ConfigurationError, RockingError
 from rocking.floors.support import Support
 from rocking.records import load_catalogue
-from rocking.reports.figures import figures_archive
-from rocking.reports.printing import compile_document
+from rocking.reports.figures import write_document
 from rocking.reports.structures import CheckedStructure, ListedMechanism, structures_data
 from rocking.structures.tied import Tied
 from rocking.study.job import Study
 from rocking.study.selection import pool_of, select_for
-from rocking.tables import write_tables, write_whole
+from rocking.tables import write_tables
 
 
 def write_checks(
@@ -87,9 +86,7 @@ def write_checks(
     ]
     write_tables({CodeCheckRow: rows}, folder, "rocking-code-checks", "code_checks.json")
     data = structures_data(pages, spectrum, study.settings.mapping(), selection, without_sets, unread)
-    write_whole(folder / "structures.pdf", compile_document("structures.typ", data))
-    if study.settings.figures != "none":
-        write_whole(folder / "structures_figures.zip", figures_archive(data, study.settings.figures))
+    write_document(folder / "structures.pdf", "structures.typ", data, study.settings.figures)
     return rows
 
 

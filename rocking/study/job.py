@@ -260,21 +260,16 @@ def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:
 
 def write_report(result: RecordResult, rows: RecordRows, study: Study, folder: Path) -> None:
     """Write report.pdf of one record into `folder`, beside the tables that it names."""
-    from rocking.reports.record import RecordReport, failure_report  # matplotlib takes a second to import
+    from rocking.reports.figures import write_document  # matplotlib takes a second to import
+    from rocking.reports.record import RecordReport, failure_data
 
-    data: dict[str, object] = {}
     if rows.comparison:
         level = study.settings.design_spectrum.spectrum()
-        report = RecordReport(result, rows, study.structures, study.settings.mapping(), level)
-        data = report.data()
-        document = report.pdf(data)
+        data = RecordReport(result, rows, study.structures, study.settings.mapping(), level).data()
     else:
-        document = failure_report(result.record, " ".join(failure.message for failure in rows.failures))
-    write_whole(folder / "report.pdf", document)
-    if study.settings.figures != "none":
-        from rocking.reports.figures import figures_archive
-
-        write_whole(folder / "figures.zip", figures_archive(data, study.settings.figures))
+        data = failure_data(result.record, " ".join(failure.message for failure in rows.failures))
+    template = "record.typ" if rows.comparison else "plain.typ"
+    write_document(folder / "report.pdf", template, data, study.settings.figures)
 
 
 def assess_catalogued(

@@ -104,8 +104,8 @@ TABLE: Mapping[str, Line] = {
         pool=True,
         terms=True,
     ),
-    "fragility": Line((*_NUMBERS, "fragility"), files=("fragility.hazard",)),
-    "trade": Line((*_NUMBERS, "trade")),
+    "fragility": Line((*_NUMBERS, "fragility", "figures"), files=("fragility.hazard",)),
+    "trade": Line((*_NUMBERS, "trade", "figures")),
 }
 """By the kind of product. All are made from the records and their files, the structures in their order, this package
 and the libraries as well; a record and a batch from their own records alone, the others from all in their order."""

@@ -184,8 +184,7 @@ def _report(
 
     spectra: of the components, where there is a design level. strips: of the variants.
     """
-    from rocking.reports.figures import figures_archive  # as above
-    from rocking.reports.printing import compile_document
+    from rocking.reports.figures import write_document  # as above
     from rocking.reports.scatter import prediction_scatter
     from rocking.reports.style import svg
     from rocking.reports.summary import summary_data
@@ -197,11 +196,7 @@ def _report(
     level = study.settings.design_spectrum.spectrum()
     design = (level, spectra) if level is not None and spectra else None
     data = summary_data(tables, study.settings.mapping(), pictures, design, strips)
-    write_whole(folder / "summary.pdf", compile_document("summary.typ", data))
-    files = [folder / "summary.pdf"]
-    if study.settings.figures != "none":
-        files.append(folder / "figures.zip")
-        write_whole(files[-1], figures_archive(data, study.settings.figures))
+    files = write_document(folder / "summary.pdf", "summary.typ", data, study.settings.figures)
     figure = folder / "prediction_against_integration.svg"
     write_whole(figure, svg(prediction_scatter(tables["comparison"], tables["pulses"])).encode())
     return [*files, figure]

@@ -9,7 +9,7 @@ rule checks:
         table=f"{SUMMARY}/code_checks.csv",
         description=f"{SUMMARY}/code_checks.json",
         pdf=f"{SUMMARY}/structures.pdf",
-        figures=f"{SUMMARY}/structures_figures.zip" if SETTINGS.figures != "none" else [],
+        figures=f"{SUMMARY}/structures_figures.zip" if DRAWS else [],
         rows=str(kept_of(Path(RESULTS), "checks")),
         seal=seal_of("checks"),
     log:

@@ -12,6 +12,7 @@ rule fragility:
         description=f"{RESULTS}/fragility/datapackage.json",
         pdf=f"{RESULTS}/fragility/fragility.pdf",
         svg=f"{RESULTS}/fragility/fragility.svg",
+        figures=f"{RESULTS}/fragility/fragility_figures.zip" if DRAWS else [],
         rows=str(kept_of(Path(RESULTS), "fragility")),
         seal=seal_of("fragility"),
     log:

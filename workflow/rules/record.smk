@@ -17,7 +17,7 @@ rule record:
             if SETTINGS.reports
             else []
         ),
-        figures=f"{RESULTS}/{{record}}/figures.zip" if DRAWS else [],
+        figures=f"{RESULTS}/{{record}}/report_figures.zip" if SETTINGS.reports and DRAWS else [],
         outcome=str(outcome_of(Path(RESULTS), "{record}")),
         seal=seal_of("records/{record}"),
     log:

@@ -32,7 +32,7 @@ SEALS = PLAN.seals
 SETTINGS = PLAN.settings
 RESULTS = SETTINGS.results
 SUMMARY = f"{RESULTS}/summary"
-DRAWS = SETTINGS.reports and SETTINGS.figures != "none"
+DRAWS = SETTINGS.figures != "none"
 CHECKS = SETTINGS.design_spectrum.ag or SETTINGS.design_spectrum.points
 
 

@@ -30,7 +30,7 @@ rule summary:
             for name, (caption, label) in (DOCUMENTS.items() if SETTINGS.reports else ())
         ],
         [f"{SUMMARY}/study.xlsx"] if SETTINGS.reports else [],
-        [f"{SUMMARY}/figures.zip"] if DRAWS else [],
+        [f"{SUMMARY}/summary_figures.zip"] if SETTINGS.reports and DRAWS else [],
         f"{SUMMARY}/provenance.json",
         f"{SUMMARY}/datapackage.json",
         seal=seal_of("summary"),

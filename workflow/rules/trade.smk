@@ -9,6 +9,7 @@ rule trade:
         description=f"{SUMMARY}/trade.json",
         pdf=f"{SUMMARY}/trade.pdf",
         svg=f"{SUMMARY}/trade.svg",
+        figures=f"{SUMMARY}/trade_figures.zip" if DRAWS else [],
         rows=str(kept_of(Path(RESULTS), "trade")),
         seal=seal_of("trade"),
     log:

@@ -13,6 +13,6 @@ if __name__ == "__main__":
     folder = Path(output.pdf).parent
     rows, reasons = write_fragility(job.records, job.study, folder, job.tell)
     keep_rows(Path(output.rows), rows)
-    write_fragility_report(rows, Path(output.pdf), Path(output.svg))
+    write_fragility_report(rows, Path(output.pdf), Path(output.svg), job.study.settings.figures)
     job.tell("\n".join(reasons) or "All records were used.")
     job.finish(output)

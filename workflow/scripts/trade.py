@@ -36,5 +36,5 @@ if __name__ == "__main__":
     rows = trade(tried, study.structures, settings=study.settings, tell=job.tell)
     write_tables({TradeRow: rows}, folder, "rocking-trade", "trade.json")
     keep_rows(Path(output.rows), {TradeRow: rows})
-    write_trade_report(rows, Path(output.pdf), Path(output.svg))
+    write_trade_report(rows, Path(output.pdf), Path(output.svg), study.settings.figures)
     job.finish(output)

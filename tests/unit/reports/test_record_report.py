@@ -14,8 +14,8 @@ from rocking.assessment.scene import Scene
 from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Kind, Remark
 from rocking.reports import printing
-from rocking.reports.printing import MEASURED
-from rocking.reports.record import RecordReport, failure_report
+from rocking.reports.printing import MEASURED, compile_document
+from rocking.reports.record import RecordReport, failure_data
 from rocking.structures import Block, Facade, Spire
 from rocking.tables import cell
 
@@ -229,7 +229,7 @@ def test_of_a_hundred_structures_all_are_in_the_tables_and_few_are_drawn(example
 @pytest.mark.process
 @pytest.mark.parametrize("message", ["records/x.at2: #panic(1) $x^$ <b>.", "", "W" * 300])
 def test_a_failure_is_one_page_that_says_why(message):
-    document = failure_report("bad #record$", message)
+    document = compile_document("plain.typ", failure_data("bad #record$", message))
     assert re.findall(rb"/Count (\d+)", document) == [b"1"]
     assert "".join(message.split()) in extracted(document)
 

@@ -177,7 +177,7 @@ EDITS: list[tuple[str, Callable[[], object], str]] = [
     ("date", _setting(date="1 May"), "a b S C"),
     ("display_units", _setting(display_units="g and cm"), "a b S C"),
     ("details", _setting(details=True), "a b"),
-    ("figures", _setting(figures="svg"), "a b S C"),
+    ("figures", _setting(figures="svg"), "a b S C F T"),
     ("language", _setting(language="it"), "S C"),
     # Where files lie changes nothing; what lies there does.
     ("mirror", _setting(mirror="elsewhere"), ""),
