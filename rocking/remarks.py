@@ -75,8 +75,9 @@ class Kind(StrEnum):
     CONTACT_SLIDES = auto(), (
         "a contact needs a friction of {lifting:.2g} as it lifts and up to {largest:.2g} as it rocks"
     ), "needs μ {lifting:.2g} to {largest:.2g}"
-    FALLS_AS_RECORDED = auto(), "as recorded it falls"
-    STANDS_AS_RECORDED = auto(), "as recorded it stands"
+    FALLS_AS_RECORDED = auto(), "as recorded it falls", "as recorded: falls"
+    STANDS_AS_RECORDED = auto(), "as recorded it stands", "as recorded: stands"
+    STACKS_FALL = auto(), "in contact dynamics {falls} of {runs} runs fall", "contact dynamics: {falls} of {runs} fall"
     STRENGTHEN = auto(), "strengthen or tie it", "strengthen"
     TIE_THE_TOP = auto(), "tie its top, or say by top_friction what holds it", "tie its top"
     NOTHING_DECIDES = auto(), "no input decides by itself", "no input decides"

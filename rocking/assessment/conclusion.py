@@ -62,6 +62,10 @@ class Conclusion:
     def remark(self) -> Remark:
         """What to do about it; where there is nothing to do, what explains the word."""
         word = self.decision.word
+        falls, runs = self.verdict.stack_falls, self.verdict.stack_runs
+        # A range whose upper end is that of contact dynamics is not one of cracks.
+        if falls and runs and falls / runs == self.decision.interval[1] > self.decision.interval[0]:
+            return Remark.of(Kind.STACKS_FALL, falls=falls, runs=runs)
         if self.decision.tells and not word.is_sure:
             return self.decision.tells[0]
         if self.decision.doubts:

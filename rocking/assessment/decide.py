@@ -292,14 +292,14 @@ class Decision:
 
     @property
     def share_in_words(self) -> str:
-        """The share as it is printed: "31 %", "0–100 %", "at least 31 %", "one run"; "" where there is none."""
+        """The share as it is printed: "31 %", "0–100 %", "at least 31 %", "one run"; "" where nothing is known."""
         low, high = self.interval
         if math.isnan(low) or self.word is Verdict.CANNOT_OVERTURN:
             return ""
         if any(each.kind is Kind.ENSEMBLE for each in self.tells):
             return "one run"
         if math.isnan(self.share) and high == 1:
-            return f"at least {percent(low)}\u00a0%"
+            return f"at least {percent(low)}\u00a0%" if low else ""
         between = "" if low == high else f"–{percent(high)}"
         return f"{percent(low)}{between}\u00a0%"
 

@@ -88,7 +88,7 @@ _NAMED = 4
 
 
 def code_conclusion_in_words(concluded: Sequence[CodeConclusion]) -> str:
-    """Return the sentence on all structures: "By the code 2 of 6 structures are verified: pier, parapet; …".
+    """Return the sentence on all structures: "By the code 2 of 6 structures are verified …".
 
     It ends in how many sets of other stations would say so, the widest interval of all. "" without any structure.
     """
@@ -96,7 +96,7 @@ def code_conclusion_in_words(concluded: Sequence[CodeConclusion]) -> str:
         return ""
     verified = [each.structure for each in concluded if each.verified]
     if not verified:
-        return f"By the code none of {counted(len(concluded), 'structure')} is verified."
+        return f"By the code none of {counted(len(concluded), 'structure')} is verified at the design level."
     others = [each.structure for each in concluded if not each.verified]
     names = f": {', '.join(verified)}"
     if len(verified) > _NAMED:
@@ -104,12 +104,14 @@ def code_conclusion_in_words(concluded: Sequence[CodeConclusion]) -> str:
     names = names if others else ""
     verb = "is" if len(verified) == 1 else "are"
     whole = f"{len(verified)} of {counted(len(concluded), 'structure')}"
+    # Unsaid, one that is verified and overturns under the records of the study is taken for a contradiction.
+    level = "at the design level, which these records may exceed"
     shares = [each.other_share for each in concluded if each.verified and each.other_share]
     end = ""
     if shares:
         share = _in_percent(min(low for low, _ in shares), max(high for _, high in shares))
         end = f"; {share} of sets of other stations agree"
-    return f"By the code {whole} {verb} verified{names}{end}."
+    return f"By the code {whole} {verb} verified {level}{names}{end}."
 
 
 def _in_percent(low: float, high: float) -> str:

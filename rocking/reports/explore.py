@@ -102,7 +102,7 @@ def explore_page(
     design level, where it has one. strips: of the variants of structures.
     """
     of_records = list(records)
-    by_code = {each.structure: f"By the code: {each}." for each in checked}
+    by_code = {each.structure: f"By the code, at the design level: {each}." for each in checked}
     of_structures = [
         {
             "name": name,

@@ -7,7 +7,8 @@ from rocking.assessment.conclusion import Conclusion, worst_of_each
 from rocking.assessment.decide import ORDER, Verdict, worst_first
 from rocking.quantities import GRAVITY, percent
 from rocking.remarks import Kind
-from rocking.reports.printing import LOOKS, NOTHING, number
+from rocking.reports.page_one import UNSAID
+from rocking.reports.printing import NOTHING, chip, number
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -22,7 +23,7 @@ with a legend."""
 MOST_WITH_ALL = 5
 """Records up to which a page has room for their peaks, for what there is to know of each structure, and for the cells
 of what stands or cannot be told, which beyond it the colour and the hatch say alone."""
-_UNSAID = (Kind.STRENGTHEN, Kind.NOTHING_TO_DO, Kind.NOTHING_DECIDES)
+_UNSAID = (Kind.STRENGTHEN, *UNSAID)
 """Remarks that the word itself says."""
 
 
@@ -44,7 +45,7 @@ def matrix(made: Sequence[Conclusion], records: "DataFrame", pulses: "DataFrame"
     in_words = len(columns) <= MOST_IN_WORDS
     present = {by_pair[pair].decision.word for pair in by_pair if pair[1] in shown}
     return {
-        "legend": [] if in_words else [_look(word) for word in ORDER if word in present],
+        "legend": [] if in_words else [chip(word) for word in ORDER if word in present],
         "upright": not has_room,
         "heads": [
             {"name": name, "below": _head(name, records, pulses, in_words) if has_room else ""}
@@ -80,22 +81,15 @@ def _cell(conclusion: Conclusion | None, records: int) -> dict[str, object]:
     if conclusion is None:
         return {"word": "", "share": "", "fill": "#ffffff", "ink": "#000000", "hatched": False}
     decision = conclusion.decision
-    look = _look(decision.word)
+    untold = decision.word is Verdict.CANNOT_BE_TOLD
     if records > MOST_IN_WORDS:
         share = decision.share_in_words.removesuffix("\u00a0%").replace("at least ", "≥")
-        if records > MOST_WITH_ALL and (decision.word is Verdict.STANDS or share == "≥0"):
+        if records > MOST_WITH_ALL and decision.word is Verdict.STANDS:
             share = ""
-        elif share in ("", "≥0"):
-            share = "?" if look["hatched"] else NOTHING
-        return look | {"word": "", "share": share}
-    return look | {"share": "" if look["hatched"] else decision.share_in_words}
-
-
-def _look(verdict: Verdict) -> dict[str, object]:
-    """A word on its colour."""
-    _, fill, ink, hatch = LOOKS[verdict]
-    word = f"? {verdict}" if hatch else str(verdict)
-    return {"word": word, "share": "", "fill": fill, "ink": ink, "hatched": bool(hatch)}
+        elif not share and records <= MOST_WITH_ALL:
+            share = "?" if untold else NOTHING
+        return chip(decision.word, share) | {"word": ""}
+    return chip(decision.word, "" if untold else decision.share_in_words)
 
 
 def _remark(conclusion: Conclusion) -> str:

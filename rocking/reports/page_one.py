@@ -7,21 +7,28 @@ import numpy as np
 
 from rocking.assessment.conclusion import Conclusion
 from rocking.assessment.cracks import cracked
-from rocking.assessment.decide import Verdict
+from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import PulseRow
 from rocking.quantities import percent
+from rocking.remarks import Kind
 from rocking.reports.drawings import sketch
 from rocking.reports.panels import Trace
-from rocking.reports.printing import LOOKS, number
+from rocking.reports.printing import chip, listed, number
 from rocking.reports.style import PULSE, drawn_by_hand, svg_path, thinned
 from rocking.structures import Structure
 
 DOMINATES = 0.5
 """Share of the energy of a record from which on one sine is said to dominate it. What the closed form is worth rises
 with that share without a step (`rocking.pulses.pulse.WORTH`), so that the edge is a choice."""
-MOST_ROWS = 60
-"""Structures of the page and of those that continue it; verdicts.csv holds all."""
+MOST_ROWS = 15
+"""Structures that have a row, the worst first; the others are named by their words below."""
+UNSAID = (Kind.NOTHING_TO_DO, Kind.NOTHING_DECIDES)
+"""Remarks of which a row says nothing."""
+_MOST_NAMED = 20
+"""Names of a word below the rows."""
+_ROW, _ROWS = 15.8, 189.6
+"""Largest height of a row, and height of all, mm."""
 _UNIT = 27.0
 """Length of a rotation ratio of 1 on the scale, mm."""
 _FARTHEST = 1.2
@@ -46,13 +53,19 @@ def page_one(
     conclusions: of all structures, the worst first. motion: the component that stands for the record, None without one;
     pulse: its dominant pulse.
     """
-    drawn = conclusions[:MOST_ROWS]
-    words = [each.decision.word for each in conclusions]
+    drawn, others = conclusions[:MOST_ROWS], conclusions[MOST_ROWS:]
+    words = {each.decision.word for each in conclusions}
+    height = min(_ROW, _ROWS / max(1, len(drawn)))
     return {
         "trace": [_trace(motion)] if motion else [],
         "sine": _sine(pulse),
-        "rows": [_row(each, structures.get(each.structure), low=len(drawn) > 12) for each in drawn],
-        "left-out": len(conclusions) - len(drawn),
+        "row-height": height,
+        "rows": [_row(each, structures.get(each.structure), height) for each in drawn],
+        "others": [
+            {"word": str(word), "names": listed(names, _MOST_NAMED)}
+            for word in ORDER
+            if (names := [each.structure for each in others if each.decision.word is word])
+        ],
         "untold": Verdict.CANNOT_BE_TOLD in words,
     }
 
@@ -70,22 +83,16 @@ def _sine(pulse: PulseRow | None) -> dict[str, object]:
     }
 
 
-def _row(conclusion: Conclusion, structure: Structure | None, low: bool) -> dict[str, object]:
+def _row(conclusion: Conclusion, structure: Structure | None, height: float) -> dict[str, object]:
     decision = conclusion.decision
-    _, fill, ink, hatch = LOOKS[decision.word]
     verdict = conclusion.verdict
     band = [_place(each, "line") for each in (verdict.rotation_ratio_low, verdict.rotation_ratio_high)]
     period = verdict.support_period_s
     below = "" if period is None else f"T_b {period:.3g} s" if period else "on the ground"
-    return {
-        "drawing": [_drawing(structure, conclusion, low)] if structure else [],
+    return chip(decision.word, decision.share_in_words) | {
+        "drawing": [_drawing(structure, conclusion, height - 1.8)] if structure else [],
         "name": conclusion.structure,
         "below": below,
-        "word": f"? {decision.word}" if hatch else str(decision.word),
-        "fill": fill,
-        "ink": ink,
-        "hatched": bool(hatch),
-        "share": decision.share_in_words,
         "marks": {
             "form": _place(conclusion.closed_form, "form"),
             "block": _place(conclusion.block, "block"),
@@ -94,7 +101,7 @@ def _row(conclusion: Conclusion, structure: Structure | None, low: bool) -> dict
         },
         "reserve": reserve_in_figures(verdict.reserve),
         "alone": bool(verdict.reserve_doubts),
-        "remark": conclusion.remark.brief,
+        "remark": "" if conclusion.remark.kind in UNSAID else conclusion.remark.brief,
     }
 
 
@@ -137,12 +144,12 @@ def _trace(motion: Trace) -> dict[str, str]:
     return drawn_by_hand(lines, width, height, alt)
 
 
-def _drawing(structure: Structure, conclusion: Conclusion, low: bool) -> dict[str, str]:
+def _drawing(structure: Structure, conclusion: Conclusion, height: float) -> dict[str, str]:
     """The mechanism that governs at _DRAWN of its critical rotation, and dashed at rest."""
     broken = cracked(structure, conclusion.verdict.crack)
     side = -1 if conclusion.verdict.peak_side == -1 else 1
     sides = broken.mechanism().sides
     rotation = side * _DRAWN * sides[0 if side > 0 else -1].critical_rotation
-    width, height = 12.0, 8.2 if low else 14.0
+    width = 12.0
     alt = f"{conclusion.structure}, turned, and at rest."
     return drawn_by_hand(sketch(broken, rotation, width, height), width, height, alt)

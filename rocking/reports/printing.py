@@ -132,6 +132,13 @@ def to_spread(value: float, result: Banded) -> str:
     return number(value, min(max(digits, 1), 3))
 
 
+def chip(verdict: Verdict, share: str = "", text: str = "") -> dict[str, object]:
+    """Return a verdict on its colour with a share beside it, as the templates set it. text: in another language."""
+    _, fill, ink, hatch = LOOKS[verdict]
+    word = f"{'? ' * bool(hatch)}{text or verdict}"
+    return {"word": word, "share": share, "fill": fill, "ink": ink, "hatched": bool(hatch)}
+
+
 def cell_text(decision: "Decision | None") -> str:
     """Return a case in a map: its sign and the share behind it; "≥ 12 %" where that is only the least."""
     sign = LOOKS[decision.word if decision else Verdict.CANNOT_BE_TOLD][0]

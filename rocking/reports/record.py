@@ -239,6 +239,7 @@ def _head(report: RecordReport) -> dict[str, object]:
         "conclusion": conclusion_in_words(
             {each.structure: each.decision.word for each in report.conclusions}
         ),
+        "at-design-level": "At the design level: summary/structures.pdf." if report.level else "",
         "peaks": []
         if of_drawn is None
         else [

@@ -29,9 +29,7 @@ _MOST_STRUCTURES = 1000
 """Structures a record up to which the cost is drawn."""
 
 
-def write_trade_report(
-    rows: Sequence[TradeRow], pdf: Path, image: Path, figures: Figures = "none"
-) -> None:
+def write_trade_report(rows: Sequence[TradeRow], pdf: Path, image: Path, figures: Figures = "none") -> None:
     """Set the table as the files `pdf` and `image` (SVG), and its figure beside them."""
     table = printing.table_of(
         rows,

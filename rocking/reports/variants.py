@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from rocking.reports.drawings import room, sketch
 from rocking.reports.page_one import reserve_in_figures
-from rocking.reports.printing import LOOKS
+from rocking.reports.printing import chip
 from rocking.reports.sentences import Sentences
 from rocking.reports.style import drawn_by_hand
 
@@ -68,15 +68,8 @@ def _cell(
     }
     if conclusion is not None:
         decision = conclusion.decision
-        _, fill, ink, hatch = LOOKS[decision.word]
-        word = words(f"verdict {decision.word}")
-        cell |= {
-            "word": f"? {word}" if hatch else word,
-            "share": words.decimal(decision.share_in_words) if not hatch else "",
-            "fill": fill,
-            "ink": ink,
-            "hatched": bool(hatch),
-        }
+        share = words.decimal(decision.share_in_words) if not math.isnan(decision.share) else ""
+        cell |= chip(decision.word, share, words(f"verdict {decision.word}"))
         figures = words.decimal(reserve_in_figures(conclusion.verdict.reserve))
         if figures:
             caveat = "strip reserve alone" if conclusion.verdict.reserve_doubts else "strip reserve"

@@ -33,7 +33,7 @@ from rocking.study.results import case_timings_of, cases_of, outcome_of, write_o
 from rocking.study.seals import Seals
 from rocking.study.settings import Settings
 from rocking.study.terminal import line_writer, log_error, record_line, tell, tell_error
-from rocking.tables import write_rows, write_whole, written_together
+from rocking.tables import write_rows, written_together
 
 Opened = tuple[list[Accelerogram], Accelerogram | None]
 """The horizontal components of a record, and its vertical one where that acts too."""

@@ -174,7 +174,7 @@ class Settings(AssessmentSettings):
     )
     figures: Literal["none", "svg", "png", "svg and png"] = described(
         "none",
-        "none; svg, png or svg and png: beside each PDF an archive with all its figures, as report_figures.zip, png at 200 per inch",
+        "none; svg, png or svg and png: report_figures.zip beside report.pdf, and so each PDF; png at 200 per inch",
         heading=Heading.OUTPUT,
         changes_numbers=False,
     )

@@ -23,6 +23,29 @@ def of(word: Verdict, integrated: float = 0.5, **changed) -> Conclusion:
     ("conclusion", "kind"),
     [
         (of(Verdict.UNCERTAIN, tells=(Kind.RESTITUTION,)), Kind.RESTITUTION),
+        # A range that ends where contact dynamics does is not one of cracks, which to find would tell nothing.
+        (
+            of(
+                Verdict.UNCERTAIN,
+                tells=(Kind.CRACK,),
+                share_low=0.0,
+                share_high=0.5,
+                stack_falls=12,
+                stack_runs=24,
+            ),
+            Kind.STACKS_FALL,
+        ),
+        (
+            of(
+                Verdict.UNCERTAIN,
+                tells=(Kind.CRACK,),
+                share_low=0.0,
+                share_high=0.6,
+                stack_falls=12,
+                stack_runs=24,
+            ),
+            Kind.CRACK,
+        ),
         (of(Verdict.OVERTURNS, math.inf, tells=(Kind.RESTITUTION,)), Kind.STRENGTHEN),
         (of(Verdict.STANDS, doubts=(Kind.OTHER_CRACK_WORSE,)), Kind.OTHER_CRACK_WORSE),
         (of(Verdict.PROBABLY_OVERTURNS), Kind.STANDS_AS_RECORDED),

@@ -115,15 +115,21 @@ def test_a_mark_stands_where_its_rotation_is_on_a_scale_with_a_place_of_its_own_
 
 
 @pytest.mark.process
-def test_a_client_gets_two_pages_the_first_of_at_most_250_words(example):
-    """With as many structures as the shipped example."""
-    kinds = {f"{name} {place}": name for place in range(3) for name in example.structures}
-    of_twelve = of_structures(example, dict(list(kinds.items())[:12]))
-    first, _ = pages(of_twelve.pdf())
+@pytest.mark.parametrize("count", [12, 20, 30])
+def test_a_client_gets_two_pages_the_first_of_at_most_250_words(example, count):
+    """With as many structures as the shipped example, and more: each is named there under its word."""
+    kinds = [*example.structures]
+    kind = {f"structure {place}": kinds[place % len(kinds)] for place in range(count)}
+    report = of_structures(example, kind)
+    first, _ = pages(report.pdf())
     assert len(first) <= 250
-    words = " ".join(word[4] for word in first)
-    assert "12 structures overturn or probably do" in words
-    assert all(name.split()[-1] in words for name in kinds)
+    words = [word[4].strip(",:") for word in first]
+    assert f"{count} structures overturn or probably do" in " ".join(words)
+    assert {f"{place}" for place in range(count)} <= set(words)
+    data = report.data()
+    named = [(each["word"], name) for each in data["others"] for name in each["names"].split(", ")]
+    named += [(row["word"].removeprefix("? "), row["name"]) for row in data["rows"]]
+    assert sorted(named) == sorted((str(each.verdict), each.structure) for each in report.tables.verdicts)
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -221,7 +227,8 @@ def test_of_a_hundred_structures_all_are_in_the_tables_and_few_are_drawn(example
     data = detailed(of_structures(example, dict.fromkeys(names, "block 4 m"))).data()
     (rest,) = data["details"]
     assert len(rest["verdicts"]["rows"]) == len(rest["methods"]["rows"]) == 100
-    assert len(data["rows"]) + data["left-out"] == 100
+    assert len(data["rows"]) == 15
+    assert data["others"][0]["names"].endswith(" and 65 others")
     assert data["conclusion"] == "All 100 structures overturn or probably do."
     assert "Another 90 structures" in rest["histories-note"]
 

@@ -206,12 +206,13 @@ def test_one_sentence_tells_what_is_verified_and_what_other_stations_would_say()
         for row in code_check_rows(name, replace(FORMULAS, dynamic=found(True, interval=(low, 1.0))))
     ]
     rows += code_check_rows("spire", WEAK)
-    verified = "By the code 2 of 3 structures are verified: pier, wall"
+    level = "at the design level, which these records may exceed"
+    verified = f"By the code 2 of 3 structures are verified {level}: pier, wall"
     assert code_conclusion_in_words(code_conclusions(rows)) == (
         f"{verified}; 20–100\u00a0% of sets of other stations agree."
     )
     assert code_conclusion_in_words(code_conclusions(code_check_rows("spire", WEAK))) == (
-        "By the code none of 1 structure is verified."
+        "By the code none of 1 structure is verified at the design level."
     )
     assert code_conclusion_in_words([]) == ""
 
@@ -222,7 +223,7 @@ def test_the_same_conclusion_stands_in_terminal_summary_workbook_and_page_to_exp
     concluded = code_conclusions(rows)
     sentence = code_conclusion_in_words(concluded)
     write_rows(CodeCheckRow, rows, tmp_path / "code_checks.csv")
-    assert " ".join(lines_by_code(tmp_path)) == sentence
+    assert " ".join(line.strip(" ") for line in lines_by_code(tmp_path)) == sentence
     data = summary_data(summarised(RecordRows(), {}) | {"code_checks": frame(CodeCheckRow, rows)}, SETTINGS)
     assert data["by-code"] == sentence
     ((name, *ratios, conclusion, others),) = data["checks"]["rows"]
@@ -230,7 +231,10 @@ def test_the_same_conclusion_stands_in_terminal_summary_workbook_and_page_to_exp
     assert ratios == [each.ratio_in_words for each in checked.checks]
     assert others == "20–100\u00a0%"
     page = explore_page([], {"pier": STRUCTURES["parapet"]}, "", concluded).decode()
-    assert sentence in page and r"By the code: verified by C8.7.1.2.1.9 (20\u2013100" in page
+    assert (
+        sentence in page
+        and r"By the code, at the design level: verified by C8.7.1.2.1.9 (20\u2013100" in page
+    )
     with zipfile.ZipFile(BytesIO(workbook({CodeCheckRow: rows}))) as book:
         sheet = book.read("xl/worksheets/sheet2.xml").decode()
     assert "C8.7.1.2.1.9" in sheet and "decides" in sheet
@@ -379,7 +383,7 @@ def test_the_page_to_sign_carries_the_caveat_of_page_one(study, monkeypatch):
     records = [filled(RecordRow, record="a", samples=2)]
     pages = []
     monkeypatch.setattr("rocking.study.checks.structures_data", lambda made, *_: pages.extend(made) or {})
-    monkeypatch.setattr("rocking.study.checks.compile_document", lambda *_: b"")
+    monkeypatch.setattr("rocking.reports.figures.compile_document", lambda *_: b"")
     changed = read_settings(settings | {"design_spectrum": DESIGN})
     write_checks(Study(on_the_ground(STRUCTURES), changed), folder, verdicts, records)
     data = structures_data(pages, DesignSpectrum.ntc(1.0, 2.5, 0.3), Settings().mapping())
@@ -493,7 +497,7 @@ def test_each_page_tells_the_share_of_its_own_structure(study, monkeypatch):
         return {}
 
     monkeypatch.setattr("rocking.study.checks.structures_data", report)
-    monkeypatch.setattr("rocking.study.checks.compile_document", lambda *_: b"")
+    monkeypatch.setattr("rocking.reports.figures.compile_document", lambda *_: b"")
     changed = read_settings(settings | {"design_spectrum": DESIGN})
     write_checks(Study(on_the_ground(STRUCTURES), changed), folder, verdicts, records)
     assert {name: page.overturning_share for name, page in pages.items()} == shares
