@@ -56,7 +56,8 @@ class CheckedStructure:
     those of which it cannot be told. verdicts: stations by the worst verdict on it there, and doubts: what may make
     one worse than said. followed_beside: records under which this period of the support was not followed, so that they
     count as at the worse one beside it. reserves: under each record of the study under which one was sought;
-    reserve_doubts: the kinds of doubt for which they may be too high. mechanisms: all in which it may fall.
+    reserve_doubts: the kinds of doubt for which they may be too high. mechanisms: all in which it may fall. peaks: the
+    least and the largest peak acceleration of the records of the study as they act, m/s².
     """
 
     name: str
@@ -77,6 +78,7 @@ class CheckedStructure:
     reserves: Sequence[Reserve] = ()
     reserve_doubts: Sequence[Kind] = ()
     mechanisms: Sequence["ListedMechanism"] = ()
+    peaks: tuple[float, float] = (math.nan, math.nan)
 
     @property
     def period(self) -> float | None:
@@ -151,12 +153,15 @@ def structures_data(
             "unread": words("unread", names="; ".join(unread)) if unread else "",
             "spectra": spectra,
             "motions": motions,
-            "pages": _pages(structures, _spectrum_words(spectrum, words), settings, words),
+            "pages": _pages(structures, spectrum, settings, words),
         }
 
 
 def _pages(
-    structures: Sequence[CheckedStructure], spectrum: str, settings: Mapping[str, Any], words: Sentences
+    structures: Sequence[CheckedStructure],
+    spectrum: DesignSpectrum,
+    settings: Mapping[str, Any],
+    words: Sentences,
 ) -> list[dict[str, object]]:
     """The page of each structure: at the worst period of its support, with the others as lines."""
     by_name: dict[str, list[CheckedStructure]] = {}
@@ -188,7 +193,7 @@ def _pages(
         checked = page.checked
         level = words(
             "level",
-            spectrum=spectrum,
+            spectrum=_spectrum_words(spectrum, words),
             state=checked.limit_state if checked else design.get("limit_state", "SLV"),
             factor=words.plain(
                 checked.governing.confidence_factor if checked else design.get("confidence_factor", 1.35)
@@ -203,7 +208,7 @@ def _pages(
             continue
         pages.append(
             head
-            | _answer(page, checked, conclusion, words)
+            | _answer(page, checked, conclusion, spectrum, words)
             | {
                 "signed": True,
                 "basis": _basis(page, checked, conclusion, everywhere, words),
@@ -222,7 +227,11 @@ def _place(page: CheckedStructure, words: Sentences) -> str:
 
 
 def _answer(
-    page: CheckedStructure, checked: StructureCheck, conclusion: CodeConclusion, words: Sentences
+    page: CheckedStructure,
+    checked: StructureCheck,
+    conclusion: CodeConclusion,
+    spectrum: DesignSpectrum,
+    words: Sentences,
 ) -> dict[str, object]:
     """The page that is signed: the conclusion, what governs, how sure it is, and what was assumed."""
     decisive = conclusion.decisive
@@ -259,7 +268,7 @@ def _answer(
             details.append(
                 words("without tie met" if untied.passed else "without tie not met", clause=untied.clause)
             )
-    if finding := _finding(page, conclusion, words):
+    if finding := _finding(page, conclusion, spectrum, words):
         details.append(finding)
     figure = bars_figure(checked, page.untied, words)
     return {
@@ -301,9 +310,15 @@ def _interval(dynamic: DynamicCheck, words: Sentences) -> str:
     return words.decimal(f"{low}–{high}\u00a0%" if low != high else f"{low}\u00a0%")
 
 
-def _finding(page: CheckedStructure, conclusion: CodeConclusion, words: Sentences) -> str:
-    """The sentence on a study whose records contradict the conclusion; "" where they do not."""
+def _finding(
+    page: CheckedStructure, conclusion: CodeConclusion, spectrum: DesignSpectrum, words: Sentences
+) -> str:
+    """What the records of the study say otherwise, and why that is no contradiction; "" where they agree."""
+    low, high = (words.number(each / GRAVITY, 2) for each in page.peaks)
     of_records = {
+        "level": words.number(float(spectrum.acceleration(0.0)) / GRAVITY, 2),
+        "low": low,
+        "high": high,
         "clause": conclusion.decisive.clause,
         "stations": words.counted(page.stations, "station"),
         "share": words.decimal(percent(page.overturning_share)) if page.stations else "",

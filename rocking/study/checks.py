@@ -52,7 +52,12 @@ def write_checks(
         )
     worst = {each.structure: each for each in worst_of_each(conclusions(verdicts, []))}
     selection, without_sets, unread = _sets(study)
-    station_of = {each.record: _station(each) for each in records}
+    of_records = list(records)
+    station_of = {each.record: _station(each) for each in of_records}
+    strongest: dict[str, float] = {}
+    for each in of_records:
+        strongest[each.record] = max(strongest.get(each.record, 0.0), each.peak_acceleration_m_s2)
+    peaks = min(strongest.values(), default=math.nan), max(strongest.values(), default=math.nan)
     check_at = partial(
         check,
         spectrum=spectrum,
@@ -70,6 +75,7 @@ def write_checks(
             page = replace(
                 _checked(scene, support, check_at, there, station_of),
                 worst=worst.get(name),
+                peaks=peaks,
             )
             of_scene = [
                 each for each in mechanisms if (each.structure, each.support_period_s) == (name, period)

@@ -265,8 +265,10 @@ def test_a_page_ends_in_a_sentence():
 
 
 def test_a_study_that_contradicts_the_checks_is_told_with_its_figure():
-    often = page_of(overturning_share=0.25, stations=20, records=40)
-    assert "of 20 stations, it overturns with a share of 25 %" in " ".join(often["details"])
+    often = page_of(overturning_share=0.25, stations=20, records=40, peaks=(1.96, 4.90))
+    told = " ".join(often["details"])
+    assert "met at the design level, whose peak is 0.10 g" in told, "1.0 m/s² on rock, without amplification"
+    assert "of 20 stations, act with peaks from 0.20 to 0.50 g, and 25 % of its members overturn" in told
     never = page_of(WEAK, overturning_share=0.0, stations=20, records=40)
     assert "no member overturns" in " ".join(never["details"])
     assert "stations" not in " ".join(page_of(overturning_share=0.05, stations=20, records=40)["details"])
