@@ -279,25 +279,20 @@ class StationResult:
     def _decided(self) -> tuple[CaseResult | None, Decision]:
         """The case that decides, None where no component gave a result; and the decision."""
         if self.directions is not None and self.directions.ensembles is not None:
-            return self.directions, self.decision_of(self.directions)
+            # All directions are one: what a component lacks takes nothing away.
+            return self.directions, decide(self.directions.facts(self.body))
         answered = [each for each in self.cases.values() if each.answer is not None]
         if not answered:
             first = [each.failure.message for each in self.cases.values() if each.failure][:1]
             return None, decide(Facts(failures=tuple(first)))
-        decided = [(each, self.decision_of(each)) for each in answered]
-        return max(decided, key=lambda pair: (pair[1].severity, *_rotation_severity(pair[0])))
-
-    def decision_of(self, case: CaseResult) -> Decision:
-        """Return the decision on one of its cases; what other components lack counts unless all directions are one."""
-        if case is self.directions:
-            return decide(case.facts(self.body))
         both = [*self.cases.values(), *([self.directions] if self.directions else [])]
-        failures = tuple(
+        missing = tuple(
             f"the component {each.component or 'not named'} gave no result: {each.failure.message}"
             for each in both
             if each.failure
         )
-        return decide(case.facts(self.body, failures))
+        decided = [(each, decide(each.facts(self.body, missing))) for each in answered]
+        return max(decided, key=lambda pair: (pair[1].severity, *_rotation_severity(pair[0])))
 
     def check_of(self, candidate: Candidate) -> ModelCheck | None:
         """Return the contacts along the run of one of its mechanisms under the worst component as recorded.

@@ -95,49 +95,32 @@ class Cause:
     generator: int
     range_in: Callable[[Situation], Interval | Options]
 
-    def varies_in(self, situation: Situation) -> bool:
-        """Whether it has more than one value in a situation."""
-        return self.range_in(situation).varies
-
-
-def _amplitude(situation: Situation) -> Interval:
-    """Factor on the ground motion, the vertical component included."""
-    return Interval(1.0, situation.settings.amplitude_range)
-
-
-def _restitution(situation: Situation) -> Interval:
-    """Difference from the restitution of the structure."""
-    return Interval(0.0, situation.settings.restitution_range)
-
-
-def _polarity(situation: Situation) -> Options:
-    """Sign of the horizontal motion, which changes nothing for a structure with two sides alike."""
-    unlike = situation.settings.polarity and not situation.structure.symmetric
-    return Options((-1.0, 1.0) if unlike else (1.0,))
-
-
-def _direction(situation: Situation) -> Options:
-    """Direction of the horizontal motion."""
-    return Options(situation.motions.directions)
-
-
-def _processing(situation: Situation) -> Options:
-    """Processing of the record."""
-    return Options(situation.motions.processings)
-
-
-def _vertical(situation: Situation) -> Options:
-    """Whether the vertical motion acts: half of the members feel it where there is one."""
-    return Options((False,) if situation.motions.vertical is None else (True, False))
-
 
 CAUSES = (
-    Cause("amplitude", Origin.IGNORANCE, 1, _amplitude),
-    Cause("restitution", Origin.IGNORANCE, 182667, _restitution),
-    Cause("polarity", Origin.CHANCE, 469891, _polarity),
-    Cause("direction", Origin.CHANCE, 377, _direction),
-    Cause("processing", Origin.IGNORANCE, 1723, _processing),
-    Cause("vertical", Origin.IGNORANCE, 1677, _vertical),
+    # A factor on the ground motion, the vertical component included.
+    Cause("amplitude", Origin.IGNORANCE, 1, lambda case: Interval(1.0, case.settings.amplitude_range)),
+    # A difference from the restitution of the structure.
+    Cause(
+        "restitution", Origin.IGNORANCE, 182667, lambda case: Interval(0.0, case.settings.restitution_range)
+    ),
+    # The sign of the horizontal motion changes nothing for a structure with two sides alike.
+    Cause(
+        "polarity",
+        Origin.CHANCE,
+        469891,
+        lambda case: Options(
+            (-1.0, 1.0) if case.settings.polarity and not case.structure.symmetric else (1.0,)
+        ),
+    ),
+    Cause("direction", Origin.CHANCE, 377, lambda case: Options(case.motions.directions)),
+    Cause("processing", Origin.IGNORANCE, 1723, lambda case: Options(case.motions.processings)),
+    # Half of the members feel the vertical motion where there is one.
+    Cause(
+        "vertical",
+        Origin.IGNORANCE,
+        1677,
+        lambda case: Options((False,) if case.motions.vertical is None else (True, False)),
+    ),
 )
 """Every cause, in the order of the coordinates of a point.
 

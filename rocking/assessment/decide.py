@@ -116,14 +116,6 @@ def step(falls: int, members: int, farthest: float = math.inf, risk: float = 0.0
     return Verdict.UNCERTAIN if tripled < 2 * members else Verdict.PROBABLY_OVERTURNS
 
 
-def near_an_edge(falls: int, members: int, farthest: float = math.inf, risk: float = 0.05) -> bool:
-    """Whether one of the four edges between the words lies within the error, so that more members may change it."""
-    error = share_error(falls, members, farthest)
-    return error > 0 and any(
-        abs(falls / members - edge) <= error for edge in (risk, ONE_THIRD, TWO_THIRDS, 1 - risk)
-    )
-
-
 @dataclass(frozen=True)
 class CrackFacts:
     """The fate of the members with one crack.
@@ -186,9 +178,12 @@ class CrackFacts:
         )
 
     def is_near_an_edge(self, risk: float) -> bool:
-        """Whether more members may change the word of these."""
-        farthest = self.farthest if not self.failed else math.inf
-        return near_an_edge(self.falls + self.failed, self.members, farthest, risk)
+        """Whether one of the four edges between words lies within the error, so that more members may change it."""
+        error = share_error(
+            self.falls + self.failed, self.members, math.inf if self.failed else self.farthest
+        )
+        edges = risk, ONE_THIRD, TWO_THIRDS, 1 - risk
+        return error > 0 and any(abs(self.share - edge) <= error for edge in edges)
 
     def step_of_followed(self, risk: float) -> Verdict:
         """Return the word of those that were followed alone.

@@ -111,11 +111,6 @@ class Ensemble:
         """Whether all members stay far from overturning."""
         return bool(self.members and not self.failed_members and self._followed.max() <= FAR)
 
-    @property
-    def is_near_an_edge(self) -> bool:
-        """Whether more members may change its word."""
-        return self.facts().is_near_an_edge(self.settings.risk)
-
     def followed_by(self, more: "Ensemble") -> "Ensemble":
         """Return the ensemble of these members and of `more`, of the same causes."""
         before = self.rotation_ratios.size
@@ -192,7 +187,7 @@ def grown(
     points = design(settings)
     for size in (UNANIMOUS, MOST_NEAR_AN_EDGE):
         followed = members.rotation_ratios.size
-        if followed < size and members.is_near_an_edge:
+        if followed < size and members.facts().is_near_an_edge(settings.risk):
             more = drawn(structure, motions, points[followed:size], settings, tolerance=tolerance)
             members = members.followed_by(more)
     return members
@@ -212,7 +207,7 @@ def drawn(
     situation = Situation.of(reduced, motions, settings)
     values = draw(situation, points)
     followed = followed_at(reduced, motions, values, np.ones(1), tolerance=tolerance)
-    varied = {cause.name: values[cause.name] for cause in CAUSES if cause.varies_in(situation)}
+    varied = {cause.name: values[cause.name] for cause in CAUSES if cause.range_in(situation).varies}
     return Ensemble(followed.rotation_ratios[0], varied, situation.settings, reasons=followed.reasons)
 
 
@@ -240,7 +235,10 @@ def followed_at(
     """
     horizontal = values["amplitude"] * values["polarity"]
     vertical = values["amplitude"] * values["vertical"]
-    restitution = _restitution(structure, values["restitution"])
+    own_restitution = np.array([structure.sides[0].restitution, structure.sides[-1].restitution])
+    # A structure that states a smaller loss than the least keeps its own.
+    most = np.maximum(own_restitution, 1 - LEAST_LOSS)
+    restitution = np.clip(own_restitution + values["restitution"][:, None], 0.0, most)
 
     ratios = np.full((factors.size, horizontal.size), np.nan)
     reasons: dict[int, str] = {}
@@ -262,12 +260,3 @@ def followed_at(
             member = int(own[run % own.size])
             reasons[member] = reason
     return Followed(ratios, reasons)
-
-
-def _restitution(structure: Mechanism | EquivalentBlock, offset: np.ndarray) -> np.ndarray:
-    """The restitution of members (m, 2) on both sides, whose offset (m,) from the structure's own is drawn."""
-    own = np.array([structure.sides[0].restitution, structure.sides[-1].restitution])
-    # A structure that states a smaller loss than the least keeps its own.
-    most = np.maximum(own, 1 - LEAST_LOSS)
-    restitution: np.ndarray = np.clip(own + offset[:, None], 0.0, most)
-    return restitution

@@ -140,21 +140,16 @@ class Motion:
     @cached_property
     def fingerprint(self) -> str:
         """Hash of the samples and of all that is known of them; where the file lies is left out."""
-        motions = [_content(each) for each in (*self.components, self.vertical)]
-        return sha256_of(*motions, self.support)
-
-
-def _content(accelerogram: Accelerogram | None) -> str:
-    """Everything that an accelerogram says, its samples by their hash; whether it came from a file, not from which."""
-    if accelerogram is None:
-        return "none\n"
-    facts = {
-        each.name: getattr(accelerogram, each.name)
-        for each in fields(accelerogram)
-        if each.name not in ("acceleration", "source")
-    }
-    from_file = bool(accelerogram.source.path)
-    return f"{accelerogram.sha256} {from_file} {sorted(facts.items())!r}\n"
+        told = [each.name for each in fields(Accelerogram) if each.name not in ("acceleration", "source")]
+        contents: list[object] = []
+        for motion in (*self.components, self.vertical):
+            if motion is None:
+                contents.append(None)
+                continue
+            # The samples by their hash; whether it came from a file, not from which.
+            facts = {name: getattr(motion, name) for name in sorted(told)}
+            contents.append((motion.sha256, bool(motion.source.path), facts))
+        return sha256_of(*contents, self.support)
 
 
 @lru_cache(maxsize=2)
@@ -198,11 +193,6 @@ class Component:
     failure: str = ""
     support: Carrier | None = None
     ground: "Component | None" = None
-
-    @property
-    def name(self) -> str:
-        """The name of the component."""
-        return self.accelerogram.component
 
 
 @dataclass(frozen=True, eq=False)

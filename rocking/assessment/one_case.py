@@ -4,7 +4,7 @@ import math
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from time import process_time
 
@@ -28,11 +28,11 @@ from rocking.structures import Mechanism, Structure
 from rocking.structures.structure import CRACKS
 
 
+@dataclass
 class Clock:
     """The CPU time of each stage, s, added up."""
 
-    def __init__(self) -> None:
-        self.durations: dict[str, float] = defaultdict(float)
+    durations: dict[str, float] = field(default_factory=lambda: defaultdict(float))
 
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:
@@ -86,7 +86,9 @@ def assess_case(
     try:
         return _case(structure, component, prediction, settings, alone, clock or Clock())
     except RockingError as error:
-        return CaseResult(component=component.name, failures=(Failure("responses", str(error)),))
+        return CaseResult(
+            component=component.accelerogram.component, failures=(Failure("responses", str(error)),)
+        )
 
 
 # Whole on purpose: the order in which a case is decided, and where it may end early.
@@ -115,7 +117,7 @@ def _case(
     if answer.response is not None:
         check = check_model(structure, answer.response, record, vertical)
     case = CaseResult(
-        component=component.name,
+        component=component.accelerogram.component,
         prediction=prediction,
         responses=responses,
         check=check,

@@ -126,26 +126,25 @@ def reserve(
     that cannot be followed counts as one that overturns. Raises MotionError as `integrate` does.
     """
     settings = settings or EnsembleSettings()
-    lowest = _lowest(mechanism, motions, settings.reserve)
+    strongest = max(forcing_of(motion, motions.vertical).excitation for motion in motions.horizontal.values())
+    if not strongest > 0:  # still ground
+        lowest = math.inf
+    elif math.isfinite(strongest):
+        lowest = mechanism.uplift_multiplier / strongest  # below which nothing lifts
+    else:
+        lowest = settings.reserve / 100
     if not lowest < settings.reserve:
         return Reserve(math.nan, math.nan, math.nan, settings.reserve)
     ladder = _Ladder(mechanism, motions, settings, lowest, np.zeros(len(CAUSES)) if shift is None else shift)
-    ladder.follow_coarsely()
+    coarse = np.arange(ladder.falls.size) % COARSE == 0
+    coarse[-1] = True
+    ladder.follow(coarse)
     for stage in STAGES:
         for _ in range(ROUNDS):
             if not ladder.follow(ladder.worth_following(stage)):
                 break
     low, median, high = ladder.crossings()
     return Reserve(low, median, high, settings.reserve)
-
-
-def _lowest(mechanism: Mechanism, motions: GroundMotions, limit: float) -> float:
-    """The amplitude below which nothing lifts; inf on still ground."""
-    excitations = [forcing_of(motion, motions.vertical).excitation for motion in motions.horizontal.values()]
-    strongest = max(excitations)
-    if not strongest > 0:
-        return math.inf
-    return mechanism.uplift_multiplier / strongest if math.isfinite(strongest) else limit / 100
 
 
 class _Ladder:
@@ -193,12 +192,6 @@ class _Ladder:
         self.falls[places] = np.isinf(ratios) | np.isnan(ratios)
         return True
 
-    def follow_coarsely(self) -> None:
-        """Follow every COARSE rung, and the last one."""
-        wanted = np.arange(self.falls.size) % COARSE == 0
-        wanted[-1] = True
-        self.follow(wanted)
-
     def worth_following(self, stage: Stage) -> np.ndarray:
         """Return which rungs (n,) a stage asks for."""
         wanted = np.zeros(self.falls.size, dtype=bool)
@@ -223,11 +216,6 @@ class _Ladder:
             isotonic_regression,  # half a second, which who asks for no reserve would pay
         )
 
-        rising = isotonic_regression(self._shares()).x
-        return [_crossing(self.log_factors, rising, share) for share in SHARES]
-
-    def _shares(self) -> np.ndarray:
-        """The share of the members that overturn at each of the factors."""
         followed = np.flatnonzero(np.isfinite(self.falls))
         between = (self.logs[followed][1:] + self.logs[followed][:-1]) / 2
         edges = np.exp([math.log(self.lowest), *between, self.logs[followed[-1]]])
@@ -237,8 +225,8 @@ class _Ladder:
         low, high = (
             np.interp(factors * side, edges, overturning) for side in (1 - self.width, 1 + self.width)
         )
-        shares: np.ndarray = (high - low) / (2 * self.width * factors)
-        return shares
+        rising = isotonic_regression((high - low) / (2 * self.width * factors)).x
+        return [_crossing(self.log_factors, rising, share) for share in SHARES]
 
 
 def _crossing(logs: np.ndarray, rising: np.ndarray, share: float) -> float:

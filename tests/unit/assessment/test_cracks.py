@@ -95,7 +95,7 @@ def test_the_counts_that_are_told_of_two_cracks_are_not_of_members_that_leave_th
         ensembles = ensemble_over_cracks(structure, motions, settings)
         both += ensembles.governing is not ensembles.statics
         for each in (ensembles.statics, ensembles.governing):
-            assert each.ensemble.members == 256 or not each.ensemble.is_near_an_edge
+            assert each.ensemble.members == 256 or not each.facts.is_near_an_edge(each.ensemble.settings.risk)
     assert both
 
 

@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from rocking.assessment.decide import ORDER, CrackFacts, Facts, Verdict, decide, near_an_edge, step
+from rocking.assessment.decide import ORDER, CrackFacts, Facts, Verdict, decide, step
 from rocking.remarks import Kind, Remark
 
 OPEN, THROWN = Remark(Kind.CONTACTS_OPEN), Remark(Kind.COURSES_THROWN)
@@ -63,13 +63,13 @@ def test_sixteen_members_that_all_stay_far_stand():
 )
 def test_more_members_are_asked_for_near_an_edge(falls, near):
     """e is 1/16 of 64 members, so that 5 % is near up to 7 falls and 1/3 from 18 on."""
-    assert near_an_edge(falls, 64) is near
-    assert near_an_edge(64 - falls, 64) is near
+    assert crack(falls).is_near_an_edge(0.05) is near
+    assert crack(64 - falls).is_near_an_edge(0.05) is near
 
 
 def test_sixteen_members_are_near_an_edge_unless_all_stay_far():
-    assert all(near_an_edge(falls, 16) for falls in range(17))
-    assert not near_an_edge(0, 16, 0.3)
+    assert all(crack(falls, 16).is_near_an_edge(0.05) for falls in range(17))
+    assert not crack(0, 16, farthest=0.3).is_near_an_edge(0.05)
 
 
 # The rows -----------------------------------------------------------------------------------------------------
