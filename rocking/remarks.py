@@ -52,6 +52,9 @@ class Kind(StrEnum):
     MEMBERS_FAILED = auto(), "members could not be followed", "some members failed"
     NO_STACK = auto(), "contact dynamics cannot follow it, for it is no stack of courses", "no stack of courses"
     HELD_BEYOND = auto(), "a held wall turns so far that its mechanism may say too little", "turns far"
+    TIES_GIVE = auto(), (
+        "its ties stretch, and under the motion that they let through the wall between them turns far"
+    ), "its ties give"
     CURVE_ALONE = auto(), "a capacity curve tells neither impacts nor sliding nor which contacts open", "curve alone"
 
     # What would tell more of a decision.

@@ -109,7 +109,8 @@ class CaseResult:
     from the peak velocity, where no ensemble ran; None of a structure unlike those behind the estimate. slides_at:
     acceleration [g] at which its joints slide before they lift, where the motion reaches it; else nan. crack: to which
     prediction, responses, check and answer belong; "" where it is that of the structure. statics: the case of that one,
-    where another crack governs. variations: other cracks, then other processings. fingerprint: of motion, structure,
+    where another crack governs. ties_give: whether its ties let so much through that it turns beyond BEYOND; not asked
+    where that changes no word. variations: other cracks, then other processings. fingerprint: of motion, structure,
     settings and version of the computation.
     """
 
@@ -126,6 +127,7 @@ class CaseResult:
     crack: str = ""
     statics: "CaseResult | None" = None
     doubt: Remark | None = None
+    ties_give: bool = False
     contact: ContactShare | None = None
     variations: tuple[Variation, ...] = ()
     failures: tuple[Failure, ...] = ()
@@ -181,12 +183,13 @@ class CaseResult:
         """
         several = counting_cracks(body)
         settled = None
-        beyond = False
+        beyond = Kind.TIES_GIVE if self.ties_give else None
         rests = self.answer is not None and self.answer.outcome is Outcome.NO_UPLIFT
         if self.ensembles is not None:
             followed = [each for each in self.ensembles.followed if each.counts]
             rests = all(bool((each.ensemble.rotation_ratios == 0).all()) for each in followed)
-            beyond = any(each.facts.farthest > BEYOND for each in followed)
+            if any(each.facts.farthest > BEYOND for each in followed):
+                beyond = Kind.HELD_BEYOND
         elif self.answer is not None and self.answer.response is None:
             settled = Verdict.OVERTURNS if self.overturns else Verdict.STANDS
         runs = [self.integrated_rotation_ratio]

@@ -12,7 +12,7 @@ from typing import Protocol
 
 import numpy as np
 
-from rocking.assessment.decide import UNANIMOUS
+from rocking.assessment.decide import BEYOND, UNANIMOUS
 from rocking.assessment.decide import step as step_of
 from rocking.assessment.fidelity import peak_velocity
 from rocking.assessment.methods import NEGLIGIBLE
@@ -20,13 +20,16 @@ from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.contacts.dynamics import STEP, follow_stack
 from rocking.errors import RockingError
+from rocking.floors.place import swinging
 from rocking.motion.integration import integrate, strict
+from rocking.motion.members import Members, integrate_members
 from rocking.motion.response import check_model
 from rocking.records import Accelerogram
 from rocking.remarks import Kind, Remark
 from rocking.structures import Structure
 from rocking.structures.linkage import Turning
 from rocking.structures.stack import COURSES, Stack
+from rocking.structures.tied import Tied
 
 AMPLITUDES = (0.9, 1.1)
 """Least and largest factor on the motion at which contact dynamics follows a case: its steps are of first order, so
@@ -102,6 +105,32 @@ def _keeps_little(structure: Structure) -> bool:
     if structure.restitution_is_typed:
         return False
     return any(side.restitution < LEAST_KEPT for side in structure.mechanism().sides)
+
+
+def ties_give(structure: Structure, motions: GroundMotions, settings: AssessmentSettings) -> bool:
+    """Whether a wall turns beyond BEYOND under the motion that its ties let through.
+
+    Its mechanisms stand on ties and lean on them as if these did not stretch. Until it cracks, such a wall swings on
+    them as one body, and its bulge is shaken by the absolute acceleration of that oscillator: the bulge of least λ that
+    a tie holds or bears is followed under it, with both signs of every direction. What cannot be followed counts.
+    """
+    if not isinstance(structure, Tied) or not structure.tie_period:
+        return False
+    bulge = next((each.structure for each in structure.mechanisms() if structure.hangs_on_ties(each)), None)
+    if bulge is None:
+        return False
+    both = Members(1 + settings.ensemble.amplitude_range, polarity=[1.0, -1.0])
+    for motion in _directions(motions):
+        # Below two samples of the record nothing tells it from one that moves with the ground.
+        period = structure.tie_period if structure.tie_period >= 2 * motion.time_step else 0.0
+        through_ties = swinging(period).motion(motion)
+        try:
+            followed = integrate_members(bulge, through_ties, both, strict(settings.tolerance))
+        except RockingError:
+            return True
+        if not (followed.rotation_ratio <= BEYOND).all():
+            return True
+    return False
 
 
 def _directions(motions: GroundMotions) -> list[Accelerogram]:

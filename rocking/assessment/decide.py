@@ -214,7 +214,8 @@ class Facts:
     the word of a cheaper method that settled it. never_lets_go: why no motion can overturn it with a crack that counts;
     "" where one can. slides_at: acceleration [g] at which its joints slide, where the motion reaches it; else nan.
     doubts: what one degree of freedom does not follow. held: whether it is a wall that is held above its foot, and
-    beyond: whether some chain of it goes beyond BEYOND of its critical rotation in any member. top: what its top needs
+    beyond: HELD_BEYOND where some chain of it goes beyond BEYOND of its critical rotation in any member, TIES_GIVE
+    where only one that its ties hold does, under the motion that these let through. top: what its top needs
     and does not get, so that it slips; None where it holds, or there is none. stacks: stacks of courses that fall in
     contact dynamics, of how many; None where none was followed. stackable: whether contact dynamics can follow it and
     has not been asked yet. remarks: what would tell more of members that disagree. failures: why components gave no
@@ -229,7 +230,7 @@ class Facts:
     slides_at: float = math.nan
     doubts: tuple[Remark, ...] = ()
     held: bool = False
-    beyond: bool = False
+    beyond: Kind | None = None
     top: Remark | None = None
     stacks: tuple[int, int] | None = None
     stackable: bool = True
@@ -348,8 +349,9 @@ def decide(facts: Facts) -> Decision:
     7    a crack without one member, or only with the members that failed  cannot be told
          does it (probably) overturn
     8    the step is overturns                                             overturns
-    8b   a held wall some chain of which goes beyond BEYOND, and fewer     no safer than probably stands
-         than UNANIMOUS runs of contact dynamics
+    8b   a held wall some chain of which goes beyond BEYOND, as the        no safer than probably stands
+         motion comes or as its ties let it through, and fewer than
+         UNANIMOUS runs of contact dynamics
     9    contact dynamics ran                                              the worse of its step and that of the members
     10   contacts open, an impact may open them or courses may be thrown   cannot be told
          and contact dynamics did not run, or a component is missing; and
@@ -435,7 +437,7 @@ def decide(facts: Facts) -> Decision:
     # 8b, 9: what bounds the step of the mechanism.
     if facts.held and facts.beyond and (facts.stacks is None or facts.stacks[1] < UNANIMOUS):
         word = worse(word, Verdict.PROBABLY_STANDS)
-        beside = (*beside, Remark(Kind.HELD_BEYOND))
+        beside = (*beside, Remark(facts.beyond))
         tells = (*tells, *contact_dynamics)
     if facts.stacks is not None:
         fallen, runs = facts.stacks

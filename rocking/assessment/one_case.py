@@ -9,7 +9,7 @@ from functools import lru_cache, partial
 from time import process_time
 
 from rocking.assessment.case import CaseResult, Failure, Prediction, Variation
-from rocking.assessment.contacts import MOST_RUNS, RUNS, contact_share, doubt
+from rocking.assessment.contacts import MOST_RUNS, RUNS, contact_share, doubt, ties_give
 from rocking.assessment.cracks import counting_cracks, cracks, ensemble_over_cracks, slides_first
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
@@ -143,9 +143,10 @@ def with_contacts(
 ) -> CaseResult:
     """Return the case with what its joints say: whether they slide, a doubt, and contact dynamics where that is asked.
 
-    A doubt is asked for every word below "probably overturns". Contact dynamics is asked, unless with fidelity: auto,
-    where it cannot be told else; with fidelity: contact by MOST_RUNS runs, and also where a held wall turns so far that
-    it only probably stands. bounces: whether a contact opens in a run as recorded; None where that is not known.
+    A doubt is asked for every word below "probably overturns", and of a wall that stands whether its ties hold it still
+    enough. Contact dynamics is asked, unless with fidelity: auto, where it cannot be told else; with fidelity: contact
+    by MOST_RUNS runs, and also where a held wall turns so far that it only probably stands. bounces: whether a contact
+    opens in a run as recorded; None where that is not known.
     """
     counting = counting_cracks(structure)
     if all(slides_first(each, motions, settings) for each in counting):
@@ -153,6 +154,8 @@ def with_contacts(
     if decide(case.facts(structure)).word.badness < Verdict.PROBABLY_OVERTURNS.badness:
         reason = doubt(structure, motions, case.largest_rotation_ratio, settings, bounces)
         case = replace(case, doubt=reason)
+    if decide(case.facts(structure)).word is Verdict.STANDS:
+        case = replace(case, ties_give=ties_give(structure, motions, settings))
     decision = decide(case.facts(structure))
     advised = any(each.kind is Kind.CONTACT_DYNAMICS for each in decision.tells)
     asking = {

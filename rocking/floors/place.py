@@ -128,6 +128,15 @@ GROUND = Place("ground")
 """The place of a structure unless the list says otherwise."""
 
 
+def swinging(period: float) -> Support:
+    """Return masonry that swings as one body of this period [s], as a support of its parts; 0: with the ground.
+
+    >>> swinging(0.2).modes[0].damping_ratio
+    0.1
+    """
+    return Support((Mode(period, YIELDING_DAMPING, 1.0),))
+
+
 def place_from_config(mapping: Mapping[str, Any]) -> Place:
     """Return the support that an entry of a structure list describes. Raises ConfigurationError for what it cannot be.
 

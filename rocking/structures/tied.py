@@ -320,6 +320,25 @@ class Tied(CrackedAtHeight):
         """How it opens: as one of the family, or as it is described."""
         return self.opening or self._described_opening or Opening(self.crack_position)
 
+    @cached_property
+    def tie_period(self) -> float:
+        """The period with which the whole wall swings about its foot on its ties, s; 0 without ties that stretch."""
+        stiffness = self.tie_stiffness * sum(height**2 for height in self.tie_heights)
+        if not stiffness:
+            return 0.0
+        wall = self.held_wall
+        inertia = sum(each.weight * (each.high**3 - each.low**3) / 3 for each in wall.storeys)
+        inertia += sum(each.weight * each.z**2 for each in wall.loads if each.rides)
+        return 2 * math.pi * math.sqrt(inertia / (GRAVITY * stiffness))
+
+    def hangs_on_ties(self, candidate: Candidate) -> bool:
+        """Whether a mechanism is an outward bulge that stands on a tie or is held by one, and can be followed."""
+        opening = candidate.structure.opening if isinstance(candidate.structure, Tied) else None
+        if opening is None or opening.hinge is None or not opening.outwards or candidate.refusal:
+            return False
+        ties = {hold.height for hold in self.held_wall.holds if hold.kind == "tie"}
+        return opening.foot in ties or opening.hold in ties
+
     def _holds_back(self, height: float, candidate: Candidate) -> bool:
         """Whether what holds the wall at `height` [m] stops the upper body of a mechanism that falls outwards."""
         wall = candidate.structure

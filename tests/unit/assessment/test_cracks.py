@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import rocking
+from rocking.assessment import contacts
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.cracks import cracks, ensemble_over_cracks
 from rocking.assessment.decide import Verdict, decide
@@ -250,6 +251,54 @@ def test_a_held_wall_that_turns_far_only_probably_stands():
             words[farthest > 0.4] = assessed.verdict, [each.kind for each in assessed.decision.doubts]
     assert words[False][0] is Verdict.STANDS
     assert words[True][0] is Verdict.PROBABLY_STANDS and Kind.HELD_BEYOND in words[True][1]
+
+
+def test_a_wall_whose_ties_swing_with_the_motion_only_probably_stands():
+    """A harmonic of the period with which it swings on them grows by 1/(2 ξ): what is held rigidly never lifts."""
+    held = Facade(
+        (3.2,),
+        (0.4,),
+        19e3,
+        floor_loads=(1e4,),
+        behind="cross_walls",
+        restitution=0.5,
+        tie_heights=(3.2,),
+        tie_stiffness=3e6,
+    )
+    mass = (19e3 * 0.4 * 3.2 / 3 + 1e4) / 9.80665  # of a rod about its foot, and of the floor on its end
+    assert held.tie_period == pytest.approx(2 * np.pi * np.sqrt(mass / 3e6), rel=1e-12)
+    amplitude = 0.7 * held.static_multiplier * 9.80665
+    times = np.arange(0, 6, STEP)
+    stiff = replace(held, tie_stiffness=300 * 3e6)
+    for wall, period, ties_give in (
+        (held, held.tie_period, True),
+        (held, 20 * held.tie_period, False),
+        (stiff, held.tie_period, False),
+    ):
+        motion = Accelerogram(amplitude * np.sin(2 * np.pi * times / period) * (times < 5), STEP)
+        motions = GroundMotions.of(motion)
+        assert rocking.integrate(wall.mechanisms()[0].structure, motion).rotation_ratio == 0
+        assert contacts.ties_give(wall, motions, AssessmentSettings()) is ties_give
+
+
+def test_ties_that_give_are_told_beside_the_word():
+    wall = Facade(
+        (3.2,),
+        (0.4,),
+        19e3,
+        behind="cross_walls",
+        restitution=0.5,
+        tie_heights=(3.2,),
+        tie_stiffness=2e6,
+    )
+    times = np.arange(0, 6, STEP)
+    swing = np.sin(2 * np.pi * times / wall.tie_period) * (times < 5)
+    motion = Accelerogram(1.02 * wall.static_multiplier * 9.80665 * swing, STEP)
+    decision = rocking.assess(motion, wall).decision
+    assert decision.word is Verdict.PROBABLY_STANDS
+    assert [each.kind for each in decision.doubts] == [Kind.TIES_GIVE]
+    unmoved = rocking.assess(motion, replace(wall, tie_stiffness=1e9)).decision
+    assert (unmoved.word, unmoved.doubts) == (Verdict.STANDS, ())
 
 
 def test_a_restitution_typed_far_below_that_of_the_geometry_is_followed_beside_it():

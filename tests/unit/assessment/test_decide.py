@@ -206,13 +206,13 @@ def test_8_members_that_fall_decide_whatever_else_is_doubtful():
 
 @pytest.mark.parametrize(("runs", "expected"), [(24, "probably stands"), (64, "stands")])
 def test_8b_a_held_wall_that_turns_far_needs_contact_dynamics_of_many_runs(runs, expected):
-    far = {"cracks": (crack(0),), "held": True, "beyond": True}
+    far = {"cracks": (crack(0),), "held": True, "beyond": Kind.HELD_BEYOND}
     assert word(**far) == "probably stands"
     assert word(cracks=(crack(0),), held=True) == "stands"
     assert word(**far, stacks=(0, runs)) == expected
 
 
-@pytest.mark.parametrize("far", [{"doubts": (OPEN,)}, {"held": True, "beyond": True}])
+@pytest.mark.parametrize("far", [{"doubts": (OPEN,)}, {"held": True, "beyond": Kind.TIES_GIVE}])
 def test_contact_dynamics_is_advised_only_where_it_may_still_tell(far):
     """Not where it ran often enough already, nor of what it cannot follow, of which a doubt says so."""
     facts = Facts(cracks=(crack(0),), **far)
@@ -341,7 +341,7 @@ def drawn(chance):
         slides_at=0.6 if chance() < 0.1 else math.nan,
         doubts=one_of((), (), (), (OPEN,), (THROWN,)),
         held=chance() < 0.3,
-        beyond=chance() < 0.3,
+        beyond=Kind.HELD_BEYOND if chance() < 0.3 else None,
         stacks=(fallen, runs) if chance() < 0.3 else None,
         failures=("component X is cut",) if chance() < 0.1 else (),
     )
@@ -428,7 +428,7 @@ def test_the_decision_is_that_of_the_table():
 
 def worsened(facts, chance):
     """The facts with one thing gone worse: a doubt, a component, a member or a stack more."""
-    ways = [{"failures": (*facts.failures, "component Y is cut")}, {"beyond": True}]
+    ways = [{"failures": (*facts.failures, "component Y is cut")}, {"beyond": Kind.TIES_GIVE}]
     ways += [{"doubts": (*facts.doubts, each)} for each in (OPEN, THROWN) if each not in facts.doubts]
     if not math.isnan(facts.run_ratio):
         ways.append({"run_ratio": math.inf})
