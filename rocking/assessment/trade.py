@@ -144,11 +144,11 @@ def what_follows(rows: Iterable[TradeRow]) -> Iterator[str]:
     )
     structures = break_even(sine, mechanism)
     if structures < math.inf:
-        yield f"{times}: below {counted(int(structures), 'structure')} a record the closed form is the dear method."
+        yield f"{times}: below {counted(int(structures), 'structure')} a record the closed form is the slower method."
     else:
-        yield f"{times}: for no number of structures is the closed form the cheap method."
+        yield f"{times}: the closed form is the slower method for any number of structures."
     yield (
-        f"It is never the accurate one: {_in_words(sine)}"
+        f"It is never the more accurate one: {_in_words(sine)}"
         + "".join(
             f"; {name}: {_in_words(of_all[method])}"
             for method, name in _BESIDE.items()
@@ -157,13 +157,13 @@ def what_follows(rows: Iterable[TradeRow]) -> Iterator[str]:
         + "."
     )
     yield (
-        "It earns its place without a record (design curves, spectra of pulses), for many structures under one motion, "
-        "and where the sine explains most of the energy."
+        "Use it without a record (design curves, spectra of pulses), for many structures under one motion, and where "
+        "the sine explains most of the energy."
     )
     if coarse := of_all.get(TradeMethod.COARSE):
         yield (
-            f"The tolerance of the integration is no knob: at 1e-3 it errs by {coarse.error:.1g} and takes "
-            f"{1e3 * coarse.cpu_s:.2g} ms."
+            f"Loosening the tolerance saves little: at 1e-3 the integration takes {1e3 * coarse.cpu_s:.2g} ms, with "
+            f"{_in_words(coarse)}."
         )
 
 

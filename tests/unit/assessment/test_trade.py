@@ -83,7 +83,7 @@ def test_below_so_many_structures_a_record_the_closed_form_costs_more():
         by_sine = ONE_SINE.preparation_record_s + structures * ONE_SINE.cpu_s
         assert (by_sine > structures * MECHANISM.cpu_s) is dear
     told = list(what_follows([ONE_SINE, MECHANISM]))
-    assert "below 45 structures a record the closed form is the dear method" in told[0]
+    assert "below 45 structures a record the closed form is the slower method" in told[0]
     assert "8 of 200 verdicts wrong, 1 of them unsafe, median error 1.2 %" in told[1]
     assert break_even(ONE_SINE, made(TradeMethod.MECHANISM, cpu_s=1e-5)) == np.inf
     assert list(what_follows([MECHANISM])) == []
@@ -92,7 +92,7 @@ def test_below_so_many_structures_a_record_the_closed_form_costs_more():
 def test_the_report_says_what_the_table_says_in_percent_and_milliseconds(tmp_path, monkeypatch):
     documents = []
     monkeypatch.setattr(
-        "rocking.reports.trade.compile_document", lambda _, data: documents.append(data) or b"%PDF"
+        "rocking.reports.figures.compile_document", lambda _, data: documents.append(data) or b"%PDF"
     )
     write_trade_report([ONE_SINE, MECHANISM], tmp_path / "trade.pdf", tmp_path / "trade.svg")
     said, picture, table = documents[0]["parts"]
