@@ -89,10 +89,10 @@ def about(what: str) -> Iterator[None]:
         raise
 
 
-def fault_in_words(fault: Exception, log: Path) -> str:
-    """Return the sentence on an error that no input may cause; log: the file that holds its traceback."""
+def fault_in_words(fault: Exception, log: Path | str, where: str = "this file") -> str:
+    """Return the sentence on an error that no input may cause, of what it costs; log: what holds its traceback."""
     said = " ".join(f"{type(fault).__name__}: {fault}".split())
-    return f"a fault of rocking in this file ({said}); please report it, with {log}."
+    return f"a fault of rocking in {where} ({said}); please report it, with {log}."
 
 
 def log_fault(fault: BaseException, log: Path) -> None:

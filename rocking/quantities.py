@@ -5,6 +5,7 @@ Inside, everything is SI and radians. Each check returns the value as a float or
 
 import math
 import re
+from collections.abc import Sequence
 
 from rocking.errors import RecordError, RockingError, StructureError
 
@@ -162,6 +163,16 @@ def percent(share: float) -> str:
 def counted(number: int, name: str) -> str:
     """Return "1 impact", "2 impacts"."""
     return f"{number} {name}" if number == 1 else f"{number} {name}s"
+
+
+def listed(names: Sequence[str], most: int = 6) -> str:
+    """Return the names in a row, those beyond `most` as a count.
+
+    Semicolons stand between them where a name holds a comma.
+    """
+    more = len(names) - most
+    between = "; " if any("," in name for name in names[:most]) else ", "
+    return between.join(names[:most]) + (f" and {counted(more, 'other')}" if more > 0 else "")
 
 
 def _in(unit: str) -> str:

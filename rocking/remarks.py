@@ -77,7 +77,7 @@ class Kind(StrEnum):
     OTHER_PERIODS = auto(), "at other periods {share} overturn", "other T_b: {share}"
     CONTACT_SLIDES = auto(), (
         "a contact needs a friction of {lifting:.2g} as it lifts and up to {largest:.2g} as it rocks"
-    ), "needs μ {lifting:.2g} to {largest:.2g}"
+    ), "slides below μ {lifting:.2g}–{largest:.2g}"
     FALLS_AS_RECORDED = auto(), "as recorded it falls", "as recorded: falls"
     STANDS_AS_RECORDED = auto(), "as recorded it stands", "as recorded: stands"
     STACKS_FALL = auto(), "in contact dynamics {falls} of {runs} runs fall", "contact dynamics: {falls} of {runs} fall"

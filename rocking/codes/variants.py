@@ -14,18 +14,18 @@ from rocking.tables import Columns, RowOf, row
 class Variant:
     """One of the variants of a structure; the first is the structure itself.
 
-    name: of the scene. conclusion: on it under its worst record; None where no record gave one. checked: at the design
-    level; None without one. first: the structure itself; None of that one.
+    name: of the scene. conclusion: on it under its worst record; None where no record gave one. code_conclusion: at the
+    design level; None without one. first: the structure itself; None of that one.
     """
 
     structure: str
     name: str
     conclusion: Conclusion | None
-    checked: CodeConclusion | None
+    code_conclusion: CodeConclusion | None
     first: "Variant | None" = None
 
     @property
-    def label(self) -> str:
+    def variant_name(self) -> str:
         """Its own name, behind that of the structure and a colon."""
         return self.name.removeprefix(f"{self.structure}: ")
 
@@ -52,7 +52,9 @@ class Variant:
 
     def ratio(self, check: str) -> float:
         """Return capacity over demand of one kind of check; nan where it was not made."""
-        made = {each.check: each.ratio for each in self.checked.checks} if self.checked else {}
+        made = (
+            {each.check: each.ratio for each in self.code_conclusion.checks} if self.code_conclusion else {}
+        )
         return made.get(check, math.nan)
 
 
@@ -64,12 +66,14 @@ class VariantRow(RowOf[Variant]):
     """One row per variant of a structure, under its worst record; the first is the structure itself."""
 
     structure: str = of_variant("Name of the structure", lambda of: of.structure)
-    variant: str = of_variant("Name of the variant; that of the structure: the first", lambda of: of.label)
+    variant: str = of_variant(
+        "Name of the variant; that of the structure: the first", lambda of: of.variant_name
+    )
     record: str = of_variant(
         "Record that is worst for it", lambda of: of.conclusion.verdict.record if of.conclusion else ""
     )
     verdict: Verdict | None = of_variant(
-        "Verdict under it", lambda of: of.conclusion.decision.word if of.conclusion else None
+        "Verdict under it", lambda of: of.conclusion.verdict.verdict if of.conclusion else None
     )
     overturning_share: float = of_variant("Share of the members that overturn under it", lambda of: of.share)
     reserve_factor: float = of_variant(
@@ -79,7 +83,8 @@ class VariantRow(RowOf[Variant]):
     nonlinear_ratio: float = of_variant("Capacity over demand, nonlinear", lambda of: of.ratio("nonlinear"))
     dynamic_ratio: float = of_variant("Capacity over demand, dynamic", lambda of: of.ratio("dynamic"))
     conclusion: str = of_variant(
-        "Conclusion at the design level", lambda of: str(of.checked.remark) if of.checked else ""
+        "Conclusion at the design level",
+        lambda of: str(of.code_conclusion.remark) if of.code_conclusion else "",
     )
     share_difference: float = of_variant("Its share less that of the first", lambda of: of.share_difference)
     reserve_ratio: float = of_variant("Its reserve over that of the first", lambda of: of.reserve_ratio)

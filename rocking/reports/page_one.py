@@ -10,11 +10,11 @@ from rocking.assessment.cracks import cracked
 from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import PulseRow
-from rocking.quantities import percent
+from rocking.quantities import listed, percent
 from rocking.remarks import Kind
 from rocking.reports.drawings import sketch
 from rocking.reports.panels import Trace
-from rocking.reports.printing import chip, listed, number
+from rocking.reports.printing import chip, number
 from rocking.reports.style import PULSE, drawn_by_hand, svg_path, thinned
 from rocking.structures import Structure
 

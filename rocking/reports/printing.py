@@ -163,16 +163,6 @@ def settings_texts(settings: Mapping[str, Any]) -> dict[str, object]:
     }
 
 
-def listed(names: Sequence[str], most: int = 6) -> str:
-    """Return the names in a row, those beyond `most` as a count.
-
-    Semicolons stand between them where a name holds a comma.
-    """
-    more = len(names) - most
-    between = "; " if any("," in name for name in names[:most]) else ", "
-    return between.join(names[:most]) + (f" and {counted(more, 'other')}" if more > 0 else "")
-
-
 def remainder(more: int, noun: str, place: str) -> str:
     """Return the sentence that says where `more` of a thing stand, or nothing where there are none."""
     return f" Another {counted(more, noun)} in {place}." if more > 0 else ""

@@ -22,7 +22,7 @@ from rocking.assessment.rows import (
     structure_rows,
 )
 from rocking.assessment.scene import placed, variants_of
-from rocking.quantities import GRAVITY, counted, percent
+from rocking.quantities import GRAVITY, counted, listed, percent
 from rocking.records.dates import day_of
 from rocking.remarks import Kind, Remark
 from rocking.reports import printing
@@ -262,13 +262,13 @@ def _sentences(report: RecordReport) -> list[str]:
         if any(map(math.isinf, ratios)) and any(map(math.isfinite, ratios)):
             depends.append(report.called(station.structure))
     depends = list(dict.fromkeys(depends))
-    remark = f"Whether it overturns depends on the processing of the record: {printing.listed(depends)}."
+    remark = f"Whether it overturns depends on the processing of the record: {listed(depends)}."
     scenes = (each.scene for each in report.result.carried)
     warnings = (scene.place.warning(scene.name) for scene in scenes)
     heavy = dict.fromkeys(str(each) for each in warnings if each)
     carried = sorted(report.result.carried, key=lambda scene: scene.worst.severity, reverse=True)
     failing = list(_contact_failures(report))
-    contacts = f"The model does not hold, because a contact fails, for {printing.listed(failing)}."
+    contacts = f"The model does not hold, because a contact fails, for {listed(failing)}."
     return [
         *(_key_numbers(row) for row in report.tables.record),
         *(_pulse_sentence(report.tables, motion) for motion in report.motions if motion.pulses),
@@ -294,7 +294,7 @@ def _cautions(report: RecordReport) -> list[str]:
             if caution:
                 concerned.setdefault(caution, []).append(report.called(station.structure))
     return [
-        str(replace(caution, about=printing.listed(list(dict.fromkeys(names)))))
+        str(replace(caution, about=listed(list(dict.fromkeys(names)))))
         for caution, names in concerned.items()
     ]
 
@@ -321,7 +321,7 @@ def _crushing(report: RecordReport) -> list[str]:
             names.append(report.called(station.structure))
     if not names:
         return []
-    remark = Remark(Kind.CRUSHING_WOULD_TELL, printing.listed(list(dict.fromkeys(names))))
+    remark = Remark(Kind.CRUSHING_WOULD_TELL, listed(list(dict.fromkeys(names))))
     return [str(remark)]
 
 
@@ -334,8 +334,7 @@ def _advice(report: RecordReport) -> list[str]:
         for remark in station.decision.tells:
             to_do.setdefault(str(remark), []).append(report.called(station.structure))
     return [
-        f"To learn more of {printing.listed(list(dict.fromkeys(names)))}: {thing}."
-        for thing, names in to_do.items()
+        f"To learn more of {listed(list(dict.fromkeys(names)))}: {thing}." for thing, names in to_do.items()
     ]
 
 
@@ -443,8 +442,7 @@ def _doubts(rows: Sequence[ComparisonRow], several: bool) -> list[str]:
     if not reasons:
         return ["The closed form says of no structure less than happens."] if compared else []
     return [
-        f"The closed form misses what happens to {printing.listed(names, 8)}: {why}."
-        for why, names in reasons.items()
+        f"The closed form misses what happens to {listed(names, 8)}: {why}." for why, names in reasons.items()
     ]
 
 
@@ -511,7 +509,7 @@ def _reserve_note(stations: Sequence[StationResult]) -> str:
     if not doubtful:
         return ""
     return (
-        f" It is that of the mechanism and may be too high for {printing.listed(doubtful)}, whose contacts open or "
+        f" It is that of the mechanism and may be too high for {listed(doubtful)}, whose contacts open or "
         "whose courses may be thrown."
     )
 

@@ -23,11 +23,11 @@ from rocking.assessment.rows import (
     worst_period_each,
 )
 from rocking.assessment.scene import placed
-from rocking.quantities import GRAVITY, counted
+from rocking.quantities import GRAVITY, counted, listed
 from rocking.reports import printing
 from rocking.reports.design_figure import design_summary_figure
 from rocking.reports.matrix import MOST_RECORDS as MOST_RECORDS_BESIDE
-from rocking.reports.matrix import matrix
+from rocking.reports.matrix import MOST_WITH_ALL, matrix
 from rocking.reports.printing import (
     Column,
     Notice,
@@ -120,6 +120,8 @@ def _data(
     drawable = int((both > 0).sum()) >= FEWEST_POINTS
     summary = tables.get("fragility_summary")
     by_code, checks = _checks(tables.get("code_checks"))
+    # Names that stand upright, a second sentence and more rows leave less room below them.
+    low = len(judged) > MOST_WITH_ALL or by_code or len(words_of_all) > MOST_HIGH
     return {
         "title": "Summary over the records",
         **printing.settings_texts(settings),
@@ -144,9 +146,7 @@ def _data(
         ),
         "methods": method_table(tables),
         "structures": structure_table(shown),
-        "scatter": _scatter(tables, _LOW if many or by_code or len(words_of_all) > MOST_HIGH else _HIGH)
-        if drawable
-        else [],
+        "scatter": _scatter(tables, _LOW if low else _HIGH) if drawable else [],
         "agreement": table_of(rows_of(AgreementRow, tables["agreement"]), *AGREEMENT_COLUMNS),
         "unsafe": table_of(rows_of(ComparisonRow, unsafe.head(MOST_LISTED)), *UNSAFE_COLUMNS),
         "unsafe-note": remainder(len(unsafe) - MOST_LISTED, "case", "comparison.csv"),
@@ -230,7 +230,7 @@ def _notices(records: "DataFrame", comparison: "DataFrame", failures: int) -> li
         notices.append(Notice(f"{counted(failures, 'failure')}, listed below."))
     scaled = sorted(records.loc[records["scale_factor"] != 1, "record"].unique())
     if scaled:
-        names = printing.listed(scaled, most=20)
+        names = listed(scaled, most=20)
         text = f"By a declared factor, not as recorded: {names}."
         notices.append(Notice(text))
     return notices

@@ -59,7 +59,7 @@ def _cell(
     shapes = sketch(structure, rotation, _WIDTH, _HEIGHT, scale)
     cell = {
         "drawing": drawn_by_hand(shapes, _WIDTH, _HEIGHT, f"{variant.name}, turned, and at rest."),
-        "name": variant.label,
+        "name": variant.variant_name,
         "reserve": "",
         "checks": [],
         "conclusion": "",
@@ -74,13 +74,13 @@ def _cell(
         if figures:
             caveat = "strip reserve alone" if conclusion.verdict.reserve_doubts else "strip reserve"
             cell["reserve"] = words(caveat, reserve=figures)
-    if variant.checked:
+    if variant.code_conclusion:
         cell["checks"] = [
             f"{words(kind)} {words('falls') if ratio == 'falls' else words.decimal(ratio)}"
-            for kind, ratio in variant.checked.ratios.items()
+            for kind, ratio in variant.code_conclusion.ratios.items()
         ]
-        key = "line verified" if variant.checked.verified else "line not verified"
-        cell["conclusion"] = words(key, clause=variant.checked.decisive.clause)
+        key = "line verified" if variant.code_conclusion.verified else "line not verified"
+        cell["conclusion"] = words(key, clause=variant.code_conclusion.decisive.clause)
     return cell
 
 

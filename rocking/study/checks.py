@@ -19,7 +19,7 @@ from rocking.codes.check import StructureCheck
 from rocking.codes.dynamic_check import check
 from rocking.codes.rows import KINDS, CodeCheckRow, code_check_rows
 from rocking.codes.selection import Selection
-from rocking.errors import ConfigurationError, RockingError
+from rocking.errors import ConfigurationError, RockingError, fault_in_words
 from rocking.floors.support import Support
 from rocking.records import load_catalogue
 from rocking.reports.figures import write_document
@@ -27,6 +27,7 @@ from rocking.reports.structures import CheckedStructure, ListedMechanism, struct
 from rocking.structures.tied import Tied
 from rocking.study.job import Study
 from rocking.study.selection import pool_of, select_for
+from rocking.study.terminal import log_error
 from rocking.tables import write_tables
 
 
@@ -119,11 +120,17 @@ def _checked(
     )
     try:
         checked = check_here(scene.structure)
+        if isinstance(scene.structure, Tied) and scene.structure.tie_heights:
+            with suppress(RockingError):  # without its ties it may not stand
+                untied = check_here(scene.structure.without_ties())
     except RockingError as error:
         refusal = str(error)
-    if isinstance(scene.structure, Tied) and scene.structure.tie_heights:
-        with suppress(RockingError):  # without its ties it may not stand
-            untied = check_here(scene.structure.without_ties())
+    except (OSError, MemoryError):
+        raise
+    except Exception as fault:  # costs no other structure, and not the summary
+        log_error(fault)
+        checked = None
+        refusal = fault_in_words(fault, "the log", "its checks")
     known = [each for each in verdicts if not math.isnan(each.overturning_share)]
     shares = shares_by_station(known, station_of)
     return CheckedStructure(

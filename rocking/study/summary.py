@@ -29,7 +29,7 @@ from rocking.assessment.rows import (
     structure_rows,
 )
 from rocking.assessment.scene import variants_of
-from rocking.errors import ConfigurationError, RockingError
+from rocking.errors import ConfigurationError, RockingError, fault_in_words
 from rocking.records import Accelerogram, CatalogueRecord
 from rocking.structures import Mechanism, Structure
 from rocking.study.job import Job, Study
@@ -271,12 +271,10 @@ def write_fragility(
                 tables[rows.IntensityMeasureRow] += list(of_measures)
             except (
                 Exception
-            ) as error:  # the curves are finished, and no table beside them may take them along
-                log_error(error)
-                reasons.append(
-                    f"{name}: {rows.IntensityMeasureRow.table.file_name} has no row of it, because of a fault of "
-                    f"rocking ({type(error).__name__}: {error}); the log holds its traceback; please report it."
-                )
+            ) as fault:  # the curves are finished, and no table beside them may take them along
+                log_error(fault)
+                file = rows.IntensityMeasureRow.table.file_name
+                reasons.append(f"{name}: {file} has no row of it: {fault_in_words(fault, 'the log', 'it')}")
         tell(f"{count} of {len(study.scenes)}: {name}", count, len(study.scenes))
     if not tables[rows.FragilityRow]:
         raise ConfigurationError(reasons[-1])

@@ -21,7 +21,7 @@ from rocking.assessment.decide import ORDER, worst_first
 from rocking.assessment.methods import rocks
 from rocking.assessment.rows import ComparisonRow, FailureRow, TradeRow, VerdictRow
 from rocking.errors import RecordError, RockingError, log_fault
-from rocking.quantities import counted, escaped
+from rocking.quantities import counted, escaped, listed
 from rocking.study.folder import new_log
 from rocking.tables import read_table
 
@@ -92,7 +92,7 @@ def closing_lines(
     shown = {(each.verdict.record, each.structure): each for each in worst[:_WORST]}
     of_shown: list[ComparisonRow] = []
     seen = false = 0
-    missed: Counter[str] = Counter()
+    missed = Counter[str]()
     for row in comparison:
         if (row.record, row.structure) in shown:
             of_shown.append(row)
@@ -103,31 +103,33 @@ def closing_lines(
             missed[row.record] += predicted < integrated == math.inf
             false += integrated < predicted == math.inf
     if worst:
+        count = f"{counted(records, 'record')}, {counted(len(worst), 'structure')}. "
         words = {each.structure: each.decision.word for each in worst}
-        count = f"{counted(records, 'record')}, {counted(len(worst), 'structure')}"
-        yield from wrap(f"{count}. {conclusion_in_words(words, records)}", _WIDTH)
+        yield from wrap(count + conclusion_in_words(words, records), _WIDTH)
         yield "Largest rotation, 1 = critical, of the worst, each under its worst record:"
         yield f"{'':<17}  {'record':<22}  closed form   block  integrated  members that overturn"
     own = (row for row in verdicts if (row.record, row.structure) in shown)
     for each in conclusions(own, of_shown):
         ratios = [_rotation(ratio) for ratio in (each.closed_form, each.block, each.integrated)]
         marks = "  ".join(f"{text:>{width}}" for text, width in zip(ratios, (11, 6, 10), strict=True))
-        share = f"{each.decision.word} {each.decision.share_in_words}".rstrip()
-        yield f"{_cut(each.structure, 17):<17}  {_cut(each.verdict.record, 22):<22}  {marks}  {share}"
-    others: dict[str, list[str]] = {}
-    for each in worst[_WORST:]:
-        others.setdefault(each.decision.word, []).append(_cut(each.structure, 30))
-    if others:
-        text = "; ".join(f"{word}: {_few(names)}" for word, names in others.items())
+        line = f"{_cut(each.structure, 17):<17}  {_cut(each.verdict.record, 22):<22}  {marks}  "
+        yield f"{line}{each.decision.word} {each.decision.share_in_words}".rstrip()
+    if any("–" in each.decision.share_in_words for each in worst[:_WORST]):
+        yield "A range: two cracks, or the mechanism and contact dynamics, disagree."
+    others = [(each.decision.word, _cut(each.structure, 30)) for each in worst[_WORST:]]
+    if names := {word: [name for its, name in others if its is word] for word, _ in others}:
+        text = "; ".join(f"{word}: {listed(each, _NAMED)}" for word, each in names.items())
         yield from wrap(text, _WIDTH, initial_indent="Others  ", subsequent_indent=" " * 8)
     if falls := seen + missed.total():
         most, count_of_most = missed.most_common(1)[0]
         where = f" ({count_of_most} of them in {_cut(most, 24)})" if records > 1 and count_of_most else ""
-        found = f"{seen} of {counted(falls, 'fall')} seen, {missed.total()} missed{where}"
-        text = f"Closed form against integration: {found}, {counted(false, 'false alarm')}"
+        text = (
+            f"Closed form against integration: {seen} of {counted(falls, 'fall')} seen, "
+            f"{missed.total()} missed{where}, {counted(false, 'false alarm')}"
+        )
         yield from wrap(text, _WIDTH, subsequent_indent=" " * 8)
     if failed := sorted({failure.record for failure in failures}):
-        text = f"{counted(len(failed), 'record')} failed, wholly or in part: {_few(failed)}"
+        text = f"{counted(len(failed), 'record')} failed, wholly or in part: {listed(failed, _NAMED)}"
         yield from wrap(text, _WIDTH, subsequent_indent=" " * 8)
 
 
@@ -166,12 +168,6 @@ def _rotation(ratio: float) -> str:
 def _cut(name: str, width: int) -> str:
     """The name, with an ellipsis where it is longer than `width`."""
     return name if len(name) <= width else f"{name[: width - 1]}…"
-
-
-def _few(names: Sequence[str]) -> str:
-    """The first names in a row, and how many there are more."""
-    more = len(names) - _NAMED
-    return ", ".join(names[:_NAMED]) + (f" and {counted(more, 'other')}" if more > 0 else "")
 
 
 def check_any_read(summary: Path, records: Collection[str]) -> None:

@@ -62,7 +62,7 @@ def test_a_contact_that_slides_is_told_by_what_it_needs_as_it_lifts_and_at_most(
     """The largest alone is of an instant, and would call a slender pier one that slides."""
     made = of(Verdict.STANDS)
     slides = replace(compared("EW", 0.5), slides=True, lifting_friction=0.22, required_friction=1.84)
-    assert replace(made, case=slides).remark.brief == "needs μ 0.22 to 1.8"
+    assert replace(made, case=slides).remark.brief == "slides below μ 0.22–1.8"
     lost = replace(slides, required_friction=math.inf)
     assert replace(made, case=lost).remark.kind is Kind.CONTACTS_OPEN
 

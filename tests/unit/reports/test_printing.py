@@ -7,6 +7,7 @@ import pytest
 
 from rocking.assessment.decide import ORDER, CrackFacts, Facts, decide
 from rocking.assessment.rows import PulseRow
+from rocking.quantities import listed
 from rocking.remarks import Kind, Remark
 from rocking.reports import printing
 
@@ -99,5 +100,5 @@ def test_each_verdict_has_a_sign_of_its_own_and_is_read_on_its_colour():
 
 
 def test_names_in_a_row_are_told_apart():
-    assert printing.listed(["arch", "wall"]) == "arch, wall"
-    assert printing.listed(["nave, bay 7", "wall", "pier"], most=2) == "nave, bay 7; wall and 1 other"
+    assert listed(["arch", "wall"]) == "arch, wall"
+    assert listed(["nave, bay 7", "wall", "pier"], most=2) == "nave, bay 7; wall and 1 other"

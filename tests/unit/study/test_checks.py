@@ -125,6 +125,23 @@ def test_checks_without_a_design_level_are_refused(study):
         write_checks(Study(on_the_ground(STRUCTURES), read_settings(settings)), folder, [], [])
 
 
+def test_a_fault_in_the_checks_of_a_structure_costs_no_other(study, monkeypatch):
+    settings, folder = study
+    followed = check
+
+    def check_but_one(structure, spectrum, **terms):
+        return followed(structure, spectrum, **terms) if structure is not STRUCTURES["parapet"] else 1 / 0
+
+    monkeypatch.setattr("rocking.study.checks.check", check_but_one)
+    told = []
+    structures = STRUCTURES | {"pier": Block.of_size(0.6, 2.0)}
+    changed = read_settings(settings | {"design_spectrum": DESIGN | {"stations": 40}})
+    rows = write_checks(Study(on_the_ground(structures), changed), folder, [], [], told.append)
+    assert {row.structure for row in rows} == {*structures} - {"parapet"} != set()
+    assert any("parapet: a fault of rocking in its checks (ZeroDivisionError" in line for line in told)
+    assert (folder / "structures.pdf").read_bytes().startswith(b"%PDF")
+
+
 def test_a_structure_that_cannot_be_checked_costs_no_other(study):
     settings, folder = study
     points = folder / "site.csv"
