@@ -61,7 +61,6 @@ def _source() -> str:
     """One hash for numba and for what all files beside the kernels say."""
     package = Path(__file__).parents[1]
     files = [path for part in ("motion", "pulses", "sine_pulse") for path in (package / part).glob("*.py")]
-    files.append(package / "records" / "filters.py")
     return sha256_of_sources(package, files, version("numba"))
 
 

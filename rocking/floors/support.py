@@ -195,7 +195,7 @@ class _Ringing:
 
     @classmethod
     def under(cls, mode: Mode, record: Accelerogram) -> "_Ringing":
-        from rocking.records.filters import accumulate  # numba takes long to import
+        from scipy.signal import lfilter  # which takes half a second to import
 
         step = record.time_step
         pole = mode.circular_frequency * complex(-mode.damping_ratio, math.sqrt(1 - mode.damping_ratio**2))
@@ -204,8 +204,7 @@ class _Ringing:
         gained = np.empty(slope.size + 1, dtype=complex)
         gained[0] = -record.acceleration[0]
         np.multiply(slope, -np.expm1(pole * step) / pole, out=gained[1:])
-        accumulate(gained, np.exp(pole * step))
-        excess = gained * pole
+        excess = pole * lfilter([1.0], [1.0, -np.exp(pole * step)], gained)
         excess[:-1] -= slope
         excess *= mode.participation / pole.imag
         return cls(mode, step, pole, excess)

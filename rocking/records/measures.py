@@ -118,7 +118,7 @@ def _largest_displacement(accelerogram: Accelerogram, period: float, damping: fl
     Over a step in which a is linear, q is exactly e^z q + φ₁ a₀ + φ₂ (a₁ − a₀) but for its sign, with z = λ dt,
     φ₁ = (e^z − 1)/λ and φ₂ = (φ₁ − dt)/z (Nigam & Jennings 1969 in complex form).
     """
-    from rocking.records.filters import largest_imaginary  # numba takes long to import
+    from scipy.signal import lfilter  # which takes half a second to import
 
     finer = max(1, math.ceil(STEPS_PER_PERIOD * accelerogram.time_step / period))
     step = accelerogram.time_step / finer
@@ -127,4 +127,7 @@ def _largest_displacement(accelerogram: Accelerogram, period: float, damping: fl
     second = (first - step) / (pole * step)
     after = math.ceil(0.5 * period / step)
     samples = accelerogram.acceleration
-    return largest_imaginary(samples, finer, after, np.exp(pole * step), first - second, second) / pole.imag
+    places = np.arange(0, samples.size - 1 + 0.5 / finer, 1 / finer)
+    ground = np.pad(np.interp(places, np.arange(samples.size), samples), (0, after))
+    response = lfilter([second, first - second], [1.0, -np.exp(pole * step)], ground)
+    return float(np.abs(response.imag).max()) / pole.imag

@@ -35,7 +35,7 @@ FLOORS = [
 ONLY_IN = {
     "pydantic": ("described.py",),
     "obspy": ("records/",),
-    "numba": ("motion/", "pulses/", "sine_pulse/", "contacts/", "records/filters.py"),
+    "numba": ("motion/", "pulses/", "sine_pulse/", "contacts/"),
     "matplotlib": ("reports/",),
     "typst": ("reports/",),
     "snakemake": ("study/",),

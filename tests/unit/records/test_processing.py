@@ -4,14 +4,12 @@ import re
 
 import numpy as np
 import pytest
-from scipy import signal
 from scipy.integrate import cumulative_trapezoid
 from scipy.interpolate import CubicHermiteSpline
 
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
 from rocking.records import processing as steps
-from rocking.records.filters import run_both_ways
 from rocking.records.processing import Processing, adaptive_baseline, displacement, process, velocity
 from rocking.records.synthetic import SHIPPED, synthetic_record
 
@@ -33,18 +31,6 @@ def test_nothing_is_done_to_a_processed_record_unless_asked() -> None:
     assert len(treated.processing) == 3 and abs(treated.acceleration.mean()) < 0.01
     assert np.array_equal(process(done, steps.UNPROCESSED_DEFAULT).acceleration, treated.acceleration)
     assert process(raw, Processing()) is raw
-
-
-@pytest.mark.parametrize("passes_high", [True, False])
-@pytest.mark.parametrize("order", [1, 2, 5, 10])
-@pytest.mark.parametrize("corner", [5e-4, 0.02, 0.5, 0.9])
-def test_the_filter_is_that_of_scipy(order: int, corner: float, passes_high: bool) -> None:
-    """Poles at a corner of 5e-4 are rounded to about 1e-16 over the square of their distance from 1, π · 5e-4."""
-    drifting = np.cumsum(np.random.default_rng(3).normal(size=5000))
-    sections = signal.butter(order, corner, "highpass" if passes_high else "lowpass", output="sos")
-    theirs = signal.sosfiltfilt(sections, drifting, padtype=None)
-    ours = run_both_ways(drifting, order, corner, passes_high=passes_high)
-    np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-9 * np.abs(drifting).max())
 
 
 def test_pre_event_mean() -> None:
