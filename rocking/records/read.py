@@ -1,5 +1,6 @@
 """Read: open the bytes, recognise the format, refuse what is not known, dispatch to one reader."""
 
+import gzip
 import os
 import re
 import zlib
@@ -7,6 +8,7 @@ from collections import Counter
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
+from io import BytesIO
 from itertools import combinations
 from pathlib import Path
 
@@ -37,8 +39,6 @@ from rocking.tables import read_whole
 LARGEST_FILE = 8 * 2**20
 """Bytes, unpacked: three channels of ten minutes at 100 Hz as text; the worst content of that size reads in seconds."""
 
-_MOST_MEMBERS = 1000
-"""Members of a gzip file: each is looked for in all that follows, so that many take the square of their number."""
 _PICKLE = tuple(b"\x80%c" % n for n in range(2, 6))
 _PICKLED = (b"ccopy_reg", b"(iobspy", b"cobspy", b"c__builtin__")
 
@@ -241,22 +241,12 @@ def unpack(raw: bytes, name: str) -> bytes:
             return table_of_workbook(raw)
     if not raw.startswith(b"\x1f\x8b"):
         return raw
-    content = b""
-    members = 0
-    while raw.strip(b"\0"):  # a gzip file may hold several members, and zeros that fill up a block of tape
-        members += 1
-        if members > _MOST_MEMBERS:
-            raise RecordError(
-                f"{name}: the gzip file has more than {_MOST_MEMBERS} members; unpack it first."
-            )
-        unpacker = zlib.decompressobj(wbits=31)
-        try:
-            content += unpacker.decompress(raw, LARGEST_FILE + 1 - len(content))
-        except zlib.error as error:
-            raise RecordError(f"{name}: damaged gzip file, {error}; fetch it again.") from None
-        if not unpacker.eof or len(content) > LARGEST_FILE:
-            raise RecordError(f"{name}: the gzip file is cut or unpacks to more than {LARGEST_FILE} bytes.")
-        raw = unpacker.unused_data
+    try:
+        content = gzip.GzipFile(fileobj=BytesIO(raw)).read(LARGEST_FILE + 1)
+    except (OSError, EOFError, zlib.error) as error:
+        raise RecordError(f"{name}: damaged gzip file, {error}; fetch it again.") from None
+    if len(content) > LARGEST_FILE:
+        raise RecordError(f"{name}: the gzip file unpacks to more than {LARGEST_FILE} bytes; cut it first.")
     return content
 
 

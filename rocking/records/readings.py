@@ -3,19 +3,22 @@
 import json
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import asdict, replace
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from typing import Any, get_args, get_type_hints
+from typing import TYPE_CHECKING, Any
 
 from rocking.errors import RecordError, RockingError, fault_in_words, log_fault
 from rocking.hashes import sha256_of_bytes, sha256_of_sources
-from rocking.records.formats.layouts import Layouts, Question, Signature
+from rocking.records.formats.layouts import Layouts
 from rocking.records.formats.tables import COLUMNS
-from rocking.records.listing import CELLS, ListedChannel, Reading, read_for_listing
+from rocking.records.listing import Reading, read_for_listing
 from rocking.records.read import bytes_of, printable, signature_in
 from rocking.remarks import Kind, Remark
 from rocking.tables import read_whole, write_whole
+
+if TYPE_CHECKING:
+    from pydantic import TypeAdapter
 
 STORE = ".rocking_readings.json"
 """In the folder of the records; it may be removed at any time."""
@@ -89,8 +92,7 @@ class Readings:
         """Keep the readings that were asked for, where the folder can be written in."""
         if not self._is_kept or self._now == self._before:
             return
-        readings = {key: asdict(reading) for key, reading in self._now.items()}
-        content = json.dumps(readings, ensure_ascii=False, sort_keys=True)
+        content = _kept().dump_json(self._now).decode()
         store = {"version": _version(), "sha256": sha256_of_bytes(content.encode()), "readings": content}
         with suppress(RockingError):
             write_whole(self._store, json.dumps(store).encode())
@@ -123,55 +125,17 @@ def _stored(path: Path) -> dict[str, Reading]:
     if not isinstance(readings, str) or checksum != sha256_of_bytes(readings.encode()):
         raise _UnusableStoreError("the readings are damaged")
     try:
-        return {key: _reading(each) for key, each in json.loads(readings).items()}
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        return _kept().validate_json(readings, strict=True)
+    except ValueError:
         raise _UnusableStoreError("the readings are not what this package writes") from None
 
 
-def _reading(values: dict[str, Any]) -> Reading:
-    """Return a reading from its JSON. Raises TypeError where a value is not of its type."""
-    sha256 = values["sha256"]
-    refusal = values["refusal"]
-    doubts = tuple(_remark(each) for each in values["doubts"])
-    missing = tuple(values["missing"])
-    if not all(isinstance(text, str) for text in (sha256, refusal)) or not set(missing) <= CELLS.keys():
-        raise TypeError("a text is none, or no cell of a catalogue")
-    channels = tuple(_channel(channel) for channel in values["channels"])
-    signature = Signature(**_texts(values["signature"])) if values["signature"] else None
-    question = values["question"]
-    if question and signature:
-        question = Question(signature, **_texts({name: question[name] for name in ("holds", "proposal")}))
-    return Reading(
-        sha256, channels, doubts, refusal, missing, question, signature, _texts(values, "answer")["answer"]
-    )
+@cache
+def _kept() -> "TypeAdapter[dict[str, Reading]]":
+    """Return what writes readings as JSON, and reads them by the types of their fields."""
+    from pydantic import TypeAdapter  # which takes a quarter of a second to import
 
-
-def _texts(values: dict[str, Any], *names: str) -> dict[str, str]:
-    """Return values by their names, all by default. Raises TypeError where one is no text."""
-    texts = {name: values[name] for name in names or values}
-    if not all(isinstance(text, str) for text in texts.values()):
-        raise TypeError("a text is none")
-    return texts
-
-
-def _remark(values: dict[str, Any]) -> Remark:
-    """Return a remark from its JSON. Raises ValueError where it is none of the catalogue."""
-    named = tuple((name, value) for name, value in values["values"])
-    return Remark(Kind(values["kind"]), str(values["about"]), named)
-
-
-_TYPES = {name: get_args(hint) or (hint,) for name, hint in get_type_hints(ListedChannel).items()}
-"""The types that each field of a listed channel may have."""
-
-
-def _channel(values: dict[str, Any]) -> ListedChannel:
-    """Return a listed channel from its JSON. Raises TypeError where a value is not of its type."""
-    if values.keys() != _TYPES.keys():
-        raise TypeError(f"the fields are {', '.join(values)}")
-    for name, value in values.items():
-        if type(value) not in _TYPES[name]:
-            raise TypeError(f"{name} is {value!r}")
-    return ListedChannel(**values)
+    return TypeAdapter(dict[str, Reading])
 
 
 @cache

@@ -33,7 +33,7 @@ FLOORS = [
     {"study"},
 ]
 ONLY_IN = {
-    "pydantic": ("described.py",),
+    "pydantic": ("described.py", "records/readings.py"),
     "obspy": ("records/",),
     "numba": ("motion/", "pulses/", "sine_pulse/", "contacts/"),
     "matplotlib": ("reports/",),

@@ -187,8 +187,7 @@ def test_every_member_of_a_gzip_file_is_read() -> None:
     text = made("PEER AT2").encode()
     packed = gzip.compress(text[:400]) + gzip.compress(text[400:]) + b"\0" * 100
     assert unpack(packed, "made") == text
-    for damaged, word in ((packed + b"more", "damaged gzip"), (packed[:-150], "is cut"),
-                          (gzip.compress(b"") * 100_000, "more than 1000 members"),
+    for damaged, word in ((packed + b"more", "damaged gzip"), (packed[:-150], "ended before"),
                           (gzip.compress(b"1" * LARGEST_FILE) + gzip.compress(b"2\n"), "more than")):  # fmt: skip
         with pytest.raises(RecordError, match=word):
             unpack(damaged, "made")

@@ -83,7 +83,7 @@ def _edited(text: str) -> str:
 def _of_other_types(text: str) -> str:
     """The checksum is right, but a number is a text."""
     store = json.loads(text)
-    store["readings"] = store["readings"].replace('"samples": 400', '"samples": "400"')
+    store["readings"] = store["readings"].replace('"samples":400', '"samples":"400"')
     return _sealed(store)
 
 
