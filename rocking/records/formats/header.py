@@ -13,7 +13,15 @@ from rocking.errors import RecordError
 from rocking.quantities import acceleration_factor, positive
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Options
-from rocking.records.formats.text import count, fields, lines, number, whole
+from rocking.records.formats.text import (
+    count,
+    even_step,
+    fields,
+    lines,
+    number,
+    through_points,
+    whole,
+)
 from rocking.records.instrument import is_down_hole, refuse_other_quantity, site_warnings
 from rocking.records.plausibility import StatedPeak, agree_with_header, agree_with_mean_square
 from rocking.remarks import Kind, Remark
@@ -163,6 +171,22 @@ class Layout:
         rows = zip(labels, table.T, peaks or [None] * len(labels), strict=True)
         facts = (({"component": label, "peak": peak} | fields, values) for label, values, peak in rows)
         return [self.channel(head, values, options, **of_one) for of_one, values in facts]
+
+    def through(
+        self, head: str, times: np.ndarray, values: np.ndarray, options: Options, **facts: Any
+    ) -> Accelerogram:
+        """Return channel() of `values` (n,) at `times` (n,) s; points of film, which are uneven, are joined by lines.
+
+        They stand where the trace bends, a dozen to a hundred a second.
+        """
+        step = even_step(times)
+        if step is None:
+            step, even, note = through_points(times)
+            facts["warnings"] = (*facts.get("warnings", ()), note)
+            facts |= {"processing": (str(note),), "file_times": times}
+            facts["file_samples"] = values * acceleration_factor(self.unit)
+            values = np.interp(even, times, values)
+        return self.channel(head, values, options, step=step, **facts)
 
     def _unit(self, head: str) -> str:
         """Return the unit of the numbers. Raises RecordError where they are not acceleration in the format's unit."""

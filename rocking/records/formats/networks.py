@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from rocking.errors import RecordError
-from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.dates import iso_date
 from rocking.records.direction import Direction
@@ -369,7 +368,8 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
     width = text.column_width(own[0]) if own else 10
     numbers = text.fields(own, width)
     if is_film and (points := _smc_points(numbers, samples, is_cut=seam is not None)) is not None:
-        return [_smc_digitised(head, *points, options, **_smc_facts(head, reals))]
+        times, values, notes = points
+        return [_SMC.through(head, times, values, options, warnings=notes, **_smc_facts(head, reals))]
     rate = float(reals[_RATE])
     if not 0 < rate < 1e6:
         raise RecordError(f"samples per second is {rate:g}, but must be greater than 0 and below 1e6.")
@@ -422,25 +422,6 @@ def _smc_points(
         return None
     instants, place, points = np.unique(times, return_inverse=True, return_counts=True)
     return instants, np.bincount(place, weights=values) / points, notes
-
-
-def _smc_digitised(
-    head: str,
-    times: np.ndarray,
-    values: np.ndarray,
-    notes: tuple[Remark, ...],
-    options: Options,
-    **facts: Any,
-) -> Accelerogram:
-    """Return the channel through digitised points, at even steps."""
-    step = text.even_step(times)
-    if step is not None:
-        return _SMC.channel(head, values, options, step=step, warnings=notes, **facts)
-    step, even, remark = text.through_points(times)
-    facts |= {"processing": (str(remark),), "warnings": (*notes, remark)}
-    facts["file_samples"] = values * acceleration_factor(_SMC.unit)
-    facts["file_times"] = times
-    return _SMC.channel(head, np.interp(even, times, values), options, step=step, **facts)
 
 
 _EMOD3D_FIRST = re.compile(

@@ -162,10 +162,7 @@ def _rows(block: list[str]) -> tuple[str, list[str]]:
 def _digitised(
     layout: Layout, block: list[str], options: Options, total: int, is_even: bool = False
 ) -> Accelerogram:
-    """Return a channel of five pairs of time and acceleration a line, in columns of 7.
-
-    Points of film stand where the trace bends, a dozen to a hundred a second, and are joined by lines.
-    """
+    """Return a channel of five pairs of time and acceleration a line, in columns of 7."""
     head, rows = _rows(block)
     times, values = text.table(rows, 2, layout.width, layout.margin).T
     text.whole(times, layout.count(head), per_line=0)
@@ -174,14 +171,9 @@ def _digitised(
     if abs(duration - times[-1]) > 2 * np.ptp(times) / (times.size - 1) + 0.001:
         stated = f"the header declares a length of {duration:g} s, but the last sample is at {times[-1]:g} s"
         raise RecordError(f"{stated}; the file is damaged or its header is another's; fetch it again.")
-    step = text.only_even_step(times) if is_even else text.even_step(times)
-    if step is not None:
-        return layout.channel(head, values, options, step=step, total=total)
-    step, even, note = text.through_points(times)
-    more: dict[str, Any] = {"processing": (str(note),), "warnings": (note,), "total": total, "step": step}
-    more["file_samples"] = values * acceleration_factor("g/10")
-    more["file_times"] = times
-    return layout.channel(head, np.interp(even, times, values), options, **more)
+    if is_even:
+        text.only_even_step(times)
+    return layout.through(head, times, values, options, total=total)
 
 
 def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
