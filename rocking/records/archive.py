@@ -2,7 +2,6 @@
 
 import os
 import zipfile
-import zlib
 from functools import lru_cache
 from pathlib import Path
 
@@ -17,9 +16,6 @@ _MOST_MEMBERS = 1000
 """Members of an archive that are read; a whole event of a large network has fewer."""
 _LARGEST_WHOLE = 2**30
 """Bytes of all members, unpacked."""
-_PLAIN = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
-_ENCRYPTED = 0x1
-"""Bit of a member's flags."""
 
 
 def is_archive(path: Path) -> bool:
@@ -69,7 +65,7 @@ def _is_of_system(name: str) -> bool:
 def member_bytes(path: Path, archive: Path, largest: int) -> bytes:
     """Return the bytes of the member of `archive` that `path` names, at most `largest`.
 
-    Raises RecordError where there is none, or it is larger, encrypted, packed in another way, damaged or an archive.
+    Raises RecordError where there is none, or it is larger, cannot be unpacked, or is an archive.
     """
     name = path.relative_to(archive).as_posix()
     called = plain(f"{archive.name}/{name}")
@@ -77,15 +73,13 @@ def member_bytes(path: Path, archive: Path, largest: int) -> bytes:
         raise RecordError(f"{called}: the archive holds no such file; mend the name.")
     opened = _opened(archive)
     entry = opened.getinfo(name)
-    if entry.flag_bits & _ENCRYPTED:
-        raise RecordError(f"{called}: the file is encrypted; unpack the archive with its password.")
-    if entry.compress_type not in _PLAIN:
-        raise RecordError(f"{called}: the file is packed in a way that is not read; unpack the archive.")
     try:
         with opened.open(entry) as stream:
             content = stream.read(largest + 1)
-    except (zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, NotImplementedError) as error:
-        raise RecordError(f"{called}: the archive is damaged there, {error}; fetch it again.") from None
+    except Exception as error:  # zipfile raises what it likes: RuntimeError of what is encrypted
+        raise RecordError(
+            f"{called}: the file cannot be unpacked, {error}; unpack the archive yourself."
+        ) from None
     if len(content) > largest:
         raise RecordError(f"{called}: the file is larger than {largest} bytes, the most that is read.")
     if content.startswith(ZIPPED):

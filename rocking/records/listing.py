@@ -4,7 +4,7 @@ import re
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -45,7 +45,7 @@ class ListedChannel:
     """One channel of a listed file, as the fields of an Accelerogram say it, without its samples.
 
     samples: their number. peak_acceleration, peak_velocity: as they are listed, in g and m/s; "" where the unit or the
-    time step is not known, or the record is too short to be processed.
+    time step is not known; PGV as a study clears the record by default, "" where it is too short for that.
     """
 
     component: str
@@ -170,32 +170,18 @@ def read_for_listing(
 
 def _without_samples(record: Accelerogram, is_known: bool) -> ListedChannel:
     """Return what is listed of a channel, with its peaks where unit and time step are known."""
-    return ListedChannel(
-        component=record.component,
-        format=record.source.format,
-        answer=record.source.answer,
-        time_step=record.time_step,
-        samples=record.acceleration.size,
-        peak_acceleration=f"{record.peak_acceleration / GRAVITY:.3g}" if is_known else "",
-        peak_velocity=_peak_velocity(record) if is_known else "",
-        network=record.network,
-        station=record.station,
-        location=record.location,
-        event=record.event,
-        event_time=record.event_time,
-        start_time=record.start_time,
-        azimuth=record.azimuth,
-        vertical=record.vertical,
-        borehole=record.borehole,
-        processed=record.processed,
-    )
-
-
-def _peak_velocity(record: Accelerogram) -> str:
-    """Return PGV, m/s, as a study clears the record by default, "" where it is too short to be processed."""
+    of_record: dict[str, Any] = {each.name: getattr(record, each.name, "") for each in fields(ListedChannel)}
+    speed = ""  # of a record that is too short to be processed
     with suppress(RecordError):
-        return f"{abs(velocity(process(record))).max():.3g}"
-    return ""
+        speed = f"{abs(velocity(process(record))).max():.3g}" if is_known else ""
+    of_record |= {
+        "format": record.source.format,
+        "answer": record.source.answer,
+        "samples": record.acceleration.size,
+        "peak_acceleration": f"{record.peak_acceleration / GRAVITY:.3g}" if is_known else "",
+        "peak_velocity": speed,
+    }
+    return ListedChannel(**of_record)
 
 
 def listed_file(reading: Reading, path: Path, folder: Path, declared: Mapping[str, Any]) -> ListedFile:

@@ -6,7 +6,7 @@ real files is accused.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -84,13 +84,6 @@ def agree_with_header(
     if at is None:
         return record
     instants = np.arange(magnitudes.size) * record.time_step if times is None else times
-    return _peak_in_place(record, magnitudes, instants, at)
-
-
-def _peak_in_place(
-    record: Accelerogram, magnitudes: np.ndarray, instants: np.ndarray, at: float
-) -> Accelerogram:
-    """Return `record`, with a warning where none of `magnitudes` (n,) about the time `at`, s, is the largest."""
     place = int(np.abs(instants - at).argmin())
     around = magnitudes[max(0, place - _NEIGHBOURS) : place + _NEIGHBOURS + 1]
     if around.max() >= 0.98 * magnitudes.max():
@@ -193,12 +186,6 @@ def agree_with_velocity(record: Accelerogram, stated: np.ndarray) -> Accelerogra
     return record.warned(Remark(Kind.VELOCITY_UNLIKE))
 
 
-def _last_digit(values: np.ndarray) -> float:
-    """Return the smallest difference between two unlike numbers among `values` (n,): a unit of their last digit."""
-    apart = np.diff(np.unique(values))
-    return float(apart[apart > 1e-6 * np.ptp(values)].min(initial=np.ptp(values)))
-
-
 def _stray_step(record: Accelerogram, stated: np.ndarray) -> int | None:
     """Return the place of a step of the velocity `stated`, m/s, that the acceleration around it does not explain.
 
@@ -213,8 +200,11 @@ def _stray_step(record: Accelerogram, stated: np.ndarray) -> int | None:
     errors = np.abs(steps - np.einsum("ij,j->i", around, weights))
     stray = int(errors.argmax())
     usual = max(float(np.median(errors)) * 1.4826, 1e-12)
+    # A unit of the last digit is the smallest difference between two unlike numbers.
+    apart = np.diff(np.unique(stated))
+    digit = float(apart[apart > 1e-6 * np.ptp(stated)].min(initial=np.ptp(stated)))
     # Where most of the record is still, the usual error says nothing: what rounding explains is no damage.
-    is_stray = errors[stray] > max(_STRAY * usual, _DIGITS_OFF * _last_digit(stated))
+    is_stray = errors[stray] > max(_STRAY * usual, _DIGITS_OFF * digit)
     return stray + _REACH if is_stray else None
 
 
@@ -330,15 +320,6 @@ def repeated_rows(records: Sequence[Accelerogram]) -> Remark | None:
     if len(records) < 2 or len(sizes) > 1 or min(sizes) < 2 * _BESIDE:
         return None
     still = np.array([np.diff(record.acceleration) == 0 for record in records])
-    at = next(_unlikely(still), None)
-    if at is None:
-        return None
-    time = (at + 1) * records[0].time_step
-    return Remark.of(Kind.ROW_REPEATED, time_s=time)
-
-
-def _unlikely(still: np.ndarray) -> Iterator[int]:
-    """Yield the steps in which no channel of `still` (channels, n) changes, where that is less than chance."""
     steps = still.shape[1]
     places = np.flatnonzero(still.all(axis=0))
     first = np.maximum(0, places - _BESIDE)
@@ -346,4 +327,7 @@ def _unlikely(still: np.ndarray) -> Iterator[int]:
     counted = np.pad(np.cumsum(still, axis=1), ((0, 0), (1, 0)))
     beside = counted[:, end] - counted[:, first] - 1  # but the step itself
     shares = np.maximum(beside / (end - first - 1), _STILL)
-    yield from places[np.prod(shares, axis=0) * steps < 1 / _ODDS].tolist()
+    unlikely = places[np.prod(shares, axis=0) * steps < 1 / _ODDS]
+    if not unlikely.size:
+        return None
+    return Remark.of(Kind.ROW_REPEATED, time_s=float(unlikely[0] + 1) * records[0].time_step)

@@ -24,15 +24,10 @@ _SPEEDS = {"m/s": 1.0, "cm/s": 0.01}
 """Factor from each unit of velocity to m/s."""
 
 
-def _peak_acceleration(record: Accelerogram) -> float:
-    return record.peak_acceleration
-
-
-def _peak_velocity(record: Accelerogram) -> float:
-    return float(np.abs(velocity(record)).max())
-
-
-_MEASURES: dict[str, Callable[[Accelerogram], float]] = {"pga": _peak_acceleration, "pgv": _peak_velocity}
+_MEASURES: dict[str, Callable[[Accelerogram], float]] = {
+    "pga": lambda record: record.peak_acceleration,
+    "pgv": lambda record: float(np.abs(velocity(record)).max()),
+}
 
 
 @dataclass(frozen=True)

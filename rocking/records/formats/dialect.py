@@ -1,10 +1,7 @@
 """The dialect of a table of numbers: how its cells, exponents, decimals and times are written, by its first lines."""
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
-from enum import Enum, auto
-from itertools import islice, pairwise
+from itertools import islice
 
 import numpy as np
 
@@ -18,57 +15,21 @@ _NUMERIC = re.compile(r"[\d+\-.,;eE \t]+")
 _WITH_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
 
 
-class Comma(Enum):
-    """The meaning of a comma in a table."""
+def plain(content: bytes) -> bytes | None:
+    """Return a table with its numbers as Python writes them, and times of day as seconds after the first one.
 
-    PARTS = auto()
-    """It stands between two columns, or the table has none."""
-    IS_DECIMAL = auto()
-    """It is the decimal sign of a number."""
-    IS_EITHER = auto()
-    """The table can be read both ways."""
-
-
-@dataclass(frozen=True)
-class Dialect:
-    """The way in which the numbers of a table are written.
-
-    is_quoted: cells stand in quotes, as a spreadsheet writes them. is_fortran: exponents begin with D. comma: what a
-    comma means once the quotes are gone.
+    Cells may stand in quotes, as a spreadsheet writes them, and exponents begin with D, as Fortran's do. None where a
+    comma may be either of two things.
     """
-
-    is_quoted: bool
-    is_fortran: bool
-    comma: Comma
-
-    @classmethod
-    def of(cls, content: bytes) -> "Dialect":
-        """Return the dialect that the first lines of a table speak."""
-        head = content[:_SAMPLE_SIZE]
-        is_quoted = b'"' in head
-        is_fortran = b"D+" in head or b"D-" in head
-        # Without its quotes the sample is shorter, by less than half.
-        sample = _bare(content[: 2 * _SAMPLE_SIZE], is_quoted, is_fortran)[:_SAMPLE_SIZE]
-        return cls(is_quoted, is_fortran, _comma(sample))
-
-    def plain(self, content: bytes) -> bytes | None:
-        """Return `content` with its numbers as Python writes them, and times of day as seconds after the first one.
-
-        None where a comma may be either of two things.
-        """
-        if self.comma is Comma.IS_EITHER:
-            return None
-        bare = _bare(content, self.is_quoted, self.is_fortran)
-        return _in_seconds(_DECIMAL_COMMA.sub(b".", bare) if self.comma is Comma.IS_DECIMAL else bare)
-
-
-def _bare(content: bytes, is_quoted: bool, is_fortran: bool) -> bytes:
-    """Return `content` without the quotes of a spreadsheet, and with E for Fortran's D."""
-    if is_quoted:
+    head = content[:_SAMPLE_SIZE]
+    if b'"' in head:
         content = _QUOTED.sub(_unquoted, content)
-    if is_fortran:
+    if b"D+" in head or b"D-" in head:
         content = _FORTRAN.sub(b"E", content)
-    return content
+    is_decimal = _is_decimal_sign(content[:_SAMPLE_SIZE])
+    if is_decimal is None:
+        return None
+    return _in_seconds(_DECIMAL_COMMA.sub(b".", content) if is_decimal else content)
 
 
 def _unquoted(cell: re.Match[bytes]) -> bytes:
@@ -77,10 +38,10 @@ def _unquoted(cell: re.Match[bytes]) -> bytes:
     return number if number.count(b".") <= 1 and b"," not in number else cell[0]
 
 
-def _comma(sample: bytes) -> Comma:
-    """Return what a comma means in the first lines of a table.
+def _is_decimal_sign(sample: bytes) -> bool | None:
+    """Whether a comma in the first lines of a table is a decimal sign, and parts no columns; None where it may be both.
 
-    It is a decimal sign where something else (a semicolon, a tab, blanks) parts the numbers and none has a point.
+    It is where something else (a semicolon, a tab, blanks) parts the numbers and none has a point.
     """
     lines = sample.decode("latin-1").split("\n")[:-1]
     of_numbers = (line.strip() for line in lines if line.strip() and _NUMERIC.fullmatch(line))
@@ -88,25 +49,19 @@ def _comma(sample: bytes) -> Comma:
     cells = [[cell for cell in re.split(r"[;\t ]+", row) if cell] for row in rows]
     with_comma = [cell for row in cells for cell in row if "," in cell]
     if not with_comma or any(cell.endswith(",") for cell in with_comma):
-        return Comma.PARTS  # a comma beside a blank parts
-    may_be_decimal = all(map(_WITH_COMMA.fullmatch, with_comma))
+        return False  # a comma beside a blank parts
+    may_be = all(map(_WITH_COMMA.fullmatch, with_comma))
     if any("." in row for row in rows):
-        has_semicolons = any(";" in row for row in rows)
-        return Comma.IS_EITHER if may_be_decimal and has_semicolons else Comma.PARTS
-    if may_be_decimal and max(map(len, cells)) > 1:
-        return Comma.IS_DECIMAL
+        return None if may_be and any(";" in row for row in rows) else False
+    if may_be and max(map(len, cells)) > 1:
+        return True
     first_line = next(line for line in lines if line.strip())
-    has_names = re.search(r"[A-Za-z]", first_line) is not None
-    return Comma.PARTS if has_names or _count_upwards(rows) else Comma.IS_EITHER
-
-
-def _count_upwards(rows: Sequence[str]) -> bool:
-    """Whether the numbers before the first comma of each row rise evenly, as times do."""
-    first = [row.split(",")[0] for row in rows]
-    if len(rows) < 3 or not all(map(str.isdecimal, first)):
-        return False
-    steps = {int(after) - int(before) for before, after in pairwise(first)}
-    return len(steps) == 1 and steps.pop() > 0
+    counts = [row.split(",")[0] for row in rows]
+    rise = (
+        np.diff([int(each) for each in counts]) if len(rows) > 2 and all(map(str.isdecimal, counts)) else [0]
+    )
+    rises_evenly = rise[0] > 0 and len(set(rise)) == 1  # as times do
+    return False if rises_evenly or re.search(r"[A-Za-z]", first_line) else None
 
 
 _STAMP = re.compile(

@@ -15,8 +15,7 @@ from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.direction import directed, names_acceleration
-from rocking.records.formats import text
-from rocking.records.formats.dialect import Dialect
+from rocking.records.formats import dialect, text
 from rocking.records.formats.format import Format, Options, plain
 from rocking.records.formats.labels import ColumnLabel
 from rocking.records.formats.layouts import (
@@ -257,13 +256,13 @@ def signature_of(content: bytes, folder: str) -> Signature | None:
     """Return the signature of a table from its first bytes, None of another file; folder: in which it lies."""
     if _OTHER_FORMAT.match(content) or b"\0" in content[:4096]:
         return None
-    table = Table.of(Dialect.of(content).plain(content) or content)
+    table = Table.of(dialect.plain(content) or content)
     return None if table is None else table.signature(folder)
 
 
 # Whole on purpose: what is seen, what is answered, and what is read by it, each from the one before.
 def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
-    pointed = Dialect.of(content).plain(content)
+    pointed = dialect.plain(content)
     if pointed is None:
         raise RecordError("the commas are decimal signs or part columns; write points, or semicolons.")
     table = Table.of(pointed) or Table((), 1, 0)  # it was recognised by that
