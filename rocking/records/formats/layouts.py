@@ -242,6 +242,10 @@ class Layouts:
             return ()
         return read_edited(self._path, CatalogueError, COLUMNS, COLUMNS[:1])
 
+    def check(self) -> None:
+        """Raise CatalogueError where layouts.csv is no table of answers; one wrong answer costs its own files alone."""
+        _ = self.rows
+
     @cached_property
     def _answers(self) -> Mapping[Signature, Answer]:
         return {**_shipped(), **_answers(self.rows, NAME)}
