@@ -134,12 +134,18 @@ def check_model(
     if times is None or rotation is None or velocity is None:
         return ModelCheck(reason="the response keeps no history")
     critical = structure.mechanism().critical_rotation
-    turned = _lifted(rotation, 1e-12 * critical)
+    # Where it is 0 before it rocks on: a hair to the side to which it does.
+    places = np.where(rotation == 0, rotation.size - 1, np.arange(rotation.size))
+    following = rotation[np.minimum.accumulate(places[::-1])[::-1]]
+    turned = np.where(rotation == 0, 1e-12 * critical * np.sign(following), rotation)
     rocks = (turned != 0) & (np.abs(turned) <= critical)
     if not rocks.any():
         return ModelCheck(reason="nothing rocks below the critical rotation")
-    ground = _at(accelerogram, times[rocks])
-    lift = 0.0 if vertical is None else _at(vertical, times[rocks])
+    # Linear between samples, and zero after the last.
+    ground, lift = (
+        0.0 if motion is None else np.interp(times[rocks], motion.times, motion.acceleration, right=0.0)
+        for motion in (accelerogram, vertical)
+    )
     try:
         states = turned[rocks], velocity[rocks], None, ground, lift, largest_so_far(turned)[rocks]
         contacts = structure.contact_forces(*states)
@@ -179,16 +185,3 @@ def lifting_friction(structure: Structure) -> float:
     except UnknownContacts:
         return side.uplift_multiplier
     return float(np.nanmax(contacts.required_friction))
-
-
-def _lifted(rotation: np.ndarray, least: float) -> np.ndarray:
-    """`rotation`, where it is 0 before it rocks on: `least` to the side to which it does."""
-    places = np.where(rotation == 0, rotation.size - 1, np.arange(rotation.size))
-    following = rotation[np.minimum.accumulate(places[::-1])[::-1]]
-    return np.where(rotation == 0, least * np.sign(following), rotation)
-
-
-def _at(accelerogram: Accelerogram, times: np.ndarray) -> np.ndarray:
-    """The ground acceleration is linear between samples and zero after the last."""
-    result: np.ndarray = np.interp(times, accelerogram.times, accelerogram.acceleration, right=0.0)
-    return result

@@ -167,11 +167,15 @@ def side_table(side: Side, apart: bool = False) -> SideTable:
     )
 
 
-def _functions(side: Side, rotation_at: Function, gravity: Function, ties: Sequence[SideTie]) -> Function:
-    """Return (2 + 3 n, ...) G̃, B̃, and D̃, u D̃ and u of the n `ties`, as functions of the arc."""
+def _tabulated(side: Side, arc: Arc, inverse: RotationMap, last: float, apart: bool) -> SideTable | None:
+    """The table over the rotations up to `last`, ties apart or not, or None where it does not reach ACCURACY."""
+    rotation_at = partial(arc.rotation, inverse=inverse)
+    gravity = side.untied_gravity if apart and side.untied_gravity is not None else side.gravity
+    ties = side.ties if apart else ()
     rest = side.at("inertia", 0.0)
 
     def functions(arcs: np.ndarray) -> np.ndarray:
+        """(2 + 3 n, ...) G̃, B̃, and D̃, u D̃ and u of the n ties that are apart."""
         rotation = rotation_at(arcs)
         scale = np.sqrt(side.inertia(rotation) * rest)
         values = [gravity(rotation) / scale, side.ground(rotation) / scale]
@@ -181,54 +185,46 @@ def _functions(side: Side, rotation_at: Function, gravity: Function, ties: Seque
             values += [pull, stretch * pull, stretch]
         return np.stack(values)
 
-    return functions
-
-
-def _tabulated(side: Side, arc: Arc, inverse: RotationMap, last: float, apart: bool) -> SideTable | None:
-    """The table over the rotations up to `last`, ties apart or not, or None where it does not reach ACCURACY."""
-    rotation_at = partial(arc.rotation, inverse=inverse)
-    gravity = side.untied_gravity if apart and side.untied_gravity is not None else side.gravity
-    ties = side.ties if apart else ()
-    functions = _functions(side, rotation_at, gravity, ties)
     end = float(arc.at(last))
     critical = float(arc.at(side.critical_rotation))
     split = min(2 * critical, (critical + end) / 2)
     largest = np.abs(functions(np.linspace(end / 1000, end, 1000))).max(axis=1)
-    rest = side.at("inertia", 0.0)
     least = np.array([0.0] * 2 + [_STILL / rest, _STILL**2 / rest, _STILL] * len(ties))
     inner = fitted(functions, 0.0, split, largest, least)
     outer = fitted(functions, split, end, largest, least)
     if inner is None or outer is None:
         return None
     powers = np.concatenate([inner, outer], axis=1)
-    grid, starts = _grid(split, end, inner.shape[1], outer.shape[1])
+    widths = split / inner.shape[1], (end - split) / outer.shape[1]
+    starts = np.concatenate(
+        [np.arange(inner.shape[1]) * widths[0], split + np.arange(outer.shape[1] + 1) * widths[1]]
+    )
+    zones = (widths[0], inner.shape[1], ROOM * widths[0], widths[1], outer.shape[1], ROOM * widths[1])
     lift = float(gravity(np.asarray(0.0))) / rest, side.at("ground", 0.0) / rest
     near = functions(np.linspace(0, critical * _NEAR, 65))[:2]
-    slope = max(_steepest(side, functions, critical, apart), lift[0] / critical)
+    if apart:  # the steepest G̃ up to φ_cr, where it has ties no longer its own slope there
+        slopes = np.gradient(functions(np.linspace(critical / 512, critical, 512))[0])
+        steepest = float(np.abs(slopes).max() * 512 / critical)
+    else:
+        steepest = -side.at("gravity_slope", side.critical_rotation) / side.at(
+            "inertia", side.critical_rotation
+        )
     kernel = _kernel(
         ties=_ties(side, arc, powers[2:]) if ties else None,
         pieces=powers[:2].transpose(1, 2, 0).reshape(powers.shape[1], -1),
-        grid=grid,
+        grid=(split, *zones, 1 / widths[0], 1 / widths[1]),
         lift=lift,
         hold=_hold(gravity, side.ground, rotation_at, starts),
         critical=_standing(gravity, rotation_at, critical) if apart else critical,
         end=end,
         rest_speed=_reaching_speed(side, rest) * runs.REST_ENERGY**0.5,
-        longest_step=1 / np.sqrt(GRAVITY * slope),
+        longest_step=1 / np.sqrt(GRAVITY * max(steepest, lift[0] / critical)),
         near=(
             *_near_rest(critical * _NEAR, near),
             sum(_slope_near_rest(side, tie, arc, critical * _NEAR) for tie in ties),
         ),
     )
     return SideTable(kernel, side.restitution, side.critical_rotation, inverse)
-
-
-def _steepest(side: Side, functions: Function, critical: float, apart: bool) -> float:
-    """−dG̃/dq at φ_cr; the largest |dG̃/dq| up to there where ties are apart."""
-    if apart:
-        slopes = np.gradient(functions(np.linspace(critical / 512, critical, 512))[0])
-        return float(np.abs(slopes).max() * 512 / critical)
-    return -side.at("gravity_slope", side.critical_rotation) / side.at("inertia", side.critical_rotation)
 
 
 def _ties(side: Side, arc: Arc, powers: np.ndarray) -> Ties:
@@ -255,15 +251,6 @@ def _standing(gravity: Function, rotation: Function, critical: float) -> float:
     arcs = np.linspace(0.0, critical, 513)
     falls = np.flatnonzero(gravity(rotation(arcs)) <= 0)
     return float(arcs[max(falls[0] - 1, 0)]) if falls.size else critical
-
-
-def _grid(split: float, end: float, inner: int, outer: int) -> tuple[tuple[float, ...], np.ndarray]:
-    """The grid of a SideTable with so many pieces in its zones, and where its pieces start (with the end)."""
-    width = split / inner
-    further = (end - split) / outer
-    starts = np.concatenate([np.arange(inner) * width, split + np.arange(outer + 1) * further])
-    zones = (width, inner, ROOM * width, further, outer, ROOM * further)
-    return (split, *zones, 1 / width, 1 / further), starts
 
 
 def _reaching_speed(side: Side, rest_inertia: float) -> float:

@@ -1,9 +1,8 @@
 """The pulse methods: ways to say which pulse of a record predicts, and their registry, the default first."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
 
-from rocking.errors import PulseError
 from rocking.pulses.extraction import PulseSearch
 from rocking.pulses.pulse import Pulse, PulseEvidence, PulseMethod, PulseSettings
 from rocking.pulses.velocity_pulse import LONGEST_PERIOD, SHORTEST_PERIOD, largest_velocity_pulse
@@ -13,20 +12,6 @@ DEMAND_CANDIDATES = 5
 """Best-ranked sines among which the largest demand is sought."""
 PERIOD_OF_SINE = 1.93
 """T_p of the wavelet that fits a sine cycle of acceleration best, over the period of the cycle."""
-
-Demand = Callable[[Pulse], float]
-"""A prediction of the rotation ratio φ_max/φ_cr under one pulse; infinite where the structure overturns."""
-
-
-def predicting_pulse(candidates: Sequence[PulseEvidence], demand: Demand) -> PulseEvidence:
-    """Return the candidate of largest demand; of equal demands the first. Raises PulseError without a candidate."""
-    if not candidates:
-        raise PulseError(
-            "There is no pulse to predict with, but at least one is needed; check the pulse method."
-        )
-    if len(candidates) == 1:
-        return candidates[0]
-    return max(candidates, key=lambda evidence: demand(evidence.pulse))
 
 
 def sine_of_velocity_pulse(accelerogram: Accelerogram) -> PulseEvidence:

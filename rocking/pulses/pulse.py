@@ -1,6 +1,6 @@
 """One sine pulse; and of a record what is searched, what is found with its doubts, and which of it may predict."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -241,3 +241,18 @@ class PulseMethod:
     name: str
     description: str
     candidates: Callable[[PulseAnalysis], tuple[PulseEvidence, ...]]
+
+
+Demand = Callable[[Pulse], float]
+"""A prediction of the rotation ratio φ_max/φ_cr under one pulse; infinite where the structure overturns."""
+
+
+def predicting_pulse(candidates: Sequence[PulseEvidence], demand: Demand) -> PulseEvidence:
+    """Return the candidate of largest demand; of equal demands the first. Raises PulseError without a candidate."""
+    if not candidates:
+        raise PulseError(
+            "There is no pulse to predict with, but at least one is needed; check the pulse method."
+        )
+    if len(candidates) == 1:
+        return candidates[0]
+    return max(candidates, key=lambda evidence: demand(evidence.pulse))

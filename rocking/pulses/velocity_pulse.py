@@ -156,22 +156,18 @@ def _largest(
     places = []
     for _ in range(count):
         row = int(np.argmax([values.max() for values in squares]))
-        column = _settled(both, int(scales[row]), int(np.argmax(squares[row])), widths[row])
+        width = widths[row]
+        column = int(np.argmax(squares[row]))
+        if width > 1:  # of the samples that were averaged there, and their neighbours
+            low = max(0, (column - 1) * width)
+            high = min((column + 2) * width, both.size)
+            column = low + int(np.argmax(np.abs(coefficients(both, int(scales[row]), low, high))))
         places.append((row, column))
         room = NEIGHBOURHOOD * int(scales[row])
         for values, n in zip(squares, widths, strict=True):
             middle = column - (n - 1) / 2
             values[max(0, math.ceil((middle - room) / n)) : max(0, math.floor((middle + room) / n) + 1)] = 0
     return places
-
-
-def _settled(both: np.ndarray, scale: int, place: int, width: int) -> int:
-    """Sample of the largest coefficient among the `width` that were averaged at `place`, and their neighbours."""
-    if width == 1:
-        return place
-    low = max(0, (place - 1) * width)
-    high = min((place + 2) * width, both.size)
-    return low + int(np.argmax(np.abs(coefficients(both, scale, low, high))))
 
 
 def _judged(velocities: np.ndarray, step: float, scales: np.ndarray, row: int, column: int) -> VelocityPulse:

@@ -155,12 +155,7 @@ def rotation_map(arc: Arc, accuracy: float) -> RotationMap | None:
     end = float(arc.at(arc.last))
     if arc.means.size == 1:
         return RotationMap(_ONE, end)
-
-    def ratio(arcs: np.ndarray) -> np.ndarray:
-        result: np.ndarray = arc.rotation(arcs) / arcs
-        return result
-
-    series = _pieces(ratio, end, accuracy, 1)
+    series = _pieces(lambda arcs: arc.rotation(arcs) / arcs, end, accuracy, 1)
     return None if series is None else RotationMap(series[0], end)
 
 

@@ -55,27 +55,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     plain = _Escaped(sys.stdout), _Escaped(sys.stderr)
     with contextlib.redirect_stdout(plain[0]), contextlib.redirect_stderr(plain[1]):
-        return _run_verb(_parser().parse_args(arguments))
-
-
-def _run_verb(options: argparse.Namespace) -> int:
-    try:
-        with warnings.catch_warnings():
-            warnings.showwarning = _show
-            close_doors()
-            return options.run(options) or 0
-    except RockingError as error:
-        lines = f"rocking: {error}".splitlines()
-        print(*lines[:_MOST_LINES], sep="\n", file=sys.stderr)
-        if len(lines) > _MOST_LINES:
-            print(f"and {len(lines) - _MOST_LINES} lines more", file=sys.stderr)
-        return 2 if isinstance(error, ConfigurationError | CatalogueError) else 1
-    except KeyboardInterrupt:
-        print("rocking: stopped.", file=sys.stderr)
-        return 130
-    except OSError as error:
-        print(f"rocking: {error.filename or 'file'}: {error.strerror or error}.", file=sys.stderr)
-        return 1
+        options = _parser().parse_args(arguments)
+        try:
+            with warnings.catch_warnings():
+                warnings.showwarning = _show
+                close_doors()
+                return options.run(options) or 0
+        except RockingError as error:
+            lines = f"rocking: {error}".splitlines()
+            print(*lines[:_MOST_LINES], sep="\n", file=sys.stderr)
+            if len(lines) > _MOST_LINES:
+                print(f"and {len(lines) - _MOST_LINES} lines more", file=sys.stderr)
+            return 2 if isinstance(error, ConfigurationError | CatalogueError) else 1
+        except KeyboardInterrupt:
+            print("rocking: stopped.", file=sys.stderr)
+            return 130
+        except OSError as error:
+            print(f"rocking: {error.filename or 'file'}: {error.strerror or error}.", file=sys.stderr)
+            return 1
 
 
 def _show(message: Warning | str, *_: object, **__: object) -> None:
