@@ -105,15 +105,15 @@ class Described:
         try:
             return self._adapter.validate_python(value)
         except ValueError:
-            raise ValueError(self.refusal(value)) from None
+            raise ValueError(f"{shown(value)}{self.demand(value)}") from None
 
-    def refusal(self, value: object) -> str:
-        """Return the end of the sentence on a `value` that is not allowed."""
+    def demand(self, value: object) -> str:
+        """Return the end of the sentence on a `value` that is not allowed: " m, but must be a number above 0."."""
         unit = f" {self.unit}" if self.unit and type(value) in (int, float) else ""
         hint = number_hint(value) if "number" in self.must else ""
         if self.must.startswith("a list") and type(value) in (int, float):
             hint = f"; write [{value:g}]"
-        return f"{shown(value)}{unit}, but must be {self.must}{hint}."
+        return f"{unit}, but must be {self.must}{hint}."
 
 
 def described(

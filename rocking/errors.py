@@ -59,6 +59,21 @@ class StructureError(RockingError):
     """A geometry that cannot stand, or a structure that cannot be described as asked."""
 
 
+class SizeError(StructureError):
+    """A size that is not allowed: its name, its value as a sentence repeats it, and what the sentence says of it."""
+
+    def __init__(self, sentence: str, name: str = "", value: str = "", said: str = "") -> None:
+        super().__init__(sentence)
+        self.name = name
+        self.value = value
+        self.said = said
+
+    @classmethod
+    def of(cls, name: str, value: str, said: str) -> "SizeError":
+        """Return the error "height is -1 m, but must be …"; said: from the unit on."""
+        return cls(f"{name} is {value}{said}", name, value, said)
+
+
 class DoesNotStandError(StructureError):
     """A structure that what acts on it at rest turns over."""
 

@@ -14,7 +14,7 @@ from typing import Annotated, ClassVar
 
 import numpy as np
 
-from rocking.errors import DoesNotStandError, StructureError, StructureWarning
+from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
 from rocking.structures.arch_mechanism import (
     FourBar,
     NoMechanism,
@@ -103,8 +103,10 @@ class Arch(Crackable):
             )
         super().__post_init__()
         if self.thickness >= 2 * self.radius:
-            raise StructureError(
-                f"thickness is {self.thickness!r} m, but must be less than twice the radius of {self.radius!r} m."
+            raise SizeError.of(
+                "thickness",
+                repr(self.thickness),
+                f" m, but must be less than twice the radius of {self.radius!r} m.",
             )
         self.onset  # noqa: B018  an arch that cannot stand or rock is refused at birth
 
@@ -378,8 +380,10 @@ class ArchOnPiers(Arch):
         """λ of the mechanism that governs and its hinges (angles from the left springing; a foot is beyond it)."""
         least = self.thickness * float(np.sin(self.embrace_angle / 2))
         if self.pier_width < least:
-            raise StructureError(
-                f"pier_width is {self.pier_width!r} m, but must be at least {least:.6g} m to carry the springing."
+            raise SizeError.of(
+                "pier_width",
+                repr(self.pier_width),
+                f" m, but must be at least {least:.6g} m to carry the springing.",
             )
         return super()._static_onset()
 

@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
-from rocking.errors import StructureError
+from rocking.errors import SizeError, StructureError
 from rocking.structures.drawing import Path, rectangle, span, swept
 from rocking.structures.fields import OneSided, OptionalUnitWeight, Value, count, length, restitution_value
 from rocking.structures.linkage import STILL, Parts, Restitution, Turning
@@ -184,8 +184,10 @@ class RigidBody(Crushable):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.height is not None and self.height <= self.centre_height:
-            raise StructureError(
-                f"height is {self.height!r} m, but must be above the centre of mass, at {self.centre_height!r} m."
+            raise SizeError.of(
+                "height",
+                repr(self.height),
+                f" m, but must be above the centre of mass, at {self.centre_height!r} m.",
             )
         if self.compressive_strength is not None and self.section is None:
             raise StructureError(
@@ -305,14 +307,17 @@ class Spire(CrackedAtHeight):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.wall_thickness is not None and self.wall_thickness >= self.width / 2:
-            raise StructureError(
-                f"wall_thickness is {self.wall_thickness!r} m, but must be less than half the width, "
-                f"{self.width / 2!r} m; leave it out for a solid spire."
+            raise SizeError.of(
+                "wall_thickness",
+                repr(self.wall_thickness),
+                f" m, but must be less than half the width, "
+                f"{self.width / 2!r} m; leave it out for a solid spire.",
             )
         if self.crack_position >= self.height:
-            raise StructureError(
-                f"crack_height is {self.crack_height!r} m, but must lie on the spire, "
-                f"from 0 to below its height of {self.height!r} m."
+            raise SizeError.of(
+                "crack_height",
+                repr(self.crack_height),
+                f" m, but must lie on the spire, from 0 to below its height of {self.height!r} m.",
             )
         self._stand_crushed()
 

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from rocking.errors import StructureError
+from rocking.errors import SizeError
 from rocking.structures.block import Block, RigidBody, Spire
 from rocking.structures.fields import Field, Form, constructor, field_of, length
 from rocking.structures.structure import Structure
@@ -94,9 +94,11 @@ def _shaft(sizes: Sizes) -> dict[str, object]:
         flue = thickness - 2 * walls
         across = breadth - 2 * walls
         if min(flue, across) <= 0:
-            raise StructureError(
-                f"wall_thickness is {walls!r} m, but must be less than half the smaller outer size, "
-                f"{min(thickness, breadth) / 2!r} m; leave it out for a solid chimney."
+            raise SizeError.of(
+                "wall_thickness",
+                repr(walls),
+                f" m, but must be less than half the smaller outer size, "
+                f"{min(thickness, breadth) / 2!r} m; leave it out for a solid chimney.",
             )
         area -= across * flue
         second_moment -= across * flue**3 / 12

@@ -11,7 +11,7 @@ from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
-from rocking.errors import StructureError
+from rocking.errors import SizeError, StructureError
 from rocking.quantities import GRAVITY, counted, whole
 from rocking.remarks import Kind, Remark
 from rocking.structures.drawing import Path, rectangle, span
@@ -178,9 +178,10 @@ class Facade(Tied):
                 "meant; give one of them."
             )
         if self.crack_height is not None and not self.crack_height < self.height:
-            raise StructureError(
-                f"crack_height is {self.crack_height!r} m, but must lie on the façade, from 0 to below its height of "
-                f"{self.height:.6g} m."
+            raise SizeError.of(
+                "crack_height",
+                repr(self.crack_height),
+                f" m, but must lie on the façade, from 0 to below its height of {self.height:.6g} m.",
             )
 
     def _stand_before(self) -> None:

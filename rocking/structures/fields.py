@@ -16,8 +16,8 @@ import numpy as np
 from annotated_types import Interval, MinLen
 
 from rocking.described import Described
-from rocking.errors import StructureError
-from rocking.quantities import LENGTHS, finite
+from rocking.errors import SizeError, StructureError
+from rocking.quantities import LENGTHS, finite, shown
 from rocking.remarks import Kind, Remark
 
 _SI = {"°": np.pi / 180, "kN": 1e3, "kN/m": 1e3, "kN/m²": 1e3, "kN/m³": 1e3, "MPa": 1e6}
@@ -119,11 +119,6 @@ class Field(Described):
         """The unit as it follows a number."""
         return self.unit if self.unit in ("", "°") else f" {self.unit}"
 
-    @property
-    def is_as_typed(self) -> bool:
-        """Whether the attribute has the unit of the file."""
-        return self.unit not in _SI
-
     def inward(self, value: object) -> object:
         """Return a value of the file as the constructor takes it: in SI and radians, a list as a tuple."""
         if isinstance(value, list | tuple):
@@ -151,8 +146,8 @@ class Field(Described):
             outside = float(f"{outside:.13g}")  # an angle that came from degrees may be off by its last digit
         try:
             checked = self.checked(tuple(outside) if isinstance(outside, list) else outside)
-        except ValueError as wrong:
-            raise StructureError(f"{self.name} is {wrong}") from None
+        except ValueError:
+            raise SizeError.of(self.name, shown(outside), self.demand(outside)) from None
         if self.unit not in _SI:
             return checked
         return tuple(map(float, value)) if isinstance(value, tuple) else float(value)

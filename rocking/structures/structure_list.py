@@ -9,7 +9,7 @@ from difflib import get_close_matches
 from pkgutil import resolve_name
 from typing import Any
 
-from rocking.errors import ConfigurationError, StructureError
+from rocking.errors import ConfigurationError, SizeError
 from rocking.quantities import shown
 from rocking.structures.building_parts import PARTS
 from rocking.structures.fields import Form, article, forms
@@ -66,23 +66,16 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
     }
     try:
         structure: Structure = form.construct(**arguments)
-    except StructureError as error:
-        raise type(error)(_by_key(str(error), form, values, arguments)) from None
+    except SizeError as error:
+        # By the key of the file, and as it was typed; of a list it is the one value that is wrong.
+        key = next((key for key in values if form.keys[key].name == error.name), error.name)
+        typed = values.get(key)
+        value = error.value if typed is None or isinstance(typed, list | tuple) else shown(typed)
+        raise SizeError.of(key, value, error.said) from None
     remember_as_typed(
         structure, form, values, {key: typed_text(value) for key, value in values.items()} | dict(texts or {})
     )
     return structure
-
-
-def _by_key(sentence: str, form: Form, values: Mapping[str, object], arguments: Mapping[str, object]) -> str:
-    """Return a sentence on an attribute as one on the key of the file, and its value as it was typed."""
-    for key, value in values.items():
-        field = form.keys[key]
-        told = arguments[field.name] if field.is_as_typed else value
-        begin = f"{field.name} is {shown(told)}"
-        if sentence.startswith(begin):
-            return f"{key} is {shown(value)}{sentence.removeprefix(begin)}"
-    return sentence
 
 
 def _form(kind: str, values: Mapping[str, object], keys_typed: Iterable[str]) -> Form:

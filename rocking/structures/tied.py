@@ -10,7 +10,7 @@ from typing import Annotated, ClassVar, Literal, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.errors import DoesNotStandError, StructureError, StructureWarning
+from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
 from rocking.quantities import GRAVITY
 from rocking.structures.chain import Chain
 from rocking.structures.drawing import Mark, plane
@@ -43,17 +43,19 @@ _LEAST_STIFFNESS = 1e-12
 def check_eccentricity(value: float, thickness: float) -> None:
     """Refuse a bearing beyond the edge of a wall of that thickness [m]."""
     if abs(value) > thickness / 2:
-        raise StructureError(
-            f"eccentricity is {value!r} m, but must lie within half the thickness, {thickness / 2!r} m, for the load "
-            "to bear on the wall."
+        raise SizeError.of(
+            "eccentricity",
+            repr(value),
+            f" m, but must lie within half the thickness, {thickness / 2!r} m, for the load "
+            "to bear on the wall.",
         )
 
 
 def check_inside(field: str, value: float, height: float) -> None:
     """Refuse a height above the ground [m] that is not on a wall of that `height`."""
     if not 0 < value <= height:
-        raise StructureError(
-            f"{field} is {value!r} m, but must lie on the wall, above 0 and up to {height:.6g} m."
+        raise SizeError.of(
+            field, repr(value), f" m, but must lie on the wall, above 0 and up to {height:.6g} m."
         )
 
 
@@ -490,9 +492,10 @@ class Tied(CrackedAtHeight):
                 "tie_stiffness is 0 N/m², but must be greater than 0 for a tie with a tie_strength; give it."
             )
         if strength is None and self.tie_plastic_elongation:
-            raise StructureError(
-                f"tie_plastic_elongation is {self.tie_plastic_elongation!r} m, but needs a tie_strength at which the "
-                "tie yields; give it."
+            raise SizeError.of(
+                "tie_plastic_elongation",
+                repr(self.tie_plastic_elongation),
+                " m, but needs a tie_strength at which the tie yields; give it.",
             )
         if (stiffness or pretension) and not self.tie_heights:
             raise StructureError("tie_heights is empty, but must say where the ties are; give it.")

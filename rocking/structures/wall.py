@@ -11,7 +11,7 @@ from typing import Annotated, ClassVar, Literal, Self, TypedDict, Unpack
 
 import numpy as np
 
-from rocking.errors import StructureError
+from rocking.errors import SizeError, StructureError
 from rocking.quantities import GRAVITY, finite
 from rocking.structures.drawing import Mark, Path, rectangle, span
 from rocking.structures.fields import OneSided, OptionalUnitWeight, Value, length, restitution_value
@@ -217,9 +217,10 @@ class CrackedWall(CrackedAtHeight):
             return height / 2, height / 2, "unknown"
         hinge = finite(StructureError, "hinge_height", hinge_height, "m")
         if not 0 < hinge < height:
-            raise StructureError(
-                f"hinge_height is {hinge!r} m, but must lie inside the wall, "
-                f"between 0 and its height of {height!r} m."
+            raise SizeError.of(
+                "hinge_height",
+                repr(hinge),
+                f" m, but must lie inside the wall, between 0 and its height of {height!r} m.",
             )
         return hinge, height - hinge, crack
 
