@@ -5,10 +5,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from rocking.assessment.decide import Decision, Verdict
-from rocking.assessment.rows import ComparisonRow, VerdictRow, worst_period_each
+from rocking.assessment.rows import ComparisonRow, ExpectedFallsRow, VerdictRow, worst_period_each
 from rocking.quantities import percent
 from rocking.remarks import Kind, Remark
 
+CLASS = 20
+"""Structures from which on a list is a class, of which one asks how many fall; of fewer one asks which."""
 FALLING = (Verdict.OVERTURNS, Verdict.PROBABLY_OVERTURNS)
 
 
@@ -164,6 +166,24 @@ def conclusion_in_words(words: Mapping[str, Verdict], records: int = 1) -> str:
     open_ = [f"{uncertain} {verb} uncertain"] if uncertain else []
     open_ += [f"{untold} cannot be told"] if untold else []
     return f"{of_them} structures {does}{under}" + (f"; {', '.join(open_)}." if open_ else ".")
+
+
+def falls_in_words(falls: Sequence[ExpectedFallsRow]) -> str:
+    """Return the sentence on how many structures of a class are expected to fall; "" for a shorter list.
+
+    falls: of each record and of all, as the table has them.
+    """
+    of_all = next((row for row in falls if not row.record), None)
+    if of_all is None or of_all.structures < CLASS or of_all.without_share == of_all.structures:
+        return ""
+    records = len(falls) - 1
+    expected = f"{of_all.expected_falls:.0f} of {of_all.structures} structures are expected to fall"
+    sentence = f"{expected} under the record" if records == 1 else f"{expected} under such a record"
+    if not math.isnan(of_all.expected_falls_low):
+        interval = f"{of_all.expected_falls_low:.0f}–{of_all.expected_falls_high:.0f}"
+        sentence += f" (90 %: {interval}, by the spread over {records} records)"
+    untold = math.ceil(of_all.without_share)
+    return sentence + (f"; of {untold} it cannot be told." if untold else ".")
 
 
 def _or_least(value: float) -> float:

@@ -8,13 +8,14 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from rocking.assessment.conclusion import conclusion_in_words, conclusions, worst_of_each
+from rocking.assessment.conclusion import conclusion_in_words, conclusions, falls_in_words, worst_of_each
 from rocking.assessment.decide import ORDER, Verdict, worst_first
 from rocking.assessment.methods import Agreement, Method, agreement, ratio_in_words, within_factor_two
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
     AgreementRow,
     ComparisonRow,
+    ExpectedFallsRow,
     FailureRow,
     PulseRow,
     RecordRow,
@@ -88,7 +89,7 @@ def summary_data(
     """Return what the template of the summary is given: texts, tables and figures.
 
     tables: the summary tables "record", "pulses", "comparison", "verdicts", "structures", "agreement" and "failures",
-    and where they exist "supports", "code_checks", "fragility_summary" and "ida".
+    and where they exist "expected_falls", "supports", "code_checks", "fragility_summary" and "ida".
     settings: at least tolerance and acceleration_scale; below "about" what is told of the study, where it is given.
     trade: figure and conclusion, where it was measured. design: None where the study has no design level. strips:
     of the variants of structures.
@@ -119,6 +120,9 @@ def _data(
     both = comparison[["predicted_rotation_ratio", "integrated_rotation_ratio"]].max(axis=1, skipna=False)
     drawable = int((both > 0).sum()) >= FEWEST_POINTS
     summary = tables.get("fragility_summary")
+    falls = (
+        [] if "expected_falls" not in tables else list(rows_of(ExpectedFallsRow, tables["expected_falls"]))
+    )
     by_code, checks = _checks(tables.get("code_checks"))
     # Names that stand upright, a second sentence and more rows leave less room below them.
     low = len(judged) > MOST_WITH_ALL or by_code or len(words_of_all) > MOST_HIGH
@@ -128,6 +132,7 @@ def _data(
         "subtitle": f"{counted(records['record'].nunique(), 'record')}, "
         f"{counted(len(tables['structures']), 'structure')}, {counted(len(shown), 'verdict')}",
         "conclusion": conclusion_in_words(words_of_all, len(judged)),
+        "falls": falls_in_words(falls),
         "by-code": by_code,
         "checks": checks,
         "matrix": matrix(made, records, tables["pulses"]),

@@ -14,7 +14,7 @@ from pathlib import Path
 from threading import Thread
 from typing import Any, TextIO
 
-from rocking.assessment.rows import ComparisonRow, FailureRow, TradeRow, VerdictRow
+from rocking.assessment.rows import ComparisonRow, ExpectedFallsRow, FailureRow, TradeRow, VerdictRow
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted, shown
 from rocking.study import close_doors
@@ -136,7 +136,8 @@ def _told_of(results: Path, checked: bool) -> int:
     failures = read_table(FailureRow, results / "summary")
     verdicts = read_table(VerdictRow, results / "summary")
     comparison = read_rows(ComparisonRow, results / "summary" / ComparisonRow.table.file_name)
-    told = [*closing_lines(verdicts, comparison, failures)]
+    falls = read_table(ExpectedFallsRow, results / "summary")
+    told = [*closing_lines(verdicts, comparison, failures, falls)]
     if checked:
         told += lines_by_code(results / "summary")
     for line in (*told, *paths_to_read(results, verdicts, checked)):

@@ -1,7 +1,7 @@
 """The results over all records of a study: tables, report, figure and page, from its jobs; and their fragility."""
 
 import json
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,6 +15,7 @@ from rocking.assessment.rows import (
     AgreementRow,
     CapacityRow,
     ComparisonRow,
+    ExpectedFallsRow,
     FailureRow,
     PulseRow,
     RecordRow,
@@ -26,6 +27,8 @@ from rocking.assessment.rows import (
     VerdictRow,
     agreement_rows,
     capacity_rows,
+    falls_over,
+    falls_under,
     structure_rows,
 )
 from rocking.assessment.scene import variants_of
@@ -65,6 +68,7 @@ _SHOWN = (
     StructureRow,
     AgreementRow,
     FailureRow,
+    ExpectedFallsRow,
 )
 
 
@@ -74,7 +78,8 @@ def summarise(job: Job) -> list[Path]:
     target = job.results / "summary"
     files = [target / each.table.file_name for each in SUMMARY_TABLES]
     outcomes = outcomes_of(job.results, job.records)
-    shown, pages, spectra = write_summary(outcomes, study.structures, target, study.settings.reports)
+    instead = [name for name, scene in study.scenes.items() if scene.variant_of]
+    shown, pages, spectra = write_summary(outcomes, study.structures, target, study.settings.reports, instead)
     paths: dict[type[Row], str | list[str]] = {each: each.table.file_name for each in SUMMARY_TABLES}
     write_whole(target / "datapackage.json", data_package("rocking-study", paths))
     provenance = {
@@ -120,16 +125,22 @@ def summarise(job: Job) -> list[Path]:
 
 
 def write_summary(
-    outcomes: Iterable[Outcome], structures: Mapping[str, Structure], target: Path, reports: bool
+    outcomes: Iterable[Outcome],
+    structures: Mapping[str, Structure],
+    target: Path,
+    reports: bool,
+    variants: Collection[str] = (),
 ) -> tuple[dict[type[Row], list[Row]], list[dict[str, Any]], list[Sequence[float]]]:
     """Write the tables of the summary into `target`, record by record.
 
     reports: whether the rows, and what the page to explore and the spectra show of each record, are returned as well:
-    of thousands of records, which have no reports, they would fill the memory.
+    of thousands of records, which have no reports, they would fill the memory. variants: names of structures that
+    stand for another one.
     """
     kept: dict[type[Row], list[Row]] = {each: [] for each in SUMMARY_TABLES}
     pages: list[dict[str, Any]] = []
     spectra: list[Sequence[float]] = []
+    falls_of_records: list[ExpectedFallsRow] = []
     of_records = [each for each in SUMMARY_TABLES if each in RECORD_TABLES]
     with written_together(), ExitStack() as stack:
         write = {
@@ -141,9 +152,14 @@ def write_summary(
                 write[each](outcome.rows[each])
                 if reports or each is ComparisonRow:
                     kept[each] += outcome.rows[each]
+            verdicts = (row for row in outcome.rows[VerdictRow] if isinstance(row, VerdictRow))
+            if falls := falls_under(verdicts, variants):
+                falls_of_records.append(falls)
             if reports:
                 pages.append(outcome.page)
                 spectra += outcome.spectra.values()
+        of_all = falls_over(falls_of_records)
+        kept[ExpectedFallsRow] = [*falls_of_records, *([of_all] if of_all else [])]
         kept[StructureRow] = list(structure_rows(structures))
         kept[CapacityRow] = list(capacity_rows(structures))
         kept[AgreementRow] = list(

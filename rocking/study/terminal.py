@@ -16,10 +16,10 @@ from types import TracebackType
 from typing import TYPE_CHECKING, BinaryIO, TextIO, TypeVar
 
 from rocking.assessment.case import SceneResult
-from rocking.assessment.conclusion import conclusion_in_words, conclusions, worst_of_each
-from rocking.assessment.decide import ORDER, worst_first
+from rocking.assessment.conclusion import conclusion_in_words, conclusions, falls_in_words, worst_of_each
+from rocking.assessment.decide import ORDER, Verdict, worst_first
 from rocking.assessment.methods import rocks
-from rocking.assessment.rows import ComparisonRow, FailureRow, TradeRow, VerdictRow
+from rocking.assessment.rows import ComparisonRow, ExpectedFallsRow, FailureRow, TradeRow, VerdictRow
 from rocking.errors import RecordError, RockingError, log_fault
 from rocking.quantities import counted, escaped, listed
 from rocking.study.folder import new_log
@@ -52,7 +52,7 @@ def record_line(scenes: Iterable[SceneResult], failures: Iterable[FailureRow]) -
     most _NAMED are named, the worst first.
     """
     reasons = ((f"{each.structure}: " if each.structure else "") + each.message for each in failures)
-    parts: dict[str, list[str]] = {"failed": [" ".join(reasons)], **{word: [] for word in ORDER}}
+    parts: dict[Verdict, list[str]] = {word: [] for word in ORDER}
     scenes = sorted(scenes, key=lambda scene: scene.worst.severity, reverse=True)
     on_the_ground = [scene.worst for scene in scenes if not scene.scene.place.supports]
     for each in on_the_ground:
@@ -64,13 +64,9 @@ def record_line(scenes: Iterable[SceneResult], failures: Iterable[FailureRow]) -
         divided = "," in each.structure or ";" in each.structure
         name = f'"{each.structure}"' if divided else each.structure
         parts[decision.word].append(name + number)
-    left = _NAMED
-    for word, names in parts.items():
-        if word != "failed" and len(names) > left:
-            count = len(names) - left
-            parts[word] = [*names[:left], f"{count} more" if left else str(count)]
-        left = max(0, left - len(names)) if word != "failed" else left
-    lines = [f"{word}: {text}" for word, names in parts.items() if (text := ", ".join(names))]
+    told = {"failed": " ".join(reasons)} | _named(parts, _NAMED)
+    lines = [f"{word}: {text}" for word, text in told.items() if text]
+    left = max(0, _NAMED - len(on_the_ground))
     carried = [scene.sentence for scene in scenes if scene.scene.place.supports]
     if len(carried) > left:
         more = counted(len(carried) - left, "structure")
@@ -80,12 +76,15 @@ def record_line(scenes: Iterable[SceneResult], failures: Iterable[FailureRow]) -
 
 # Whole on purpose: the lines of a screen, from the first to the last.
 def closing_lines(
-    verdicts: Sequence[VerdictRow], comparison: Iterable[ComparisonRow], failures: Iterable[FailureRow]
+    verdicts: Sequence[VerdictRow],
+    comparison: Iterable[ComparisonRow],
+    failures: Iterable[FailureRow],
+    expected: Sequence[ExpectedFallsRow] = (),
 ) -> Iterator[str]:
     """Yield the conclusion on all structures, the worst with closed form, block and integration, and the others' words.
 
     Below them stand what the closed form saw of the falls, and the records that failed. comparison: is gone through
-    once, and not kept.
+    once, and not kept. expected: how many fall, by record and of all. At most _NAMED structures are named.
     """
     worst = worst_of_each(conclusions(verdicts, []))
     records = len({each.record for each in verdicts})
@@ -105,7 +104,8 @@ def closing_lines(
     if worst:
         count = f"{counted(records, 'record')}, {counted(len(worst), 'structure')}. "
         words = {each.structure: each.decision.word for each in worst}
-        yield from wrap(count + conclusion_in_words(words, records), _WIDTH)
+        for said in (count + conclusion_in_words(words, records), falls_in_words(expected)):
+            yield from wrap(said, _WIDTH)
         yield "Largest rotation, 1 = critical, of the worst, each under its worst record:"
         yield f"{'':<17}  {'record':<22}  closed form   block  integrated  members that overturn"
     own = (row for row in verdicts if (row.record, row.structure) in shown)
@@ -118,7 +118,7 @@ def closing_lines(
         yield "A range: two cracks, or the mechanism and contact dynamics, disagree."
     others = [(each.decision.word, _cut(each.structure, 30)) for each in worst[_WORST:]]
     if names := {word: [name for its, name in others if its is word] for word, _ in others}:
-        text = "; ".join(f"{word}: {listed(each, _NAMED)}" for word, each in names.items())
+        text = "; ".join(map(": ".join, _named(names, _NAMED - _WORST).items()))
         yield from wrap(text, _WIDTH, initial_indent="Others  ", subsequent_indent=" " * 8)
     if falls := seen + missed.total():
         most, count_of_most = missed.most_common(1)[0]
@@ -168,6 +168,16 @@ def _rotation(ratio: float) -> str:
 def _cut(name: str, width: int) -> str:
     """The name, with an ellipsis where it is longer than `width`."""
     return name if len(name) <= width else f"{name[: width - 1]}…"
+
+
+def _named(by_word: Mapping[Verdict, Sequence[str]], left: int) -> dict[str, str]:
+    """By word the names, `left` of all together, and of each word how many more there are."""
+    texts: dict[str, str] = {}
+    for word, names in by_word.items():
+        more = len(names) - left
+        texts[word] = ", ".join([*names[:left], f"{more} more" if left else str(more)] if more > 0 else names)
+        left = max(0, -more)
+    return texts
 
 
 def check_any_read(summary: Path, records: Collection[str]) -> None:

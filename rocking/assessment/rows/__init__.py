@@ -33,6 +33,8 @@ from rocking.assessment.rows.of_study import AGREEMENT_COLUMNS as AGREEMENT_COLU
 from rocking.assessment.rows.of_study import SUMMARY_TABLES as SUMMARY_TABLES
 from rocking.assessment.rows.of_study import AgreementRow as AgreementRow
 from rocking.assessment.rows.of_study import CapacityRow as CapacityRow
+from rocking.assessment.rows.of_study import CountedFalls as CountedFalls
+from rocking.assessment.rows.of_study import ExpectedFallsRow as ExpectedFallsRow
 from rocking.assessment.rows.of_study import Named as Named
 from rocking.assessment.rows.of_study import Placed as Placed
 from rocking.assessment.rows.of_study import PlacedRow as PlacedRow
@@ -45,5 +47,7 @@ from rocking.assessment.rows.of_study import TradeRow as TradeRow
 from rocking.assessment.rows.of_study import TriedMethod as TriedMethod
 from rocking.assessment.rows.of_study import agreement_rows as agreement_rows
 from rocking.assessment.rows.of_study import capacity_rows as capacity_rows
+from rocking.assessment.rows.of_study import falls_over as falls_over
+from rocking.assessment.rows.of_study import falls_under as falls_under
 from rocking.assessment.rows.of_study import spectrum_rows as spectrum_rows
 from rocking.assessment.rows.of_study import structure_rows as structure_rows

@@ -1,7 +1,7 @@
 """Rows about a whole study: its structures, their blocks, its counts, its spectrum and what accuracy costs."""
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
@@ -346,6 +346,81 @@ def spectrum_rows(
             yield SpectrumRow.of(BlockUnderRecord(accelerogram, *block, restitution, rotation_ratio))
 
 
+@dataclass(frozen=True)
+class CountedFalls:
+    """How many structures are expected to fall under one record, or on average under several.
+
+    record: its identifier; "" for the mean over all. expected_falls: the sum of the shares of those that have one;
+    its low and high ends: of the 90 % interval of the mean. without_share: how many have none.
+    """
+
+    record: str
+    structures: int
+    expected_falls: float
+    without_share: float
+    expected_falls_low: float = math.nan
+    expected_falls_high: float = math.nan
+
+
+of_falls = Columns(CountedFalls)
+
+
+@row("expected_falls")
+class ExpectedFallsRow(RowOf[CountedFalls]):
+    """One row per record and one for all: how many of the structures, variants apart, are expected to fall."""
+
+    record: str = of_falls("Record; empty for the mean over all records", lambda of: of.record)
+    structures: int = of_falls("Number of structures", lambda of: of.structures)
+    expected_falls: float = of_falls(
+        "Sum of the shares that overturn, of the structures that have one", lambda of: of.expected_falls
+    )
+    expected_falls_low: float = of_falls(
+        "Low end of the 90 % interval of the mean, by the spread over the records",
+        lambda of: of.expected_falls_low,
+    )
+    expected_falls_high: float = of_falls("High end of that interval", lambda of: of.expected_falls_high)
+    without_share: float = of_falls("Number of structures that have no share", lambda of: of.without_share)
+
+
+def falls_under(
+    verdicts: Iterable["rows.VerdictRow"], variants: Collection[str] = ()
+) -> ExpectedFallsRow | None:
+    """Return how many structures are expected to fall under one record; None without a verdict.
+
+    Expectations add whatever the structures have in common. variants: names of structures that stand for another one,
+    and are not counted.
+    """
+    worst = [row for row in rows.worst_period_each(verdicts) if row.structure not in variants]
+    if not worst:
+        return None
+    shares = [row.overturning_share for row in worst]
+    untold = sum(math.isnan(row.overturning_share) and not row.decision.word.stays_up for row in worst)
+    return ExpectedFallsRow.of(CountedFalls(worst[0].record, len(worst), float(np.nansum(shares)), untold))
+
+
+def falls_over(records: Sequence[ExpectedFallsRow]) -> ExpectedFallsRow | None:
+    """Return the mean over the records; None without any.
+
+    What falls under one record falls together or not at all, so that each record is one observation: the interval is
+    Student's of their mean, on the log odds of the mean part that falls, for that keeps between none and all. Without
+    two records, or where all or none fall, there is none.
+    """
+    if not records:
+        return None
+    structures = max(row.structures for row in records)
+    falls = np.array([row.expected_falls for row in records])
+    mean = float(falls.mean())
+    low = high = math.nan
+    if len(records) > 1 and 0 < mean < structures:
+        from scipy.special import expit, logit, stdtrit  # which who reads a table has no need of
+
+        error = falls.std(ddof=1) / math.sqrt(len(records))
+        half = stdtrit(len(records) - 1, 0.95) * error * structures / (mean * (structures - mean))
+        low, high = (structures * expit(logit(mean / structures) + half * np.array([-1, 1]))).tolist()
+    untold = float(np.mean([row.without_share for row in records]))
+    return ExpectedFallsRow.of(CountedFalls("", structures, mean, untold, low, high))
+
+
 SUMMARY_TABLES: tuple[type[Row], ...] = (
     rows.RecordRow,
     rows.PulseRow,
@@ -354,6 +429,7 @@ SUMMARY_TABLES: tuple[type[Row], ...] = (
     rows.SupportRow,
     rows.MechanismRow,
     rows.VariationRow,
+    ExpectedFallsRow,
     AgreementRow,
     StructureRow,
     CapacityRow,

@@ -1,0 +1,91 @@
+"""How many structures of a class are expected to fall, over records that they share."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.stats import norm
+
+from rocking.assessment.conclusion import CLASS, falls_in_words
+from rocking.assessment.rows import CountedFalls, ExpectedFallsRow, falls_over, falls_under
+from tests.unit.assessment.made_rows import broken, case, station, verdicts
+
+
+def under(shares: list[float], structures: int) -> list[ExpectedFallsRow]:
+    return [
+        ExpectedFallsRow.of(CountedFalls(f"record {number}", structures, share * structures, 0.0))
+        for number, share in enumerate(shares)
+    ]
+
+
+def test_the_shares_of_those_that_have_one_are_added() -> None:
+    """48 and 16 of 64 members fall, none of 64, and one structure cannot be told; a variant is not counted."""
+    stations = [
+        station(case("EW", math.inf, "pier", falls=48)),
+        station(case("EW", 0.5, "wall", falls=16), case("NS", 0.1, "wall", falls=0)),
+        station(case("EW", 0.1, "arch", falls=0)),
+        station(broken("EW", "spire")),
+        station(case("EW", 0.1, "pier: tied", falls=64)),
+    ]
+    row = falls_under(verdicts(stations, "a"), ["pier: tied"])
+    assert row is not None
+    assert (row.record, row.structures, row.expected_falls, row.without_share) == ("a", 4, 1.0, 1.0)
+    assert math.isnan(row.expected_falls_low)
+    assert falls_under([]) is None
+
+
+def test_without_a_spread_there_is_no_interval() -> None:
+    for shares in ([0.3], [0.0, 0.0, 0.0], [1.0, 1.0]):
+        of_all = falls_over(under(shares, 50))
+        assert of_all is not None and of_all.expected_falls == pytest.approx(50 * shares[0])
+        assert math.isnan(of_all.expected_falls_low) and math.isnan(of_all.expected_falls_high)
+    assert falls_over([]) is None
+
+
+def test_structures_that_fall_together_do_not_narrow_the_interval() -> None:
+    """Ten times as many structures with the same shares are the same records: all ends are ten times as large."""
+    shares = [0.1, 0.3, 0.2, 0.6, 0.05]
+    few, many = (falls_over(under(shares, number)) for number in (30, 300))
+    assert few is not None and many is not None
+    for name in ("expected_falls", "expected_falls_low", "expected_falls_high"):
+        assert getattr(many, name) == pytest.approx(10 * getattr(few, name))
+
+
+@pytest.mark.parametrize(("records", "median", "least"), [(5, 1.0, 0.88), (10, 1.0, 0.88), (20, 0.3, 0.84)])
+def test_the_interval_holds_the_mean_of_records_that_are_drawn(records, median, least) -> None:
+    """Structures of lognormal fragilities under lognormal shaking, which all share; 1 000 studies of each.
+
+    least: of 90 % asked; where few fall, records are skewed, and the interval is short of it (numbers: expected falls).
+    """
+    drawn = np.random.default_rng(7)
+    resistance = np.exp(drawn.normal(0, 0.6, 200))
+
+    def share(shaking: np.ndarray) -> np.ndarray:
+        return norm.cdf(np.log(shaking[..., None] / resistance) / 0.4).mean(axis=-1)
+
+    truth = 200 * share(median * np.exp(0.6 * norm.ppf((np.arange(2000) + 0.5) / 2000))).mean()
+    studies = share(median * np.exp(0.6 * drawn.standard_normal((1000, records))))
+    held = [falls_over(under(list(shares), 200)) for shares in studies]
+    inside = [row.expected_falls_low <= truth <= row.expected_falls_high for row in held if row]
+    assert len(inside) == 1000 and least < np.mean(inside) < 0.95
+
+
+def test_a_class_is_told_in_one_sentence() -> None:
+    rows = [
+        ExpectedFallsRow.of(CountedFalls(name, 300, falls, untold, *interval))
+        for name, falls, untold, interval in (
+            ("a", 30.0, 12.0, ()),
+            ("b", 52.0, 11.0, ()),
+            ("", 41.0, 11.5, (33.2, 50.4)),
+        )
+    ]
+    assert falls_in_words(rows) == (
+        "41 of 300 structures are expected to fall under such a record (90 %: 33–50, by the spread over 2 records); of "
+        "12 it cannot be told."
+    )
+    assert falls_in_words([]) == ""
+    assert falls_in_words([row for row in map(falls_over, [under([0.2], CLASS - 1)]) if row]) == ""
+    one = under([0.2], CLASS)
+    of_one = falls_over(one)
+    assert of_one is not None
+    assert falls_in_words([*one, of_one]) == "4 of 20 structures are expected to fall under the record."
