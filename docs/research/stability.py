@@ -62,6 +62,9 @@ class StabilityTrial(sites.Trial):
 
     kind: str = column("How the record acts: pair, component, on a support, with vertical motion")
     verdict: Verdict = column("Its word in a study")
+    of_members: Verdict = column(
+        "Word of the members of the study alone, which contact dynamics and doubts may limit"
+    )
     true_verdict: Verdict | None = column(
         "Word of 4096 members of every crack that counts; empty where a study cannot tell"
     )
@@ -71,15 +74,15 @@ class StabilityTrial(sites.Trial):
 
     @property
     def classes_off(self) -> float:
-        """By how many classes the word says more than is true: above 0 on the safe side, below on the unsafe one.
+        """By how many classes the members' word says more than is true: above 0 on the safe side, below on the unsafe.
 
-        nan where the word says no share, or where too many of very many members cannot be followed.
+        nan where a study says no share, or where too many of very many members cannot be followed.
         """
         if self.verdict is Verdict.CANNOT_OVERTURN:
             return -math.inf if self.true_share else 0.0
-        if self.verdict not in CLASSES or self.true_verdict not in CLASSES:
+        if self.verdict is Verdict.CANNOT_BE_TOLD or self.true_verdict not in CLASSES:
             return math.nan
-        return float(CLASSES.index(self.verdict) - CLASSES.index(self.true_verdict))
+        return float(CLASSES.index(self.of_members) - CLASSES.index(self.true_verdict))
 
 
 def stability(target: Target) -> None:
@@ -137,6 +140,7 @@ def stability_trials(
                 scale_factor=factor,
                 kind=kind,
                 verdict=told.verdict,
+                of_members=decide(told.ensembles.facts).word if told.ensembles else told.verdict,
                 true_verdict=true_verdict,
                 members=sum(each.ensemble.members for each in followed),
                 share=told.overturning_share,

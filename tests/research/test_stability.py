@@ -1,6 +1,5 @@
 """Words beside those of many members: what a trial holds, and what its scores count."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -29,17 +28,16 @@ def test_a_trial_holds_the_word_of_its_own_share(monkeypatch):
         if trial.structure == "block":
             assert trial.true_verdict is step(round(256 * trial.true_share), 256, np.inf)
             assert abs(trial.share - trial.true_share) <= 4 / 64
-            assert trial.members in (16, 64, 256)
+            assert trial.members in (16, 64, 256, 1024)
     assert list(stability_trials("a site", PAIR, structures)) == trials
 
 
-def test_what_a_study_cannot_tell_has_no_class(monkeypatch):
+def test_what_contact_dynamics_says_is_not_held_against_members(monkeypatch):
     """The courses of a spire that lifts may be thrown, which no number of members of its mechanisms tells."""
     monkeypatch.setattr(stability, "MEMBERS", 64)
-    spire = {"spire": Spire(3.0, 15.0, 0.25)}
-    trials = [each for each in stability_trials("a site", PAIR, spire) if not each.share > 0.6]
-    assert trials and {each.verdict for each in trials} == {Verdict.CANNOT_BE_TOLD}
-    assert all(math.isnan(each.true_share) and math.isnan(each.classes_off) for each in trials)
+    trials = list(stability_trials("a site", PAIR, {"spire": Spire(3.0, 15.0, 0.25)}))
+    limited = [each for each in trials if each.verdict is not each.of_members]
+    assert limited and all(abs(each.classes_off) <= 1 for each in limited)
 
 
 def test_a_site_on_which_the_rule_was_chosen_takes_no_part_under_another_name():
@@ -52,13 +50,12 @@ def test_a_site_on_which_the_rule_was_chosen_takes_no_part_under_another_name():
 
 def test_the_scores_count_what_they_name():
     base = {"record": "r", "structure": "block", "scale_factor": 1.0, "kind": "pair", "members": 64}
-    first = StabilityTrial(
-        site="a", verdict=Verdict.UNCERTAIN, true_verdict=Verdict.UNCERTAIN, share=0.5, true_share=0.5, **base
-    )
-    unsafe = replace(first, site="b", verdict=Verdict.PROBABLY_STANDS)
-    worse = replace(first, site="c", verdict=Verdict.STANDS, true_share=0.4)
-    safe = replace(first, site="d", verdict=Verdict.OVERTURNS)
-    sure = replace(first, site="e", verdict=Verdict.STANDS, true_verdict=Verdict.STANDS, true_share=0.0)
+    base |= {"verdict": Verdict.UNCERTAIN, "share": 0.5, "true_share": 0.5}
+    first = StabilityTrial(site="a", of_members=Verdict.UNCERTAIN, true_verdict=Verdict.UNCERTAIN, **base)
+    unsafe = replace(first, site="b", of_members=Verdict.PROBABLY_STANDS)
+    worse = replace(first, site="c", of_members=Verdict.STANDS, true_share=0.4)
+    safe = replace(first, site="d", of_members=Verdict.OVERTURNS)
+    sure = replace(first, site="e", of_members=Verdict.STANDS, true_verdict=Verdict.STANDS, true_share=0.0)
     held = replace(sure, site="f", verdict=Verdict.CANNOT_OVERTURN)
     untold = replace(
         first, site="g", verdict=Verdict.CANNOT_BE_TOLD, true_verdict=None, share=np.nan, true_share=np.nan

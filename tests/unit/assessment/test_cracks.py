@@ -66,7 +66,7 @@ def test_the_verdict_and_every_number_are_those_of_all_cracks_followed_one_by_on
         assert assessment.crack in alone or not assessment.crack
         if of_statics is not Verdict.OVERTURNS:
             largest = max(each.overturning_share for each in alone.values())
-            # 64 members beside the 256 to which an ensemble near an edge grows
+            # 64 members beside the many to which an ensemble near an edge grows
             share = assessment.ensembles.governing.ensemble.overturning_share
             assert share == pytest.approx(largest, abs=1 / 32)
         seen.add(without.word)
@@ -96,7 +96,9 @@ def test_the_counts_that_are_told_of_two_cracks_are_not_of_members_that_leave_th
         ensembles = ensemble_over_cracks(structure, motions, settings)
         both += ensembles.governing is not ensembles.statics
         for each in (ensembles.statics, ensembles.governing):
-            assert each.ensemble.members == 256 or not each.facts.is_near_an_edge(each.ensemble.settings.risk)
+            assert each.ensemble.members == 1024 or not each.facts.is_near_an_edge(
+                each.ensemble.settings.risk
+            )
     assert both
 
 
