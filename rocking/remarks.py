@@ -255,7 +255,7 @@ class Kind(StrEnum):
         "The restitution of {typed:.2g} is typed, while the balance of momentum of the geometry gives "
         "{own:.2g}, with which less energy is lost: both are followed, and where their words differ the share is a "
         "range."
-    )
+    ), "{about}: restitution {typed:.2g} typed, {own:.2g} by geometry"
     RESTITUTION_ABOVE = auto(), (
         "The restitution of {typed:.2g} is typed, above the {own:.2g} that the balance of momentum leaves rigid bodies "
         "of this geometry: it rocks longer than they would; check it, or leave it out."
@@ -264,7 +264,7 @@ class Kind(StrEnum):
         "{about}: no compressive_strength is given. If the edges of the joints crush at 2 MPa, they start at less "
         "(static_multiplier_crushing in structures.csv), which by their reserves under this record changes the word or "
         "moves the share that overturns by more than 0.1: give the strength."
-    )
+    ), "{about}: crushing at 2 MPa would tell"
     HEAVY_ON_SUPPORT = auto(), (
         "{about} has {ratio:.2g} of the mass of {support}: beyond {limit:g} what it gives back changes rotations by "
         "more than a per cent, at 0.1 by 11 % in the median, and is left out here."

@@ -59,6 +59,8 @@ MOVED = 0.1
 """Change of a share that is worth telling."""
 MOST_NOTICED = 3
 """Failures that stand above everything; failures.csv holds all."""
+TOLD_FIRST = (Kind.RESTITUTION_TYPED, Kind.CRUSHING_WOULD_TELL)
+"""Remarks on the models that page one tells briefly, before their sentences."""
 MOST_PULSES = 3
 """Ranks of pulses that are printed."""
 MOST_COMPARED = 24
@@ -98,6 +100,11 @@ class RecordReport:
             **printing.settings_texts(self.settings),
             "notices": [notice.data for notice in _notices(self)],
             **page_one(self.conclusions, self.structures, self.motion, self.dominant),
+            "left-out": "; ".join(
+                replace(each, about=listed(names, 1)).brief
+                for each, names in self.left_out.items()
+                if each.kind in TOLD_FIRST
+            ),
             "strips": self._strips(),
             "advice": _advice(self),
             "sentences": _sentences(self),
@@ -114,6 +121,11 @@ class RecordReport:
         from rocking.reports.variants import strips
 
         return strips(variants(groups, self.conclusions), self.structures)
+
+    @cached_property
+    def left_out(self) -> dict[Remark, list[str]]:
+        """What the models of structures that lift leave out, or take from what was typed, with the structures."""
+        return _cautions(self) | _crushing(self)
 
     @property
     def record(self) -> str:
@@ -276,16 +288,15 @@ def _sentences(report: RecordReport) -> list[str]:
         *(f"{scene.sentence}." for scene in carried[:MOST_DRAWN]),
         *(floor_sentences(report.support_panels) if carried else []),
         *([contacts] if failing else []),
-        *_cautions(report),
-        *_crushing(report),
+        *(str(replace(each, about=listed(names))) for each, names in report.left_out.items()),
         *([remark] if depends else []),
         *heavy,
         *warnings_of(report.tables),
     ]
 
 
-def _cautions(report: RecordReport) -> list[str]:
-    """Return what the models of structures that lift leave out, each sentence once."""
+def _cautions(report: RecordReport) -> dict[Remark, list[str]]:
+    """Return what the models of structures that lift leave out, each with the structures that it is about."""
     concerned: dict[Remark, list[str]] = {}
     for station in report.stations:
         if not station.rotation_ratio > 0:
@@ -293,14 +304,11 @@ def _cautions(report: RecordReport) -> list[str]:
         for caution in (station.body.caution, station.body.typed_restitution):
             if caution:
                 concerned.setdefault(caution, []).append(report.called(station.structure))
-    return [
-        str(replace(caution, about=listed(list(dict.fromkeys(names)))))
-        for caution, names in concerned.items()
-    ]
+    return {caution: list(dict.fromkeys(names)) for caution, names in concerned.items()}
 
 
-def _crushing(report: RecordReport) -> list[str]:
-    """Return what a compressive strength of 2 MPa would change of structures that state none, in one sentence.
+def _crushing(report: RecordReport) -> dict[Remark, list[str]]:
+    """Return that a compressive strength of 2 MPa would change some structures that state none, with these.
 
     λ falls, and so does what overturns them in proportion: as far as the reserves on this record tell.
     """
@@ -319,10 +327,7 @@ def _crushing(report: RecordReport) -> list[str]:
         then = next((each for each, at in reached if at <= factor), 0.0)
         if then - share > MOVED or then >= 0.05 > share:
             names.append(report.called(station.structure))
-    if not names:
-        return []
-    remark = Remark(Kind.CRUSHING_WOULD_TELL, listed(list(dict.fromkeys(names))))
-    return [str(remark)]
+    return {Remark(Kind.CRUSHING_WOULD_TELL): list(dict.fromkeys(names))} if names else {}
 
 
 def _advice(report: RecordReport) -> list[str]:

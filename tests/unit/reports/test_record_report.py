@@ -16,7 +16,7 @@ from rocking.remarks import Kind, Remark
 from rocking.reports import printing
 from rocking.reports.printing import MEASURED, compile_document
 from rocking.reports.record import RecordReport, failure_data
-from rocking.structures import Block, Facade, Spire
+from rocking.structures import Block, Facade, LoadedWall, Spire
 from rocking.tables import cell
 
 from .conftest import HOSTILE, assessed, detailed, of_structures, pages, shaken
@@ -359,6 +359,29 @@ def test_the_report_says_what_to_do_and_by_how_much_the_record_may_be_stronger()
     assert reserves["block"].startswith(printing.number(block.reserve_low, 2))
     first = "".join(word[4] for word in pages(report.pdf())[0])
     assert reserves["block"] in first
+
+
+@pytest.mark.process
+def test_page_one_tells_what_was_typed_and_what_crushing_would_change_before_page_two_explains_it():
+    """Crushing is told where the motion is so near what overturns the wall that the loss of λ takes it there."""
+    wall = LoadedWall.of_size(3.2, 0.25, 18e3, top_load=6e4, restitution=0.6)
+    lost = wall.static_multiplier / wall.crushing(2e6).static_multiplier
+    typed = Block.of_size(0.6, 4.0, restitution=0.6)
+    own = replace(typed, restitution=None).mechanism().restitution
+    seen = set()
+    for factor in (2.0, 4.3):
+        report = assessed("one", [shaken("NS").scaled(factor)], {"typed": typed, "wall": wall})
+        told = report.data()["left-out"]
+        assert f"typed: restitution 0.6 typed, {own:.2g} by geometry" in told
+        (verdict,) = (row for row in report.tables.verdicts if row.structure == "wall")
+        tells = "wall: crushing at 2 MPa would tell" in told
+        assert tells == (verdict.reserve_low <= lost)
+        assert tells == ("crush at 2 MPa" in " ".join(report.data()["sentences"]))
+        seen.add(tells)
+    assert seen == {False, True}
+    first, _ = pages(report.pdf())
+    words = " ".join(word[4] for word in first)
+    assert "Page 2 on typed: restitution 0.6 typed" in words
 
 
 def test_every_figure_that_a_campaign_measured_names_where_it_stands():
