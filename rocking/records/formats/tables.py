@@ -94,14 +94,18 @@ class Table:
         is_short = sum(map(bool, numeric[start:])) < _FEWEST_ROWS
         if any(count == numeric[start] or (count and is_short) for count in numeric[:start]):
             return None  # a row of another number of columns among its first ones
+        row, below = cells[start], next(filter(None, cells[start + 1 :]))
+        if len(row) == 2 and _counts(lines[start]) and float(row[0]) > float(below[0]):
+            start += 1  # no times fall: as programs of analysis write number and step above them
         above = [(at, _bare(line)) for at, line in enumerate(lines[:start]) if _bare(line)]
         above = [(at, line) for at, line in above if not (at == above[0][0] and _EXCEL.fullmatch(line))]
         counts = next(((at, order) for at, line in reversed(above) if (order := _counts(line))), None)
         kept = [line for at, line in above if counts is None or at != counts[0]]
-        labels, rest = _named(kept, numeric[start])
+        width = len(below)
+        labels, rest = _named(kept, width)
         return cls(
             labels,
-            numeric[start],
+            width,
             start,
             tuple(line.lstrip("#%$!/ ") for line in rest if line.startswith(_MARKS)),
             tuple(line for line in rest if not line.startswith(_MARKS)),
@@ -171,7 +175,12 @@ def _named(above: Sequence[str], width: int) -> tuple[tuple[ColumnLabel, ...], S
     if _are_units(names):
         over = _labels(above[-2]) if len(above) > 1 else ()
         if len(over) == width or width > 1:
-            names = _with_units(over if len(over) == width else ("",) * width, names)
+            pairs = zip(
+                over if len(over) == width else [""] * width,
+                (name.strip("()[] ") for name in names),
+                strict=True,
+            )
+            names = tuple(f"{name} ({unit})" if unit else name for name, unit in pairs)
             return tuple(map(ColumnLabel, names)), above[: -2 if len(over) == width else -1]
     if width > 1 and all(name.isdigit() and len(name) == 1 for name in names[1:]):
         names = (names[0], *[""] * (width - 1))  # numbers of columns, and no azimuths
@@ -221,12 +230,6 @@ def _are_units(units: tuple[str, ...]) -> bool:
         each.unit or each.is_time or each.other or not unit for each, unit in zip(given, bare, strict=True)
     )
     return are_all and any(each.unit for each in given)
-
-
-def _with_units(names: tuple[str, ...], units: tuple[str, ...]) -> tuple[str, ...]:
-    """Return names, each with the unit below it in brackets."""
-    pairs = zip(names, (unit.strip("()[] ") for unit in units), strict=True)
-    return tuple(f"{name} ({unit})" if unit else name for name, unit in pairs)
 
 
 _SPECTRAL = re.compile(r"(?i)\s*(period|freq(uency)?)\b.*|f(_hz)?|.*[(\[]\s*hz\s*[)\]]")
@@ -289,19 +292,19 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
             notes += (Remark.of(Kind.UNLIKE_ITS_ANSWER, answer=answer.text, holds=question.holds),)
         known = (label if label.is_known else ColumnLabel("") for label in table.labels)
         table = replace(table, labels=tuple(known))
-        layout = _fitted(answer, layout, table, drawn, options)
-        options = replace(options, time_step=layout.time_step or options.time_step)
+        layout = _fitted(answer, layout, table, drawn)
     else:
         _ask_where_open(table, drawn, options, question, body)
         layout = drawn
 
     try:
         records = _series(values, table, layout, above, options) if layout.is_series else []
-        records = records or _channels(values, table, layout, options)
+        records = records or _channels(values, table, layout, above, options)
     except UndeclaredError as error:
         raise AskedError(error.args[0], error.field, question) from None
-    if len(records) == 1:
-        records = [_pointing(records[0], table.said.component)]
+    said = table.said.component
+    if len(records) == 1 and said and (not records[0].component or names_acceleration(records[0].component)):
+        records = [replace(records[0], **directed({"component": said}))]
     whose = f"read as {answer.text!r}, by {answer.whose}" if answer else ""
     return [
         replace(record, source=replace(record.source, answer=whose)).warned(
@@ -479,23 +482,16 @@ def _ask_where_open(
 _ANSWER_IT = "answer it once in layouts.csv, of which rocking catalogue writes the line."
 
 
-def _fitted(
-    answer: Answer, layout: TableLayout, table: Table, drawn: TableLayout, options: Options
-) -> TableLayout:
+def _fitted(answer: Answer, layout: TableLayout, table: Table, drawn: TableLayout) -> TableLayout:
     """Return the layout of an answer for one table. Raises RecordError where the two contradict each other."""
     a_line = layout.per_line or (table.width if layout.is_series else len(layout.columns))
     if a_line != table.width and not layout.width:
         raise answer.wrong(f"it has {a_line} numbers a line, but this file has {table.width}.")
     if len(drawn.columns) == len(layout.columns):
         for place, (ours, theirs) in enumerate(zip(layout.columns, drawn.columns, strict=True), 1):
-            if (
-                ours.unit
-                and theirs.unit
-                and acceleration_factor(ours.unit) != acceleration_factor(theirs.unit)
-            ):
+            both = {acceleration_factor(unit) for unit in (ours.unit, theirs.unit) if unit}
+            if len(both) > 1:
                 raise answer.wrong(f"column {place} of this file is in {theirs.unit!r} by its own words.")
-    if layout.time_step and options.time_step and layout.time_step != options.time_step:
-        raise answer.wrong(f"{options.time_step:g} s was declared for this file.")
     if not layout.is_series and layout.per_line == len(layout.columns):
         return replace(layout, per_line=0)
     return layout
@@ -522,7 +518,7 @@ def _series(
     for samples in counts:
         values, more = text.whole(values, text.count("number of samples", samples), table.width)
         notes += more
-    step = above.get("dt") or (1 / above["hz"] if above.get("hz") else said.time_step)
+    step = above.get("dt") or (1 / above["hz"] if above.get("hz") else layout.time_step or said.time_step)
     component = column.name or ("" if label.unit else label.text)
     facts: dict[str, Any] = {"component": component, "warnings": (*notes, *_repeats(values))}
     if table.counts and len(table.words) == 1:
@@ -592,7 +588,9 @@ def _whole_numbers(body: bytes) -> str:
     return first.decode("latin-1").strip()[:40]
 
 
-def _channels(values: np.ndarray, table: Table, layout: TableLayout, options: Options) -> list[Accelerogram]:
+def _channels(
+    values: np.ndarray, table: Table, layout: TableLayout, above: dict[Above, float], options: Options
+) -> list[Accelerogram]:
     """Return the channels of a table: each column of acceleration, with the times left of it, else the first ones."""
     columns = layout.columns
     if values.size % len(columns):
@@ -602,11 +600,8 @@ def _channels(values: np.ndarray, table: Table, layout: TableLayout, options: Op
     rows = values.reshape(-1, len(columns))
     said = table.said
     labels = table.labels if len(table.labels) == len(columns) else (ColumnLabel(""),) * len(columns)
-    if len(columns) == 2 and not table.labels and len(rows) > _FEWEST_ROWS and rows[0, 0] == len(rows) - 1:
-        is_step = abs(rows[0, 1] - (rows[2, 0] - rows[1, 0])) <= 1e-3 * abs(rows[0, 1])
-        rows = (
-            rows[1:] if is_step else rows
-        )  # below a row of their number and step, as programs of analysis write it
+    if "n" in above:
+        text.whole(rows[:, 0], text.count("number of samples", f"{above['n']:g}"), per_line=0)
     every = {at: rows[:, at] * each.seconds for at, each in enumerate(columns) if each.role == "time"}
     repeats = () if every else _repeats(rows.ravel())
     records = []
@@ -614,7 +609,7 @@ def _channels(values: np.ndarray, table: Table, layout: TableLayout, options: Op
         if column.role not in ("acceleration", "open"):
             continue
         left = max((at for at in every if at < place), default=min(every, default=-1))
-        step, numbers, notes = said.time_step, rows[:, place], repeats
+        step, numbers, notes = layout.time_step or said.time_step, rows[:, place], repeats
         processing: tuple[str, ...] = ()
         if (times := every.get(left)) is not None:
             step = text.even_step(times)
@@ -649,18 +644,10 @@ def _refuse_all(labels: Sequence[ColumnLabel]) -> None:
     )
 
 
-def _pointing(record: Accelerogram, component: str) -> Accelerogram:
-    """Return the record under the name of the `component` that the text above it declares, where it has no other."""
-    if not component or (record.component and not names_acceleration(record.component)):
-        return record
-    return replace(record, **directed({"component": component}))
-
-
 def _never_negative(record: Accelerogram) -> tuple[Remark, ...]:
     """Return a warning where no number is below zero: the ground moves both ways."""
-    if record.acceleration.size < _FEWEST_OF_BOTH_SIGNS or record.acceleration.min() < 0:
-        return ()
-    if record.peak_acceleration == 0:
+    is_moving = record.acceleration.size >= _FEWEST_OF_BOTH_SIGNS and record.peak_acceleration > 0
+    if not is_moving or record.acceleration.min() < 0:
         return ()
     return (Remark(Kind.NEVER_NEGATIVE, record.component or "the column"),)
 

@@ -153,6 +153,24 @@ def test_a_layout_that_ships_is_not_asked(tmp_path: Path, name: str, content: st
     assert record.source.answer == f"read as {answer!r}, by the layouts of rocking"
 
 
+def test_a_layout_that_ships_without_a_unit_asks_for_it_alone(tmp_path: Path) -> None:
+    """DEEPSOIL's input motions: number and step above times and accelerations; other programs write other units so."""
+    path = tmp_path / "made.txt"
+    rows = table(TIMES, MOTION / G)
+    path.write_text(f"600 0.01\n{rows}")
+    with pytest.raises(AskedError, match="unit is not declared") as asked:
+        read(path)
+    assert asked.value.question.proposal == "t, a ?" and asked.value.question.signature.text_above == "n, dt"
+    (record,) = read(path, unit="g")
+    assert record.acceleration == pytest.approx(MOTION, abs=1e-5) and record.time_step == 0.01
+    assert record.source.answer == "read as 't, a', by the layouts of rocking"
+    answered(tmp_path, asked.value.question, "t, a g")
+    assert read(path)[0].sha256 == record.sha256
+    path.write_text(f"700 0.01\n{rows}")
+    with pytest.raises(RecordError, match="declares 700 samples, but the file holds 600"):
+        read(path)
+
+
 def test_what_is_only_to_be_confirmed_is_not_answered_by_the_question(tmp_path: Path) -> None:
     path = tmp_path / "made.txt"
     path.write_text("Scale: 0.5\nt,acc (g)\n" + table(TIMES, MOTION / G, parted=","))
