@@ -54,12 +54,8 @@ def members(archive: Path) -> tuple[str, ...]:
             raise RecordError(
                 f"the archive names a file {plain(name)[:60]!r}, which leads out of it; unpack it with care."
             )
-    return tuple(sorted(name for name in names if not _is_of_system(name)))
-
-
-def _is_of_system(name: str) -> bool:
-    """Whether a system or a program put the file there: its name, or that of a folder of it, is hidden."""
-    return any(part.startswith((".", "__MACOSX")) for part in name.split("/"))
+    hidden = (".", "__MACOSX")  # with which begins what systems and programs put there
+    return tuple(sorted(name for name in names if not any(p.startswith(hidden) for p in name.split("/"))))
 
 
 def member_bytes(path: Path, archive: Path, largest: int) -> bytes:

@@ -85,7 +85,7 @@ def catalogue_of_folder(
     if not folder.is_dir():
         raise RecordError(f"{folder}: this is no folder; give the folder that holds the records.")
     rows = [dict(row) for row in standing]
-    rows_of = _rows_by_file(rows)
+    rows_of = {_bare(name): row for row in rows for name in row["file"].split(";")}
     layouts = Layouts(answers or folder)
     readings = Readings(folder, layouts, is_kept=keeps_readings)
     listed = []
@@ -112,11 +112,6 @@ def catalogue_of_folder(
     of_store = [readings.remark] if readings.remark else []
     asked = layouts.text((file.file, file.question) for file in listed if file.question)
     return FolderCatalogue(listed, rows, new, (*of_store, *renamed, *apart), asked)
-
-
-def _rows_by_file(rows: Iterable[Row]) -> dict[str, Row]:
-    """Return the row in which each file stands, by its name."""
-    return {_bare(name): row for row in rows for name in row["file"].split(";")}
 
 
 def _direction_in(row: Row, file: ListedFile) -> str:
@@ -210,28 +205,18 @@ def _new_rows(listed: Sequence[ListedFile], ids: set[str]) -> list[Row]:
     """Return the rows of the files that stand in none yet, and note in each file which row it got, or why none."""
     rows = []
     for group in stations([file for file in listed if not (file.refusal or file.record)]):
-        level = [channel for channel in _channels(group) if channel.is_horizontal]
+        channels = list(map(named_channel, group)) if len(group) > 1 else group[0].channels
+        level = [channel for channel in channels if channel.is_horizontal]
         if level:
             rows.append(_row(group, level, ids))
             ids.add(rows[-1]["id"].lower())
         for file in group:
             file.record = rows[-1]["id"] if level else ""
             file.companions = len(group) - 1
-            file.refusal = "" if level else _why_no_row(file)
+            by_name = [str(doubt) for doubt in file.doubts if doubt.kind is Kind.VERTICAL_BY_NAME]
+            why = filter(None, (_ONLY_VERTICAL, file.separated, *by_name))
+            file.refusal = "" if level else " ".join(why)
     return rows
-
-
-def _why_no_row(file: ListedFile) -> str:
-    """Return why a file without a horizontal component gets no row."""
-    by_name = [str(doubt) for doubt in file.doubts if doubt.kind is Kind.VERTICAL_BY_NAME]
-    return " ".join(filter(None, (_ONLY_VERTICAL, file.separated, *by_name)))
-
-
-def _channels(group: Sequence[ListedFile]) -> list[ListedChannel]:
-    """Return the channels of files that share a row, called as the row will call them."""
-    if len(group) > 1:
-        return [named_channel(file) for file in group]
-    return list(group[0].channels)
 
 
 def _files(folder: Path) -> Iterator[Path]:

@@ -1,7 +1,7 @@
 """Grouping: which files of a folder are the components of one station in one earthquake."""
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from datetime import datetime
 from itertools import combinations
@@ -142,19 +142,15 @@ def _together(group: list[ListedFile]) -> list[ListedFile]:
     level = [file for file in group if named_channel(file).is_horizontal]
     pairs = [list(pair) for pair in combinations(level, 2) if not _why_apart(pair)]
     if len(pairs) > 1:
-        pairs = [pair for pair in pairs if _is_square(pair)]
+        angles = [angle_between(*map(named_channel, pair)) for pair in pairs]
+        known = zip(pairs, angles, strict=True)
+        pairs = [pair for pair, angle in known if angle is not None and abs(angle - 90) <= SQUARE]
     if len(pairs) != 1:
         return []
     (pair,) = pairs
     with_vertical = [[*pair, file] for file in group if file not in level and not _why_apart([*pair, file])]
     chosen = with_vertical[0] if len(with_vertical) == 1 else pair
     return [file for file in group if file in chosen]
-
-
-def _is_square(pair: Iterable[ListedFile]) -> bool:
-    """Whether two components are known to be at right angles."""
-    angle = angle_between(*map(named_channel, pair))
-    return angle is not None and abs(angle - 90) <= SQUARE
 
 
 def _why_apart(group: Sequence[ListedFile]) -> Remark | None:

@@ -42,7 +42,9 @@ def open_station(record: CatalogueRecord, mirror: str | Path | None = None) -> S
     and file.
     """
     with about(record.id):
-        inventory = _inventory_of(record, mirror)
+        inventory = beside_catalogue(record, record.inventory, mirror) if record.inventory else None
+        if record.inventory and inventory is None:
+            raise RecordError(f"inventory {record.inventory!r} is missing; mend the row or add the file.")
         channels: list[Accelerogram] = []
         for file in record.files:
             channels += _channels_of(record, file, inventory, mirror)
@@ -52,16 +54,6 @@ def open_station(record: CatalogueRecord, mirror: str | Path | None = None) -> S
 def open_record(record: CatalogueRecord, mirror: str | Path | None = None) -> list[Accelerogram]:
     """Return the horizontal components of `record`, as open_station does."""
     return list(open_station(record, mirror).horizontal)
-
-
-def _inventory_of(record: CatalogueRecord, mirror: str | Path | None) -> Path | None:
-    """Return the StationXML that the row names, None where it names none."""
-    if not record.inventory:
-        return None
-    inventory = beside_catalogue(record, record.inventory, mirror)
-    if inventory is None:
-        raise RecordError(f"inventory {record.inventory!r} is missing; mend the row or add the file.")
-    return inventory
 
 
 def _channels_of(
@@ -87,19 +79,24 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
         if len(record.files) > 1:
             channels = joined(channels)
         _check_names(channels, record)
-        vertical = _vertical(channels, record)
+        upwards = (channel for channel in channels if channel.vertical and not channel.borehole)
+        named = record.vertical_component
+        vertical = _called(named, channels) if named else next(upwards, None)
         horizontal = _horizontal(channels, record, vertical)
         if record.components:
-            horizontal = _without_doubt(horizontal)
-        else:
-            _check_upright([*horizontal, *filter(None, [vertical])])
+            horizontal = [
+                replace(each, warnings=tuple(w for w in each.warnings if w.kind not in _ANSWERED))
+                for each in horizontal
+            ]
+        elif doubt := vertical_doubt([*horizontal, *filter(None, [vertical])]):
+            raise RecordError(str(doubt))
         if doubt := pair_doubt(horizontal):
             horizontal = [channel.warned(doubt) for channel in horizontal]
         declared = [_as_declared(channel, record) for channel in horizontal]
-        upwards = None if vertical is None else _as_declared(vertical, record)
+        beside = None if vertical is None else _as_declared(vertical, record)
         if record.scale_to:
-            declared, upwards = scaled_to(ScalingTarget.parse(record.scale_to), declared, upwards)
-        return Station(tuple(declared), upwards)
+            declared, beside = scaled_to(ScalingTarget.parse(record.scale_to), declared, beside)
+        return Station(tuple(declared), beside)
 
 
 def _named_by_row(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sequence[Accelerogram]:
@@ -125,30 +122,8 @@ def _check_names(channels: Sequence[Accelerogram], record: CatalogueRecord) -> N
             raise RecordError(f"component is {name!r}, but the file holds {_listed(channels)}.")
 
 
-def _check_upright(channels: Sequence[Accelerogram]) -> None:
-    """Raise RecordError where one of the channels may be the vertical one of a station, and nothing says which."""
-    if doubt := vertical_doubt(channels):
-        raise RecordError(str(doubt))
-
-
-def _without_doubt(horizontal: Sequence[Accelerogram]) -> list[Accelerogram]:
-    """Return the components that the row names, without the question of its file that it thereby answers."""
-    return [
-        replace(channel, warnings=tuple(each for each in channel.warnings if each.kind not in _ANSWERED))
-        for channel in horizontal
-    ]
-
-
 _ANSWERED = (Kind.SOME_MAY_BE_VERTICAL, Kind.LONE_MAY_BE_VERTICAL)
 """What is no longer in doubt once a row names the horizontal components."""
-
-
-def _vertical(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Accelerogram | None:
-    """Return the vertical component at the surface, or the one that the row names; None where there is none."""
-    if record.vertical_component:
-        return _called(record.vertical_component, channels)
-    upwards = (channel for channel in channels if channel.vertical and not channel.borehole)
-    return next(upwards, None)
 
 
 def _horizontal(

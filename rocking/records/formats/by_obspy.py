@@ -299,8 +299,6 @@ def _read_counts(form: str, content: bytes, options: Options) -> list[Accelerogr
 
     form: obspy's name of the format. Of a text that states their unit, they may be acceleration already.
     """
-    if form in _LISTS:
-        _check_lists(content)
     seconds = _seconds_of_win(content) if form == "WIN" else 0
     traces, warnings = _stream(content, form)
     for trace in traces if seconds else ():
@@ -342,21 +340,19 @@ def _read_gse(content: bytes, options: Options) -> list[Accelerogram]:
 
 
 def _read_lists(content: bytes, options: Options) -> list[Accelerogram]:
-    return _read_counts(
-        "TSPAIR" if b", TSPAIR," in content.partition(b"\n")[0] else "SLIST", content, options
-    )
+    is_of_pairs = b", TSPAIR," in content.partition(b"\n")[0]
+    _check_lists(content, is_of_pairs)
+    return _read_counts("TSPAIR" if is_of_pairs else "SLIST", content, options)
 
 
-_LISTS = "SLIST", "TSPAIR"
 _NO_UNIT = "COUNTS", "COUNT", "INTEGER", "FLOAT"
 """The last words of a head of samples that are counts, or have no unit: there the type of the samples stands last."""
 _LIST_HEAD = re.compile(rb"(?m)^TIMESERIES \S+, *(\d+) samples,.*\n")
 
 
-def _check_lists(content: bytes) -> None:
+def _check_lists(content: bytes, is_of_pairs: bool) -> None:
     """Refuse lists of samples that hold another number of lines or samples than their heads declare: obspy does not."""
     heads = [int(match[1]) for match in _LIST_HEAD.finditer(content)]
-    is_of_pairs = b", TSPAIR," in content.partition(b"\n")[0]
     bodies = _LIST_HEAD.split(content)[2::2]
     for declared, body in zip(heads, bodies, strict=True):
         numbers = re.sub(rb"(?m)^[ \t]*\S+", b"", body) if is_of_pairs else body
@@ -508,10 +504,6 @@ def _is_seisan(content: bytes) -> bool:
     )
 
 
-def _is_reftek(content: bytes) -> bool:
-    return len(content) % 1024 == 0 and content[:2] in (b"EH", b"DT", b"AD") and b"\0" in content[:16]
-
-
 def _refuse_css(content: bytes, options: Options) -> list[Accelerogram]:
     raise RecordError(
         "a CSS table (wfdisc) holds no samples, but names the files that do; read them together: "
@@ -581,7 +573,9 @@ REFTEK = Format(
     "REFTEK 130",
     "Refraction Technology recorders",
     "packets of 1024 bytes, of which the first is EH, DT or AD",
-    _is_reftek,
+    lambda content: (
+        len(content) % 1024 == 0 and content[:2] in (b"EH", b"DT", b"AD") and b"\0" in content[:16]
+    ),
     partial(_read_counts, "REFTEK130"),
     binary=True,
 )

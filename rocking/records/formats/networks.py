@@ -139,8 +139,11 @@ def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
     head, rows = header.parted(content, re.compile("#Data:").match, "begins with #Data:", _CWB_HEADER)
     head = re.sub("^#", "", head, flags=re.M)
     labels = re.findall(r"([A-Z])\(", _CWB.required("channels", head))
-    facts = _cwb_magnitude(head)
-    facts["peaks"] = [_cwb_peak(head, label) for label in labels]
+    scales = re.findall(r"^Magnitude\((\w+)\)(:.*)", head, re.I | re.M)  # lines like "Magnitude(Mw):7.6"
+    facts = header.typed_magnitude(" ".join(scale + value for scale, value in scales))
+    lines = (header.optional(rf"^.*MAX.*\b{label}\s*:(.*)", head) for label in labels)
+    extremes = (re.findall(header.NUMBER, line, re.I) for line in lines)  # the greatest and the least
+    facts["peaks"] = [max((abs(float(each)) for each in two), default=None) for two in extremes]
     facts["event_time"] = _in_zone(_CWB.text("event_time", head), "+08:00")
     facts["event"] = facts["event_time"]
 
@@ -148,19 +151,6 @@ def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
     times = table[:, 0]
     samples = table[:, 1:]
     return _CWB.channels(head, samples, labels, options, step=text.only_even_step(times), **facts)
-
-
-def _cwb_magnitude(head: str) -> dict[str, Any]:
-    """Magnitude and scale of lines like "Magnitude(Mw):7.6", of which a file may hold several."""
-    lines = re.findall(r"^Magnitude\((\w+)\)(:.*)", head, re.I | re.M)
-    return header.typed_magnitude(" ".join(scale + value for scale, value in lines))
-
-
-def _cwb_peak(head: str, label: str) -> float | None:
-    """The peak of a channel by the line of its greatest and least value; None where there is none."""
-    line = header.optional(rf"^.*MAX.*\b{label}\s*:(.*)", head)
-    extremes = re.findall(header.NUMBER, line, re.I)
-    return max((abs(float(each)) for each in extremes), default=None)
 
 
 _UNAM = Layout("gal", {

@@ -160,7 +160,7 @@ def test_a_layout_that_ships_without_a_unit_asks_for_it_alone(tmp_path: Path) ->
     path.write_text(f"600 0.01\n{rows}")
     with pytest.raises(AskedError, match="unit is not declared") as asked:
         read(path)
-    assert asked.value.question.proposal == "t, a ?" and asked.value.question.signature.text_above == "n, dt"
+    assert asked.value.question.proposal == "t, ?" and asked.value.question.signature.text_above == "n, dt"
     (record,) = read(path, unit="g")
     assert record.acceleration == pytest.approx(MOTION, abs=1e-5) and record.time_step == 0.01
     assert record.source.answer == "read as 't, a', by the layouts of rocking"
