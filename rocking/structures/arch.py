@@ -175,6 +175,11 @@ class Arch(Crackable):
             return "the left foot" if foot < 0 else "the right foot"
         return f"{abs(np.degrees(angle)):.0f}°"  # candidates lie several degrees apart
 
+    @cached_property
+    def static_multiplier(self) -> float:
+        """That of statics: the linear programme is the least over all hinges, so that no candidate has to be formed."""
+        return (self.onset if self.crack == "known" else self._static_onset()).multiplier
+
     def _as_crushed(self, seek: Callable[[Ring], Onset]) -> Onset:
         """The onset that `seek` finds with the contacts where its own line of thrust crushes the joints.
 

@@ -173,14 +173,13 @@ class Ring:
             return np.zeros(np.shape(section)), np.zeros(np.shape(section))
         softness, *line = self.crushed
         unknowns = np.array([*line, 1.0])
-        whole = replace(self, crushed=None)
-        breadth = np.full(np.shape(section), self.thickness)
-        if self.piers is not None:
-            breadth = np.where(self.feet(section) == 0, breadth, self.piers.width)
-        both = [np.full(np.shape(section), contact) for contact in (INTRADOS, EXTRADOS)]
-        # the gaps to both edges are the normal force times the breadth of the joint
-        normal = sum(whole.gaps(section, contact) for contact in both) @ unknowns / breadth
-        slope = sum(whole.gap_slopes(section, contact) for contact in both) @ unknowns / breadth
+        foot = self.feet(section)
+        # from extrados to intrados, of length 1: the moments about points so far apart differ by the normal force
+        across = np.where(foot == 0, -1j * np.exp(-1j * section), -foot)
+        load, load_rate = self.loads(section)
+        normal = -_moment(0.0, across, load) @ unknowns
+        turned = _moment(0.0, np.where(foot == 0, -1j * across, 0.0), load)
+        slope = -(turned + _OF_LOADS * _moment(0.0, across, load_rate)) @ unknowns
         return softness * normal, softness * slope
 
     def sector(self, first: float, last: float) -> np.ndarray:
@@ -259,13 +258,15 @@ class Ring:
         point_rate = -1j * point + contact * self._insets(section)[1] * 1j * np.exp(-1j * section)
 
         by_point = _moment(0.0, point_rate, load)
-        # Only the last two columns of `_moment` hold the loads; the others do not change with them.
-        holds_loads = np.array([0.0, 0.0, 0.0, 1.0, 1.0])
-        by_loads = holds_loads * _moment(1.0, point, load_rate)
+        by_loads = _OF_LOADS * _moment(1.0, point, load_rate)
 
         slopes = -contact[..., None] * (by_point + by_loads)
         is_foot = self.feet(section) != 0
         return np.where(is_foot[..., None], 0.0, slopes)
+
+
+_OF_LOADS = np.array([0.0, 0.0, 0.0, 1.0, 1.0])
+"""The columns of `_moment` that hold the loads; the others do not change with them."""
 
 
 def _moment(one: float, point: np.ndarray, load: np.ndarray) -> np.ndarray:
