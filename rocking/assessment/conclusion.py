@@ -96,7 +96,11 @@ def worst_cases(comparison: Iterable[ComparisonRow]) -> dict[tuple[str, str, flo
     By record, structure and period of its support.
     """
     cases: dict[tuple[str, str, float | None], ComparisonRow] = {}
-    for row in sorted(comparison, key=lambda row: _or_least(row.integrated_rotation_ratio), reverse=True):
+    rows = list(comparison)
+    unknown = [row for row in rows if math.isnan(row.integrated_rotation_ratio)]
+    known = [row for row in rows if not math.isnan(row.integrated_rotation_ratio)]
+    known.sort(key=lambda row: row.integrated_rotation_ratio, reverse=True)
+    for row in (*known, *unknown):
         cases.setdefault((row.record, row.structure, row.support_period_s), row)
     return cases
 
@@ -184,7 +188,3 @@ def falls_in_words(falls: Sequence[ExpectedFallsRow]) -> str:
         sentence += f" (90 %: {interval}, by the spread over {records} records)"
     untold = math.ceil(of_all.without_share)
     return sentence + (f"; of {untold} it cannot be told." if untold else ".")
-
-
-def _or_least(value: float) -> float:
-    return -1.0 if math.isnan(value) else value

@@ -367,12 +367,13 @@ def deciding(ensembles: CrackEnsembles) -> list[Deciding]:
     governing = ensembles.governing.ensemble
     falls = np.isinf(governing.rotation_ratios)
     known = ~np.isnan(governing.rotation_ratios)
-    shares = [
-        Deciding(cause.name, explained(falls[known], groups[known]), cause.origin)
-        for cause in CAUSES
-        if cause.name in governing.causes
-        for groups in [_groups(governing.causes[cause.name])]
-    ]
+    shares = []
+    for cause in (each for each in CAUSES if each.name in governing.causes):
+        groups = governing.causes[cause.name]
+        if groups.dtype.kind == "f" and np.unique(groups).size > BINS:
+            # Numbers of an interval go by the part of it in which they lie.
+            groups = np.searchsorted(np.linspace(groups.min(), groups.max(), BINS + 1)[1:-1], groups)
+        shares.append(Deciding(cause.name, explained(falls[known], groups[known]), cause.origin))
     cracked = [each for each in ensembles.followed if each.counts and not each.bulges]
     counting = [each for each in cracked if not each.of_geometry]
     if len(cracked) > len(counting):
@@ -428,14 +429,6 @@ def explained(falls: np.ndarray, groups: np.ndarray) -> float:
     within = sum(float(((own - own.mean()) ** 2).sum()) for own in (values[groups == name] for name in names))
     by_accident = (names.size - 1) * within / (values.size - names.size)
     return max(0.0, (total - within - by_accident) / total)
-
-
-def _groups(values: np.ndarray) -> np.ndarray:
-    """The group of each member: its value, or where that is a number of an interval the part in which it lies."""
-    if values.dtype.kind != "f" or np.unique(values).size <= BINS:
-        return values
-    edges = np.linspace(values.min(), values.max(), BINS + 1)[1:-1]
-    return np.searchsorted(edges, values)
 
 
 def _explained_by_crack(followed: Iterable[FollowedCrack]) -> float:

@@ -199,23 +199,17 @@ _ONLY_ACCELERATION = re.compile(r"a|ag|a_g|acc\w*|ground[ _]?acc\w*|amplitude|va
 
 
 def doubts_of_channel(channel: Channel) -> tuple[Remark, ...]:
-    """Return a remark where nothing says where a channel points: neither its header, nor its name."""
-    if not _is_unknown(channel):
-        return ()
-    return (Remark(Kind.DIRECTION_UNKNOWN, channel.component.strip()),)
-
-
-def _is_unknown(channel: Channel) -> bool:
-    """Whether a channel has a name, and neither it nor the header says where the channel points."""
+    """Return a remark where a channel has a name, and neither that nor its header says where it points."""
     name = channel.component.strip()
     if channel.vertical or channel.azimuth is not None or not name:
-        return False
+        return ()
     if _SAYS_WHICH.fullmatch(name.strip("+-")) or _BAND.fullmatch(name.upper()):
-        return False
+        return ()
     is_beyond = name.isdigit() and int(name) > 360
     is_combined = re.match(r"(?i)rot|srss|gm|geo", name) is not None
     is_longer_angle = re.search(r"\d\d", name) is not None  # an angle to which a program has written more
-    return is_beyond or is_combined or not is_longer_angle
+    unknown = is_beyond or is_combined or not is_longer_angle
+    return (Remark(Kind.DIRECTION_UNKNOWN, name),) if unknown else ()
 
 
 def contradiction(channel: Channel) -> Remark | None:
@@ -259,7 +253,7 @@ def vertical_doubt(channels: Sequence[Channel]) -> Remark | None:
 def _lone_doubt(channel: Channel) -> Remark | None:
     """A remark on a lone channel with a code. A heading of a table is prose, and no less horizontal for that."""
     code = channel.component.strip()
-    if not _SEED.fullmatch(code) or names_acceleration(code) or not _is_unknown(channel):
+    if not _SEED.fullmatch(code) or names_acceleration(code) or not doubts_of_channel(channel):
         return None
     return Remark(Kind.LONE_MAY_BE_VERTICAL, code)
 

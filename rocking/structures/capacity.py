@@ -68,7 +68,12 @@ class StaticCapacity:
         cls, side: Side, linkage: Linkage, parts: Sequence[tuple[int, np.ndarray]], mirrored: bool
     ) -> "StaticCapacity":
         """Return that of a side whose moving outlines are `parts`; the control point moves furthest half-way out."""
-        control_part, control_corner = _farthest(linkage, parts, side.critical_rotation / 2)
+        farthest = []
+        for part, corners in parts:
+            shifts = linkage.point(part, corners, side.critical_rotation / 2).moved.real
+            corner = int(shifts.argmax())
+            farthest.append((float(shifts[corner]), part, complex(corners[corner])))
+        _, control_part, control_corner = max(farthest, key=itemgetter(0))
         place = plane(np.asarray(control_corner), mirrored)
 
         # a mass that something else holds sideways, as that of a load that only rises, has no part
@@ -203,16 +208,3 @@ class StaticCapacity:
         if exact is not None and not lasting:
             return exact
         return float(brentq(gravity, 0.0, critical, xtol=1e-16, rtol=1e-14))
-
-
-def _farthest(
-    linkage: Linkage, parts: Sequence[tuple[int, np.ndarray]], rotation: float
-) -> tuple[int, complex]:
-    """The corner at rest, and its part, of outlines `parts` that has moved farthest sideways at `rotation` [rad]."""
-    farthest = []
-    for part, corners in parts:
-        shifts = linkage.point(part, corners, rotation).moved.real
-        place = int(shifts.argmax())
-        farthest.append((float(shifts[place]), part, complex(corners[place])))
-    _, part, corner = max(farthest, key=itemgetter(0))
-    return part, corner

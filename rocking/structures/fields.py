@@ -320,17 +320,18 @@ class Description:
     def remarks(self) -> tuple[Remark, ...]:
         """A remark on each size beyond its plausible range, and on a body that is broader than it is tall."""
         remarks = (given.field.remark(self.type_name, given.value) for given in self.values)
-        return (*(remark for remark in remarks if remark), *self._stocky)
-
-    @property
-    def _stocky(self) -> tuple[Remark, ...]:
+        unusual = [remark for remark in remarks if remark]
         sizes = {given.field.name: given for given in self.values}
         heights = [sizes[name] for name in ("height", "column_height") if name in sizes]
         across = [sizes[name] for name in _ROCKS_OVER if name in sizes]
-        if not (heights and across and across[0].value > heights[0].value):
-            return ()
-        names = {"height": heights[0].field.key, "height_m": heights[0].value, "across_m": across[0].value}
-        return (Remark.of(Kind.BROADER_THAN_TALL, across[0].field.key, **names),)
+        if heights and across and across[0].value > heights[0].value:
+            names = {
+                "height": heights[0].field.key,
+                "height_m": heights[0].value,
+                "across_m": across[0].value,
+            }
+            unusual.append(Remark.of(Kind.BROADER_THAN_TALL, across[0].field.key, **names))
+        return tuple(unusual)
 
     @property
     def front(self) -> np.ndarray:

@@ -235,10 +235,6 @@ class Linkage(ABC):
         """Σ m y', the part of G that is the weight of the masses."""
         return _sum(self.masses, self.motion(rotation).velocities.imag) / self.unit
 
-    def weight_slope(self, rotation: ArrayLike) -> np.ndarray:
-        """Σ m y''."""
-        return _sum(self.masses, self.motion(rotation).accelerations.imag) / self.unit
-
     def ground(self, rotation: ArrayLike) -> np.ndarray:
         """B = Σ m x'."""
         return _sum(self.masses, self.motion(rotation).velocities.real) / self.unit
@@ -270,7 +266,8 @@ class Linkage(ABC):
                 slopes.append(each.tie.slope(*(coordinate.real for coordinate in point)))
             elif each.force:
                 slopes.append(-(each.force.conjugate() * point.acceleration).real)
-        return self.weight_slope(rotation) + sum(slopes, np.zeros(())) / self.unit
+        weight = _sum(self.masses, self.motion(rotation).accelerations.imag) / self.unit
+        return weight + sum(slopes, np.zeros(())) / self.unit
 
     def _hanging(self, rotation: ArrayLike) -> Iterator[tuple[Hung, PointMotion]]:
         """The things that hang on it, with the motions of their points."""

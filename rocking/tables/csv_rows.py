@@ -31,11 +31,9 @@ def rows_written(row_class: type[R], path: Path) -> Iterator[Callable[[Iterable[
     """Yield what adds rows to the CSV file at `path`, which appears whole at the end, or not at all."""
     with whole(path) as stream:
         stream.writelines(line.encode() for line in csv_lines(row_class, ()))
-
-        def write(rows: Iterable[R]) -> None:
-            stream.writelines(line.encode() for line in islice(csv_lines(row_class, rows), 1, None))
-
-        yield write
+        yield lambda rows: stream.writelines(
+            line.encode() for line in islice(csv_lines(row_class, rows), 1, None)
+        )
 
 
 def csv_lines(row_class: type[R], rows: Iterable[R]) -> Iterator[str]:
