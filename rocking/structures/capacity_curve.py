@@ -128,6 +128,8 @@ class CapacityCurve(Structure):
         which mass_ratio is the e*.
         Raises StructureError naming what is missing or no number.
         """
+        if not isinstance(file, str | Path):
+            raise StructureError(f"file is {file!r}, but must be a text, the name of a CSV file.")
         displacements, loads, head = _points(Path(file))
         units = {
             "force_kN": 1e3 / weight,

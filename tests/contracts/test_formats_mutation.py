@@ -50,6 +50,7 @@ CANNOT_TELL = {
     *(("JMA CSV", kind) for kind in ("truncate", "drop_line", "cut_bytes", "repeat_line")),
     ("UNAM/CICESE: repeated last line", "cut_bytes"),
     ("AFAD/NSMN text", "flip_digit"),
+    ("GSE", "flip_digit"),
 }
 """A table without a count of its rows that loses its first or last ones, or has neither count nor times; a file with
 two lines too many that loses two others; a time step that stands in one place only."""

@@ -179,7 +179,8 @@ def test_obspy_is_told_the_format_of_each_file_it_opens() -> None:
     """obspy.read without a format tries every plug-in it has, and one of them unpickles."""
     calls = []
     for path in sorted(Path(rocking.__file__).parent.rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        text = path.read_text(encoding="utf-8")
+        for node in ast.walk(ast.parse(text)) if "obspy" in text else ():
             name = ast.unparse(node.func) if isinstance(node, ast.Call) else ""
             if name.removeprefix("obspy.") in ("read_inventory", "read_events") or name == "obspy.read":
                 calls.append((path.name, {word.arg for word in node.keywords}))

@@ -21,6 +21,7 @@ from rocking.quantities import GRAVITY
 from rocking.structures.linkage import UnknownContacts
 from rocking.structures.structure_list import TYPES, structure_from_config
 
+SCHEMA = jsonschema.validators.validator_for(scenes_schema())(scenes_schema())
 UNCHECKED = [HealthCheck.too_slow, HealthCheck.filter_too_much]
 FEW = settings(
     max_examples=settings.default.max_examples // 6,
@@ -209,7 +210,7 @@ def test_a_structure_comes_back_from_its_description_a_file_and_another_process(
     form = structure.described.form
     assert len(form.keys) == len(form.fields)  # no key twice
     entry = {"name": "one", **mapping}
-    jsonschema.validate([entry], scenes_schema())
+    SCHEMA.validate([entry])
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "structures.yaml"
         path.write_text(yaml.safe_dump([entry], allow_unicode=True), encoding="utf-8")

@@ -7,7 +7,7 @@ import pytest
 
 import rocking
 from rocking import Accelerogram, Block, Frame, LoadedWall, Spire, Verdict, Wall
-from rocking.assessment.contacts import MOST_RUNS, RUNS, contact_share, doubt, stackable
+from rocking.assessment.contacts import MOST_RUNS, RUNS, ContactShare, contact_share, doubt, stackable
 from rocking.assessment.decide import Decision, decide, step
 from rocking.assessment.motions import GroundMotions, component_of
 from rocking.assessment.one_case import assess_case
@@ -107,8 +107,15 @@ def test_few_runs_of_contact_dynamics_let_a_spire_probably_stand_and_many_let_it
     assert falls.verdict is Verdict.PROBABLY_OVERTURNS
 
 
-def test_contact_dynamics_is_asked_where_it_cannot_be_told_and_of_a_held_wall_that_turns_far():
-    """Not where the members are uncertain, and with fidelity: auto never; with contact by all runs."""
+def test_contact_dynamics_is_asked_where_it_cannot_be_told_and_of_a_held_wall_that_turns_far(monkeypatch):
+    """Not where the members are uncertain, and with fidelity: auto never; with contact by all runs.
+
+    Whether it is asked, and by how many runs, is all that counts here.
+    """
+    without_reserve = EnsembleSettings(reserve=0)
+    monkeypatch.setattr(
+        "rocking.assessment.one_case.contact_share", lambda *arguments: ContactShare(0, arguments[-1])
+    )
     wall = rocking.Facade(
         (3.2,),
         (0.4,),
@@ -122,10 +129,13 @@ def test_contact_dynamics_is_asked_where_it_cannot_be_told_and_of_a_held_wall_th
     words = []
     for severity, period in ((1.2, 0.4), (1.6, 0.4), (4.0, 0.25), (2.2, 0.4)):
         motion = sine(severity * wall.static_multiplier * GRAVITY, period)
-        few, many = rocking.assess(motion, wall), rocking.assess(motion, wall, settings=CONTACT)
+        few, many = (
+            rocking.assess(motion, wall, settings=replace(each, ensemble=without_reserve))
+            for each in (AssessmentSettings(), CONTACT)
+        )
         words.append(without_stacks(few).word)
         far = words[-1] is Verdict.PROBABLY_STANDS
-        assert (few.stacks is not None, many.stacks is not None) == (False, far)
+        assert (few.stacks, many.stacks) == (None, ContactShare(0, MOST_RUNS) if far else None)
     assert words == [
         Verdict.STANDS,
         Verdict.PROBABLY_STANDS,

@@ -44,7 +44,7 @@ def test_the_verdict_and_every_number_are_those_of_all_cracks_followed_one_by_on
     """The oracle follows every crack in full; a spire, which tapers, never stands once it has lifted."""
     seen = set()
     structure = replace(structure, crack="unknown")
-    for severity in (1.5, 2.5, 3.5, 5.0, 8.0, 14.0):
+    for severity in (1.5, 3.5, 5.0, 14.0):
         motion = record(severity * structure.static_multiplier * 9.80665)
         assessment = rocking.assess(motion, structure)
         motions = GroundMotions.of(motion)

@@ -94,7 +94,7 @@ def test_stronger_and_more_ductile_ties_never_lower_a_capacity():
 
     To 1e-9, as levels are sought to 1e-14 and a break is followed to 1e-12.
     """
-    strengths = (0.5e3, 2e3, 5e3, 8e3, 12e3, 21e3, 40e3, 63e3, 80e3, 100e3)
+    strengths = (0.5e3, 5e3, 12e3, 40e3, 63e3, 100e3)
     for elongation in (0.0, 0.02, 0.08):
         linear, nonlinear = [], []
         walls = [
@@ -107,11 +107,11 @@ def test_stronger_and_more_ductile_ties_never_lower_a_capacity():
         for found in (linear, nonlinear):
             assert (np.diff(found) > -1e-9 * np.array(found[1:])).all(), found
         assert linear[-1] > 2 * linear[0] and nonlinear[-1] > 1.3 * nonlinear[0]
-    for strength in strengths[2::2]:
+    for strength in strengths[1::2]:
         tied = replace(WALL, **TIE, tie_strength=strength, crack="known")
         levels = [
             kinematic_check(replace(tied, tie_plastic_elongation=each), SPECTRUM).nonlinear.capacity
-            for each in (0.0, 0.01, 0.05, 0.1, 0.2, 0.4)
+            for each in (0.0, 0.02, 0.1, 0.4)
         ]
         assert (np.diff(levels) > -1e-9 * np.array(levels[1:])).all(), levels
 

@@ -166,7 +166,7 @@ BODIES = [(0.8, 0.3), (0.4, 0.2), (1.5, 0.15), (2.5, 0.2), (4.0, 0.12)]
 def test_rotation_of_the_coupled_system(bodies, seconds):
     """At a mass ratio of 1e-9 the body no longer pushes the support, and 1e-3 of the rotation is asked for."""
     record = smooth(8, seconds=seconds)
-    periods, factors = (0.12, 0.2, 0.35, 0.6), (0.6, 1.0, 1.5)
+    periods, factors = (0.12, 0.2, 0.35, 0.6), (0.6, 1.2)
     rows, ours = [], []
     for (size, slenderness), period, factor in product(bodies, periods, factors):
         block = Block(semi_diagonal=size, slenderness=slenderness)
@@ -179,7 +179,7 @@ def test_rotation_of_the_coupled_system(bodies, seconds):
             restitution = block.mechanism().sides[0].restitution
             rows.append((size, slenderness, restitution, period, 0.05, 1e-9, factor))
             ours.append(ratio)
-    assert len(rows) >= 4 * len(bodies)
+    assert len(rows) >= 3 * len(bodies)
     theirs = largest_rotations(Cases(*np.array(rows).T), record.acceleration, STEP, seconds=2 * seconds)
     assert ours == pytest.approx(theirs, rel=1e-3)
 

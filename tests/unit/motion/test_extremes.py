@@ -87,9 +87,8 @@ def test_zeno_chain_of_a_hundred_thousand_impacts_ends_in_rest(structure):
 
 
 # Of the block, tests/unit/motion/test_members.py has one member that does so.
-@pytest.mark.parametrize(
-    "structure", [pytest.param(BLOCK, marks=pytest.mark.slow), LINEAR], ids=["block", "linear"]
-)
+@pytest.mark.slow  # test_members.py has the same of a member
+@pytest.mark.parametrize("structure", [BLOCK, LINEAR], ids=["block", "linear"])
 def test_rattling_without_loss_is_cut_short_with_a_reason(structure):
     """η = 1 from 1e-6 rad: flights of 2 ms for a day would be 4e7 impacts; it stops and says so."""
     lossless = with_restitution(structure, 1.0, 1.0)

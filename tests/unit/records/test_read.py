@@ -169,7 +169,7 @@ WORST = {
 }
 
 
-@pytest.mark.parametrize("share", [0.2, pytest.param(1.0, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("share", [0.1, pytest.param(1.0, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("name", WORST)
 def test_the_worst_content_of_the_largest_size_takes_no_more_than_500_mb(name: str, share: float) -> None:
     """A share of that size takes as much of the memory."""

@@ -154,10 +154,3 @@ def hostile() -> RecordReport:
     names = {"station": HOSTILE[0], "event": HOSTILE[1], "path": HOSTILE[2], "scale_factor": 12.5}
     records = [shaken(HOSTILE[0], **names), shaken(HOSTILE[4], **names)]
     return assessed(HOSTILE[1], records, structures)
-
-
-@pytest.fixture
-def undrawn(monkeypatch):
-    """A report without figures, for a test that asks what it says: to draw takes most of its time."""
-    monkeypatch.setattr("rocking.reports.record.pictures", lambda *_: [])
-    monkeypatch.setattr("rocking.reports.page_one.drawn_by_hand", lambda *_: {"svg": "<svg/>", "alt": "none"})

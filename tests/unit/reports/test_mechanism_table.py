@@ -9,6 +9,7 @@ from rocking.assessment.cracks import mechanisms_of
 from rocking.reports.structures import CheckedStructure, ListedMechanism, structures_data
 from rocking.study.settings import Settings
 
+pytestmark = pytest.mark.usefixtures("undrawn")
 SPECTRUM = DesignSpectrum.ntc(ag=1.5, f0=2.5, tc_star=0.35, soil="B")
 ONE_STOREY = Facade(
     (3.6,), (0.35,), 18e3, floor_loads=(10e3,), eccentricity=0.05, behind="cross_walls", restitution=0.7,

@@ -123,6 +123,7 @@ def test_the_terminal_says_it(report, decisions):
         assert f"{decision.word}: {said}" in line
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_page_one_says_it(report, decisions):
     data = detailed(report).data()
     rows = {row["name"]: row for row in data["rows"]}
@@ -136,6 +137,7 @@ def test_page_one_says_it(report, decisions):
     assert rows["arch 20 m"]["hatched"], "whose contacts open, so that it cannot be told"
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_the_summary_says_it(report, decisions):
     data = summary_data(summarised(report.tables, report.structures), SETTINGS)
     assert (
@@ -164,6 +166,7 @@ def test_the_page_to_explore_says_it(report, decisions):
         assert not doubts or f" Doubtful: {doubts}." in cases[name]["text"]
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_the_page_to_sign_says_it(report, decisions):
     """Of one record: its word, the mean of one share, and the doubt."""
     stations = {row.record: row.station for row in report.tables.record}

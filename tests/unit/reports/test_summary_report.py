@@ -90,6 +90,7 @@ def verdict(
     return verdicts([result], record)[0]
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_the_summary_counts_the_verdicts_of_each_structure_and_names_its_worst_record():
     judged = [
         verdict("one", "pier", math.inf, 64, in_directions=20),
@@ -118,6 +119,7 @@ def test_the_summary_counts_the_verdicts_of_each_structure_and_names_its_worst_r
     assert sorted(drawn[:3]) == ["arch", "pier", "wall"] and len(drawn) == 7
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_the_map_holds_sign_and_share_with_the_worst_record_and_structure_first():
     alone = verdicts([station(run("EW", math.inf, "pier"))], "one")
     alone += verdicts([station(run("EW", 0.8, "arch"))], "two")
@@ -132,6 +134,7 @@ def test_the_map_holds_sign_and_share_with_the_worst_record_and_structure_first(
     ]
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_the_matrix_holds_a_word_for_each_record_the_worst_structure_first_and_what_to_do():
     judged = [
         verdict("one", "pier", 0.8, 0),
@@ -151,6 +154,7 @@ def test_the_matrix_holds_a_word_for_each_record_the_worst_structure_first_and_w
     assert [row["remark"] for row in content["rows"]] == ["", "", ""], "the words say it"
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_of_many_records_each_has_a_line_of_the_map_and_the_worst_stand_on_the_first_page():
     judged = [verdict(f"record {number}", "pier", math.inf, number) for number in range(40)]
     data = summary_data(summary_tables(CASES, verdicts=judged), SETTINGS)
@@ -189,6 +193,7 @@ def test_the_summary_of_a_record_is_the_same_twice_and_names_its_factor(hostile)
     assert any("declared factor" in notice["text"] for notice in summary_data(tables, SETTINGS)["notices"])
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_long_lists_are_cut_and_say_how_much_was_left_out():
     unsafe = [case("wall", 0.0, place / 1000) for place in range(2, 102)]
     assert {row.agreement for row in unsafe} == {Agreement.TOO_LOW}
@@ -205,6 +210,7 @@ def test_long_lists_are_cut_and_say_how_much_was_left_out():
     assert "and 230 others" in data["notices"][-1]["text"]
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_record_is_listed_with_its_dominant_pulse(example):
     (dominant,) = (row for row in example.tables.pulses if row.kind == "alternative" and row.rank == 1)
     others = [replace(row, period_s=9.0) for row in example.tables.pulses if row is not dominant]

@@ -57,6 +57,7 @@ def study(tmp_path):
     return settings, tmp_path
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_structure_list_says_what_vibrates_freely_and_what_falls(study):
     """T_0 and the loss of support of an entry are those of `rocking.check`, and other structures keep theirs."""
     settings, folder = study
@@ -105,6 +106,7 @@ def test_every_structure_has_its_checks_and_its_page(study):
     assert len(told) == 2 and told[0].startswith("parapet: linear")
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_without_sets_the_formulas_stand_and_the_page_says_so(study):
     settings, folder = study
     write_checks(
@@ -125,6 +127,7 @@ def test_checks_without_a_design_level_are_refused(study):
         write_checks(Study(on_the_ground(STRUCTURES), read_settings(settings)), folder, [], [])
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_fault_in_the_checks_of_a_structure_costs_no_other(study, monkeypatch):
     settings, folder = study
     followed = check
@@ -142,6 +145,7 @@ def test_a_fault_in_the_checks_of_a_structure_costs_no_other(study, monkeypatch)
     assert (folder / "structures.pdf").read_bytes().startswith(b"%PDF")
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_structure_that_cannot_be_checked_costs_no_other(study):
     settings, folder = study
     points = folder / "site.csv"
@@ -265,6 +269,7 @@ def page_of(checked=FORMULAS, language="en", name="wall", **facts):
     return data
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_page_ends_in_a_sentence():
     met = page_of(replace(FORMULAS, dynamic=found(True, interval=(0.35, 1.0))))
     assert met["headline"] == "Verified by C8.7.1.2.1.9, and by C8.7.1.2.1.8 and C8.7.1.2.1.7."
@@ -281,6 +286,7 @@ def test_a_page_ends_in_a_sentence():
     assert "the spectrum ends at 1 s" in refused["details"][0]
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_study_that_contradicts_the_checks_is_told_with_its_figure():
     often = page_of(overturning_share=0.25, stations=20, records=40, peaks=(1.96, 4.90))
     told = " ".join(often["details"])
@@ -291,6 +297,7 @@ def test_a_study_that_contradicts_the_checks_is_told_with_its_figure():
     assert "stations" not in " ".join(page_of(overturning_share=0.05, stations=20, records=40)["details"])
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_structure_that_only_its_tie_holds_says_so():
     strength = {"tie_heights": (2.9,), "tie_stiffness": 1e6, "tie_strength": 20e3}
     tied = Facade((3.0,), (0.5,), unit_weight=20e3, **strength)
@@ -307,6 +314,7 @@ def test_a_structure_that_only_its_tie_holds_says_so():
     assert bare == Facade((3.0,), (0.5,), unit_weight=20e3)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_check_that_is_met_tells_how_far_its_stations_speak_for_others():
     """Of 57 stations none: at most 5.1 % of all at 95 %, as (1 − .0512)^57 = .05; "" where not met."""
     met = found(True, interval=(0.35, 1.0))
@@ -360,6 +368,7 @@ def test_the_page_names_the_client_and_what_the_checks_rest_on():
     assert [line[0] for line in text["basis"]["checks"]["rows"]] == ["linear", "nonlinear"]
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_the_page_tells_a_reserve_that_was_not_sought_from_one_that_was_not_reached():
     spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
 
@@ -389,6 +398,7 @@ def test_the_page_tells_a_reserve_that_was_not_sought_from_one_that_was_not_reac
     assert share(low, doubts=(Kind.CONTACTS_OPEN,)).endswith("too high where contacts open.")
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_the_page_to_sign_carries_the_caveat_of_page_one(study, monkeypatch):
     """Also where the structure falls as a mechanism, so that its verdict needs no doubt and its reason names none."""
     settings, folder = study
@@ -433,6 +443,7 @@ def test_a_ratio_of_what_hardly_moves_says_that_it_is_large():
     assert found(True, demand=0.05).ratio_in_words == "2.00"
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_page_says_on_what_its_structure_stands_and_what_is_not_checked(tmp_path):
     """On a support its modes; on the ground beside it that the page is no page to sign; of endless ties their force."""
     listed = tmp_path / "structures.yaml"
@@ -493,6 +504,7 @@ def test_a_limit_displacement_is_drawn_on_the_capacity_curve_in_every_unit(units
         assert acceleration == pytest.approx(np.interp(displacement, *curve.get_data()), rel=1e-3)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_each_page_tells_the_share_of_its_own_structure(study, monkeypatch):
     """One structure overturns under every record and the other under none: no page may take the other's verdicts."""
     settings, folder = study

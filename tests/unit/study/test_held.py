@@ -17,12 +17,12 @@ STRUCTURES = """
 - {name: tied, type: facade, storey_heights_m: [4.0], thicknesses_m: [0.4], unit_weight_kN_m3: 18, restitution: 0.8,
    behind: cross_walls, tie_heights_m: [3.8], tie_stiffness_kN_m2: 5000, tie_strength_kN_m: 5}
 """
-STATIONS = 8
+STATIONS = 6
 
 
 @pytest.fixture
 def study(tmp_path):
-    """A study of eight stations with two components each."""
+    """A study of six stations with two components each."""
     folder = tmp_path / "study"
     (folder / "records").mkdir(parents=True)
     rows = []

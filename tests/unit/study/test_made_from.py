@@ -63,10 +63,24 @@ def _plan() -> Plan:
     return make_plan(yaml.safe_load(Path("config.yaml").read_text()))
 
 
-@pytest.fixture
-def study(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A study whose products all stand: of each a file, and its seal."""
-    monkeypatch.chdir(tmp_path)
+    folder = tmp_path_factory.mktemp("finished")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        _write_study()
+    return folder
+
+
+@pytest.fixture
+def study(finished: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of it in which the test runs."""
+    monkeypatch.chdir(shutil.copytree(finished, tmp_path / "study"))
+    return tmp_path / "study"
+
+
+def _write_study() -> None:
     for folder, names in (("records", "ab"), ("pool", "p")):
         Path(folder).mkdir()
         for name in names:
@@ -77,7 +91,6 @@ def study(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     Path("hazard.csv").write_text("intensity,annual_rate\n0.1,0.01\n1,0.0001\n")
     _write_settings()
     _finish()
-    return tmp_path
 
 
 def _finish() -> None:
