@@ -4,20 +4,21 @@ Rows about a record and about a study are imported from here. Those about checks
 imported from their files, for they ask the methods themselves, which take a quarter of a second to load.
 """
 
+from rocking.assessment.rows.of_motion import RECORD as RECORD
+from rocking.assessment.rows.of_motion import Identity as Identity
+from rocking.assessment.rows.of_motion import PulseRow as PulseRow
+from rocking.assessment.rows.of_motion import ReadComponent as ReadComponent
+from rocking.assessment.rows.of_motion import RecordRow as RecordRow
+from rocking.assessment.rows.of_motion import pulses_found as pulses_found
 from rocking.assessment.rows.of_record import RATIO_COLUMNS as RATIO_COLUMNS
-from rocking.assessment.rows.of_record import RECORD as RECORD
 from rocking.assessment.rows.of_record import RECORD_TABLES as RECORD_TABLES
 from rocking.assessment.rows.of_record import ComparedCase as ComparedCase
 from rocking.assessment.rows.of_record import ComparisonRow as ComparisonRow
 from rocking.assessment.rows.of_record import FailedCase as FailedCase
 from rocking.assessment.rows.of_record import FailureRow as FailureRow
 from rocking.assessment.rows.of_record import HistoryRow as HistoryRow
-from rocking.assessment.rows.of_record import Identity as Identity
 from rocking.assessment.rows.of_record import MechanismRow as MechanismRow
 from rocking.assessment.rows.of_record import OfStructure as OfStructure
-from rocking.assessment.rows.of_record import PulseRow as PulseRow
-from rocking.assessment.rows.of_record import ReadComponent as ReadComponent
-from rocking.assessment.rows.of_record import RecordRow as RecordRow
 from rocking.assessment.rows.of_record import RecordRows as RecordRows
 from rocking.assessment.rows.of_record import SupportRow as SupportRow
 from rocking.assessment.rows.of_record import TimedStage as TimedStage
@@ -25,7 +26,6 @@ from rocking.assessment.rows.of_record import TimingRow as TimingRow
 from rocking.assessment.rows.of_record import VariationRow as VariationRow
 from rocking.assessment.rows.of_record import VerdictRow as VerdictRow
 from rocking.assessment.rows.of_record import history_rows as history_rows
-from rocking.assessment.rows.of_record import pulses_found as pulses_found
 from rocking.assessment.rows.of_record import rows_of_record as rows_of_record
 from rocking.assessment.rows.of_record import verdicts_at as verdicts_at
 from rocking.assessment.rows.of_record import worst_period_each as worst_period_each

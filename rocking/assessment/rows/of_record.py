@@ -1,4 +1,4 @@
-"""The rows of the tables of one record: each column says on its own line what it means and what it reads."""
+"""The rows of the tables of what becomes of the structures under one record, and all the tables of a record."""
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -17,10 +17,18 @@ from rocking.assessment.methods import (
     within_factor_two,
 )
 from rocking.assessment.reserve import Reserve
+from rocking.assessment.rows.of_motion import (
+    COMPONENT,
+    RECORD,
+    ComponentRow,
+    Identified,
+    Identity,
+    PulseRow,
+    ReadComponent,
+    RecordRow,
+    pulses_found,
+)
 from rocking.floors.place import FloorMeasures
-from rocking.pulses import Pulse, PulseEvidence, VelocityPulse
-from rocking.pulses.pulse import PulseAnalysis, same_outcome_share
-from rocking.records.measures import RecordMeasures, record_measures
 from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Regime
 from rocking.structures.restraint import Reaction
@@ -39,32 +47,11 @@ if TYPE_CHECKING:  # else who reads a table would load numba
     from rocking.assessment.motions import Component
     from rocking.motion.response import ModelCheck, Response
 
-RECORD = "Identifier of the record in the catalogue"
-COMPONENT = "Component of the ground motion, as the file names it"
 STRUCTURE = "Name of the structure in the structure list"
 SUPPORT_PERIOD = (
     "First period of the support below the structure; 0: its ground, to compare with; empty: it has none"
 )
-SCALE_FACTOR = "Factor of the catalogue on the accelerations of the file"
-RECORD_SHA256 = "SHA-256 of the file the record was read from"
 PEAK_SIDE = "Side of the largest rotation or of the overturning: 1, -1, or 0 without uplift"
-
-
-@dataclass(frozen=True)
-class Identity:
-    """Names of a component of a record and of the input behind it, which stand in each row about it."""
-
-    record: str
-    component: str
-    record_sha256: str
-    settings_sha256: str
-
-
-@dataclass(frozen=True)
-class Identified:
-    """Anything about one component of one record."""
-
-    identity: Identity
 
 
 @dataclass(frozen=True)
@@ -74,24 +61,8 @@ class OfStructure(Identified):
     station: "StationResult"
 
 
-I = TypeVar("I", bound=Identified)
 C = TypeVar("C", bound=OfStructure)
-of_identified = Columns(Identified)
 of_structure = Columns(OfStructure)
-
-
-@row()
-class ComponentRow(RowOf[I]):
-    """A row about one component of one record."""
-
-    record: str = of_identified(RECORD, lambda each: each.identity.record)
-    component: str = of_identified(COMPONENT, lambda each: each.identity.component)
-    record_sha256: str = of_identified(RECORD_SHA256, lambda each: each.identity.record_sha256, last=True)
-    settings_sha256: str = of_identified(
-        "SHA-256 of settings, structures and package behind the row",
-        lambda each: each.identity.settings_sha256,
-        last=True,
-    )
 
 
 @row()
@@ -116,243 +87,6 @@ class DecidedRow(CaseRow[C]):
         "Share of the members that overturn; of a single run 0 or 1; empty where none can be told",
         lambda each: each.station.decision.share,
     )
-
-
-# What was read --------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class ReadComponent(Identified):
-    """One component as it was read, with the licence that the catalogue declares."""
-
-    component: "Component"
-    licence: str
-
-    @property
-    def file(self) -> str:
-        """The path of its file."""
-        return self.component.accelerogram.source.path
-
-    @property
-    def samples(self) -> int:
-        """The number of its samples."""
-        return self.component.accelerogram.acceleration.size
-
-    @cached_property
-    def measures(self) -> RecordMeasures:
-        """Its measures of intensity."""
-        return record_measures(self.component.accelerogram)
-
-    @property
-    def both_pulses(self) -> tuple[Pulse, VelocityPulse] | None:
-        """The sine that explains most of its energy, and the velocity pulse of the pair; None without one of them."""
-        analysis = self.component.analysis
-        velocity_pulse = self.component.motion.velocity_pulse
-        return (analysis.dominant, velocity_pulse) if analysis and velocity_pulse else None
-
-
-of_component = Columns(ReadComponent)
-of_accelerogram = of_component.part(lambda read: read.component.accelerogram)
-of_vertical = of_component.optional(lambda read: read.component.vertical)
-of_measures = of_component.part(lambda read: read.measures)
-of_directions = of_component.optional(lambda read: read.component.motion.rotd)
-of_velocity_pulse = of_component.optional(lambda read: read.component.motion.velocity_pulse)
-of_both_pulses = of_component.optional(lambda read: read.both_pulses)
-
-
-@row("record")
-class RecordRow(ComponentRow[ReadComponent]):
-    """One row per component: what was read and what was done to it before use."""
-
-    event: str = of_accelerogram("Earthquake", lambda read: read.event)
-    magnitude: float | None = of_accelerogram(
-        "Magnitude of the earthquake; empty where nothing states it", lambda read: read.magnitude
-    )
-    epicentral_distance_m: float | None = of_accelerogram(
-        "Distance to the epicentre; empty where nothing states it", lambda read: read.epicentral_distance
-    )
-    magnitude_type: str = of_accelerogram(
-        "Scale of the magnitude; empty where nothing states it", lambda read: read.magnitude_type
-    )
-    event_time: str = of_accelerogram(
-        "Date of the earthquake, and its time as far as the file says it, ISO 8601 in the zone of the file",
-        lambda read: read.event_time,
-    )
-    station: str = of_accelerogram("Recording station", lambda read: read.station)
-    station_latitude_deg: float | None = of_accelerogram(
-        "Latitude of the station, north", lambda read: read.latitude
-    )
-    station_longitude_deg: float | None = of_accelerogram(
-        "Longitude of the station, east", lambda read: read.longitude
-    )
-    start_time: str = of_accelerogram(
-        "Time of the first sample, as the file states it", lambda read: read.start_time
-    )
-    file: str = of_component("File of the record", lambda read: read.file)
-    format: str = of_accelerogram("Format of the file", lambda read: read.source.format)
-    unit: str = of_accelerogram("Unit of the numbers in the file", lambda read: read.source.unit)
-    scale_factor: float = of_accelerogram(SCALE_FACTOR, lambda read: read.scale_factor)
-    licence: str = of_component(
-        "Licence of the record, as the catalogue declares it", lambda read: read.licence
-    )
-    vertical_component: str = of_vertical(
-        "Vertical component that acts as well; empty where none acts",
-        lambda vertical: vertical.component or "not named",
-    )
-    vertical_peak_acceleration_m_s2: float = of_vertical(
-        "Largest magnitude of the vertical acceleration", lambda vertical: vertical.peak_acceleration
-    )
-    samples: int = of_component("Number of samples", lambda read: read.samples)
-    time_step_s: float = of_accelerogram("Time step", lambda read: read.time_step)
-    duration_s: float = of_accelerogram("Time from the first to the last sample", lambda read: read.duration)
-    peak_acceleration_m_s2: float = of_measures(
-        "Largest magnitude of the acceleration", lambda measures: measures.peak_acceleration
-    )
-    peak_velocity_m_s: float = of_measures(
-        "Largest magnitude of the velocity, by the trapezoidal rule", lambda measures: measures.peak_velocity
-    )
-    peak_displacement_m: float = of_measures(
-        "Largest magnitude of the displacement, by the same rule", lambda measures: measures.peak_displacement
-    )
-    arias_intensity_m_s: float = of_measures(
-        "Arias intensity", lambda measures: measures.arias_intensity, equation="π/(2g) ∫a² dt"
-    )
-    significant_duration_s: float = of_measures(
-        "Time between 5 and 95 % of the Arias intensity (D5–95)",
-        lambda measures: measures.significant_duration,
-    )
-    rotd50_peak_acceleration_m_s2: float = of_directions(
-        "Peak acceleration of the pair, median over directions", lambda pair: pair.rotd50
-    )
-    rotd100_peak_acceleration_m_s2: float = of_directions(
-        "Peak acceleration of the pair, largest over directions", lambda pair: pair.rotd100
-    )
-    velocity_pulse_period_s: float = of_velocity_pulse(
-        "Period T_p of the velocity pulse (Shahi & Baker 2014)", lambda pulse: pulse.period
-    )
-    velocity_pulse_peak_velocity_m_s: float = of_velocity_pulse(
-        "Peak velocity along the axis of the velocity pulse", lambda pulse: pulse.peak_velocity
-    )
-    velocity_pulse_orientation_rad: float = of_velocity_pulse(
-        "Axis of the velocity pulse, from the first component", lambda pulse: pulse.orientation
-    )
-    velocity_pulse_azimuth_deg: float | None = of_component(
-        "Axis of the velocity pulse, clockwise from north",
-        lambda read: read.component.motion.velocity_pulse_azimuth,
-    )
-    velocity_pulse_indicator: float = of_velocity_pulse(
-        "Pulse indicator of Shahi & Baker (2014)", lambda pulse: pulse.indicator
-    )
-    velocity_pulse_like: bool | None = of_velocity_pulse(
-        "Whether Shahi & Baker call the motion pulse-like", lambda pulse: pulse.pulse_like
-    )
-    pulse_period_ratio: float = of_both_pulses(
-        "Period of the dominant sine pulse over T_p", lambda both: both[0].period / both[1].period
-    )
-    pulse_periods_unlike: bool | None = of_both_pulses(
-        "Whether these periods differ by more than a factor of 2", lambda both: both[1].is_unlike(both[0])
-    )
-    high_pass_frequency_hz: float | None = of_accelerogram(
-        "Corner of the high-pass that the file or catalogue states", lambda read: read.high_pass_frequency
-    )
-    processing: tuple[str, ...] = of_accelerogram(
-        "Steps applied to the numbers of the file, in order", lambda read: read.processing
-    )
-    warnings: tuple[str, ...] = of_accelerogram(
-        "Warnings of the reader about the file", lambda read: tuple(map(str, read.warnings))
-    )
-
-
-@dataclass(frozen=True)
-class FoundPulse(Identified):
-    """One pulse of the analysis of a component, by its kind and its rank among those of its kind."""
-
-    analysis: PulseAnalysis
-    kind: str
-    rank: int
-    evidence: PulseEvidence
-
-    @property
-    def gain_ratio(self) -> float:
-        """Its gain over that of the dominant pulse."""
-        return self.evidence.gain / self.analysis.evidence.gain
-
-
-def pulses_found(identity: Identity, component: "Component") -> Iterator[FoundPulse]:
-    """Yield the ranked alternatives, the dominant pulse first, then the pursuit sequence.
-
-    Pulses that predict, but are not among the alternatives, follow.
-    """
-    analysis = component.analysis
-    if analysis is None:
-        return
-    kinds: dict[str, Sequence[PulseEvidence]] = {
-        "alternative": analysis.ranked,
-        "sequence": analysis.sequence,
-        "predicting": [evidence for evidence in component.candidates if evidence not in analysis.ranked],
-    }
-    for kind, pulses in kinds.items():
-        for rank, evidence in enumerate(pulses, start=1):
-            yield FoundPulse(identity, analysis, kind, rank, evidence)
-
-
-of_pulse = Columns(FoundPulse)
-
-
-@row("pulses")
-class PulseRow(ComponentRow[FoundPulse]):
-    """One row per sine pulse of acceleration; rank 1 of kind alternative is the dominant pulse."""
-
-    kind: str = of_pulse(
-        "alternative: ranked on the record; sequence: pursued on the residual of the pulses before it; "
-        "predicting: the pulse that predicts, where it is no alternative",
-        lambda found: found.kind,
-    )
-    rank: int = of_pulse("Rank among the pulses of its kind, from 1", lambda found: found.rank)
-    amplitude_m_s2: float = of_pulse(
-        "Signed amplitude a_g of the pulse", lambda found: found.evidence.pulse.amplitude
-    )
-    circular_frequency_rad_s: float = of_pulse(
-        "Circular frequency of the pulse", lambda found: found.evidence.pulse.circular_frequency
-    )
-    period_s: float = of_pulse("Period of the pulse", lambda found: found.evidence.pulse.period)
-    start_time_s: float = of_pulse(
-        "Start of the pulse after the first sample", lambda found: found.evidence.pulse.start_time
-    )
-    gain_m2_s3: float = of_pulse("Energy gain of the matched filter", lambda found: found.evidence.gain)
-    gain_ratio: float = of_pulse(
-        "Energy gain over that of the dominant pulse",
-        lambda found: found.gain_ratio,
-    )
-    explained_energy: float = of_pulse(
-        "Share of the acceleration energy that the pulse explains (EVa)",
-        lambda found: found.evidence.explained_energy,
-    )
-    same_outcome_share: float = of_pulse(
-        "Share of cases with such pulses that end as the integration does",
-        lambda found: same_outcome_share(found.evidence.explained_energy),
-    )
-    effective_length_m: float = of_pulse(
-        "Length scale: amplitude times period squared", lambda found: found.evidence.effective_length
-    )
-    flags: tuple[Kind, ...] = of_pulse(
-        "Kinds of reason to doubt the pulse",
-        lambda found: (
-            tuple(each.kind for each in found.analysis.flags)
-            if found.kind == "alternative" and found.rank == 1
-            else ()
-        ),
-    )
-
-    @property
-    def ranked(self) -> bool:
-        """Whether it is one of the ranked alternatives."""
-        return self.kind == "alternative"
-
-    @property
-    def pulse(self) -> Pulse:
-        """The pulse itself."""
-        return Pulse(self.amplitude_m_s2, self.circular_frequency_rad_s, self.start_time_s)
 
 
 # What became of it ----------------------------------------------------------------------------------------

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 
 from rocking.assessment.methods import Agreement, agreement, ratio, rests
+from rocking.assessment.rows import of_motion as motion_rows
 from rocking.assessment.rows import of_record as rows
 from rocking.records import Accelerogram
 from rocking.structures import Side, Structure
@@ -317,7 +318,7 @@ of_spectrum = Columns(BlockUnderRecord)
 class SpectrumRow(RowOf[BlockUnderRecord]):
     """One row per component and equivalent block under the whole record; written by rocking spectrum."""
 
-    component: str = of_spectrum(rows.COMPONENT, lambda of: of.accelerogram.component)
+    component: str = of_spectrum(motion_rows.COMPONENT, lambda of: of.accelerogram.component)
     frequency_parameter_rad_s: float = of_spectrum(_P, lambda of: of.frequency_parameter, equation="Eq. 11")
     uplift_multiplier: float = of_spectrum(
         "Uplift acceleration of the equivalent block in g", lambda of: of.uplift_multiplier, equation="Eq. 12"
@@ -326,8 +327,8 @@ class SpectrumRow(RowOf[BlockUnderRecord]):
     rotation_ratio: float = of_spectrum(
         "Largest rotation over critical rotation; INF if it overturns", lambda of: of.rotation_ratio
     )
-    scale_factor: float = of_spectrum(rows.SCALE_FACTOR, lambda of: of.accelerogram.scale_factor)
-    record_sha256: str = of_spectrum(rows.RECORD_SHA256, lambda of: of.accelerogram.source.sha256)
+    scale_factor: float = of_spectrum(motion_rows.SCALE_FACTOR, lambda of: of.accelerogram.scale_factor)
+    record_sha256: str = of_spectrum(motion_rows.RECORD_SHA256, lambda of: of.accelerogram.source.sha256)
 
 
 def spectrum_rows(
@@ -422,8 +423,8 @@ def falls_over(records: Sequence[ExpectedFallsRow]) -> ExpectedFallsRow | None:
 
 
 SUMMARY_TABLES: tuple[type[Row], ...] = (
-    rows.RecordRow,
-    rows.PulseRow,
+    motion_rows.RecordRow,
+    motion_rows.PulseRow,
     rows.ComparisonRow,
     rows.VerdictRow,
     rows.SupportRow,
