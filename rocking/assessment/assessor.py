@@ -1,6 +1,7 @@
 """The assessor: scenes under a record, each case sought in a store before it is computed, and its time taken."""
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass, field, fields, replace
 from functools import cache, cached_property, partial
 from math import isclose, isnan
@@ -23,16 +24,16 @@ from rocking.assessment.motions import (
     HorizontalMotion,
     Motion,
     component_names,
-    component_of,
     ground_motions,
     horizontal_motions,
+    pulses_of,
 )
 from rocking.assessment.one_case import (
     Clock,
     assess_case,
     assess_directions,
     motion_of,
-    prediction_of,
+    predict,
     with_variations,
 )
 from rocking.assessment.reserve import Reserve, reserve
@@ -131,7 +132,7 @@ class Assessor:
                 mechanism.equivalent_block(self.settings.acceleration_scale)  # no part of what is timed
                 for name, component in zip(names, components, strict=True):
                     with self.clock.stage(Method.CLOSED_FORM):
-                        of_all[scene.name, name] = prediction_of(mechanism, component, self.settings)
+                        of_all[scene.name, name] = predict(mechanism, component.candidates, self.settings)
             except RockingError:
                 continue  # why it cannot be followed, the integration tells
         return of_all
@@ -249,8 +250,7 @@ class Assessor:
                     with clock.stage("velocity pulse"):
                         motion = of_pair()[place]
                 with clock.stage("pulses"):
-                    component = component_of(horizontal[place], self.settings.pulse, None, motion)
-                return ComponentPulses.of(component)
+                    return pulses_of(horizontal[place], self.settings.pulse, motion)
 
             pulses = self._remembered(ComponentPulses, fingerprint, sought)
             components.append(pulses.beside(accelerogram, lift))
@@ -303,8 +303,17 @@ class Assessor:
             case = self._case(scene, component, prediction, alone=shaking.pair is None)
             cases[name] = replace(case, component=name)
         directions = None
-        if shaking.pair is not None and any(case.answer is not None for case in cases.values()):
-            directions = self._directions(scene, shaking.pair, cases)
+        pair = shaking.pair
+        if pair is not None and any(case.answer is not None for case in cases.values()):
+            bounces = any(case.check.bounces for case in cases.values())
+            fingerprint = self._fingerprint(pair, scene.structure, alone=True)
+            case = self._remembered(
+                CaseResult,
+                fingerprint,
+                lambda clock: assess_directions(scene.structure, pair, self.settings, bounces),
+                stage="directions",
+            )
+            directions = replace(case, structure=scene.name, fingerprint=fingerprint)
         return StationResult(scene, cases, directions, shaking.support)
 
     def _of_governing(self, station: StationResult, case: CaseResult, component: Component) -> CaseResult:
@@ -323,14 +332,15 @@ class Assessor:
         if same and isclose(own.critical_rotation, other.critical_rotation, rel_tol=1e-9):
             return case
 
-        prediction = prediction_of(other, component, self.settings)
+        prediction = predict(other, component.candidates, self.settings)
 
-        def followed(clock: Clock) -> CaseResult:
-            with clock.stage("responses"):
-                return assess_case(body, component, prediction, self.settings, False, clock)
-
-        fingerprint = sha256_of("governing", case.fingerprint, crack)
-        told = self._remembered(CaseResult, fingerprint, followed, lambda case: case.kept)
+        told = self._remembered(
+            CaseResult,
+            sha256_of("governing", case.fingerprint, crack),
+            lambda clock: assess_case(body, component, prediction, self.settings, False, clock),
+            lambda case: case.kept,
+            stage="responses",
+        )
         if told.answer is None:
             return replace(case, failures=(*case.failures, *told.failures))
         return replace(
@@ -363,18 +373,6 @@ class Assessor:
         predicted = prediction if case.answer is not None else None
         return replace(case, structure=scene.name, fingerprint=fingerprint, prediction=predicted)
 
-    def _directions(self, scene: Scene, pair: Motion, cases: Mapping[str, CaseResult]) -> CaseResult:
-        """The ensemble over all directions of a pair. cases: of its components."""
-        bounces = any(case.check.bounces for case in cases.values())
-
-        def followed(clock: Clock) -> CaseResult:
-            with clock.stage("directions"):
-                return assess_directions(scene.structure, pair, self.settings, bounces)
-
-        fingerprint = self._fingerprint(pair, scene.structure, alone=True)
-        case = self._remembered(CaseResult, fingerprint, followed)
-        return replace(case, structure=scene.name, fingerprint=fingerprint)
-
     def _with_reserve(
         self, station: StationResult, shaking: _Shaking, failures: list[tuple[str, Failure]]
     ) -> StationResult:
@@ -399,13 +397,16 @@ class Assessor:
         motion = shaking.pair if of_pair else motion_of(shaking.by_name[case.component])
         assert motion is not None
 
-        def sought(clock: Clock) -> Reserve:
-            with clock.stage("reserve"):
-                return reserve(governing.mechanism, ground_motions(motion, ensemble.processing), ensemble)
-
         try:
-            fingerprint = sha256_of("reserve", case.fingerprint)
-            return station.with_reserve(self._remembered(Reserve, fingerprint, sought))
+            found = self._remembered(
+                Reserve,
+                sha256_of("reserve", case.fingerprint),
+                lambda clock: reserve(
+                    governing.mechanism, ground_motions(motion, ensemble.processing), ensemble
+                ),
+                stage="reserve",
+            )
+            return station.with_reserve(found)
         except RockingError as error:
             failures.append((case.component, Failure("reserve", f"{station.structure}: {error}")))
             return station
@@ -418,15 +419,20 @@ class Assessor:
         fingerprint: str,
         compute: Callable[[Clock], T],
         kept: Callable[[T], T] = lambda result: result,
+        stage: str = "",
     ) -> T:
-        """What the store holds, else what is computed, of which it then holds the part that is `kept`."""
+        """What the store holds, else what is computed, of which it then holds the part that is `kept`.
+
+        stage: to which its time is added; "" where it times its stages itself.
+        """
         if self.store is not None:
             found = self.store.find(kind, fingerprint)
             if found is not None:
                 self.clock.add(self.store.durations(fingerprint))
                 return found
         own = Clock()
-        result = compute(own)
+        with own.stage(stage) if stage else nullcontext():
+            result = compute(own)
         self.clock.add(own.durations)
         if self.store is not None:
             self.store.keep(fingerprint, kept(result), own.durations)

@@ -207,20 +207,6 @@ class ComponentPulses:
     candidates: tuple[PulseEvidence, ...]
     failure: str
 
-    @classmethod
-    def of(cls, component: Component) -> "ComponentPulses":
-        """Return the pulses of a component."""
-        analysis = component.analysis
-        return cls(
-            motion=component.motion,
-            ranked=analysis.ranked if analysis else (),
-            sequence=analysis.sequence if analysis else (),
-            flags=analysis.flags if analysis else (),
-            band=analysis.band if analysis else (0.0, 0.0),
-            candidates=component.candidates,
-            failure=component.failure,
-        )
-
     def beside(self, accelerogram: Accelerogram, vertical: Accelerogram | None) -> Component:
         """Return the component again."""
         analysis = None
@@ -242,13 +228,10 @@ def component_names(accelerograms: Sequence[Accelerogram]) -> list[str]:
     return names
 
 
-def component_of(
-    accelerogram: Accelerogram,
-    settings: PredictingPulse,
-    vertical: Accelerogram | None = None,
-    motion: HorizontalMotion = HorizontalMotion(),
-) -> Component:
-    """Return a component with its pulses. motion: of the pair that it belongs to, where it is needed."""
+def pulses_of(
+    accelerogram: Accelerogram, settings: PredictingPulse, motion: HorizontalMotion
+) -> ComponentPulses:
+    """Return the pulses of a component. motion: of the pair that it belongs to, where it is needed."""
     analysis = None
     candidates: tuple[PulseEvidence, ...] = ()
     failure = ""
@@ -257,7 +240,22 @@ def component_of(
         candidates = PULSE_METHODS[settings.choice].candidates(analysis)
     except PulseError as error:
         failure = str(error)
-    return Component(accelerogram, vertical, motion, analysis, candidates, failure)
+    return ComponentPulses(
+        motion=motion,
+        ranked=analysis.ranked if analysis else (),
+        sequence=analysis.sequence if analysis else (),
+        flags=analysis.flags if analysis else (),
+        band=analysis.band if analysis else (0.0, 0.0),
+        candidates=candidates,
+        failure=failure,
+    )
+
+
+def component_of(
+    accelerogram: Accelerogram, settings: PredictingPulse, vertical: Accelerogram | None = None
+) -> Component:
+    """Return a component that stands alone with its pulses."""
+    return pulses_of(accelerogram, settings, HorizontalMotion()).beside(accelerogram, vertical)
 
 
 def horizontal_motions(accelerograms: Sequence[Accelerogram]) -> list[HorizontalMotion]:

@@ -51,11 +51,14 @@ class Clock:
 
 def predict(
     mechanism: Mechanism, candidates: Sequence[PulseEvidence], settings: AssessmentSettings | None = None
-) -> Prediction:
+) -> Prediction | None:
     """Return the closed forms of the equivalent block of `mechanism` under the candidate of largest demand.
 
-    candidates: as a pulse method offers them.
+    candidates: as a pulse method offers them. None without one, and of what cannot overturn.
     """
+    # The block of what cannot overturn would: it says nothing of it.
+    if not (candidates and mechanism.can_overturn):
+        return None
     settings = settings or AssessmentSettings()
     block = mechanism.equivalent_block(settings.acceleration_scale)
     chosen = predicting_pulse(candidates, lambda pulse: predict_maximum(block, pulse).rotation_ratio)
@@ -68,6 +71,7 @@ def predict(
     )
 
 
+# Whole on purpose: the order in which a case is decided, and where it may end early.
 def assess_case(
     structure: Structure,
     component: Component,
@@ -83,55 +87,41 @@ def assess_case(
     an ensemble nor an estimate of their own. clock: takes the time of each method that is compared.
     """
     settings = settings or AssessmentSettings()
-    try:
-        return _case(structure, component, prediction, settings, alone, clock or Clock())
-    except RockingError as error:
-        return CaseResult(
-            component=component.accelerogram.component, failures=(Failure("responses", str(error)),)
-        )
-
-
-# Whole on purpose: the order in which a case is decided, and where it may end early.
-def _case(
-    structure: Structure,
-    component: Component,
-    prediction: Prediction | None,
-    settings: AssessmentSettings,
-    alone: bool,
-    clock: Clock,
-) -> CaseResult:
     record = component.accelerogram
     vertical = component.vertical
-    mechanism = structure.mechanism()
-    responses = _integrated(mechanism, component, prediction, settings, clock)
-    members = settings.ensemble.members if alone else 0
-    auto = settings.fidelity == "auto"
-    if auto:
-        answer = _cheapest(structure, component, settings, ensemble_follows=members > 0)
+    try:
+        mechanism = structure.mechanism()
+        responses = _integrated(mechanism, component, prediction, settings, clock or Clock())
+        members = settings.ensemble.members if alone else 0
+        auto = settings.fidelity == "auto"
+        if auto:
+            answer = _cheapest(structure, component, settings, ensemble_follows=members > 0)
+            if answer.response is not None:
+                responses[Method.MECHANISM_ON_RECORD] = answer.response
+        else:
+            whole = responses[Method.MECHANISM_ON_RECORD]
+            answer = Answer(Method.MECHANISM_ON_RECORD, whole.outcome, "", whole)
+        check = UNKNOWN
         if answer.response is not None:
-            responses[Method.MECHANISM_ON_RECORD] = answer.response
-    else:
-        whole = responses[Method.MECHANISM_ON_RECORD]
-        answer = Answer(Method.MECHANISM_ON_RECORD, whole.outcome, "", whole)
-    check = UNKNOWN
-    if answer.response is not None:
-        check = check_model(structure, answer.response, record, vertical)
-    case = CaseResult(
-        component=component.accelerogram.component,
-        prediction=prediction,
-        responses=responses,
-        check=check,
-        answer=answer,
-    )
-    if not alone:
-        return case
-    motions = ground_motions(motion_of(component), settings.ensemble.processing)
-    if members and answer.method is Method.MECHANISM_ON_RECORD:
-        case = replace(case, ensembles=ensemble_over_cracks(structure, motions, settings))
+            check = check_model(structure, answer.response, record, vertical)
+        case = CaseResult(
+            component=record.component,
+            prediction=prediction,
+            responses=responses,
+            check=check,
+            answer=answer,
+        )
+        if not alone:
+            return case
+        motions = ground_motions(motion_of(component), settings.ensemble.processing)
+        if members and answer.method is Method.MECHANISM_ON_RECORD:
+            case = replace(case, ensembles=ensemble_over_cracks(structure, motions, settings))
+            return with_contacts(case, structure, motions, settings, check.bounces)
+        if vertical is None and component.support is None:
+            case = replace(case, overturning_estimate=estimated(Tier.PEAK_VELOCITY, mechanism, record))
         return with_contacts(case, structure, motions, settings, check.bounces)
-    if vertical is None and component.support is None:
-        case = replace(case, overturning_estimate=estimated(Tier.PEAK_VELOCITY, mechanism, record))
-    return with_contacts(case, structure, motions, settings, check.bounces)
+    except RockingError as error:
+        return CaseResult(component=record.component, failures=(Failure("responses", str(error)),))
 
 
 def with_contacts(
@@ -167,16 +157,6 @@ def with_contacts(
         runs = MOST_RUNS if settings.fidelity == "contact" else RUNS
         return replace(case, contact=contact_share(structure, motions, settings, runs))
     return case
-
-
-def prediction_of(
-    mechanism: Mechanism, component: Component, settings: AssessmentSettings
-) -> Prediction | None:
-    """Return the closed forms under one component; None without a pulse, and of what cannot overturn."""
-    # The block of what cannot overturn would: it says nothing of it.
-    if not (component.candidates and mechanism.can_overturn):
-        return None
-    return predict(mechanism, component.candidates, settings)
 
 
 def _integrated(

@@ -13,7 +13,7 @@ from rocking.assessment.assessor import Assessor, with_histories
 from rocking.assessment.case import CaseResult, StationResult
 from rocking.assessment.methods import NEGLIGIBLE, Method, agreement, ratio, rests, rocks, within_factor_two
 from rocking.assessment.motions import Component, HorizontalMotion, component_of, horizontal_motions
-from rocking.assessment.one_case import assess_case, predict, prediction_of
+from rocking.assessment.one_case import assess_case, predict
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
     ComparedCase,
@@ -45,7 +45,7 @@ MOTION = Pulse(3.0, math.pi, 10.0).acceleration(np.arange(3000) * STEP)
 def assessed(record: Accelerogram, settings: AssessmentSettings = SETTINGS, vertical=None) -> CaseResult:
     """The block under one component."""
     component = component_of(record, settings.pulse, vertical)
-    prediction = prediction_of(BLOCK.mechanism(), component, settings)
+    prediction = predict(BLOCK.mechanism(), component.candidates, settings)
     return assess_case(BLOCK, component, prediction, settings)
 
 
