@@ -148,9 +148,8 @@ class Assessor:
         """Return the motion of every scene under the whole record, its members and its reserve.
 
         An ensemble over the directions of a pair speaks for both components, which then get none of their own. A
-        structure on a support meets the motion there, at three of its periods, at all unless it is quiet at those, and
-        for comparison that of the ground. The reserve is sought on the ground and at the worst period, which reports
-        print.
+        structure on a support meets the motion there, at every one of its periods, and for comparison that of the
+        ground. The reserve is sought on the ground and at the worst period, which reports print.
         """
         scenes = on_friction(scenes, self.settings.friction_coefficient)
         grounds = components
@@ -159,34 +158,25 @@ class Assessor:
         shakings: dict[Carrier | None, _Shaking] = {}
         stations: dict[tuple[str, Carrier | None], StationResult] = {}
         wanted: dict[Carrier | None, list[Scene]] = {None: list(scenes.values())}
-        while wanted and grounds:
-            # By support, so that what its motion stands for is made once for all that it carries.
-            for support, carried in wanted.items():
-                try:
-                    if support not in shakings:
-                        components = grounds if support is None else self._on_support(support, grounds)
-                        shakings[support] = self._shaking(components, vertical, support, failures)
-                except RockingError as error:
-                    names = component_names(horizontal)
-                    stations |= {(each.name, support): _lost(each, support, names, error) for each in carried}
-                    continue
-                shaking = shakings[support]
-                if support is not None:
-                    predictions = self.predict(shaking.components, {each.name: each for each in carried})
-                for scene in carried:
-                    station = self._station(scene, shaking, predictions)
-                    if support is None:
-                        station = self._with_reserve(station, shaking, failures)
-                    stations[scene.name, support] = station
-            wanted = {}
-            for scene in (each for each in scenes.values() if each.place.supports):
-                quiet = {
-                    support: stations[scene.name, support].is_quiet
-                    for support in scene.place.supports
-                    if (scene.name, support) in stations
-                }
-                for support in scene.place.to_follow(quiet):
-                    wanted.setdefault(support, []).append(scene)
+        for scene in scenes.values():
+            for carrier in scene.place.supports:
+                wanted.setdefault(carrier, []).append(scene)
+        # By support, so that what its motion stands for is made once for all that it carries.
+        for support, carried in wanted.items() if grounds else ():
+            try:
+                components = grounds if support is None else self._on_support(support, grounds)
+                shaking = shakings[support] = self._shaking(components, vertical, support, failures)
+            except RockingError as error:
+                names = component_names(horizontal)
+                stations |= {(each.name, support): _lost(each, support, names, error) for each in carried}
+                continue
+            if support is not None:
+                predictions = self.predict(shaking.components, {each.name: each for each in carried})
+            for scene in carried:
+                station = self._station(scene, shaking, predictions)
+                if support is None:
+                    station = self._with_reserve(station, shaking, failures)
+                stations[scene.name, support] = station
 
         results = {}
         for scene in scenes.values():

@@ -28,7 +28,7 @@ from rocking.assessment.reserve import Reserve
 from rocking.assessment.scene import Scene, periods_in_words
 from rocking.motion.response import UNKNOWN, ModelCheck, Response
 from rocking.pulses import Pulse
-from rocking.quantities import GRAVITY, percent
+from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Maximum
@@ -36,10 +36,6 @@ from rocking.structures import EquivalentBlock, Outcome, Structure
 from rocking.structures.structure import Candidate
 from rocking.structures.tied import Tied
 
-QUIET = 0.1
-"""Rotation ratio below which a structure on a support is quiet: where it is so at both ends and in the middle of a
-range of periods, no other one is followed. Half the largest value by which in none of 152 cases a worse one was passed
-over; docs/pages/supports.md counts those of the stations that took no part."""
 DECISIVE = ("responses", "directions")
 """Stages whose failure leaves a structure without a result; the others only leave out what stands beside it."""
 
@@ -321,12 +317,6 @@ class StationResult:
         return case if case is not None and case.ensembles is not None else None
 
     @property
-    def is_quiet(self) -> bool:
-        """Whether no run of any crack passes QUIET of its critical rotation; False where that is not known."""
-        every = [*self.cases.values(), *([self.directions] if self.directions else [])]
-        return all(not each.failures and each.largest_rotation_ratio <= QUIET for each in every)
-
-    @property
     def ensemble(self) -> Ensemble:
         """The ensemble of the crack that governs; one without members where none ran."""
         own = self.decisive.ensemble if self.decisive else None
@@ -484,7 +474,7 @@ class StationResult:
 
 @dataclass(frozen=True, eq=False)
 class SceneResult:
-    """The results of one scene under one record, along the axis of its place: the ground, then the periods followed.
+    """The results of one scene under one record, along the axis of its place: the ground, then every period.
 
     The verdicts over the periods of a support stand side by side and are not mixed: a share of periods would be no
     probability. Where one of them has to stand for all, it is the worst.
@@ -509,20 +499,9 @@ class SceneResult:
 
     @property
     def sentence(self) -> str:
-        """The verdicts over the periods of a support: "parapet on roof stands on the ground, overturns …".
-
-        Where not all of them were followed it says how many were.
-        """
+        """The verdicts over the periods of a support: "parapet on roof stands on the ground, overturns …"."""
         verdicts = dict(zip(self.periods, (station.decision.word for station in self.stations), strict=True))
-        sentence = f"{self.scene.name} on {self.scene.place.name} {periods_in_words(verdicts)}"
-        followed = sum(station.support is not None for station in self.stations)
-        of_all = len(self.scene.place.supports)
-        if followed < of_all:
-            sentence += (
-                f" ({followed} of {of_all} periods followed, where it stays below {percent(QUIET)} % of its "
-                "critical rotation)"
-            )
-        return sentence
+        return f"{self.scene.name} on {self.scene.place.name} {periods_in_words(verdicts)}"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

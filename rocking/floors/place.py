@@ -72,22 +72,6 @@ class Place:
         """The supports along which a structure may be followed; first None, the ground, as what to compare with."""
         return (None, *self.supports)
 
-    def to_follow(self, quiet: Mapping[Support, bool]) -> tuple[Support, ...]:
-        """Return the supports along which a structure is to be followed next; none where nothing is left to ask.
-
-        First both ends and the middle, then all others unless it is quiet at these three. quiet: whether it is, of each
-        that was followed.
-
-        >>> place = place_from_config({"name": "roof", "period_s": [0.1, 0.9], "participation": 1.3})
-        >>> [support.modes[0].period for support in place.to_follow({})]
-        [0.1, 0.3, 0.9]
-        """
-        last = len(self.supports) - 1
-        asked = sorted({0, last // 2, last}) if self.supports and not quiet else range(len(self.supports))
-        if quiet and all(quiet.values()):
-            asked = range(0)
-        return tuple(self.supports[place] for place in asked if self.supports[place] not in quiet)
-
     def period_of(self, support: Support | None) -> float | None:
         """Return the place on the axis of a result: the first period, s; 0 of the ground below a support.
 

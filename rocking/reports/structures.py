@@ -54,10 +54,9 @@ class CheckedStructure:
     checked: None where it could not be checked, and `refusal` then says why. overturning_share: mean over the stations
     of the study, of each the mean over its records, nan without any; records, stations: how many there are, but for
     those of which it cannot be told. verdicts: stations by the worst verdict on it there, and doubts: what may make
-    one worse than said. followed_beside: records under which this period of the support was not followed, so that they
-    count as at the worse one beside it. reserves: under each record of the study under which one was sought;
-    reserve_doubts: the kinds of doubt for which they may be too high. mechanisms: all in which it may fall. peaks: the
-    least and the largest peak acceleration of the records of the study as they act, m/s².
+    one worse than said. reserves: under each record of the study under which one was sought; reserve_doubts: the kinds
+    of doubt for which they may be too high. mechanisms: all in which it may fall. peaks: the least and the largest peak
+    acceleration of the records of the study as they act, m/s².
     """
 
     name: str
@@ -74,7 +73,6 @@ class CheckedStructure:
     stations: int = 0
     verdicts: Mapping[Verdict, int] = field(default_factory=dict)
     doubts: Sequence[Kind] = ()
-    followed_beside: int = 0
     reserves: Sequence[Reserve] = ()
     reserve_doubts: Sequence[Kind] = ()
     mechanisms: Sequence["ListedMechanism"] = ()
@@ -673,8 +671,6 @@ def _share(page: CheckedStructure, words: Sentences) -> str:
     if not page.stations:
         return words("no record tells", told=f"; {counts}{reasons}" if counts else "")
     sentences = [words("sure words", counts=f"{counts}{reasons}")]
-    if page.followed_beside:
-        sentences.append(words("followed beside", count=words.counted(page.followed_beside, "record")))
     if not page.reserves:
         sentences.append(words("no reserve"))
     text = " ".join(sentences)

@@ -161,10 +161,7 @@ def _draw_spectra(axes: Axes, panel: SupportPanel) -> None:
 
 @styled
 def shares_by_period_figure(rows: Sequence[SupportRow]) -> Figure:
-    """Draw for each structure on a support the mean over the records of the share that overturns, by period.
-
-    Where the period was not followed under a record, its share lies on the line between the two beside it.
-    """
+    """Draw for each structure on a support the mean over the records of the share that overturns, by period."""
     shares: dict[tuple[str, str], dict[str, dict[float, float]]] = {}
     for row in rows:
         of_records = shares.setdefault((row.structure, row.support), {})
@@ -173,14 +170,8 @@ def shares_by_period_figure(rows: Sequence[SupportRow]) -> Figure:
     axes = figure.subplots()
     for number, ((structure, support), of_records) in enumerate(list(shares.items())[:_MOST_LINES]):
         ordered = sorted({period for own in of_records.values() for period in own})
-        lines = []
-        for own in of_records.values():
-            # Nothing lies between the ground and the first period, nor beyond those that the record could be taken to.
-            carried = sorted(own.keys() - {0.0}) or [math.nan]
-            line = np.interp(
-                ordered, carried, [own.get(each, math.nan) for each in carried], math.nan, math.nan
-            )
-            lines.append([own.get(each, value) for each, value in zip(ordered, line, strict=True)])
+        # A record that is too coarse for the shortest periods has no row there.
+        lines = [[own.get(each, math.nan) for each in ordered] for own in of_records.values()]
         means = np.nanmean(lines, axis=0)
         style = f"{_MARKS[number % len(_MARKS)]}{_LINES[number % len(_LINES)]}"
         label = wrapped(f"{structure} on {support}", 27, 3)

@@ -13,7 +13,7 @@ import numpy as np
 from rocking.assessment.conclusion import conclusions, worst_of_each
 from rocking.assessment.cracks import mechanisms_of
 from rocking.assessment.decide import Verdict, worse
-from rocking.assessment.rows import MechanismRow, RecordRow, VerdictRow, verdicts_at
+from rocking.assessment.rows import MechanismRow, RecordRow, VerdictRow
 from rocking.assessment.scene import Scene, placed
 from rocking.codes.check import StructureCheck
 from rocking.codes.dynamic_check import check
@@ -72,7 +72,7 @@ def write_checks(
         own = [each for each in verdicts if each.structure == name]
         for support in scene.place.axis:
             period = scene.place.period_of(support)
-            there = verdicts_at(own, period)
+            there = [each for each in own if each.support_period_s == period]
             page = replace(
                 _checked(scene, support, check_at, there, station_of),
                 worst=worst.get(name),
@@ -147,7 +147,6 @@ def _checked(
         stations=len(shares),
         verdicts=verdicts_by_station(verdicts, station_of),
         doubts=sorted({kind for each in verdicts for kind in each.doubts}),
-        followed_beside=sum(each.support_period_s != scene.place.period_of(support) for each in known),
         reserves=[each.reserve for each in verdicts if each.reserve is not None],
         reserve_doubts=sorted({kind for each in verdicts for kind in each.reserve_doubts}),
     )

@@ -376,36 +376,6 @@ def worst_period_each(verdicts: Iterable[VerdictRow]) -> list[VerdictRow]:
     return sorted(shown.values(), key=lambda each: each.severity, reverse=True)
 
 
-def verdicts_at(verdicts: Iterable[VerdictRow], period: float | None) -> list[VerdictRow]:
-    """Return the verdicts on one structure at a `period` of its support [s], one for each record that has some there.
-
-    Of a record under which that period was not followed, as it is quiet there, it is the worse one of the two periods
-    beside it; without its reserve, which is of that other period.
-    """
-    of_records: dict[str, dict[float | None, VerdictRow]] = {}
-    for each in verdicts:
-        of_records.setdefault(each.record, {})[each.support_period_s] = each
-    chosen = []
-    for own in of_records.values():
-        there = own.get(period)
-        if there is None and period:
-            below = max((each for each in own if each and each < period), default=None)
-            above = min((each for each in own if each and each > period), default=None)
-            if below is not None and above is not None:
-                worse = max(own[below], own[above], key=lambda each: each.severity)
-                there = replace(
-                    worse,
-                    reserve_low=math.nan,
-                    reserve_median=math.nan,
-                    reserve_high=math.nan,
-                    reserve_limit=math.nan,
-                    reserve_doubts=(),
-                )
-        if there is not None:
-            chosen.append(there)
-    return chosen
-
-
 @dataclass(frozen=True)
 class CarriedStructure(OfStructure):
     """One structure on a support of the list, under one component: where it stands and the motion there."""

@@ -13,7 +13,7 @@ import pytest
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.decide import Verdict
 from rocking.assessment.listed import load_scenes
-from rocking.assessment.rows import VerdictRow, rows_of_record, verdicts_at
+from rocking.assessment.rows import VerdictRow, rows_of_record
 from rocking.assessment.scene import placed
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.dynamic_check import check
@@ -230,7 +230,7 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
         assert decision.why in line
         assert all(doubt.kind in line for doubt in decision.doubts)
         own_rows = [row for row in tables.verdicts if row.structure == station.structure]
-        there = verdicts_at(own_rows, station.support_period_s)
+        there = [row for row in own_rows if row.support_period_s == station.support_period_s]
         page = _checked(station.scene, station.support, partial(check, spectrum=SPECTRUM), there, stations)
         (signed,) = structures_data([page], SPECTRUM, SETTINGS)["pages"]
         assert f"{decision.word.predicate} under 1 station" in signed["basis"]["share"]

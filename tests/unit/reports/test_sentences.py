@@ -103,7 +103,6 @@ def test_an_italian_page_has_no_english_sentence():
             doubts=(Kind.CONTACTS_OPEN,),
             reserves=(Reserve(0.8, 1.1, 1.2, 3.0), Reserve(0.9, 1.1, 1.2, 3.0)),
             reserve_doubts=(Kind.CONTACTS_OPEN,),
-            followed_beside=1,
         )
         for each in (tied, Block.of_size(0.4, 3.0))
     ]

@@ -134,14 +134,9 @@ def test_the_mean_share_over_the_records_stands_over_the_period_from_zero_on(rep
     plt.close(figure)
 
 
-def test_a_period_that_was_not_followed_lies_on_the_line_between_those_beside_it(report):
-    """Of two records with one share each at both ends, one followed in the middle as well."""
+def test_a_record_that_is_too_coarse_for_a_period_takes_no_part_in_the_mean_there(report):
     row = report.tables.supports[0]
-    shares = {
-        "a": {0.0: 0.0, 0.2: 0.4, 0.3: 0.8, 0.4: 0.6},
-        "b": {0.0: 0.0, 0.2: 0.1, 0.4: 0.3},
-        "c": {0.0: 0.0},
-    }
+    shares = {"a": {0.0: 0.0, 0.2: 0.4, 0.4: 0.6}, "b": {0.0: 0.0, 0.4: 0.3}}
     rows = [
         replace(row, record=record, support_period_s=period, overturning_share=share)
         for record, own in shares.items()
@@ -149,8 +144,6 @@ def test_a_period_that_was_not_followed_lies_on_the_line_between_those_beside_it
     ]
     figure = shares_by_period_figure(rows)
     (line,) = figure.axes[0].get_lines()
-    assert list(line.get_xdata()) == [0.0, 0.2, 0.3, 0.4]
-    np.testing.assert_allclose(
-        line.get_ydata(), [0.0, 0.25, 0.5, 0.45]
-    )  # by hand: (.8 + .2) / 2 in the middle
+    assert list(line.get_xdata()) == [0.0, 0.2, 0.4]
+    np.testing.assert_allclose(line.get_ydata(), [0.0, 0.4, 0.45])
     plt.close(figure)
