@@ -25,6 +25,7 @@ from rocking.assessment.decide import decide
 from rocking.assessment.settings import AssessmentSettings
 from rocking.contacts.dynamics import follow_stack
 from rocking.errors import RockingError, StructureWarning
+from rocking.structures.restraint import FRICTION
 from rocking.structures.stack import Stack
 from rocking.structures.tied import Tied
 from rocking.tables import column, row
@@ -161,11 +162,12 @@ def held_trial(component: SiteRecord, catalogue: str, kind: str, place: int) -> 
         motion = strong_part(record.scaled(factor), multiplier)
         friction = wall.top_friction if isinstance(wall, LoadedWall) else None
         started = process_time()
-        station = assess(motion, wall, settings=AssessmentSettings(friction_coefficient=friction or 0.6))
+        station = assess(motion, wall, settings=AssessmentSettings(friction_coefficient=friction or FRICTION))
         spent = process_time() - started
     (case,) = station.cases.values()
     facts = case.facts(wall)
-    runs = list(true_runs(wall.stack(), motion))
+    stack = wall.stack()
+    runs = list(true_runs(replace(stack, friction=min(stack.friction, friction or FRICTION)), motion))
     free = [0.0, *sorted(each.height for each in wall.held_wall.holds), wall.height]
     return HeldTrial(
         record=component.identifier,

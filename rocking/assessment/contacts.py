@@ -5,7 +5,8 @@ bounce; and courses that stand on a rocking body are thrown by its impacts, whic
 bounds (theory: section 11). "Stands" is then not said.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import product
 from typing import Protocol
@@ -19,6 +20,7 @@ from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.contacts.dynamics import STEP, follow_stack
+from rocking.contacts.dynamics import expected_seconds as seconds_of_run
 from rocking.errors import RockingError
 from rocking.floors.place import swinging
 from rocking.motion.integration import integrate, strict
@@ -41,8 +43,8 @@ MOST_RUNS = UNANIMOUS
 LEAST_KEPT = 0.3
 """Restitution by the balance of momentum below which joints close one after the other: 2 of 6 walls that stand so fell
 in contact dynamics, none of 41 above (theory: section 11)."""
-STEPS = (STEP, STEP / 2)
-"""Time steps of contact dynamics, s, at each of which every case is followed."""
+STEPS = (STEP, STEP, STEP, STEP / 2)
+"""Time steps of contact dynamics, s, which its runs take in turn: every fourth one at a finer step."""
 
 
 class Laid(Protocol):
@@ -187,7 +189,7 @@ class ContactShare:
 def stackable(structure: Laid) -> bool:
     """Whether contact dynamics can follow a structure: it is laid in several courses, between which joints open."""
     try:
-        return len(_stacks(structure)[0].courses) > 1
+        return len(structure.stack().courses) > 1
     except RockingError:
         return False
 
@@ -217,13 +219,13 @@ def contact_share(
     ]
     falls = followed = 0
     try:
-        stacks = _stacks(structure)
+        stacks = _stacks(structure, settings.friction_coefficient)
         if len(stacks[0].courses) == 1:
             return ContactShare(reason="one rigid body moves as its mechanism does, whose members say more")
         for followed, (amplitude, motion, sign, place) in enumerate(cases, start=1):
-            # Each stack meets either step in turn.
-            step = STEPS[place % len(STEPS)]
-            stack = stacks[place // len(STEPS) % len(stacks)]
+            # Each stack meets every step in turn.
+            stack = stacks[place % len(stacks)]
+            step = STEPS[place // len(stacks) % len(STEPS)]
             short_enough = min(step, stack.longest_step * step / STEP)
             falls += _falls(stack, motion.scaled(sign * amplitude), short_enough, motions.vertical)
             left = len(cases) - followed
@@ -235,14 +237,34 @@ def contact_share(
     return ContactShare(falls, followed)
 
 
-def _stacks(structure: Laid) -> list[Stack]:
+def expected_seconds(
+    structure: Structure, components: Sequence[Accelerogram], settings: AssessmentSettings
+) -> float:
+    """Return the processor time of contact dynamics of a structure, should it be asked, s; 0 where it never is.
+
+    components: the horizontal ones of a record, in place of the directions between them.
+    """
+    if settings.fidelity == "auto" or not stackable(structure):
+        return 0.0
+    runs = MOST_RUNS if settings.fidelity == "contact" else RUNS
+    once = [
+        seconds_of_run(stack, motion, min(step, stack.longest_step * step / STEP))
+        for stack in _stacks(structure, settings.friction_coefficient)
+        for motion in components
+        for step in STEPS
+    ]
+    return runs * float(np.mean(once))
+
+
+def _stacks(structure: Laid, friction: float) -> list[Stack]:
     """The stacks to follow: where a member tapers and does not say how many courses it has, of a few and of many.
 
-    The more courses, the smaller is the topmost one, which is thrown first.
+    The more courses, the smaller is the topmost one, which is thrown first. friction: coefficient of all
+    joints; where a top states a lower one, they keep that.
     """
-    if structure.tapers and not structure.courses_are_given:
-        return [structure.stack(COURSES), structure.stack(MANY_COURSES)]
-    return [structure.stack()]
+    by_size = structure.tapers and not structure.courses_are_given
+    stacks = [structure.stack(each) for each in ((COURSES, MANY_COURSES) if by_size else (None,))]
+    return [replace(each, friction=min(each.friction, friction)) for each in stacks]
 
 
 def _falls(stack: Stack, motion: Accelerogram, step: float, vertical: Accelerogram | None) -> bool:

@@ -14,6 +14,7 @@ from typing import Any
 from rocking.assessment.assessor import Assessor, Predictions, Store, with_histories
 from rocking.assessment.case import Failure, RecordResult
 from rocking.assessment.compilation import compile_all
+from rocking.assessment.contacts import expected_seconds
 from rocking.assessment.motions import Component
 from rocking.assessment.one_case import Clock
 from rocking.assessment.rows import HistoryRow, RecordRows, history_rows, rows_of_record
@@ -21,6 +22,7 @@ from rocking.assessment.scene import Scene, on_friction
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.store import RecordStore, computation_version
 from rocking.errors import ConfigurationError, RockingError, about, fault_in_words
+from rocking.quantities import counted
 from rocking.records import Accelerogram, CatalogueRecord, aligned, open_station
 from rocking.records.processing import process
 from rocking.records.scaling import ScalingTarget, scaled_to
@@ -35,6 +37,8 @@ from rocking.study.settings import Settings
 from rocking.study.terminal import line_writer, log_error, record_line, tell, tell_error
 from rocking.tables import write_rows, written_together
 
+WORTH_TELLING = 5.0
+"""Processor time of contact dynamics of a record, s, from which on it is told before."""
 Opened = tuple[list[Accelerogram], Accelerogram | None]
 """The horizontal components of a record, and its vertical one where that acts too."""
 
@@ -194,8 +198,17 @@ class Steps:
         self, opened: Opened, components: tuple[Component, ...], predictions: Predictions
     ) -> RecordResult:
         """Return the motion of each structure, and of its members, under the whole record."""
-        _, vertical = opened
+        horizontal, vertical = opened
         scenes = self._job.study.scenes
+        asking = self._job.study.assessment
+        costs = [expected_seconds(each.structure, horizontal, asking) for each in scenes.values()]
+        if sum(costs) > WORTH_TELLING:
+            number = counted(sum(each > 0 for each in costs), "structure")
+            tell(
+                "contact dynamics",
+                f"{self._record.id}: {number}, each where it cannot be told else, at most {max(costs):.2g} s for one "
+                f"and {sum(costs):.2g} s for all",
+            )
         return self._assessor.integrate(self._record.id, components, scenes, predictions, vertical)
 
     def compare(self, result: RecordResult) -> None:
