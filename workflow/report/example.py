@@ -15,10 +15,10 @@ RECORDS = Path(__file__).parents[2] / "records"
 ARCH = Arch(radius=15.0, thickness=1.575, embrace_angle=np.radians(157.5), restitution=0.9)
 """Slender enough (t/r = 0.105, λ = 0.19) that both records make it rock."""
 SHOWN = (
-    ("One pulse stands out: the prediction holds", "np01002p_4225c_a.smc"),
-    ("No pulse stands out: the prediction fails", "20161113_110259_WTMC_20.V2A"),
+    ("One pulse dominates: the prediction holds", "np01002p_4225c_a.smc"),
+    ("No pulse dominates: the prediction fails", "20161113_110259_WTMC_20.V2A"),
 )
-"""What becomes of the closed form, and the file."""
+"""The title, and the file."""
 BEFORE, AFTER = 3.5, 9.0
 """Seconds that are drawn before and after the beginning of the pulse."""
 PULSE, PREDICTED, BAND = "#D55E00", "#0072B2", "#DAE9F2"
@@ -28,7 +28,7 @@ _EDGE = 1.05
 
 @styled
 def example_figure(structure: Structure) -> Figure:
-    """Return one structure under each record: above its pulse, below what is predicted and what happens."""
+    """Return one structure under each record: above its pulse, below the closed form and the integration."""
     figure = new_figure(72, margins=(4, 4, 6, 9))
     grid = figure.add_gridspec(2, len(SHOWN), height_ratios=(1, 1.9), hspace=0.05, wspace=0.12)
     records = [read(RECORDS / file)[0] for _, file in SHOWN]
@@ -77,14 +77,14 @@ def _draw(ground: Axes, below: Axes, structure: Structure, record: Accelerogram)
     last = shares.size if inside.all() else int(np.argmin(inside)) + 1
     if math.isfinite(response.rotation_ratio):
         place = int(np.argmax(np.abs(shares)))
-        told = f"happens: {response.rotation_ratio:.2f}"
+        told = f"integrated: {response.rotation_ratio:.2f}"
         below.hlines(
             0.0, response.times[-1], response.times[-1] + AFTER, color="black", linewidth=0.9
         )  # it rests
     else:
         place = last - 1
         shares[place] = np.copysign(_EDGE, shares[place])
-        told = "happens: it falls"
+        told = "integrated: overturns"
     below.plot(response.times[:last], shares[:last], color="black", linewidth=0.9)
     spot = response.times[place], float(shares[place])
     below.plot(*spot, "o", color="black", markersize=5)
