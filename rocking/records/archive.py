@@ -46,8 +46,6 @@ def members(archive: Path) -> tuple[str, ...]:
     size = sum(each.file_size for each in opened.infolist())
     if size > _LARGEST_WHOLE:
         raise RecordError(f"the archive unpacks to {size} bytes, more than {_LARGEST_WHOLE}; unpack it.")
-    if len(set(names)) < len(names):
-        raise RecordError("the archive names one file twice; it is damaged: fetch it again.")
     for name in names:
         parts = name.split("/")
         if name.startswith("/") or "\\" in name or ":" in name or {"", ".", ".."} & set(parts):
@@ -55,7 +53,9 @@ def members(archive: Path) -> tuple[str, ...]:
                 f"the archive names a file {plain(name)[:60]!r}, which leads out of it; unpack it with care."
             )
     hidden = (".", "__MACOSX")  # with which begins what systems and programs put there
-    return tuple(sorted(name for name in names if not any(p.startswith(hidden) for p in name.split("/"))))
+    return tuple(
+        sorted(name for name in set(names) if not any(p.startswith(hidden) for p in name.split("/")))
+    )
 
 
 def member_bytes(path: Path, archive: Path, largest: int) -> bytes:

@@ -180,11 +180,6 @@ def _azimuth(word: str) -> float | None:
     return _NAMED.get(word)
 
 
-def is_unnamed(component: str) -> bool:
-    """Whether a component's name is no more than the place of the channel in its file."""
-    return not component or (component.startswith("channel ") and component[8:].isdecimal())
-
-
 def names_acceleration(component: str) -> bool:
     """Whether a component's name is but a word for acceleration."""
     return bool(_ONLY_ACCELERATION.fullmatch(component.strip()))
@@ -192,7 +187,8 @@ def names_acceleration(component: str) -> bool:
 
 def names_no_direction(component: str) -> bool:
     """Whether a component's name is but the place of its column, or a word for acceleration."""
-    return is_unnamed(component) or names_acceleration(component)
+    is_place = not component or (component.startswith("channel ") and component[8:].isdecimal())
+    return is_place or names_acceleration(component)
 
 
 _ONLY_ACCELERATION = re.compile(r"a|ag|a_g|acc\w*|ground[ _]?acc\w*|amplitude|values?|data", re.I)
@@ -241,21 +237,15 @@ def vertical_doubt(channels: Sequence[Channel]) -> Remark | None:
     """
     if any(channel.vertical for channel in channels):
         return None
-    if len(channels) == 1:
-        return _lone_doubt(channels[0])
+    if len(channels) == 1:  # a heading of a table is prose, and no less horizontal for that
+        code = channels[0].component.strip()
+        is_code = _SEED.fullmatch(code) and not names_acceleration(code)
+        return Remark(Kind.LONE_MAY_BE_VERTICAL, code) if is_code and doubts_of_channel(channels[0]) else None
     of_unknown = [channel.component for channel in channels if channel.azimuth is None]
     if len(channels) < _OF_A_STATION or not of_unknown:
         return None
     names = ", ".join(of_unknown[:_OF_A_STATION])
     return Remark.of(Kind.SOME_MAY_BE_VERTICAL, channels=len(channels), names=names)
-
-
-def _lone_doubt(channel: Channel) -> Remark | None:
-    """A remark on a lone channel with a code. A heading of a table is prose, and no less horizontal for that."""
-    code = channel.component.strip()
-    if not _SEED.fullmatch(code) or names_acceleration(code) or not doubts_of_channel(channel):
-        return None
-    return Remark(Kind.LONE_MAY_BE_VERTICAL, code)
 
 
 def pair_doubt(horizontal: Sequence[Channel]) -> Remark | None:

@@ -283,7 +283,11 @@ def _sentences(listed: Sequence[ListedFile]) -> Iterator[str]:
             (file.file, " and ".join(file.blanks)) for file in read if file.blanks and not file.question
         ],
         "Joined:": [(record, ", ".join(files)) for record, files in joined.items()],
-        "To know:": [(file.file, text) for file in read if (text := _doubts(file))],
+        "To know:": [
+            (file.file, text)
+            for file in read
+            if (text := " ".join(filter(None, (*map(str, doubts_of(file)), file.separated))))
+        ],
         "Not read:": [
             (file.file, first[_family(file)]) for file in listed if file.refusal and not file.question
         ],
@@ -299,7 +303,3 @@ def _sentences(listed: Sequence[ListedFile]) -> Iterator[str]:
 def _family(file: ListedFile) -> str:
     """Return what files that are refused alike share: each names its own numbers in the sentence, and its own name."""
     return re.sub(r"\d+", "", file.refusal.replace(Path(file.file).name, ""))
-
-
-def _doubts(file: ListedFile) -> str:
-    return " ".join(filter(None, (*map(str, doubts_of(file)), file.separated)))

@@ -123,6 +123,8 @@ def read_content(
     with about(name[:120]):
         text = bare_text(content)
         reader = reader or recognise(text)
+        if isinstance(reader.read, str):
+            raise RecordError(reader.read)
         records = distinct_channels(_named_by_file(reader.read(text, replace(options, file=name)), name))
         if not records:
             raise RecordError("the file holds no channel of acceleration; use the acceleration file.")

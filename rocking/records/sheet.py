@@ -57,7 +57,7 @@ def _table(rows: Iterator[tuple[Any, ...]]) -> bytes:
     """Return the text of a sheet from the names of its columns on, empty where they name no times or no unit."""
     above: tuple[Any, ...] = ()
     for _, row in zip(range(_HEADS), rows, strict=False):
-        if _numbers(row) and above:
+        if above and any(isinstance(cell, int | float) and not isinstance(cell, bool) for cell in row):
             names = [str(cell or "").strip() for cell in above]
             labels = [ColumnLabel(name) for name in names if name]
             if any(label.is_time for label in labels) and any(label.unit for label in labels):
@@ -68,19 +68,15 @@ def _table(rows: Iterator[tuple[Any, ...]]) -> bytes:
     return b""
 
 
-def _numbers(row: tuple[Any, ...]) -> int:
-    return sum(isinstance(cell, int | float) and not isinstance(cell, bool) for cell in row)
-
-
 def _written(names: list[str], places: list[int], rows: list[tuple[Any, ...]]) -> bytes:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow([names[place].replace(",", " ") for place in places])
-    count = 0
-    for row in rows:
-        cells = [row[place] if place < len(row) else None for place in places]
-        if not any(cell is not None for cell in cells):
-            continue
-        count += 1
-        writer.writerow(["" if cell is None else cell for cell in cells])
-    return text.getvalue().encode() if count >= _FEWEST else b""
+    every = ([row[place] if place < len(row) else None for place in places] for row in rows)
+    held = [
+        ["" if cell is None else cell for cell in cells]
+        for cells in every
+        if any(c is not None for c in cells)
+    ]
+    writer.writerows(held)
+    return text.getvalue().encode() if len(held) >= _FEWEST else b""

@@ -504,17 +504,6 @@ def _is_seisan(content: bytes) -> bool:
     )
 
 
-def _refuse_css(content: bytes, options: Options) -> list[Accelerogram]:
-    raise RecordError(
-        "a CSS table (wfdisc) holds no samples, but names the files that do; read them together: "
-        "rocking.from_obspy(obspy.read(path, format='CSS'), inventory=...)."
-    )
-
-
-def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
-    raise RecordError("a StationXML holds no samples, but describes an instrument; read the miniSEED.")
-
-
 SAC = Format(
     "SAC",
     "SAC (IRIS, and many networks)",
@@ -586,7 +575,8 @@ CSS = Format(
     re.compile(
         r"\S{1,6} +\S{1,8} +\d{9,10}\.\d+ +-?\d+ +-?\d+ +[\d-]+ +\d{9,10}\.\d+ +\d+ +[\d.]+ +[\d.-]+ "
     ),
-    _refuse_css,
+    "a CSS table (wfdisc) holds no samples, but names the files that do; read them together: "
+    "rocking.from_obspy(obspy.read(path, format='CSS'), inventory=...).",
 )
 KNET = Format(
     "K-NET/KiK-net",
@@ -600,5 +590,5 @@ STATIONXML = Format(
     "FDSN data centres",
     "FDSNStationXML element",
     re.compile(r"(?s).{,2000}?<FDSNStationXML"),
-    _refuse,
+    "a StationXML holds no samples, but describes an instrument; read the miniSEED.",
 )

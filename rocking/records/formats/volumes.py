@@ -270,10 +270,6 @@ def _csmip(block: list[str], options: Options, total: int) -> Accelerogram:
     return record
 
 
-def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
-    raise RecordError("this is a Volume 3 file of spectra, not a time history; use the V1 or V2 file.")
-
-
 _USC_FIRST = re.compile(r"FILE\s+\d+\s+OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I", re.I)
 _BHRC_FIRST = re.compile(r"\* VOL1DS FILE:", re.I)
 
@@ -330,5 +326,5 @@ SPECTRA = Format(
     "California Geological Survey (CSMIP, CDMG)",
     "first line that names response or Fourier spectra",
     _VOLUME_3,
-    _refuse,
+    "this is a Volume 3 file of spectra, not a time history; use the V1 or V2 file.",
 )
