@@ -116,7 +116,9 @@
         const { verdict, cell, text } = caseAt(r, c);
         const title = `${structures[structure].name} under ${records[record].id}: ${text}`;
         const names = { title, "aria-label": title, "data-record": record, "data-structure": structure, "data-verdict": verdict };
-        add(add(row, "td"), "button", { type: "button", class: `cell ${verdict.replaceAll(" ", "-")}`, tabindex: -1, "aria-pressed": false, ...names }, cell);
+        const [sign, ...share] = cell.replace("\u00a0%", "").split(" ");
+        const button = add(add(row, "td"), "button", { type: "button", class: `cell ${verdict.replaceAll(" ", "-")}`, tabindex: -1, "aria-pressed": false, ...names }, sign);
+        if (share.length) add(button, "span", { class: "share" }, ` ${share.join(" ")}`);
       });
     });
     matrix.classList.toggle("by-record", !turned);
@@ -141,12 +143,20 @@
     const cells = matrix.querySelectorAll(`tbody ${SHOWN}`);
     at("shown").textContent = `${cells.length} of ${records.length * structures.length} cells`;
     if (cells.length && !matrix.querySelector(`${SHOWN}[tabindex="0"]`)) roam(cells[0]);
+    fit();
+  }
+
+  // Where the page is too narrow for all columns, their names stand upright; then the signs stand alone.
+  function fit() {
+    matrix.classList.remove("upright", "signs");
+    for (const look of ["upright", "signs"])
+      if (matrix.offsetWidth > matrix.parentElement.clientWidth) matrix.classList.add(look);
     beyond();
   }
 
-  // Columns that the width of the page hides are told of
+  // Columns and rows that the page hides even so are told of
   function beyond() {
-    const { left, right } = matrix.parentElement.getBoundingClientRect();
+    const { left, right, bottom } = matrix.parentElement.getBoundingClientRect();
     const first = matrix.querySelector("tbody tr:not([hidden]) th");
     const from = first ? first.getBoundingClientRect().right : left;
     const heads = [...matrix.tHead.rows[0].cells].slice(LEAD).filter((head) => !head.hidden);
@@ -155,9 +165,12 @@
       [count((box) => box.left < from - 1), "← ", " to the left"],
       [count((box) => box.right > right + 1), "", " to the right →"],
     ];
-    const what = turned ? "records" : "structures";
-    const told = sides.filter(([number]) => number);
-    at("beyond").textContent = told.map(([number, before, after]) => `${before}${number} of ${heads.length} ${what}${after}`).join("; ");
+    const what = turned ? ["records", "structures"] : ["structures", "records"];
+    const told = sides.filter(([number]) => number).map(([number, before, after]) => `${before}${number} of ${heads.length} ${what[0]}${after}`);
+    const rows = [...matrix.tBodies[0].rows].filter((row) => !row.hidden);
+    const below = rows.filter((row) => row.getBoundingClientRect().bottom > bottom + 1).length;
+    if (below) told.push(`${below} of ${rows.length} ${what[1]} below ↓`);
+    at("beyond").textContent = told.join("; ");
   }
 
   // One cell is in the order of the tabulator; arrows go on to the next one that is shown
@@ -381,7 +394,7 @@
   fill();
   filter();
   matrix.parentElement.addEventListener("scroll", beyond);
-  addEventListener("resize", beyond);
+  addEventListener("resize", fit);
   at("text").addEventListener("input", filter);
   at("verdict").addEventListener("change", filter);
   at("filters").addEventListener("submit", (event) => event.preventDefault());

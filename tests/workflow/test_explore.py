@@ -260,6 +260,10 @@ def test_columns_that_the_width_hides_are_told_and_a_dark_screen_gets_a_dark_pag
     narrow = {"width": 220, "height": 800, "deviceScaleFactor": 1, "mobile": False}
     browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", narrow)
     told = lambda: page("#beyond")[0].text  # noqa: E731
+    looks = lambda at: page("#matrix")[0].get_attribute("class").split()  # noqa: E731
+    WebDriverWait(browser, PATIENCE).until(lambda at: "signs" in looks(at))
+    assert told() == "" and len(visible(page)) == 14, "signs alone have room for all"
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", narrow | {"width": 120})
     WebDriverWait(browser, PATIENCE).until(lambda at: re.fullmatch(r"\d of 2 records to the right →", told()))
     browser.execute_script("document.querySelector('.matrix').scrollLeft = 9999")
     WebDriverWait(browser, PATIENCE).until(lambda at: re.fullmatch(r"← \d of 2 records to the left", told()))
