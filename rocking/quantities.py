@@ -155,9 +155,15 @@ def four_digits(value: float, unit: str = "") -> str:
 
 
 def percent(share: float) -> str:
-    """Return a share in percent: one digit below 10, whole from there on, 0 where it is rounding."""
+    """Return a share in percent: one digit below 10, whole from there on, 0 below 0.05 %."""
     value = 100 * share
-    return f"{value:.0f}" if value >= 9.5 or value < 1e-6 else f"{value:.1g}"
+    return f"{value:.0f}" if value >= 9.5 or value < 0.05 else f"{value:.1g}"
+
+
+def percents(*shares: float) -> str:
+    """Return the range of several shares, or the one that all are as printed: "11–13 %"."""
+    ends = dict.fromkeys((percent(min(shares)), percent(max(shares))))
+    return f"{'–'.join(ends)}\u00a0%"
 
 
 def counted(number: int, name: str) -> str:

@@ -25,7 +25,7 @@ from rocking.codes.static_check import kinematic_check
 from rocking.drawn import Drawn
 from rocking.errors import ConfigurationError, DoesNotStandError, RockingError, StructureError
 from rocking.fragility.curves import station_names
-from rocking.quantities import counted, finite, kind_of, percent, shown
+from rocking.quantities import counted, finite, kind_of, percents, shown
 from rocking.records import Accelerogram
 from rocking.structures import Structure, structure_from_config
 from rocking.structures.fields import Field, article
@@ -94,8 +94,7 @@ class Tried:
     @property
     def in_words(self) -> str:
         """The share with its bounds: "3 % (1–8 %)"."""
-        low, high = self.interval
-        return f"{percent(self.share)}\u00a0% ({percent(low)}–{percent(high)}\u00a0%)"
+        return f"{percents(self.share)} ({percents(*self.interval)})"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -202,7 +201,7 @@ class Strengthening(Drawn):
     def words(self) -> str:
         """What was found, in sentences."""
         stations = counted(len(self.stations), "station")
-        target = f"{percent(self.target)}\u00a0%"
+        target = percents(self.target)
         first = self.tried[0]
         last = self.tried[-1]
         as_given = self.given.in_words

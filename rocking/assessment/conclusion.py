@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from rocking.assessment.decide import Decision, Verdict
 from rocking.assessment.rows import ComparisonRow, ExpectedFallsRow, VerdictRow, worst_period_each
-from rocking.quantities import percent
+from rocking.quantities import percents
 from rocking.remarks import Kind, Remark
 
 CLASS = 20
@@ -73,8 +73,8 @@ class Conclusion:
         if self.decision.doubts:
             return self.decision.doubts[0]
         shares = [each.overturning_share for each in self.elsewhere if each.overturning_share >= 0]
-        if shares and (low := percent(min(shares))) != (high := percent(max(shares))):
-            return Remark.of(Kind.OTHER_PERIODS, share=f"{low}–{high}\u00a0%")
+        if shares and "–" in (share := percents(*shares)):
+            return Remark.of(Kind.OTHER_PERIODS, share=share)
         if self.case is not None and self.case.slides:
             largest = self.case.required_friction
             if largest == math.inf:
@@ -87,7 +87,9 @@ class Conclusion:
             return Remark(Kind.STRENGTHEN)
         if word.stays_up:
             return Remark(Kind.NOTHING_TO_DO)
-        return Remark(Kind.FALLS_AS_RECORDED if falls else Kind.NOTHING_DECIDES)
+        return Remark(
+            Kind.FALLS_AS_RECORDED if falls and word is Verdict.PROBABLY_STANDS else Kind.NOTHING_DECIDES
+        )
 
 
 def worst_cases(comparison: Iterable[ComparisonRow]) -> dict[tuple[str, str, float | None], ComparisonRow]:

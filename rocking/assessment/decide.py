@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
-from rocking.quantities import percent
+from rocking.quantities import percents
 from rocking.remarks import Kind, Remark
 
 UNANIMOUS = 64
@@ -295,9 +295,8 @@ class Decision:
         if any(each.kind is Kind.ENSEMBLE for each in self.tells):
             return "one run"
         if math.isnan(self.share) and high == 1:
-            return f"at least {percent(low)}\u00a0%" if low else ""
-        between = "" if low == high else f"–{percent(high)}"
-        return f"{percent(low)}{between}\u00a0%"
+            return f"at least {percents(low)}" if low else ""
+        return percents(low, high)
 
     @property
     def share_low(self) -> float:

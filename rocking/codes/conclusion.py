@@ -3,11 +3,12 @@
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 from rocking.assessment.scene import placed
 from rocking.codes.check import Part, ratio_in_words
 from rocking.codes.rows import CodeCheckRow
-from rocking.quantities import counted, percent
+from rocking.quantities import counted, percents
 from rocking.remarks import Kind, Remark
 
 
@@ -64,7 +65,7 @@ class CodeConclusion:
     @property
     def other_share_in_words(self) -> str:
         """That interval: "20–100 %"; "" without one."""
-        return _in_percent(*self.other_share) if self.other_share else ""
+        return percents(*self.other_share) if self.other_share else ""
 
     @property
     def ratios(self) -> Mapping[str, str]:
@@ -109,14 +110,8 @@ def code_conclusion_in_words(concluded: Sequence[CodeConclusion]) -> str:
     shares = [each.other_share for each in concluded if each.verified and each.other_share]
     end = ""
     if shares:
-        share = _in_percent(min(low for low, _ in shares), max(high for _, high in shares))
-        end = f"; {share} of sets of other stations agree"
+        end = f"; {percents(*chain.from_iterable(shares))} of other stations’ sets agree"
     return f"By the code {whole} {verb} verified {level}{names}{end}."
-
-
-def _in_percent(low: float, high: float) -> str:
-    texts = dict.fromkeys((percent(low), percent(high)))
-    return f"{'–'.join(texts)}\u00a0%"
 
 
 def code_conclusions(rows: Iterable[CodeCheckRow]) -> list[CodeConclusion]:

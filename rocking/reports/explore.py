@@ -119,7 +119,10 @@ def explore_page(
         f".{_css(verdict)} {{ background: {fill}; color: {ink};{' border-style: dashed;' if hatch else ''} }}\n"
         for verdict, (_, fill, ink, hatch) in LOOKS.items()
     )
-    legend = (f'<span><span class="cell {_css(word)}">{sign}</span> {word}</span>' for word, (sign, *_) in LOOKS.items())
+    legend = (
+        f'<span><span class="cell {_css(word)}">{sign}</span> {word}</span>'
+        for word, (sign, *_) in LOOKS.items()
+    )
     pieces = {
         "title": escape(title or "Rocking of structures under recorded earthquakes"),
         "conclusion": escape(f"{_conclusion(of_records)} {_at_design_level(checked)}".rstrip()),

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from rocking.assessment.conclusion import Conclusion, worst_of_each
 from rocking.assessment.decide import ORDER, Verdict, worst_first
-from rocking.quantities import GRAVITY, percent
+from rocking.quantities import GRAVITY, percents
 from rocking.remarks import Kind
 from rocking.reports.page_one import UNSAID
 from rocking.reports.printing import NOTHING, chip, number
@@ -22,7 +22,7 @@ MOST_IN_WORDS = 2
 with a legend."""
 MOST_WITH_ALL = 5
 """Records up to which a page has room for their peaks, for what there is to know of each structure, and for the cells
-of what stands or cannot be told, which beyond it the colour and the hatch say alone."""
+of what (probably) stands or cannot be told, which beyond it the colour and the hatch say alone."""
 _UNSAID = (Kind.STRENGTHEN, *UNSAID)
 """Remarks that the word itself says."""
 
@@ -72,8 +72,7 @@ def _head(record: str, records: "DataFrame", pulses: "DataFrame", in_words: bool
     energy = sorted(dominant["explained_energy"])
     text = f"{number(peak, 2)} g"
     if energy and in_words:
-        low, high = percent(energy[0]), percent(energy[-1])
-        text += f"; sine {low if low == high else f'{low}–{high}'}\u00a0%"
+        text += f"; sine {percents(*energy)}"
     return text
 
 
@@ -84,7 +83,7 @@ def _cell(conclusion: Conclusion | None, records: int) -> dict[str, object]:
     untold = decision.word is Verdict.CANNOT_BE_TOLD
     if records > MOST_IN_WORDS:
         share = decision.share_in_words.removesuffix("\u00a0%").replace("at least ", "≥")
-        if records > MOST_WITH_ALL and decision.word is Verdict.STANDS:
+        if records > MOST_WITH_ALL and decision.word.badness <= Verdict.PROBABLY_STANDS.badness:
             share = ""
         elif not share and records <= MOST_WITH_ALL:
             share = "?" if untold else NOTHING

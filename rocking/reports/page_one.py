@@ -10,7 +10,7 @@ from rocking.assessment.cracks import cracked
 from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import PulseRow
-from rocking.quantities import listed, percent
+from rocking.quantities import listed, percents
 from rocking.remarks import Kind
 from rocking.reports.drawings import sketch
 from rocking.reports.panels import Trace
@@ -76,7 +76,7 @@ def _sine(pulse: PulseRow | None) -> dict[str, object]:
         return {"share": "", "clause": "No sine was found: there are no rings."}
     dominates = pulse.explained_energy >= DOMINATES
     return {
-        "share": f"{percent(pulse.explained_energy)}\u00a0%",
+        "share": percents(pulse.explained_energy),
         "clause": "One sine dominates: rings and dots mostly agree."
         if dominates
         else "No sine dominates: trust the dots, not the rings.",

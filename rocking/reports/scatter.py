@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from rocking.quantities import percent
+from rocking.quantities import percents
 from rocking.reports.page_one import DOMINATES
 from rocking.reports.style import new_figure, panel_at, styled
 
@@ -177,19 +177,17 @@ def _write_key(
             if not which.any():
                 continue
             top -= 6
-            low, high = (percent(float(each)) for each in (energy[which].min(), energy[which].max()))
-            share = f"{low}\u00a0%" if low == high else f"{low}–{high}\u00a0%"
             missed = int((falls & ~sees & which).sum())
             axes.plot(
                 1.5, top + 1, "o", color=colour, markeredgecolor="0.25", markeredgewidth=0.5, markersize=5
             )
-            axes.text(5, top, share, fontsize=9.5, fontweight="bold")
+            axes.text(5, top, percents(*energy[which]), fontsize=9.5, fontweight="bold")
             axes.text(5, top - 4.5, f"misses {missed} of {int((falls & which).sum())}", fontsize=8.5)
             top -= 6
     axes.text(
         0,
         top - 8,
-        "Above the line\nit is unsafe.",
+        "Above the line:\nunsafe.",
         fontsize=9,
         fontweight="bold",
         color=_MISSED,

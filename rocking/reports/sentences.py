@@ -11,6 +11,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Literal, get_args
 
+from rocking import quantities
 from rocking.remarks import Remark
 from rocking.reports import printing
 from rocking.reports.printing import unit_of
@@ -63,6 +64,10 @@ class Sentences:
         """Return a value in the SI unit `si` as the report at hand shows it, with its unit."""
         unit = unit_of(si)
         return f"{self.number(value / unit.size)}\u00a0{unit.name}"
+
+    def percents(self, *shares: float) -> str:
+        """Return the range of several shares: "11–13 %"."""
+        return self.decimal(quantities.percents(*shares))
 
     def decimal(self, text: str) -> str:
         """Return a printed number with the decimal mark of the language."""

@@ -250,7 +250,7 @@ def _answer(
         details.append(words("overruled", checks=words.listed(overruled), clause=decisive.clause))
     dynamic = checked.dynamic
     if conclusion.verified and dynamic:
-        others = _interval(dynamic, words)
+        others = words.percents(*dynamic.interval)
         details.append(words("others may not", share=others))
     if dynamic is None:
         # Why there are no sets stands above the page.
@@ -295,17 +295,12 @@ def _refusal(checked: StructureCheck, words: Sentences) -> str:
         if decisive.met_by_the_set:
             return words(
                 "headline sets disagree",
-                share=f"{words.decimal(percent(decisive.share))}\u00a0%",
+                share=words.percents(decisive.share),
                 sets=decisive.sets,
                 clause=decisive.clause,
                 least=f"{100 * LEAST_SHARE:.0f}",
             )
     return words("headline not verified", clause=decisive.clause, ratio=ratio_words(decisive, words))
-
-
-def _interval(dynamic: DynamicCheck, words: Sentences) -> str:
-    low, high = (percent(each) for each in dynamic.interval)
-    return words.decimal(f"{low}–{high}\u00a0%" if low != high else f"{low}\u00a0%")
 
 
 def _finding(
@@ -332,10 +327,8 @@ def _sure(page: CheckedStructure, dynamic: DynamicCheck | None, words: Sentences
     """How sure the conclusion is: figures, each with what it is the figure of."""
     lines: list[tuple[str, str]] = []
     if dynamic is not None:
-        lines.append(
-            (f"{words.decimal(percent(dynamic.share))}\u00a0%", words("sure sets", sets=dynamic.sets))
-        )
-        lines.append((_interval(dynamic, words), words("sure others")))
+        lines.append((words.percents(dynamic.share), words("sure sets", sets=dynamic.sets)))
+        lines.append((words.percents(*dynamic.interval), words("sure others")))
     if page.stations:
         low, high = (
             words.decimal(percent(each)) for each in share_interval(page.overturning_share, page.stations)
@@ -473,7 +466,7 @@ def _mechanism_table(page: CheckedStructure, words: Sentences) -> dict[str, obje
                 _falls(candidate, words),
                 words.number(multiplier) if math.isfinite(multiplier) else words("held shut"),
                 "–" if candidate.refusal else words.number(candidate.side.frequency_parameter),
-                "–" if math.isnan(each.share) else f"{words.decimal(percent(each.share))}\u00a0%",
+                "–" if math.isnan(each.share) else words.percents(each.share),
                 _holds(each, words),
             ]
         )

@@ -130,7 +130,7 @@ def _data(
         "title": "Summary over the records",
         **printing.settings_texts(settings),
         "subtitle": f"{counted(records['record'].nunique(), 'record')}, "
-        f"{counted(len(tables['structures']), 'structure')}, {counted(len(shown), 'verdict')}",
+        f"{counted(len(tables['structures']), 'structure')}",
         "conclusion": conclusion_in_words(words_of_all, len(judged)),
         "falls": falls_in_words(falls),
         "by-code": by_code,

@@ -4,7 +4,7 @@ import pytest
 from scipy.constants import g
 
 from rocking.errors import RecordError
-from rocking.quantities import GRAVITY, acceleration_factor, percent
+from rocking.quantities import GRAVITY, acceleration_factor, percent, percents
 
 
 def test_gravity_is_the_standard_one():
@@ -29,6 +29,8 @@ def test_an_unknown_unit_is_refused_with_the_known_ones():
     [
         (0.0, "0"),
         (1e-9, "0"),
+        (0.0004, "0"),
+        (0.0005, "0.05"),
         (0.004, "0.4"),
         (0.06, "6"),
         (0.094, "9"),
@@ -39,3 +41,8 @@ def test_an_unknown_unit_is_refused_with_the_known_ones():
 )
 def test_a_share_in_percent_has_one_digit_below_ten_and_is_whole_from_there_on(share, printed):
     assert percent(share) == printed
+
+
+def test_a_range_of_shares_is_one_number_where_all_are_printed_alike():
+    assert percents(0.2, 0.6, 0.11) == "11–60\u00a0%"
+    assert percents(0.112, 0.114) == percents(0.11) == "11\u00a0%"

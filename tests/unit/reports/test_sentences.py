@@ -73,7 +73,7 @@ def test_numbers_have_the_mark_of_their_language():
     assert ITALIAN.number(0.4321) == "0,432"
     assert ITALIAN.of(Remark.of(Kind.LIMIT_SHARE, share=0.4)) == "0,4 d₀"
     assert ITALIAN.of(Remark.of(Kind.DISPLACEMENT_EXCEEDED, exceeding=3, motions=40)).endswith(
-        "3 accelerogrammi su 40"
+        "3 dei 40 accelerogrammi"
     )
     assert ITALIAN.counted(1, "station") == "1 stazione" and ITALIAN.counted(2, "station") == "2 stazioni"
 

@@ -77,8 +77,8 @@ def test_the_strip_says_it_in_words(made):
         f"{kind} {getattr(check(THICK, SPECTRUM), kind).ratio_in_words}" for kind in ("linear", "nonlinear")
     ]
     (italian,) = strips(made, STRUCTURES, Sentences("it"))
-    assert italian["cells"][1]["difference"] == "−50 punti di quota, riserva × 1,8"
-    assert italian["cells"][0]["word"] == "probabilmente ribalta"
+    assert italian["cells"][1]["difference"] == "−50 punti percentuali, margine × 1,8"
+    assert italian["cells"][0]["word"] == "probab. ribalta"
 
 
 def test_the_drawings_have_one_scale(made):

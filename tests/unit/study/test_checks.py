@@ -230,7 +230,7 @@ def test_one_sentence_tells_what_is_verified_and_what_other_stations_would_say()
     level = "at the design level, which these records may exceed"
     verified = f"By the code 2 of 3 structures are verified {level}: pier, wall"
     assert code_conclusion_in_words(code_conclusions(rows)) == (
-        f"{verified}; 20–100\u00a0% of sets of other stations agree."
+        f"{verified}; 20–100\u00a0% of other stations’ sets agree."
     )
     assert code_conclusion_in_words(code_conclusions(code_check_rows("spire", WEAK))) == (
         "By the code none of 1 structure is verified at the design level."
