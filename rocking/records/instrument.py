@@ -16,7 +16,7 @@ _CODE = re.compile(r"(?!CH\d)[A-Z](?:([HLMPJ])[ENZ123]|([DFK])[FHEIOZ])(\d\d)?")
 _NO_MOTION = {"J": "rotational sensor", "D": "pressure sensor", "F": "magnetometer", "K": "thermometer"}
 
 
-_BURIED = 5.0
+BURIED = 5.0
 """m below the surface from which on an instrument stands in a borehole; vaults are shallower."""
 _DEPTH = re.compile(r"(?i)(\d+(?:\.\d+)?)\s*(m|ft|feet)\b")
 
@@ -26,7 +26,7 @@ def is_down_hole(place: str) -> bool:
     if not _DOWN_HOLE.search(place):
         return False
     depths = [float(depth) * (1.0 if unit in "mM" else 0.3048) for depth, unit in _DEPTH.findall(place)]
-    return max(depths) >= _BURIED if depths else bool(re.search(r"(?i)(down|bore)-?hole", place))
+    return max(depths) >= BURIED if depths else bool(re.search(r"(?i)(down|bore)-?hole", place))
 
 
 def site_warnings(place: str) -> tuple[Remark, ...]:

@@ -74,7 +74,8 @@ def _from_trace(trace: Any, inventory: Any, unit: str | None, response: str) -> 
     fields: dict[str, Any] = {"processed": False if declared is None else None, **names(trace)}
     fields |= {name: own[name] for name in OBSPY_EXTRAS if name in own}
     place = site(trace, inventory)
-    fields |= place | {"warnings": (*fields.get("warnings", ()), *place.get("warnings", ()))}
+    doubts = [*fields.get("warnings", ()), *place.get("warnings", ())]
+    fields |= place
     if str(trace.stats.channel).isdigit() and len(str(trace.stats.channel)) == 1:
         fields.setdefault("azimuth", None)
         fields["component"] = f"channel {trace.stats.channel}"
@@ -83,14 +84,13 @@ def _from_trace(trace: Any, inventory: Any, unit: str | None, response: str) -> 
         motion = calibrated(trace, inventory, response)
         samples = motion.acceleration
         processing.append(motion.sentence)
-        fields["warnings"] = (*fields.get("warnings", ()), *motion.warnings)
+        doubts += motion.warnings
     else:
         calibration = float(trace.stats.get("calib", 1.0))
         samples = np.asarray(trace.data, dtype=float) * acceleration_factor(declared)
         if trace.stats.get("_format") in _CALIBRATED_TO_DISPLACEMENT:
             if calibration not in (0.0, 1.0):
-                unused = Remark.of(Kind.CALIBRATION_NOT_APPLIED, factor=calibration)
-                fields["warnings"] = (*fields.get("warnings", ()), unused)
+                doubts.append(Remark.of(Kind.CALIBRATION_NOT_APPLIED, factor=calibration))
         elif calibration != 1:
             samples = samples * calibration
             processing.append(
@@ -101,7 +101,7 @@ def _from_trace(trace: Any, inventory: Any, unit: str | None, response: str) -> 
             processing.append(sentence)
             is_raw = all("remove_sensitivity(" in step or "trim(" in step for step in steps)
             fields["processed"] = False if is_raw else fields["processed"]
-    fields["processing"] = tuple(processing)
+    fields |= {"processing": tuple(processing), "warnings": tuple(doubts)}
     source = Source(format="obspy", unit=declared or "m/s2")
     return Accelerogram(samples, float(trace.stats.delta), source=source, **directed(fields))
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
+from rocking.records.instrument import BURIED
 from rocking.remarks import Kind, Remark
 
 OBSPY_EXTRAS = (
@@ -202,12 +203,10 @@ def _check_gain(gain: float, response: Any, name: str, removal: str) -> tuple[Re
     return ()
 
 
-_STEEP = 45.0
-"""Degrees of dip from which on a sensor is vertical."""
+STEEP = 45.0
+"""Degrees out of the horizontal from which on a sensor is vertical."""
 _TILTED = 5.0
 """Degrees out of the horizontal or the vertical from which on a sensor is told to be tilted."""
-_BURIED = 5.0
-"""m below the surface from which on a sensor stands in a borehole; vaults are shallower."""
 
 
 def site(trace: Any, inventory: Any) -> dict[str, Any]:
@@ -223,13 +222,13 @@ def site(trace: Any, inventory: Any) -> dict[str, Any]:
             facts["azimuth"] = float(orientation["azimuth"]) % 360
         if orientation.get("dip") is not None:
             dip = float(orientation["dip"])
-            facts["vertical"] = abs(dip) > _STEEP
+            facts["vertical"] = abs(dip) > STEEP
             if min(abs(dip), abs(90 - abs(dip))) > _TILTED:
                 facts["warnings"] = (Remark.of(Kind.TILTED, trace.id, dip_deg=dip),)
     with suppress(Exception):
         place = inventory.get_coordinates(trace.id, trace.stats.starttime)
         facts |= {name: float(place[name]) for name in ("latitude", "longitude", "elevation")}
-        if float(place.get("local_depth") or 0.0) >= _BURIED:
+        if float(place.get("local_depth") or 0.0) >= BURIED:
             facts["borehole"] = True
     return facts
 

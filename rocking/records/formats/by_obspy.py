@@ -25,8 +25,8 @@ from rocking.records.formats import header, text
 from rocking.records.formats.format import Format, Options, without_offset
 from rocking.records.formats.header import Layout
 from rocking.records.formats.text import LARGEST_SERIES
-from rocking.records.instrument import refuse_other_quantity
-from rocking.records.traces import calibrated, first_line, joined, names, printed, site
+from rocking.records.instrument import BURIED, refuse_other_quantity
+from rocking.records.traces import STEEP, calibrated, first_line, joined, names, printed, site
 from rocking.remarks import Kind, Remark
 from rocking.tables import read_whole
 
@@ -146,7 +146,7 @@ def _sac_direction(header: dict[str, float], component: str) -> dict[str, Any]:
         return {}
     facts: dict[str, Any] = {"azimuth": angle % 360} if abs(angle) <= 360 else {}
     if inclination != _UNDEFINED:  # degrees from upwards: 0 and 180 are vertical, 90 is horizontal
-        facts["vertical"] = abs(inclination % 180 - 90) > _STEEP
+        facts["vertical"] = abs(inclination % 180 - 90) > STEEP
     return facts
 
 
@@ -155,10 +155,6 @@ _SAC_PLACE = {"latitude": "stla", "longitude": "stlo", "elevation": "stel"}
 _UNDEFINED = -12345.0
 _OTHER_SAC = {6: "displacement", 7: "velocity"}
 """Kinds of the dependent variable, `idep`, that are no acceleration (SAC manual: IDISP, IVEL)."""
-_STEEP = 45.0
-"""Degrees out of the horizontal from which on a component is vertical."""
-_BURIED = 5.0
-"""m below the surface from which on a sensor stands in a borehole."""
 _VERSION = 304
 """Byte at which the header's version stands (SAC manual, word 76)."""
 _SAMPLES = 316
@@ -191,7 +187,7 @@ def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
         unit, values, facts = _sac_motion(trace, options)
         facts |= {name: header[key] for name, key in _SAC_PLACE.items() if key in header}
         facts |= _sac_direction(header, trace.stats.channel)
-        if header.get("stdp", 0.0) >= _BURIED:
+        if header.get("stdp", 0.0) >= BURIED:
             facts["borehole"] = True
         facts |= names(trace) | {"warnings": (*warnings, *facts["warnings"])}
         records.append(options.accelerogram(unit, values, step, **facts))

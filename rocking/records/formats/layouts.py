@@ -3,6 +3,7 @@
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from pathlib import Path
@@ -230,9 +231,8 @@ class Layouts:
 
     def at(self, place: str) -> "Layouts":
         """Return the same answers for files of another folder beside the catalogue."""
-        other = Layouts(None, place)
-        other._path = self._path
-        other.__dict__["rows"] = self.rows
+        other = copy(self)  # with the rows that are read already
+        other.place = "" if place == "." else place
         return other
 
     @cached_property

@@ -44,8 +44,6 @@ _ABOVE = 80
 _LONGEST_LINE = 2000
 _TAIL = 4000
 """Bytes that are looked at, at the end."""
-_BLANK = 32
-_LINE_END = 10
 _OTHER_FORMAT = re.compile(rb"\s*#(Earthquake Information|StationCode\s*:)")
 """CWB's headers, which look like comments above columns."""
 _MARKS = "#", "%", "$", "!", "//"
@@ -569,15 +567,12 @@ def _values(body: bytes, table: Table, layout: TableLayout | None) -> np.ndarray
 
 def _check_rows(spaced: bytes, width: int, may_end_short: bool) -> None:
     """Raise RecordError unless every row of numbers has `width` of them; the last row of a series may be short."""
-    octets = np.frombuffer(b"\n" + spaced + b"\n", dtype=np.uint8)
-    begun = np.cumsum((octets[1:] > _BLANK) & (octets[:-1] <= _BLANK))  # numbers, up to each octet
-    counts = np.diff(begun[octets[1:] == _LINE_END], prepend=0)
-    counts = counts[counts > 0]
-    if may_end_short and counts.size and counts[-1] < width:
-        counts = counts[:-1]
-    if (counts != width).any():
-        at = int(np.argmax(counts != width))
-        raise RecordError(f"row {at + 1} of the samples has {counts[at]} columns, but the first has {width}.")
+    counts = [count for row in spaced.split(b"\n") if (count := len(row.split()))]
+    if may_end_short and counts and counts[-1] < width:
+        del counts[-1]
+    for at, count in enumerate(counts, 1):
+        if count != width:
+            raise RecordError(f"row {at} of the samples has {count} columns, but the first has {width}.")
 
 
 def _whole_numbers(body: bytes) -> str:

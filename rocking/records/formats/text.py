@@ -1,6 +1,5 @@
 """Numbers out of text, fast, yet strict about every character; and the step of printed times."""
 
-import math
 import re
 import warnings
 from contextlib import suppress
@@ -99,26 +98,15 @@ def fields(rows: list[str], width: int = 0, margin: int = 0) -> np.ndarray:
         return numbers(_parted(rows, width, margin))
 
 
-_BLANK = 32
-"""Character codes up to that of the blank part numbers."""
-
-
-def _parted(rows: list[str], width: int, margin: int) -> bytes:
+def _parted(rows: list[str], width: int, margin: int) -> str:
     """Return the text of `rows` with a blank after each column. Raises RecordError where one holds not one number."""
-    bare = [row.rstrip()[margin:] for row in rows]
-    whole = [row.ljust(math.ceil(len(row) / width) * width) for row in bare]
-    characters = np.frombuffer("".join(whole).encode("latin-1"), dtype=np.uint8)
-    cells = characters.reshape(-1, width)
-
-    # A number begins in the first place of a column, or after a blank.
-    is_filled = cells > _BLANK
-    begins_first = is_filled[:, 0]
-    begins_later = is_filled[:, 1:] & ~is_filled[:, :-1]
-    numbers = begins_first + begins_later.sum(axis=1)
-    if (numbers != 1).any():
-        broken = cells[int(np.argmax(numbers != 1))].tobytes().decode("latin-1").strip()
-        raise RecordError(f"a column of {width} characters holds {broken!r}, not one number.") from None
-    return np.pad(cells, ((0, 0), (0, 1)), constant_values=_BLANK).tobytes()
+    bare = (row.rstrip()[margin:] for row in rows)
+    cells = [row[at : at + width] for row in bare for at in range(0, len(row), width)]
+    if broken := next((cell for cell in cells if len(cell.split()) != 1), ""):
+        raise RecordError(
+            f"a column of {width} characters holds {broken.strip()!r}, not one number."
+        ) from None
+    return " ".join(cells)
 
 
 def table(rows: list[str], columns: int, width: int = 0, margin: int = 0) -> np.ndarray:
