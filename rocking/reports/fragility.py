@@ -1,14 +1,16 @@
 """The document of a study's fragility: curves with intervals, their medians, and which records govern them."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from rocking.assessment.rows import PlacedRow
 from rocking.assessment.scene import placed
 from rocking.fragility.measures import INTENSITY_MEASURES, intensity_measure
 from rocking.fragility.rows import (
@@ -54,29 +56,38 @@ _READ = (
 )
 
 
-def by_place(table: "DataFrame") -> "DataFrame":
-    """Return a table of fragility whose structures have the periods of their supports in their names."""
-    pairs = zip(table["structure"], table["support_period_s"], strict=True)
-    return table.assign(structure=[placed(name, period) for name, period in pairs])
+P = TypeVar("P", bound=PlacedRow[Any])
+
+
+def by_place(row_class: type[P], rows: Mapping[type[Row], Iterable[Row]]) -> list[P]:
+    """Return the rows of a class, their structures with the periods of their supports in their names."""
+    return [
+        replace(row, structure=placed(row.structure, row.support_period_s))
+        for row in rows_of(row_class, rows)
+    ]
+
+
+def ida_frame(rows: Mapping[type[Row], Iterable[Row]]) -> "DataFrame":
+    """Return what the document shows of the scaled records."""
+    return frame(IdaRow, by_place(IdaRow, rows), _READ)
 
 
 def write_fragility_report(
     rows: Mapping[type[Row], Sequence[Row]], pdf: Path, image: Path, figures: Figures = "none"
 ) -> None:
     """Set the rows of the tables of fragility as the files `pdf` and `image` (SVG), and its figures beside them."""
-    curves, summary, measures = (
-        by_place(frame(each, rows[each])) for each in (FragilityRow, FragilitySummaryRow, IntensityMeasureRow)
-    )
+    curves = frame(FragilityRow, by_place(FragilityRow, rows))
+    summary = by_place(FragilitySummaryRow, rows)
+    measures = frame(IntensityMeasureRow, by_place(IntensityMeasureRow, rows))
     write_whole(image, svg(fragility_figure(curves)).encode())
-    ida = by_place(frame(IdaRow, rows[IdaRow], _READ))
-    write_document(pdf, "plain.typ", fragility_data(curves, summary, ida, measures), figures)
+    write_document(pdf, "plain.typ", fragility_data(curves, summary, ida_frame(rows), measures), figures)
 
 
 def fragility_data(
-    curves: "DataFrame", summary: "DataFrame", ida: "DataFrame", measures: "DataFrame"
+    curves: "DataFrame", summary: Sequence[FragilitySummaryRow], ida: "DataFrame", measures: "DataFrame"
 ) -> dict[str, object]:
     """Return what the template is given. The tables are fragility, fragility_summary, ida and intensity_measures."""
-    stations = int(summary["stations"].max()) if len(summary) else 0
+    stations = max((row.stations for row in summary), default=0)
     scaled = (
         "Each record of the study is scaled up until the structure overturns; a level counts by its stations."
     )
@@ -102,9 +113,9 @@ def fragility_data(
     }
 
 
-def fragility_table(summary: "DataFrame", ida: "DataFrame") -> dict[str, object]:
+def fragility_table(summary: Sequence[FragilitySummaryRow], ida: "DataFrame") -> dict[str, object]:
     """Return one row per structure: its median, that with the worst crack, and what overturns it first."""
-    falls = list(rows_of(FragilitySummaryRow, summary[summary["threshold"] == math.inf]))
+    falls = [row for row in summary if row.threshold == math.inf]
     first_rows: dict[str, FragilitySummaryRow] = {}
     for row in falls:
         if row.governing or row.structure not in first_rows:

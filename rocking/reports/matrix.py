@@ -1,17 +1,15 @@
 """The matrix of a summary: what becomes of each structure under each record, in words on their colours."""
 
+import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from rocking.assessment.conclusion import Conclusion, worst_of_each
 from rocking.assessment.decide import ORDER, Verdict, worst_first
+from rocking.assessment.rows import PulseRow, RecordRow
 from rocking.quantities import GRAVITY, percents
 from rocking.remarks import Kind
 from rocking.reports.page_one import UNSAID
 from rocking.reports.printing import NOTHING, chip, number
-
-if TYPE_CHECKING:
-    from pandas import DataFrame
 
 MOST_RECORDS = 12
 """Records beside each other; of more the map has a line each."""
@@ -27,11 +25,13 @@ _UNSAID = (Kind.STRENGTHEN, *UNSAID)
 """Remarks that the word itself says."""
 
 
-def matrix(made: Sequence[Conclusion], records: "DataFrame", pulses: "DataFrame") -> dict[str, object]:
+def matrix(
+    made: Sequence[Conclusion], records: Sequence[RecordRow], pulses: Sequence[PulseRow]
+) -> dict[str, object]:
     """Return heads and rows: a column for each record, a row for each structure, both the worst first.
 
-    Without rows where there are more records than stand beside each other. made: the conclusions on all. records,
-    pulses: the tables. The legend is empty where the cells hold their words.
+    Without rows where there are more records than stand beside each other. made: the conclusions on all. The legend is
+    empty where the cells hold their words.
     """
     columns = worst_first((each.verdict.record, each.decision) for each in made)
     by_pair = {(each.verdict.record, each.structure): each for each in made}
@@ -63,14 +63,11 @@ def matrix(made: Sequence[Conclusion], records: "DataFrame", pulses: "DataFrame"
     }
 
 
-def _head(record: str, records: "DataFrame", pulses: "DataFrame", in_words: bool) -> str:
+def _head(record: str, records: Sequence[RecordRow], pulses: Sequence[PulseRow], in_words: bool) -> str:
     """The peak of a record, and where there is room the share of the energy in its sine: "0.99 g; sine 11–13 %"."""
-    peak = records.loc[records["record"] == record, "peak_acceleration_m_s2"].max() / GRAVITY
-    dominant = pulses[
-        (pulses["record"] == record) & (pulses["kind"] == "alternative") & (pulses["rank"] == 1)
-    ]
-    energy = sorted(dominant["explained_energy"])
-    text = f"{number(peak, 2)} g"
+    peaks = [row.peak_acceleration_m_s2 for row in records if row.record == record]
+    energy = sorted(row.explained_energy for row in pulses if row.record == record and row.is_dominant)
+    text = f"{number(max(peaks, default=math.nan) / GRAVITY, 2)} g"
     if energy and in_words:
         text += f"; sine {percents(*energy)}"
     return text

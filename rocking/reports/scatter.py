@@ -1,18 +1,18 @@
 """The scatter of closed form against integration: each case in one of four quadrants, by who says that it falls."""
 
-from typing import TYPE_CHECKING, Any
+import math
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from rocking.assessment.rows import ComparisonRow, PulseRow
 from rocking.quantities import percents
 from rocking.reports.page_one import DOMINATES
 from rocking.reports.style import new_figure, panel_at, styled
-
-if TYPE_CHECKING:
-    from pandas import DataFrame
 
 WIDTH = 180.0
 """Width of the figure, mm."""
@@ -37,19 +37,19 @@ _MISSED = "#A33B14"
 
 @styled
 def prediction_scatter(
-    comparison: "DataFrame", pulses: "DataFrame | None" = None, height: float = 118.0
+    comparison: Sequence[ComparisonRow], pulses: Sequence[PulseRow] = (), height: float = 118.0
 ) -> Figure:
     """Draw the rotation ratio of the closed form across and that of the integration upwards, with the counts.
 
     A case without one of the two is left out, and so is one that neither lifts. pulses: which say how much of the
-    energy of a record lies in its sine; None leaves all cases alike.
+    energy of a record lies in its sine; without them all cases are alike.
     """
     figure = new_figure(height, WIDTH)
     size = height - 2
     axes = panel_at(figure, 20, 1, size, height - 14)
-    columns = ["predicted_rotation_ratio", "integrated_rotation_ratio"]
-    cases = comparison[comparison[columns].max(axis=1, skipna=False) > 0]
-    predicted, integrated = cases[columns].to_numpy(dtype=float).T
+    cases = [row for row in comparison if lifts(row)]
+    predicted = np.array([row.predicted_rotation_ratio for row in cases])
+    integrated = np.array([row.integrated_rotation_ratio for row in cases])
     energy = _energy(cases, pulses)
     dark = energy >= DOMINATES
     _draw_quadrants(axes)
@@ -77,20 +77,16 @@ def prediction_scatter(
     return figure
 
 
-def _energy(cases: "DataFrame", pulses: "DataFrame | None") -> np.ndarray:
+def lifts(row: ComparisonRow) -> bool:
+    """Whether a case has both ratios and one of them lifts it."""
+    both = row.predicted_rotation_ratio, row.integrated_rotation_ratio
+    return not any(map(math.isnan, both)) and max(both) > 0
+
+
+def _energy(cases: Sequence[ComparisonRow], pulses: Sequence[PulseRow]) -> np.ndarray:
     """The share of the energy of its record that the dominant pulse explains, of each case; nan where none is known."""
-    if pulses is None:
-        return np.full(len(cases), np.nan)
-    dominant = pulses[(pulses["kind"] == "alternative") & (pulses["rank"] == 1)]
-    of_pulse = dict(
-        zip(
-            zip(dominant["record"].astype(str), dominant["component"].astype(str), strict=True),
-            dominant["explained_energy"],
-            strict=True,
-        )
-    )
-    keys = zip(cases["record"].astype(str), cases["component"].astype(str), strict=True)
-    return np.array([of_pulse.get(key, np.nan) for key in keys], dtype=float)
+    of_pulse = {(row.record, row.component): row.explained_energy for row in pulses if row.is_dominant}
+    return np.array([of_pulse.get((row.record, row.component), np.nan) for row in cases])
 
 
 def _placed(ratios: np.ndarray) -> np.ndarray:

@@ -1,5 +1,6 @@
 """The report over all records: the map of what becomes of what, what each method costs, and where it fails."""
 
+import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -19,6 +20,7 @@ from rocking.assessment.rows import (
     FailureRow,
     PulseRow,
     RecordRow,
+    StructureRow,
     SupportRow,
     VerdictRow,
     worst_period_each,
@@ -43,14 +45,12 @@ from rocking.reports.printing import (
     unit_of,
     words,
 )
-from rocking.reports.scatter import prediction_scatter
+from rocking.reports.scatter import lifts, prediction_scatter
 from rocking.reports.style import elided, new_figure, picture, pictures, styled, wrapped
 from rocking.reports.supports import shares_by_period_figure
-from rocking.tables import rows_of
+from rocking.tables import Row, rows_of
 
 if TYPE_CHECKING:
-    from pandas import DataFrame
-
     from rocking.codes.design_spectrum import DesignSpectrum
 
 FEWEST_POINTS = 3
@@ -71,6 +71,8 @@ _HIGH, _LOW = 118.0, 84.0
 """Heights of the scatter, mm."""
 _BESIDE = 30
 """Letters of a name beside a bar."""
+_UNKNOWN = [(math.nan, math.nan)]
+"""The peaks of a record of which there is no row."""
 _HEAD = 26
 """Letters of a name above a column of the map; the table of the structures holds it whole."""
 
@@ -80,7 +82,7 @@ Design = tuple["DesignSpectrum", Sequence[Sequence[float]]]
 
 
 def summary_data(
-    tables: Mapping[str, "DataFrame"],
+    rows: Mapping[type[Row], Sequence[Row]],
     settings: Mapping[str, Any],
     trade: Sequence[Mapping[str, str]] = (),
     design: Design | None = None,
@@ -88,54 +90,48 @@ def summary_data(
 ) -> dict[str, object]:
     """Return what the template of the summary is given: texts, tables and figures.
 
-    tables: the summary tables "record", "pulses", "comparison", "verdicts", "structures", "agreement" and "failures",
-    and where they exist "expected_falls", "supports", "code_checks", "fragility_summary" and "ida".
-    settings: at least tolerance and acceleration_scale; below "about" what is told of the study, where it is given.
+    rows: of the tables of the summary, and of checks and fragility where there are any. settings: at least tolerance
+    and acceleration_scale; below "about" what is told of the study, where it is given.
     trade: figure and conclusion, where it was measured. design: None where the study has no design level. strips:
     of the variants of structures.
     """
     with displaying(settings):
-        return _data(tables, settings, trade, design) | {"strips": list(strips)}
+        return _data(rows, settings, trade, design) | {"strips": list(strips)}
 
 
 # Whole on purpose: the parts of the summary by the names of its template.
 def _data(
-    tables: Mapping[str, "DataFrame"],
+    rows: Mapping[type[Row], Sequence[Row]],
     settings: Mapping[str, Any],
     trade: Sequence[Mapping[str, str]],
     design: Design | None,
 ) -> dict[str, object]:
-    verdicts = list(rows_of(VerdictRow, tables["verdicts"]))
-    carried = supports_of(tables)
+    verdicts = rows_of(VerdictRow, rows)
     shown = worst_period_each(verdicts)
-    comparison = tables["comparison"]
-    made = conclusions(verdicts, rows_of(ComparisonRow, comparison))
+    comparison = rows_of(ComparisonRow, rows)
+    made = conclusions(verdicts, comparison)
     words_of_all = {each.structure: each.decision.word for each in worst_of_each(made)}
     judged = {row.record for row in shown}
     many = len(judged) > MOST_RECORDS_BESIDE
-    failures = tables["failures"]
-    records = tables["record"]
-    unsafe = comparison[comparison["agreement"] == Agreement.TOO_LOW]
-    unsafe = unsafe.sort_values("integrated_rotation_ratio", ascending=False, kind="stable")
-    both = comparison[["predicted_rotation_ratio", "integrated_rotation_ratio"]].max(axis=1, skipna=False)
-    drawable = int((both > 0).sum()) >= FEWEST_POINTS
-    summary = tables.get("fragility_summary")
-    falls = (
-        [] if "expected_falls" not in tables else list(rows_of(ExpectedFallsRow, tables["expected_falls"]))
-    )
-    by_code, checks = _checks(tables.get("code_checks"))
+    failures = rows_of(FailureRow, rows)
+    records = rows_of(RecordRow, rows)
+    pulses = rows_of(PulseRow, rows)
+    agreed = rows_of(AgreementRow, rows)
+    unsafe = [row for row in comparison if row.agreement is Agreement.TOO_LOW]
+    unsafe.sort(key=lambda row: row.integrated_rotation_ratio, reverse=True)
+    by_code, checks = _checks(rows)
     # Names that stand upright, a second sentence and more rows leave less room below them.
     low = len(judged) > MOST_WITH_ALL or by_code or len(words_of_all) > MOST_HIGH
     return {
         "title": "Summary over the records",
         **printing.settings_texts(settings),
-        "subtitle": f"{counted(records['record'].nunique(), 'record')}, "
-        f"{counted(len(tables['structures']), 'structure')}",
+        "subtitle": f"{counted(len({row.record for row in records}), 'record')}, "
+        f"{counted(len(rows_of(StructureRow, rows)), 'structure')}",
         "conclusion": conclusion_in_words(words_of_all, len(judged)),
-        "falls": falls_in_words(falls),
+        "falls": falls_in_words(rows_of(ExpectedFallsRow, rows)),
         "by-code": by_code,
         "checks": checks,
-        "matrix": matrix(made, records, tables["pulses"]),
+        "matrix": matrix(made, records, pulses),
         "notices": [notice.data for notice in _notices(records, comparison, len(failures))],
         "outcomes-figure": pictures(
             outcomes_figure,
@@ -146,45 +142,56 @@ def _data(
         "whole-map": severity_map(shown if len(judged) > MOST_ON_PAGE_ONE else (), records, MOST_MAPPED),
         "supports": pictures(
             shares_by_period_figure,
-            carried,
+            rows_of(SupportRow, rows),
             "Mean share of members that overturn against the period of the support, by structure.",
         ),
-        "methods": method_table(tables),
+        "methods": method_table(comparison),
         "structures": structure_table(shown),
-        "scatter": _scatter(tables, _LOW if low else _HIGH) if drawable else [],
-        "agreement": table_of(rows_of(AgreementRow, tables["agreement"]), *AGREEMENT_COLUMNS),
-        "unsafe": table_of(rows_of(ComparisonRow, unsafe.head(MOST_LISTED)), *UNSAFE_COLUMNS),
+        "scatter": _scatter(comparison, pulses, agreed[0], _LOW if low else _HIGH),
+        "agreement": table_of(agreed, *AGREEMENT_COLUMNS),
+        "unsafe": table_of(unsafe[:MOST_LISTED], *UNSAFE_COLUMNS),
         "unsafe-note": remainder(len(unsafe) - MOST_LISTED, "case", "comparison.csv"),
-        "fragility": [] if summary is None else _fragility(summary, tables["ida"]),
-        "failures": table_of(rows_of(FailureRow, failures.head(MOST_LISTED)), *FAILURE_COLUMNS),
+        "fragility": _fragility(rows),
+        "failures": table_of(failures[:MOST_LISTED], *FAILURE_COLUMNS),
         "failures-note": remainder(len(failures) - MOST_LISTED, "failure", "failures.csv"),
-        "records": record_table(list(rows_of(RecordRow, records.head(MOST_RECORDS))), tables["pulses"]),
+        "records": record_table(records[:MOST_RECORDS], pulses),
         "records-note": remainder(len(records) - MOST_RECORDS, "component", "record.csv"),
         "design": _design(design),
         "trade": list(trade),
     }
 
 
-def _scatter(tables: Mapping[str, "DataFrame"], height: float) -> list[dict[str, str]]:
+def _scatter(
+    comparison: Sequence[ComparisonRow], pulses: Sequence[PulseRow], of_all: AgreementRow, height: float
+) -> list[dict[str, str]]:
     """The scatter of all cases, so many mm high, with what the closed form saw of the falls as its heading."""
-    of_all = next(rows_of(AgreementRow, tables["agreement"]))
+    if sum(map(lifts, comparison)) < FEWEST_POINTS:
+        return []
     falls = f"{of_all.overturning_hits} of {counted(of_all.overturning, 'fall')}"
     heading = f"The closed form sees {falls}"
     alt = "Scatter of the rotation ratio by closed form against that by integration, in four quadrants."
-    figure = prediction_scatter(tables["comparison"], tables["pulses"], height)
+    figure = prediction_scatter(comparison, pulses, height)
     return [{**picture(figure, alt), "heading": heading}]
 
 
-def _fragility(summary: "DataFrame", ida: "DataFrame") -> list[dict[str, object]]:
+def _fragility(rows: Mapping[type[Row], Sequence[Row]]) -> list[dict[str, object]]:
     """The table of fragility, of a study that measured one."""
-    from rocking.reports.fragility import by_place, fragility_table
+    if not _holds(rows, "fragility_summary"):
+        return []
+    from rocking.fragility.rows import FragilitySummaryRow  # a quarter of a second
+    from rocking.reports.fragility import by_place, fragility_table, ida_frame
 
-    return [fragility_table(by_place(summary), by_place(ida))]
+    return [fragility_table(by_place(FragilitySummaryRow, rows), ida_frame(rows))]
 
 
-def _checks(rows: "DataFrame | None") -> tuple[str, dict[str, object]]:
+def _holds(rows: Mapping[type[Row], Sequence[Row]], table: str) -> bool:
+    """Whether there is a table of this name: the main job runs without the folders of its class."""
+    return any(each.table.name == table for each in rows)
+
+
+def _checks(rows: Mapping[type[Row], Sequence[Row]]) -> tuple[str, dict[str, object]]:
     """The sentence on the checks at the design level, and their table; both empty without one."""
-    if rows is None:
+    if not _holds(rows, "code_checks"):
         return "", {"rows": []}
     from rocking.codes.conclusion import code_conclusion_in_words, code_conclusions
     from rocking.codes.rows import KINDS, CodeCheckRow
@@ -214,26 +221,22 @@ def _design(design: Design | None) -> list[dict[str, object]]:
     return [drawn]
 
 
-def supports_of(tables: Mapping[str, "DataFrame"]) -> list[SupportRow]:
-    """Return the rows of the table of supports; none where it is not there."""
-    table = tables.get("supports")
-    return [] if table is None else list(rows_of(SupportRow, table))
-
-
-def _notices(records: "DataFrame", comparison: "DataFrame", failures: int) -> list[Notice]:
+def _notices(
+    records: Sequence[RecordRow], comparison: Sequence[ComparisonRow], failures: int
+) -> list[Notice]:
     """Return the warnings that stand above everything."""
     notices = []
-    if records.empty:
+    if not records:
         text = "No record could be read, so there is no result; the failures below say why."
         notices.append(Notice(text))
-    elif comparison.empty:
+    elif not comparison:
         text = "No structure could be assessed under any record; the failures below say why."
         notices.append(Notice(text))
-    elif (comparison["integrated_rotation_ratio"] == 0).all():
+    elif all(row.integrated_rotation_ratio == 0 for row in comparison):
         notices.append(Notice("No structure uplifts under any record."))
     if failures:
         notices.append(Notice(f"{counted(failures, 'failure')}, listed below."))
-    scaled = sorted(records.loc[records["scale_factor"] != 1, "record"].unique())
+    scaled = sorted({row.record for row in records if row.scale_factor != 1})
     if scaled:
         names = listed(scaled, most=20)
         text = f"By a declared factor, not as recorded: {names}."
@@ -290,7 +293,7 @@ def outcomes_figure(verdicts: Sequence[VerdictRow]) -> Figure:
 
 
 def severity_map(
-    verdicts: Sequence[VerdictRow], records: "DataFrame", most: int = MOST_MAPPED
+    verdicts: Sequence[VerdictRow], records: Sequence[RecordRow], most: int = MOST_MAPPED
 ) -> dict[str, object]:
     """Return verdict and share by record and structure, both the worst first.
 
@@ -305,16 +308,19 @@ def severity_map(
     others = [(len(names[0]) - len(rows), "record"), (len(names[1]) - len(columns), "structure")]
     rest = " and ".join(counted(count, noun) for count, noun in others if count)
     by_pair = {(row.record, row.structure): row for row in verdicts}
-    peaks = records.groupby("record", observed=True)[["peak_acceleration_m_s2", "peak_velocity_m_s"]].max()
     velocity = unit_of("m/s")
-    peaks = (peaks / [GRAVITY, velocity.size]).reindex(rows)
+    peaks: dict[str, list[tuple[float, float]]] = {name: [] for name in rows}
+    for row in records:
+        if row.record in peaks:
+            accelerations = row.peak_acceleration_m_s2 / GRAVITY
+            peaks[row.record].append((accelerations, row.peak_velocity_m_s / velocity.size))
     return {
         "peak-heads": ["PGA [g]", f"PGV [{velocity.name}]"],
         "heads": [elided(name, _HEAD) for name in columns],
         "rows": [
             {
                 "record": name,
-                "peaks": [number(value, 2) for value in peaks.loc[name]],
+                "peaks": [number(max(each), 2) for each in zip(*(peaks[name] or _UNKNOWN), strict=True)],
                 "cells": [_cell(by_pair.get((name, each))) for each in columns],
             }
             for name in rows
@@ -354,11 +360,9 @@ def structure_table(verdicts: Sequence[VerdictRow]) -> dict[str, object]:
 # What the methods are worth --------------------------------------------------------------------------------
 
 
-def method_table(tables: Mapping[str, "DataFrame"]) -> dict[str, object]:
+def method_table(comparison: Sequence[ComparisonRow]) -> dict[str, object]:
     """Return how each method stands to the integration of the mechanism under the record; times stand in a table."""
-    comparison = tables["comparison"]
-    whole = comparison[RATIO_COLUMNS[Method.MECHANISM_ON_RECORD]]
-    every = [_worth(method, comparison[RATIO_COLUMNS[method]], whole) for method in printing.METHODS]
+    every = [_worth(method, comparison) for method in printing.METHODS]
     return table_of(
         [worth for worth in every if worth.cases],
         ("Method", "1.6", "l", lambda worth: printing.METHODS[worth.method]),
@@ -385,10 +389,10 @@ class _Worth(NamedTuple):
     near: int
 
 
-def _worth(method: Method, ratios: "DataFrame", integrated: "DataFrame") -> _Worth:
+def _worth(method: Method, comparison: Sequence[ComparisonRow]) -> _Worth:
     """Count the cases that have both rotation ratios."""
-    has_both = ratios.notna() & integrated.notna()
-    pairs = list(zip(ratios[has_both].tolist(), integrated[has_both].tolist(), strict=True))
+    of_all = [(getattr(row, RATIO_COLUMNS[method]), row.integrated_rotation_ratio) for row in comparison]
+    pairs = [pair for pair in of_all if not any(map(math.isnan, pair))]
     outcomes = Counter(agreement(*pair) for pair in pairs)
     closeness = [within_factor_two(*pair) for pair in pairs]
     return _Worth(
@@ -425,11 +429,9 @@ UNSAFE_COLUMNS: list[Column] = [
 FAILURE_COLUMNS = columns_of(FailureRow, "record component=auto structure stage=0.6 message=3")
 
 
-def record_table(records: Sequence[RecordRow], pulses: "DataFrame") -> dict[str, object]:
+def record_table(records: Sequence[RecordRow], pulses: Sequence[PulseRow]) -> dict[str, object]:
     """Return the records with their dominant pulses."""
-    dominant = pulses[(pulses["kind"] == "alternative") & (pulses["rank"] == 1)]
-    of_records = dominant[dominant["record"].isin([row.record for row in records])]
-    pulse_of = {(row.record, row.component): row for row in rows_of(PulseRow, of_records)}
+    pulse_of = {(row.record, row.component): row for row in pulses if row.is_dominant}
     of_record = columns_of(
         RecordRow, "record=1.6 component=auto scale_factor peak_acceleration_m_s2=0.95 peak_velocity_m_s"
     )

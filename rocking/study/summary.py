@@ -9,18 +9,14 @@ from typing import TYPE_CHECKING, Any
 from rocking.assessment.conclusion import conclusions, worst_of_each
 from rocking.assessment.cracks import never_lets_go
 from rocking.assessment.rows import (
-    AGREEMENT_COLUMNS,
     RECORD_TABLES,
     SUMMARY_TABLES,
     AgreementRow,
     CapacityRow,
     ComparisonRow,
     ExpectedFallsRow,
-    FailureRow,
     PulseRow,
-    RecordRow,
     StructureRow,
-    SupportRow,
     TimingRow,
     TradeRow,
     VariationRow,
@@ -42,7 +38,7 @@ from rocking.study.terminal import log_error
 from rocking.tables import (
     Row,
     data_package,
-    frame,
+    rows_of,
     rows_written,
     write_tables,
     write_whole,
@@ -59,17 +55,6 @@ WORKBOOK = "study.xlsx"
 """The tables of the summary in one file."""
 _NOT_IN_THE_WORKBOOK = (TimingRow, VariationRow)
 """The times differ from run to run; the variations of each case are ten times as many as the cases."""
-_SHOWN = (
-    RecordRow,
-    PulseRow,
-    ComparisonRow,
-    VerdictRow,
-    SupportRow,
-    StructureRow,
-    AgreementRow,
-    FailureRow,
-    ExpectedFallsRow,
-)
 
 
 def summarise(job: Job) -> list[Path]:
@@ -104,14 +89,14 @@ def summarise(job: Job) -> list[Path]:
             from rocking.codes.conclusion import code_conclusions
             from rocking.codes.rows import CodeCheckRow
 
-            checks = [row for row in beside.get(CodeCheckRow, ()) if isinstance(row, CodeCheckRow)]
+            checks = rows_of(CodeCheckRow, beside)
             checked = code_conclusions(checks)
             sheets |= {CodeCheckRow: beside[CodeCheckRow]} if checks else {}
         if groups := variants_of(study.scenes):
             from rocking.codes.variants import VariantRow, variants
             from rocking.reports.variants import strips
 
-            verdicts = (row for row in shown[VerdictRow] if isinstance(row, VerdictRow))
+            verdicts = rows_of(VerdictRow, shown)
             compared = variants(groups, worst_of_each(conclusions(verdicts, [])), checked)
             drawn = strips(compared, study.structures)
             sheets[VariantRow] = [VariantRow.of(each) for row in compared.values() for each in row]
@@ -162,9 +147,7 @@ def write_summary(
         kept[ExpectedFallsRow] = [*falls_of_records, *([of_all] if of_all else [])]
         kept[StructureRow] = list(structure_rows(structures))
         kept[CapacityRow] = list(capacity_rows(structures))
-        kept[AgreementRow] = list(
-            agreement_rows(frame(ComparisonRow, kept[ComparisonRow], AGREEMENT_COLUMNS))
-        )
+        kept[AgreementRow] = list(agreement_rows(rows_of(ComparisonRow, kept)))
         write_tables({each: rows for each, rows in kept.items() if each not in write}, target)
     return kept, pages, spectra
 
@@ -206,15 +189,14 @@ def _report(
     from rocking.reports.summary import summary_data
     from rocking.reports.trade import trade_picture
 
-    shown = [each for each in rows if each in _SHOWN or each not in SUMMARY_TABLES]
-    tables = {each.table.name: frame(each, rows[each]) for each in shown}
-    pictures = trade_picture([row for row in rows.get(TradeRow, ()) if isinstance(row, TradeRow)])
+    pictures = trade_picture(rows_of(TradeRow, rows))
     level = study.settings.design_spectrum.spectrum()
     design = (level, spectra) if level is not None and spectra else None
-    data = summary_data(tables, study.settings.mapping(), pictures, design, strips)
+    data = summary_data(rows, study.settings.mapping(), pictures, design, strips)
     files = write_document(folder / "summary.pdf", "summary.typ", data, study.settings.figures)
+    scatter = prediction_scatter(rows_of(ComparisonRow, rows), rows_of(PulseRow, rows))
     figure = folder / "prediction_against_integration.svg"
-    write_whole(figure, svg(prediction_scatter(tables["comparison"], tables["pulses"])).encode())
+    write_whole(figure, svg(scatter).encode())
     return [*files, figure]
 
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from rocking.described import Described
 from rocking.errors import RockingError
 from rocking.tables.files import regular_file, whole, write_whole
-from rocking.tables.row import R, Row, Table, cell, empty, value_of
+from rocking.tables.row import R, Row, Table, cell, value_of
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -177,18 +177,6 @@ def frame(
     return table
 
 
-def rows_of(row_class: type[R], table: "DataFrame") -> Iterator[R]:
-    """Yield the rows of a whole data frame that `frame` gave as objects again."""
-    columns = row_class.table.columns
-    for line in table.astype(object).where(table.notna(), None).itertuples(index=False):
-        values = {}
-        for each in columns:
-            value = getattr(line, each.name)
-            if value is None or value != value:
-                value = empty(each)
-            elif each.holds is tuple:
-                value = tuple(map(each.item, value.split("; "))) if value else ()
-            else:
-                value = each.holds(value)
-            values[each.name] = value
-        yield row_class(**values)
+def rows_of(row_class: type[R], tables: Mapping[type[Row], Iterable[Row]]) -> list[R]:
+    """Return the rows of one class among `tables`; none where they lack it."""
+    return [row for row in tables.get(row_class, ()) if isinstance(row, row_class)]

@@ -81,7 +81,6 @@ def test_what_is_written_is_read_again_row_by_row_and_as_a_frame(tmp_path_factor
     assert list(read_rows(MadeRow, path)) == rows
     table = frame(MadeRow, path)
     pd.testing.assert_frame_equal(table, frame(MadeRow, rows))
-    assert list(tables.rows_of(MadeRow, table)) == rows
     text = path.read_text(encoding="utf-8")
     assert len(text.splitlines()) == len(rows) + 1, "a row is one line"
     for line in csv.DictReader(io.StringIO(text)):

@@ -28,7 +28,6 @@ from rocking.assessment.rows.of_record import VerdictRow as VerdictRow
 from rocking.assessment.rows.of_record import history_rows as history_rows
 from rocking.assessment.rows.of_record import rows_of_record as rows_of_record
 from rocking.assessment.rows.of_record import worst_period_each as worst_period_each
-from rocking.assessment.rows.of_study import AGREEMENT_COLUMNS as AGREEMENT_COLUMNS
 from rocking.assessment.rows.of_study import SUMMARY_TABLES as SUMMARY_TABLES
 from rocking.assessment.rows.of_study import AgreementRow as AgreementRow
 from rocking.assessment.rows.of_study import CapacityRow as CapacityRow

@@ -284,6 +284,11 @@ class PulseRow(ComponentRow[FoundPulse]):
         return self.kind == "alternative"
 
     @property
+    def is_dominant(self) -> bool:
+        """Whether it explains most of its component."""
+        return self.ranked and self.rank == 1
+
+    @property
     def pulse(self) -> Pulse:
         """The pulse itself."""
         return Pulse(self.amplitude_m_s2, self.circular_frequency_rad_s, self.start_time_s)

@@ -1,6 +1,7 @@
 """Rows about a whole study: its structures, their blocks, its counts, its spectrum and what accuracy costs."""
 
 import math
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -22,7 +23,7 @@ from rocking.structures.structure import WEAK_MASONRY
 from rocking.tables import Columns, Row, RowOf, row
 
 if TYPE_CHECKING:
-    from pandas import DataFrame, Series
+    pass
 
 _P = "p of the equivalent block linearised about the critical rotation"
 _ETA = "Ratio of angular velocities after and before an impact"
@@ -200,65 +201,27 @@ def capacity_rows(structures: Mapping[str, Structure]) -> Iterator[CapacityRow]:
                 yield CapacityRow.of(CapacityPoint(name, side, curve, place))
 
 
-AGREEMENT_COLUMNS = (
-    "record",
-    "structure",
-    "support_period_s",
-    "predicted_rotation_ratio",
-    "integrated_rotation_ratio",
-    "within_factor_two",
-)
-"""The columns of the comparison table that are counted."""
-
-
 @dataclass(frozen=True, eq=False)
 class CountedCases:
-    """The cases of one structure ("": of all) that have both ratios, from the comparison table as a data frame."""
+    """The cases of one structure ("": of all) that have both ratios."""
 
     structure: str
     support_period: float | None
-    cases: "DataFrame"
+    cases: Sequence[rows.ComparisonRow]
+
+    @cached_property
+    def falls(self) -> Counter[tuple[bool, bool]]:
+        """How many overturn or not in the closed form, and in the integration."""
+        return Counter(
+            (math.isinf(row.predicted_rotation_ratio), math.isinf(row.integrated_rotation_ratio))
+            for row in self.cases
+        )
 
     @property
-    def predicted(self) -> "Series":
-        """Whether each overturns in the closed form."""
-        return np.isinf(self.cases["predicted_rotation_ratio"])
-
-    @property
-    def integrated(self) -> "Series":
-        """Whether each overturns in the integration."""
-        return np.isinf(self.cases["integrated_rotation_ratio"])
-
-    @property
-    def ratios(self) -> "Series":
+    def ratios(self) -> list[float]:
         """Predicted over integrated rotation of those that rock in both."""
-        ratios = self.cases["predicted_rotation_ratio"] / self.cases["integrated_rotation_ratio"]
-        return ratios[self.cases["within_factor_two"].notna()]
-
-    @property
-    def both_rock(self) -> int:
-        """The number of those that rock in both."""
-        return int(self.ratios.count())
-
-    @property
-    def overturning(self) -> int:
-        """The number of those that overturn in the integration."""
-        return int(self.integrated.sum())
-
-    @property
-    def hits(self) -> int:
-        """The number of these that overturn in the closed form, too."""
-        return int((self.predicted & self.integrated).sum())
-
-    @property
-    def misses(self) -> int:
-        """The number of these that stand in the closed form."""
-        return int((self.integrated & ~self.predicted).sum())
-
-    @property
-    def false_alarms(self) -> int:
-        """The number of those that overturn in the closed form alone."""
-        return int((self.predicted & ~self.integrated).sum())
+        both_rock = (row for row in self.cases if row.within_factor_two is not None)
+        return [row.predicted_rotation_ratio / row.integrated_rotation_ratio for row in both_rock]
 
 
 of_cases = Columns(CountedCases)
@@ -272,32 +235,45 @@ class AgreementRow(RowOf[CountedCases]):
         "Name of the structure in the structure list; empty for all together", lambda of: of.structure
     )
     support_period_s: float | None = of_cases(rows.SUPPORT_PERIOD, lambda of: of.support_period)
-    records: int = of_cases("Number of records", lambda of: int(of.cases["record"].nunique()))
+    records: int = of_cases("Number of records", lambda of: len({row.record for row in of.cases}))
     cases: int = of_cases("Number of cases with a prediction and an integration", lambda of: len(of.cases))
-    both_rock: int = of_cases("Number of cases in which both rock", lambda of: of.both_rock)
+    both_rock: int = of_cases("Number of cases in which both rock", lambda of: len(of.ratios))
     within_factor_two: int = of_cases(
-        "Number of these with a ratio between 1/2 and 2", lambda of: int(of.cases["within_factor_two"].sum())
+        "Number of these with a ratio between 1/2 and 2",
+        lambda of: sum(bool(row.within_factor_two) for row in of.cases),
     )
     median_ratio: float = of_cases(
-        "Median of predicted over integrated rotation where both rock", lambda of: float(of.ratios.median())
+        "Median of predicted over integrated rotation where both rock",
+        lambda of: median(of.ratios) if of.ratios else math.nan,
     )
-    overturning: int = of_cases("Number of cases that overturn in the integration", lambda of: of.overturning)
-    overturning_hits: int = of_cases("Number of these that overturn in the closed form", lambda of: of.hits)
-    overturning_misses: int = of_cases("Number of these that stand in the closed form", lambda of: of.misses)
+    overturning: int = of_cases(
+        "Number of cases that overturn in the integration",
+        lambda of: of.falls[True, True] + of.falls[False, True],
+    )
+    overturning_hits: int = of_cases(
+        "Number of these that overturn in the closed form", lambda of: of.falls[True, True]
+    )
+    overturning_misses: int = of_cases(
+        "Number of these that stand in the closed form", lambda of: of.falls[False, True]
+    )
     overturning_false_alarms: int = of_cases(
-        "Number of cases that overturn in the closed form alone", lambda of: of.false_alarms
+        "Number of cases that overturn in the closed form alone", lambda of: of.falls[True, False]
     )
 
 
-def agreement_rows(comparison: "DataFrame") -> Iterator[AgreementRow]:
-    """Yield the counts of all and of each structure, from the comparison table as a data frame."""
-    ratios = comparison[["predicted_rotation_ratio", "integrated_rotation_ratio"]]
-    compared = comparison[ratios.notna().all(axis="columns")]
+def agreement_rows(comparison: Iterable[rows.ComparisonRow]) -> Iterator[AgreementRow]:
+    """Yield the counts of all and of each structure."""
+    compared = [
+        row
+        for row in comparison
+        if not (math.isnan(row.predicted_rotation_ratio) or math.isnan(row.integrated_rotation_ratio))
+    ]
     yield AgreementRow.of(CountedCases("", None, compared))
-    by_scene = compared.groupby(["structure", "support_period_s"], sort=False, observed=True, dropna=False)
-    for (structure, period), cases in by_scene:
-        of_support = None if math.isnan(period) else float(period)
-        yield AgreementRow.of(CountedCases(str(structure), of_support, cases))
+    by_scene: dict[tuple[str, float | None], list[rows.ComparisonRow]] = {}
+    for each in compared:
+        by_scene.setdefault((each.structure, each.support_period_s), []).append(each)
+    for (structure, period), cases in by_scene.items():
+        yield AgreementRow.of(CountedCases(structure, period, cases))
 
 
 @dataclass(frozen=True)

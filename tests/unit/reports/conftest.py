@@ -3,6 +3,7 @@
 import re
 import shutil
 import subprocess
+from collections.abc import Sequence
 from dataclasses import replace
 from html import unescape
 
@@ -14,13 +15,8 @@ from rocking.assessment.case import SceneResult, StationResult
 from rocking.assessment.decide import Verdict
 from rocking.assessment.rows import (
     AgreementRow,
-    ComparisonRow,
-    FailureRow,
-    PulseRow,
-    RecordRow,
     RecordRows,
     StructureRow,
-    VerdictRow,
     agreement_rows,
     rows_of_record,
     structure_rows,
@@ -33,16 +29,9 @@ from rocking.reports.printing import compile_document
 from rocking.reports.record import RecordReport
 from rocking.reports.summary import summary_data
 from rocking.structures import Arch, Block, Wall
-from rocking.tables import frame
+from rocking.tables import Row
 from tests.unit.assessment.made_rows import case, station
 
-SUMMARISED = {
-    "record": RecordRow,
-    "pulses": PulseRow,
-    "comparison": ComparisonRow,
-    "verdicts": VerdictRow,
-    "failures": FailureRow,
-}
 ASSESSMENT = AssessmentSettings()
 SETTINGS = {name: getattr(ASSESSMENT, name) for name in ("tolerance", "acceleration_scale")}
 HOSTILE = ("$x^$", "#panic(1)", "<b>bold</b>", "W" * 80, "Жёлтый Ω 中文")
@@ -112,20 +101,16 @@ def of_structures(report: RecordReport, kinds: dict[str, str], record: str = "on
     )
 
 
-def summary_report(tables: dict[str, object], settings: dict[str, object]) -> bytes:
+def summary_report(tables: dict[type[Row], Sequence[Row]], settings: dict[str, object]) -> bytes:
     """The summary as a PDF."""
     return compile_document("summary.typ", summary_data(tables, settings))
 
 
-def summarised(tables: RecordRows, structures: dict[str, object]) -> dict[str, object]:
-    """Return the summary tables of one record as data frames."""
-    tables_of_study = {
-        name: frame(rows_class, getattr(tables, name)) for name, rows_class in SUMMARISED.items()
-    }
-    agreement = frame(AgreementRow, agreement_rows(tables_of_study["comparison"]))
-    return tables_of_study | {
-        "structures": frame(StructureRow, structure_rows(structures)),
-        "agreement": agreement,
+def summarised(tables: RecordRows, structures: dict[str, object]) -> dict[type[Row], Sequence[Row]]:
+    """Return the rows of the summary of one record."""
+    return tables.tables | {
+        StructureRow: list(structure_rows(structures)),
+        AgreementRow: list(agreement_rows(tables.comparison)),
     }
 
 

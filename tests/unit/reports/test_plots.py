@@ -2,12 +2,12 @@
 
 import matplotlib
 import numpy as np
-import pandas
 import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import rocking
+from rocking.assessment.rows import ComparisonRow, PulseRow
 from rocking.reports.panels import draw_energy_map, draw_rotation, rotation_ratios
 from rocking.reports.scatter import prediction_scatter
 from rocking.reports.style import (
@@ -19,6 +19,7 @@ from rocking.reports.style import (
     svg,
     wrapped,
 )
+from tests.unit.assessment.made_rows import filled
 
 TIMES = np.arange(3000) * 0.01
 PULSE = rocking.Pulse(4.0, 2 * np.pi / 0.9, 5.0)
@@ -134,21 +135,21 @@ def test_each_case_stands_in_the_quadrant_of_who_says_that_it_falls():
     """And what rocks in both at the logarithm of its rotation ratios; each quadrant says how many it holds."""
     predicted = [0.1, np.inf, 0.2, np.inf, 0.4, 0.4, np.inf]
     integrated = [0.5, np.inf, np.inf, 0.3, np.inf, 0.5, np.inf]
-    component = ["N", "N", "N", "E", "E", "E", "E"]
-    cases = {
-        "integrated_rotation_ratio": integrated,
-        "predicted_rotation_ratio": predicted,
-        "record": "a",
-        "component": component,
-    }
-    pulses = {
-        "record": "a",
-        "component": ["N", "E"],
-        "kind": "alternative",
-        "rank": 1,
-        "explained_energy": [0.2, 0.6],
-    }
-    axes, key = prediction_scatter(pandas.DataFrame(cases), pandas.DataFrame(pulses)).axes
+    cases = [
+        filled(
+            ComparisonRow,
+            record="a",
+            component=component,
+            predicted_rotation_ratio=closed,
+            integrated_rotation_ratio=whole,
+        )
+        for closed, whole, component in zip(predicted, integrated, "NNNEEEE", strict=True)
+    ]
+    pulses = [
+        filled(PulseRow, record="a", component=component, kind="alternative", rank=1, explained_energy=share)
+        for component, share in (("N", 0.2), ("E", 0.6))
+    ]
+    axes, key = prediction_scatter(cases, pulses).axes
     light, dark = (line.get_xydata() for line in axes.lines if str(line.get_label()).startswith("cases"))
     zone = 0.25  # from here on it falls
     assert [tuple(point > zone) for point in light] == [(False, False), (True, True), (False, True)]
@@ -167,13 +168,11 @@ def test_each_case_stands_in_the_quadrant_of_who_says_that_it_falls():
 
 def test_no_two_points_of_what_falls_stand_on_one_another():
     ratios = np.linspace(0.3, 0.31, 7)
-    cases = {
-        "predicted_rotation_ratio": [*ratios, *[np.inf] * 40],
-        "integrated_rotation_ratio": [np.inf] * 47,
-        "record": "a",
-        "component": "N",
-    }
-    axes = prediction_scatter(pandas.DataFrame(cases)).axes[0]
+    cases = [
+        filled(ComparisonRow, predicted_rotation_ratio=closed, integrated_rotation_ratio=np.inf)
+        for closed in (*ratios, *[np.inf] * 40)
+    ]
+    axes = prediction_scatter(cases).axes[0]
     points = np.vstack(
         [line.get_xydata() for line in axes.lines if str(line.get_label()).startswith("cases")]
     )

@@ -5,7 +5,6 @@ import re
 from dataclasses import replace
 
 import numpy as np
-import pandas
 import pytest
 
 import rocking
@@ -25,7 +24,7 @@ from rocking.assessment.rows import (
     agreement_rows,
 )
 from rocking.fragility.measures import compared
-from rocking.fragility.rows import FragilityRow, FragilitySummaryRow, IntensityMeasureRow
+from rocking.fragility.rows import FragilityRow, FragilitySummaryRow, IdaRow, IntensityMeasureRow
 from rocking.records.measures import response_spectrum
 from rocking.reports.design_figure import (
     MOST_LINES,
@@ -33,7 +32,7 @@ from rocking.reports.design_figure import (
     design_summary_figure,
     spectrum_periods,
 )
-from rocking.reports.fragility import fragility_data, fragility_figure
+from rocking.reports.fragility import fragility_data, fragility_figure, ida_frame
 from rocking.reports.scatter import prediction_scatter
 from rocking.reports.style import svg
 from rocking.reports.summary import outcomes_figure, severity_map, summary_data
@@ -72,14 +71,14 @@ def summary_tables(comparison, **tables):
 
 
 def test_agreement_counts_all_and_each_structure():
-    rows = {row.structure: row for row in agreement_rows(frame(ComparisonRow, CASES))}
+    rows = {row.structure: row for row in agreement_rows(CASES)}
     assert {name: row.cases for name, row in rows.items()} == {"": 5, "pier": 2, "arch": 1, "wall": 2}
     content = summary_data(summary_tables(CASES), SETTINGS)["agreement"]["rows"]
     # records, cases, both rock, within a factor 2, median ratio; overturning, found, missed, false
     assert content[0] == ["all", "3", "5", "2", "1", "0.696", "2", "1", "1", "1"]
     assert rows[""].median_ratio == (0.5 / 0.4 + 0.1 / 0.7) / 2 and rows["pier"].median_ratio == 1.25
     more = [*CASES, case("pier", 0.8, 0.1, "two")]
-    assert next(agreement_rows(frame(ComparisonRow, more))).median_ratio == 1.25  # of 1/7, 5/4 and 8
+    assert next(agreement_rows(more)).median_ratio == 1.25  # of 1/7, 5/4 and 8
 
 
 def verdict(
@@ -124,7 +123,7 @@ def test_the_map_holds_sign_and_share_with_the_worst_record_and_structure_first(
     alone = verdicts([station(run("EW", math.inf, "pier"))], "one")
     alone += verdicts([station(run("EW", 0.8, "arch"))], "two")
     judged = [*alone, verdict("two", "wall", math.inf, 60), verdict("three", "wall", 0.7, 0)]
-    content = severity_map(judged, summary_tables(CASES, verdicts=judged)["record"])
+    content = severity_map(judged, [])
     assert content["heads"] == ["pier", "wall", "arch"]
     assert [row["record"] for row in content["rows"]] == ["one", "two", "three"]
     assert [[cell["text"] for cell in row["cells"]] for row in content["rows"]] == [
@@ -170,8 +169,8 @@ def test_of_many_records_each_has_a_line_of_the_map_and_the_worst_stand_on_the_f
 def test_each_method_is_held_against_the_integration_and_no_time_is_told(example):
     """Two runs of the same study would else differ."""
     tables = summarised(example.tables, example.structures)
-    timings = frame(TimingRow, [TimingRow.of(TimedStage("one", "closed form", 0.002))])
-    assert summary_report(tables | {"timings": timings}, SETTINGS) == summary_report(tables, SETTINGS)
+    timings = [TimingRow.of(TimedStage("one", "closed form", 0.002))]
+    assert summary_report(tables | {TimingRow: timings}, SETTINGS) == summary_report(tables, SETTINGS)
     table = summary_data(tables, SETTINGS)["methods"]
     rows = {row[0]: row[1:] for row in table["rows"]}
     assert rows["Mechanism, record"][0] == "5" and rows["Mechanism, record"][1] == "5\u00a0of\u00a05"
@@ -250,7 +249,7 @@ def test_a_scatter_stands_where_three_cases_have_both_ratios(predicted, drawn):
 
 def test_a_scatter_of_many_cases_does_not_grow_with_them():
     many = [[case("wall", 0.1 + k / count, 0.5) for k in range(count)] for count in (5500, 22000)]
-    sizes = [len(svg(prediction_scatter(frame(ComparisonRow, each)))) for each in many]
+    sizes = [len(svg(prediction_scatter(each))) for each in many]
     assert sizes[1] < 1.5 * sizes[0] < 1.5 * 2e5
 
 
@@ -266,32 +265,20 @@ MEDIAN = {
     "stations_out": 0,
 }
 FRAGILITY = {
-    "ida": pandas.DataFrame(
-        [
-            {
-                "structure": "pier",
-                "support_period_s": math.nan,
-                "record": record,
-                "level": level,
-                "overturning_share": share,
-                "governing_overturning_share": math.nan,
-            }
-            for record, shares in SHARES.items()
-            for level, share in zip((0.1, 0.2, 0.4), shares, strict=True)
-        ]
-    ),
-    "fragility": frame(
-        FragilityRow,
-        [
-            filled(
-                FragilityRow,
-                **PIER | {"governing": governing, "level": level, "probability": level, "stations": 3},
-            )
-            for governing in (False, True)
-            for level in (0.1, 0.2, 0.4)
-        ],
-    ),
-    "fragility_summary": frame(FragilitySummaryRow, [filled(FragilitySummaryRow, **PIER, **MEDIAN)]),
+    IdaRow: [
+        filled(IdaRow, structure="pier", record=record, level=level, overturning_share=share)
+        for record, shares in SHARES.items()
+        for level, share in zip((0.1, 0.2, 0.4), shares, strict=True)
+    ],
+    FragilityRow: [
+        filled(
+            FragilityRow,
+            **PIER | {"governing": governing, "level": level, "probability": level, "stations": 3},
+        )
+        for governing in (False, True)
+        for level in (0.1, 0.2, 0.4)
+    ],
+    FragilitySummaryRow: [filled(FragilitySummaryRow, **PIER, **MEDIAN)],
 }
 
 
@@ -311,8 +298,9 @@ def test_the_document_of_the_fragility_names_records_stations_units_and_what_gov
         for measure, (scatter, count) in scatters.items()
         for figure in ("PGV/PGA", "magnitude")
     ]
-    of_fragility = (FRAGILITY[name] for name in ("fragility", "fragility_summary", "ida"))
-    data = fragility_data(*of_fragility, frame(IntensityMeasureRow, measures))
+    curves = frame(FragilityRow, FRAGILITY[FragilityRow])
+    of_measures = frame(IntensityMeasureRow, measures)
+    data = fragility_data(curves, FRAGILITY[FragilitySummaryRow], ida_frame(FRAGILITY), of_measures)
     assert data["subtitle"] == "4 records of 3 stations; 1 structure."
     text, table, scatter, figure = data["parts"]
     assert scatter["rows"] == [
@@ -331,5 +319,5 @@ def test_the_document_of_the_fragility_names_records_stations_units_and_what_gov
 
 @pytest.mark.parametrize("measure", [each.name for each in compared(rocking.Block(2.0, 0.2).mechanism())])
 def test_every_intensity_measure_is_drawn_with_its_unit(measure):
-    curves = FRAGILITY["fragility"].assign(intensity_measure=measure)
+    curves = frame(FragilityRow, FRAGILITY[FragilityRow]).assign(intensity_measure=measure)
     assert f">{measure} [" in svg(fragility_figure(curves))

@@ -29,7 +29,7 @@ from rocking.study.checks import shares_by_station, write_checks
 from rocking.study.job import Study
 from rocking.study.settings import Settings, read_settings
 from rocking.study.terminal import lines_by_code
-from rocking.tables import frame, read_table, write_rows
+from rocking.tables import read_table, write_rows
 from rocking.tables.workbook import workbook
 from tests.made_pools import DESIGN, made_pool
 from tests.unit.assessment import made_rows
@@ -245,7 +245,7 @@ def test_the_same_conclusion_stands_in_terminal_summary_workbook_and_page_to_exp
     sentence = code_conclusion_in_words(concluded)
     write_rows(CodeCheckRow, rows, tmp_path / "code_checks.csv")
     assert " ".join(line.strip(" ") for line in lines_by_code(tmp_path)) == sentence
-    data = summary_data(summarised(RecordRows(), {}) | {"code_checks": frame(CodeCheckRow, rows)}, SETTINGS)
+    data = summary_data(summarised(RecordRows(), {}) | {CodeCheckRow: rows}, SETTINGS)
     assert data["by-code"] == sentence
     ((name, *ratios, conclusion, others),) = data["checks"]["rows"]
     assert [name["text"], conclusion] == ["pier", "verified by C8.7.1.2.1.9"]
