@@ -17,6 +17,7 @@ from docs.research.report import Target
 from rocking import Accelerogram, Mechanism, Outcome, Verdict, integrate, integrate_batch
 from rocking.assessment import fidelity
 from rocking.assessment.causes import lattice
+from rocking.assessment.decide import Facts, decide
 from rocking.assessment.ensemble import drawn, ensemble
 from rocking.assessment.fidelity import (
     NUDGES,
@@ -183,8 +184,8 @@ def _answer_trial(
         "overturns": answers["mechanism"].outcome is Outcome.OVERTURNS,
         "beside_overturns": answers["beside"].outcome is Outcome.OVERTURNS,
         "overturning_share": answers["whole"].overturning_share,
-        "verdict": answers["whole"].verdict,
-        "quick_verdict": answers["quick"].verdict,
+        "verdict": decide(Facts(cracks=(answers["whole"].facts(),))).word,
+        "quick_verdict": decide(Facts(cracks=(answers["quick"].facts(),))).word,
     }
 
 

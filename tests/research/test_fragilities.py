@@ -25,7 +25,7 @@ def test_the_mechanism_is_its_own_reference(tmp_path):
     rows = read_table(Score, tmp_path)
     errors = {row.subject: row.value for row in rows if row.measure == "error of the median"}
     assert lines == ["fragility of block"] and (tmp_path / "report.pdf").is_file()
-    assert list(errors) == ["one sine", "five sines", "block on record", "mechanism, 1e-6", "ensemble"]
+    assert list(errors) == ["one sine", "five sines", "block on record", "mechanism on record", "ensemble"]
     assert errors[TradeMethod.MECHANISM] == pytest.approx(0, abs=1e-6)
     assert abs(errors[TradeMethod.ONE_SINE]) < 0.1, "each record is one sine"
     assert {row.sites for row in rows} == {4}

@@ -28,6 +28,7 @@ TIMES = np.arange(0, 3, 0.01)
 SINE = Accelerogram(3.0 * np.sin(2 * np.pi * TIMES / 0.8) * (TIMES < 1.6), 0.01)
 
 
+@pytest.mark.filterwarnings("ignore::rocking.errors.StructureWarning")  # a drawn wall may be squat
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_member_stays_whole_below_uplift_and_falls_far_above_it(kind):
     case = case_of(kind, np.random.default_rng(1))
