@@ -1,4 +1,4 @@
-"""The assessor: scenes under a record, each case sought in a store before it is computed, and its time taken."""
+"""The assessor: scenes under a record, each case looked up in a store before it is computed, and timed."""
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
@@ -78,7 +78,7 @@ class _Shaking:
 
     @cached_property
     def by_name(self) -> dict[str, Component]:
-        """The components by the names by which they are asked for."""
+        """The components by their names."""
         names = component_names([each.accelerogram for each in self.components])
         return dict(zip(names, self.components, strict=True))
 
@@ -89,8 +89,8 @@ class Assessor:
 
     crack_heights: number of heights tried for a hinge or a crack. processing_variants: whether other processings are
     tried. motion_measures: whether the velocity pulse of the components and their peaks over all directions are
-    measured, which tables tell. version: of the computation, which enters fingerprints. store: where results are sought
-    before they are computed, and kept. clock: has measured what came before.
+    measured, as tables report them. version: of the computation, which enters fingerprints. store: where results are
+    looked up before they are computed, and kept. clock: has measured what came before.
     """
 
     settings: AssessmentSettings = field(default_factory=AssessmentSettings)
@@ -149,7 +149,7 @@ class Assessor:
 
         An ensemble over the directions of a pair speaks for both components, which then get none of their own. A
         structure on a support meets the motion there, at every one of its periods, and for comparison that of the
-        ground. The reserve is sought on the ground and at the worst period, which reports print.
+        ground. The reserve is computed on the ground and at the worst period, which reports print.
         """
         scenes = on_friction(scenes, self.settings.friction_coefficient)
         grounds = components
@@ -368,7 +368,7 @@ class Assessor:
     ) -> StationResult:
         """The station with the reserve of the crack that governs the case that decides.
 
-        With fidelity: auto, which asks for the verdict alone, no reserve is sought, nor where nothing can overturn the
+        With fidelity: auto, which needs the verdict alone, no reserve is computed, nor where nothing can overturn the
         structure, nor where it slides first. Why there is none is added to the failures.
         """
         case = station.decisive

@@ -101,11 +101,11 @@ class CaseResult:
     responses: by method. check: whether the model held along the response of the mechanism to the record. answer: of
     the mechanism on the record, or of the cheapest method that settles the case; None of a pair, and where the case
     failed. ensembles: of the cracks that were followed; None where none ran. reserve: of the crack that governs; None
-    where it was not sought; a store keeps it apart, as it is sought for what is printed alone. overturning_estimate:
-    from the peak velocity, where no ensemble ran; None of a structure unlike those behind the estimate. slides_at:
-    acceleration [g] at which its joints slide before they lift, where the motion reaches it; else nan. crack: to which
-    prediction, responses, check and answer belong; "" where it is that of the structure. statics: the case of that one,
-    where another crack governs. ties_give: whether its ties let so much through that it turns beyond BEYOND; not asked
+    where it was not computed; a store keeps it apart, as only what is printed has one. overturning_estimate: from the
+    peak velocity, where no ensemble ran; None of a structure unlike those behind the estimate. slides_at: acceleration
+    [g] at which its joints slide before they lift, where the motion reaches it; else nan. crack: to which prediction,
+    responses, check and answer belong; "" where it is that of the structure. statics: the case of that one, where
+    another crack governs. ties_give: whether its ties let so much through that it turns beyond BEYOND; not computed
     where that changes no word. variations: other cracks, then other processings. fingerprint: of motion, structure,
     settings and version of the computation.
     """
@@ -173,7 +173,7 @@ class CaseResult:
         return self.response.rotation_ratio if self.response else math.inf
 
     def facts(self, body: Structure, failures: tuple[str, ...] = ()) -> Facts:
-        """Return what the decision asks of this case.
+        """Return the facts of this case from which the decision follows.
 
         body: the structure. failures: why other components are missing.
         """
@@ -239,8 +239,8 @@ class StationResult:
     """The result of one structure under one record, all components and directions considered.
 
     The case over all directions decides, where it has an ensemble. Otherwise each component is decided, with those that
-    gave no result told as missing, and the worst one counts. Every count, share and quantile is that of the crack that
-    governs.
+    gave no result counted as missing, and the worst one counts. Every count, share and quantile is that of the crack
+    that governs.
 
     cases: by component, those that failed too. directions: the case of the pair; None of one component, or without
     ensembles. support: of those along the axis of its place; None on the ground.
@@ -334,7 +334,7 @@ class StationResult:
 
     @property
     def reserve(self) -> Reserve | None:
-        """The factors on the record at which 5, 50 and 95 % of the members overturn; None where it was not sought.
+        """The factors on the record at which 5, 50 and 95 % of the members overturn; None where it was not computed.
 
         Nor is there one where only the stacks of contact dynamics fall. They do not contradict the share that overturns
         under the record itself.
@@ -389,7 +389,7 @@ class StationResult:
 
     @property
     def reserve_in_words(self) -> str:
-        """The reserve, and why it may be too high; "" where it was not sought."""
+        """The reserve, and why it may be too high; "" where it was not computed."""
         if self.reserve is None:
             return ""
         words = str(self.reserve)
@@ -406,7 +406,7 @@ class StationResult:
 
     @cached_property
     def _fallen_crack(self) -> str:
-        """A crack that overturns in a single run, where no ensemble tells more; "" where none does."""
+        """A crack that overturns in a single run, where there is no ensemble; "" where none does."""
         if self.ensembles is not None:
             return ""
         variations = (each for case in self.cases.values() for each in case.variations)
@@ -443,7 +443,7 @@ class StationResult:
 
     @property
     def overturning_share(self) -> float:
-        """Share of the members that overturn; of a single run 0 or 1, nan where none can be told."""
+        """Share of the members that overturn; of a single run 0 or 1, nan where there is none."""
         return self.decision.share
 
     @property
@@ -492,7 +492,7 @@ class SceneResult:
     def worst(self) -> StationResult:
         """The result of the period that is worst; the first among equals.
 
-        On the ground it stands beside a support for comparison only, and sets no word where it stands on one.
+        The result on the ground is there for comparison only, and does not decide for a structure on a support.
         """
         carried = [station for station in self.stations if station.support_period_s]
         return max(carried or self.stations, key=lambda station: station.severity)
@@ -549,7 +549,7 @@ class RecordResult:
 
     @property
     def names(self) -> list[str]:
-        """The names of the components, in their order, by which they are asked for."""
+        """The names of the components, in their order; keys of the other mappings."""
         return component_names(self.accelerograms)
 
     @property

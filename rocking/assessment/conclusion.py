@@ -10,7 +10,7 @@ from rocking.quantities import percents
 from rocking.remarks import Kind, Remark
 
 CLASS = 20
-"""Structures from which on a list is a class, of which one asks how many fall; of fewer one asks which."""
+"""Structures from which on a list is a class: how many of them fall is of interest, not which ones."""
 FALLING = (Verdict.OVERTURNS, Verdict.PROBABLY_OVERTURNS)
 
 

@@ -76,7 +76,7 @@ class FollowedCrack:
 
     @cached_property
     def facts(self) -> CrackFacts:
-        """What the decision asks of it."""
+        """The facts of it from which the decision follows."""
         of_members = self.ensemble.facts(self.description)
         return replace(of_members, slides=self.slides, counts=self.counts, bulges=self.bulges)
 
@@ -86,8 +86,8 @@ class CrackEnsembles:
     """The ensemble of every crack that was followed, the one that is given or that statics chooses first.
 
     The crack that governs gives every number of the case: the worst of those that count (`decide.Facts`). A crack that
-    is given by whoever described the structure is meant: other cracks are told beside it, and only the bulge of a held
-    wall counts as it does.
+    is given in the description of the structure is meant: other cracks are reported beside it, and only the bulge of a
+    held wall counts as it does.
     """
 
     followed: tuple[FollowedCrack, ...]
@@ -97,7 +97,7 @@ class CrackEnsembles:
 
     @cached_property
     def facts(self) -> Facts:
-        """What the decision asks of the cracks alone."""
+        """The facts of the cracks alone from which the decision follows."""
         risk = self.statics.ensemble.settings.risk
         return Facts(cracks=tuple(each.facts for each in self.followed), risk=risk)
 
@@ -122,7 +122,7 @@ class CrackEnsembles:
 
     @property
     def beside(self) -> FollowedCrack | None:
-        """The crack told beside the one that governs: that of statics, or the worst beside a given one; or None."""
+        """The crack reported beside the one that governs: that of statics, or the worst beside a given one; or None."""
         other = self.statics if self.worst is self.governing else self.worst
         return None if other is self.governing else other
 
@@ -155,7 +155,7 @@ _OF_GEOMETRY = "of its geometry"
 def _forms(structure: Structure) -> tuple[Candidate, ...]:
     """The candidates, and where a restitution is typed far below that of the geometry the first crack with that one.
 
-    A typed number that kills more energy than the geometry tells is no finding before somebody has measured it.
+    A typed restitution that dissipates more energy than the geometry implies needs a measurement to be relied upon.
     """
     several = structure.candidates(CRACKS)
     first = next((each for each in several if each.counts and not _bulges(each)), None)
@@ -229,7 +229,7 @@ def ensemble_over_cracks(
     and every crack that `screened` leaves in doubt, and the one that then governs with as many members as its word
     needs. A crack other than a bulge that slides before it lifts is left out where one that counts is left. exhaustive:
     every crack is followed, whatever the screen says; docs/pages/validation.md counts what it misses. With fidelity:
-    auto members are followed as far as the verdict alone asks for them.
+    auto only as many members are followed as the verdict needs.
     Raises MotionError as `integrate` does.
     """
     several = cracks(structure)
@@ -362,7 +362,8 @@ class Deciding:
 def deciding(ensembles: CrackEnsembles) -> list[Deciding]:
     """Return what the outcome depends on, the largest share first; [] where all members agree.
 
-    The causes are those of the crack that governs; which crack opens is asked of those that count, of which one forms.
+    The causes are those of the crack that governs; which crack opens is a cause too, among those that count, of which
+    one forms.
     """
     governing = ensembles.governing.ensemble
     falls = np.isinf(governing.rotation_ratios)
@@ -403,9 +404,9 @@ _KINDS = {"restitution": Kind.RESTITUTION, "processing": Kind.PROCESSING, CRACK:
 
 
 def would_tell(ensembles: CrackEnsembles, restitution_is_typed: bool = False) -> tuple[Remark, ...]:
-    """Return what would tell most of a case: the first of what is not known, if it explains _TELLS at least.
+    """Return the unknown whose measurement would help most: the first one, if it explains _TELLS at least.
 
-    restitution_is_typed: whether whoever described the structure gave its range, and so knows it no better.
+    restitution_is_typed: whether the description gives its range, so that it is not known any better.
     """
     governing = ensembles.governing
     if governing.of_geometry and governing.ensemble.overturning_share > 0 and not restitution_is_typed:

@@ -51,7 +51,7 @@ class Verdict(StrEnum):
 
     @property
     def is_sure(self) -> bool:
-        """Whether nothing more needs to be asked: it stays up, or it overturns."""
+        """Whether the verdict is final: it stays up, or it overturns."""
         return self.stays_up or self is Verdict.OVERTURNS
 
     @property
@@ -90,8 +90,9 @@ def better(*words: Verdict) -> Verdict:
 def share_error(falls: int, members: int, farthest: float = math.inf) -> float:
     """Return the most by which the share of `members` that fall differs from that of very many.
 
-    It falls with the number of members itself, as they stand on a lattice, not with its root. It counts as none where
-    UNANIMOUS members or more agree, or where fewer all stay FAR from overturning. farthest: largest rotation ratio.
+    It is inversely proportional to the number of members, not to its root, because they are points of a lattice. It
+    counts as none where UNANIMOUS members or more agree, or where fewer all stay FAR from overturning. farthest:
+    largest rotation ratio.
     """
     many_agree = members >= UNANIMOUS and falls in (0, members)
     return 0.0 if many_agree or farthest <= FAR else LATTICE_ERROR / max(members, 1)
@@ -123,8 +124,8 @@ class CrackFacts:
     name: of the crack; "" where only one may form. falls: of those `followed`, that overturn. failed: members that
     could not be followed. farthest: largest rotation ratio of those followed; nan without any. slides: whether its
     joint slides before it lifts, under a motion that reaches so far. counts: whether it takes part in the word;
-    otherwise it is told beside the crack that is given. bulges: whether it is the bulge of a held wall, which may form
-    wherever that is cracked. Raises ValueError.
+    otherwise it is reported beside the crack that is given. bulges: whether it is the bulge of a held wall, which may
+    form wherever that is cracked. Raises ValueError.
     """
 
     name: str
@@ -218,7 +219,7 @@ class Facts:
     where only one that its ties hold does, under the motion that these let through. top: what its top needs
     and does not get, so that it slips; None where it holds, or there is none. stacks: stacks of courses that fall in
     contact dynamics, of how many; None where none was followed. stackable: whether contact dynamics can follow it and
-    has not been asked yet. remarks: what would tell more of members that disagree. failures: why components gave no
+    has not done so yet. remarks: what would reduce the disagreement of the members. failures: why components gave no
     result. risk: largest probability of the outcome opposite to "stands" or "overturns". Raises ValueError.
     """
 

@@ -98,7 +98,7 @@ class Ensemble:
         return float(np.interp(place, places, np.sort(self._followed)))
 
     def facts(self, name: str = "") -> CrackFacts:
-        """Return what the decision asks of these members. name: of their crack."""
+        """Return the facts of these members from which the decision follows. name: of their crack."""
         return CrackFacts(
             name=name,
             falls=self.overturning_members,

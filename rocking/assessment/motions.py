@@ -49,7 +49,7 @@ def processed(accelerogram: Accelerogram) -> Mapping[str, Accelerogram]:
 
 
 class Carrier(Protocol):
-    """What carries a structure above the ground, as far as a case asks of it: equal ones make equal motions."""
+    """What carries a structure above the ground, as far as a case needs it: equal ones make equal motions."""
 
     @property
     def first_period(self) -> float:
@@ -180,7 +180,7 @@ class Component:
     """One horizontal component of a record as it acts.
 
     vertical: the component that acts with it, with the same samples; None where none does. motion: of the pair that it
-    belongs to, or of itself alone. analysis: None where no pulse could be sought. candidates: the pulses that the
+    belongs to, or of itself alone. analysis: None where the search for pulses failed. candidates: the pulses that the
     chosen method offers for prediction, none where it fails. failure: why, in a sentence; "" where nothing failed.
     support: on which this is the motion. ground: the same component of the ground. Both None on the ground itself.
     """

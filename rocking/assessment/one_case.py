@@ -131,12 +131,12 @@ def with_contacts(
     settings: AssessmentSettings,
     bounces: bool | None,
 ) -> CaseResult:
-    """Return the case with what its joints say: whether they slide, a doubt, and contact dynamics where that is asked.
+    """Return the case with what its joints do: whether they slide, a doubt, and contact dynamics where it is needed.
 
-    A doubt is asked for every word below "probably overturns", and of a wall that stands whether its ties hold it still
-    enough. Contact dynamics is asked, unless with fidelity: auto, where it cannot be told else; with fidelity: contact
-    by MOST_RUNS runs, and also where a held wall turns so far that it only probably stands. bounces: whether a contact
-    opens in a run as recorded; None where that is not known.
+    Doubts are looked for with every word below "probably overturns", and of a wall that stands whether its ties hold it
+    still enough. Contact dynamics runs, except with fidelity: auto, where nothing else decides; with fidelity:
+    contact by MOST_RUNS runs, and also where a held wall turns so far that it only probably stands. bounces: whether a
+    contact opens in a run as recorded; None where that is not known.
     """
     counting = counting_cracks(structure)
     if all(slides_first(each, motions, settings) for each in counting):
@@ -211,7 +211,7 @@ def _cheapest(
     record = component.accelerogram
     vertical = component.vertical
     mechanism = structure.mechanism()
-    # What a peak velocity tells was learnt on the ground, not on supports that ring.
+    # Peak velocities were calibrated on the ground, not on supports that ring.
     risk = settings.fidelity_risk if component.support is None else 0.0
     mechanisms = [each.mechanism for each in cracks(structure)]
     of_statics = mechanism if len(mechanisms) == 1 else mechanisms[0]
@@ -318,8 +318,8 @@ def with_variations(
 ) -> CaseResult:
     """Return the case with other cracks and other processings of the record beside it.
 
-    A crack that cannot be followed is told by its reason. crack_heights, processing_variants: as the assessor has them;
-    without an ensemble cracks are followed in any case.
+    For a crack that cannot be followed, the reason is kept as a failure. crack_heights, processing_variants: as the
+    assessor has them; without an ensemble cracks are followed in any case.
     """
     if case.answer is None:
         return case

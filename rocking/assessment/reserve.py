@@ -1,12 +1,12 @@
-"""Reserve: by how much a record may be stronger before a structure falls under it, as a result, as words and sought.
+"""Reserve: the factor by which a record may be stronger before a structure overturns; the result and its computation.
 
 There is no first factor at which a structure falls: most stand again at a somewhat larger one, so that it would move
 with the step of the search. The share of the members of an ensemble that overturn is smooth, and the reserve is the
-factors on the record at which it reaches 5, 50 and 95 %. It is sought of a structure on the ground, and on a support at
-the worst of its periods.
+factors on the record at which it reaches 5, 50 and 95 %. It is computed for a structure on the ground, and on a support
+at the worst of its periods.
 
 A run of a member at a factor depends on the product of that factor and the member's own amplitude, and on its other
-causes. So every run tells of all factors whose range of amplitudes holds its product. Runs therefore stand on rungs of
+causes. So every run counts for all factors whose range of amplitudes holds its product. Runs therefore lie on rungs of
 a ladder of amplitudes, evenly spaced in their logarithm, from the one at which the structure lifts up to the limit; the
 rung k has the other causes of the point k of a lattice, which goes on periodically. The share of the members that
 overturn at a factor is the mean over the amplitudes of the ensemble there, each run standing for those nearest to it.
@@ -84,7 +84,7 @@ LATTICE = 1024
 COARSE = 16
 """Every so many rungs are followed first, over the whole ladder: a structure may stand again where it fell before."""
 LEAST_WIDTH = 0.03
-"""The amplitudes that tell of a factor reach at least so far to both sides, as a share of it, also where the ensemble
+"""The amplitudes that count for a factor reach at least so far to both sides, as a share of it, also where the ensemble
 has but one amplitude."""
 FACTORS = 0.02
 """Step, in the logarithm, of the factors at which the share is looked at."""
@@ -97,7 +97,7 @@ ROUNDS = 3
 class Stage(NamedTuple):
     """One stage of the search: the rungs that are followed beside what is known.
 
-    spacing: every so many of them. beside: how far beyond the amplitudes that tell of a crossing, and around: how far
+    spacing: every so many of them. beside: how far beyond the amplitudes that count for a crossing, and around: how far
     from a run that falls below the median factor or stands above it, both in the logarithm of the amplitude. shares:
     the places in SHARES of those whose crossings count.
     """
@@ -109,7 +109,7 @@ class Stage(NamedTuple):
 
 
 STAGES = (Stage(8, 0.1, 0.2), Stage(2, 0.05, 0.0), Stage(1, 0.05, 0.0, shares=(2,)))
-"""The high factor asks for twice the rungs: there the share rises most slowly, and a few runs that stand move it."""
+"""The high factor needs twice the rungs: there the share rises most slowly, and a few runs that stand move it."""
 
 
 def reserve(
@@ -193,7 +193,7 @@ class _Ladder:
         return True
 
     def worth_following(self, stage: Stage) -> np.ndarray:
-        """Return which rungs (n,) a stage asks for."""
+        """Return which rungs (n,) a stage needs."""
         wanted = np.zeros(self.falls.size, dtype=bool)
         crossings = self.crossings()
         for crossing in (crossings[place] for place in stage.shares):
@@ -213,7 +213,7 @@ class _Ladder:
     def crossings(self) -> list[float]:
         """Return the factors at which the rising curve nearest to the shares reaches SHARES; nan where it does not."""
         from scipy.optimize import (
-            isotonic_regression,  # half a second, which who asks for no reserve would pay
+            isotonic_regression,  # takes half a second, and is needed here only
         )
 
         followed = np.flatnonzero(np.isfinite(self.falls))

@@ -1,4 +1,4 @@
-"""Scene: a structure at a place under the terms of a code. Everything above the case is asked of scenes.
+"""Scene: a structure at a place under the terms of a code. Everything above a single case works on scenes.
 
 Along the periods of a support verdicts stand side by side and are not mixed: a share of periods would be no
 probability.

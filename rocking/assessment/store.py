@@ -41,7 +41,7 @@ def computation_version() -> str:
 
 
 class RecordStore:
-    """The results of one record in a file; `save` writes those that were asked for, and drops the others.
+    """The results of one record in a file; `save` writes those that were used, and drops the others.
 
     tell: takes a sentence where the file is ignored. timings: the file for the times that the results took, which
     differs between two runs of the same input; None keeps no times.

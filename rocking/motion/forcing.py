@@ -108,7 +108,7 @@ def _curves(motion: Accelerogram) -> np.ndarray:
 
 @lru_cache(maxsize=_REMEMBERED)
 def _forcing(motion: GroundMotion, vertical: Accelerogram | None) -> Forcing:
-    # Copies, because a record's own arrays are read-only, for which the kernel would compile anew.
+    # Copies, because a record's own arrays are read-only, for which the kernel would be compiled again.
     horizontal = np.array([motion.amplitude] if isinstance(motion, Pulse) else motion.acceleration)
     lift = np.zeros(horizontal.size) if vertical is None else vertical.acceleration.copy()
     curves = np.empty((0, CURVE)) if isinstance(motion, Pulse) else _curves(motion)

@@ -38,7 +38,7 @@ OUTCOMES = {0: Outcome.NO_UPLIFT, runs.ROCKS: Outcome.ROCKS, runs.OVERTURNS: Out
 _TIGHT = 1e-12
 _NUDGE = 1e-5
 STRICT = 1e-9
-"""Tolerance of a repeated run, and by how much the motion of two others is weaker and stronger, which tell whether a
+"""Tolerance of a repeated run, and by how much the motion of two others is weaker and stronger, which show whether a
 run is fragile: an exact response has no tolerance to change."""
 _REPRODUCIBLE = 1e-5
 """Relative change of the largest rotation in one of these runs above which the first one is called fragile."""
@@ -143,7 +143,7 @@ def strict(tolerance: float) -> float:
     """Return the tolerance of a run on which a word hangs: that of a fragile run's repetition, or a smaller one.
 
     To ask of a run whether it is fragile takes four runs more; to follow it at this tolerance at once, a fifth more
-    time. Runs of which nobody is told whether they are fragile are therefore strict from the start.
+    time. Runs that do not report whether they are fragile are therefore strict from the start.
     """
     return min(tolerance, STRICT)
 

@@ -119,7 +119,7 @@ def check_model(
 ) -> ModelCheck:
     """Return what the contacts of `structure` need along `response`, which must hold its history.
 
-    Where it lifts and lands, φ = 0, they are asked as well: on the side to which it goes on.
+    Instants of uplift and landing, φ = 0, count too: on the side to which it goes on.
 
     >>> from rocking import Block, integrate, read
     >>> from rocking.motion.response import check_model
@@ -165,8 +165,8 @@ def check_model(
 def lifting_friction(structure: Structure) -> float:
     """Return the largest friction that a joint needs as it lifts, to the side to which it does so first.
 
-    λ, the mean over all joints on the ground, where the mechanism alone does not tell the forces of each; 0 where no
-    joint is known.
+    λ, the mean over all joints on the ground, where the mechanism alone does not determine the forces of each; 0 where
+    no joint is known.
 
     >>> from rocking import Block
     >>> from rocking.motion.response import lifting_friction

@@ -1,6 +1,6 @@
 """The parts that both kernels share: their compilation, the endings of a run, and the history that is written down.
 
-numba compiles a kernel anew when the kernel's own file changes: after a change here both must be touched.
+numba compiles a kernel again only when the kernel's own file changes: after a change here both must be touched.
 """
 
 import math

@@ -101,7 +101,8 @@ def linear_side(block: EquivalentBlock) -> SideTable:
 def _kinked_side(side: Side) -> SideTable:
     """Return the table of a side whose G runs straight from kink to kink, with constant I and B: exact.
 
-    Beyond φ_cr, where G goes on as it comes, further pieces tell what the ground must give to bring the side back.
+    Beyond φ_cr, where G goes on as it comes, further pieces give the acceleration of the ground that brings the side
+    back.
     """
     critical = side.critical_rotation
     further = np.linspace(critical, side.end_rotation, 65)
@@ -123,7 +124,7 @@ def _kinked_side(side: Side) -> SideTable:
         grid=(0.0,) * 9,
         lift=(gravity[0], push),
         hold=-gravity
-        / push,  # of falling G the least at the start of each piece; it is asked beyond φ_cr alone
+        / push,  # of falling G the least at the start of each piece; it is needed beyond φ_cr alone
         critical=critical,
         end=side.end_rotation,
         rest_speed=_reaching_speed(side, inertia) * runs.REST_ENERGY**0.5,

@@ -29,7 +29,7 @@ LEAST_SHARE = 0.01
 NEAR_BEST = 0.8
 """Share of the largest scanned gain from which a maximum is worth a look when only the best is wanted."""
 NEAR_TIME = 0.5
-"""Periods between two onsets within which a pulse is still the same pulse, sought again."""
+"""Periods between two onsets within which a pulse that is found again is the same pulse."""
 NEAR_OCTAVES = 0.5
 """Octaves of frequency within which it is."""
 
@@ -60,7 +60,7 @@ def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None
 
     The gain G = ⟨a, s⟩²/⟨s, s⟩ is scanned over frequencies and onsets; the best maxima are refined on the
     continuous sine and ranked by gain. The record is taken as it stands: no filter, no baseline; of one that is
-    sampled far more finely than its shortest cycle asks for, samples between are left out.
+    sampled far more finely than its shortest cycle needs, samples in between are left out.
     Raises PulseError when the samples are all equal or no period of the band fits the record.
 
     >>> import numpy as np
@@ -197,7 +197,7 @@ class PulseSearch:
         return Maxima(places[large, 0] + begin, places[large, 1], gains[large])
 
     def renewed(self, maxima: Maxima, samples: np.ndarray, changed: Pulse) -> Maxima:
-        """Return `maxima` with those whose cycle can meet `changed`, where alone `samples` differ, sought again."""
+        """Return `maxima` with those whose cycle can meet `changed`, where alone `samples` differ, searched again."""
         first = math.floor((changed.start_time - 1 / self.band[0]) / self.time_step) - 2
         last = math.ceil(changed.end_time / self.time_step) + 2
         onsets = slice(max(first, 0), min(last, samples.size))
@@ -277,7 +277,7 @@ class PulseSearch:
 def _pursued(
     search: PulseSearch, samples: np.ndarray, maxima: Maxima, first: PulseEvidence
 ) -> tuple[PulseEvidence, ...]:
-    """Return `first` and the pulses sought in turn in what the ones before left."""
+    """Return `first` and the pulses found in turn in what the ones before left."""
     sequence = [first]
     residual = samples.copy()
     while len(sequence) < search.settings.pursuit:

@@ -9,7 +9,7 @@ from rocking.pulses.velocity_pulse import LONGEST_PERIOD, SHORTEST_PERIOD, large
 from rocking.records.accelerogram import Accelerogram
 
 DEMAND_CANDIDATES = 5
-"""Best-ranked sines among which the largest demand is sought."""
+"""Best-ranked sines among which that of largest demand is chosen."""
 PERIOD_OF_SINE = 1.93
 """T_p of the wavelet that fits a sine cycle of acceleration best, over the period of the cycle."""
 
@@ -17,7 +17,7 @@ PERIOD_OF_SINE = 1.93
 def sine_of_velocity_pulse(accelerogram: Accelerogram) -> PulseEvidence:
     """Return the sine of most energy gain within half a period and half an octave of the largest velocity pulse.
 
-    The closed form asks for a sine of acceleration, and the period T_p of a velocity pulse (Shahi & Baker 2014) is not
+    The closed form needs a sine of acceleration, and the period T_p of a velocity pulse (Shahi & Baker 2014) is not
     its period: so the velocity pulse only says where to look, and the sine is fitted there. The largest velocity pulse
     is taken whether or not the indicator, which depends on the size of the motion, calls it one.
     Raises PulseError when the record is still or too short for a velocity pulse.

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
 MOST = 200
-"""Pulses that are sought at most: each takes about 1 ms, and a record has no more cycles that count."""
+"""Most pulses of a search: each takes about 1 ms, and a record has no more cycles that count."""
 
 
 MOST_CYCLES = 1000.0
@@ -137,7 +137,7 @@ class PulseEvidence:
 
     gain: ‖a‖² − ‖a − s‖², m²/s³, the acceleration energy ∫a² dt that the pulse takes out of the record; ⟨a, s⟩²/⟨s, s⟩
     at the amplitude of least squares.
-    explained_energy: 1 − ‖a − s‖²/‖a‖² of the record it was sought in.
+    explained_energy: 1 − ‖a − s‖²/‖a‖² of the record in which it was found.
     phase: rad in (−π, π], shape of the motion where its envelope at ω_g is largest, within half a cycle of the pulse:
     0 for a sine, π for its negative, ±π/2 for a cosine.
     """
@@ -158,7 +158,7 @@ class PulseAnalysis(Drawn):
     """The pulses of one record; `plot` draws it with the dominant one.
 
     ranked: maxima of the energy gain on the record, by gain, that do not cover one another; the first is dominant.
-    sequence: the pursuit, each pulse sought in what the ones before it left.
+    sequence: the pursuit, each pulse found in what the ones before it left.
     residual: (n,) m/s², the record less the dominant pulse.
     flags: reasons to doubt the dominant pulse. band: lowest and highest frequency that were searched, Hz.
     Raises PulseError without a pulse.

@@ -277,7 +277,7 @@ def _spectrum(scale: float, size: int) -> np.ndarray:
 
 
 _kept_spectrum = lru_cache(maxsize=128)(_spectrum)
-"""The records of a study often have one length, and some seventy scales are asked for in each."""
+"""The records of a study often have one length, and some seventy scales are used in each."""
 
 
 def coefficient_at(velocity: np.ndarray, scale: int, column: int) -> float:
