@@ -6,7 +6,7 @@ G̃ = G/√(I I(0)) and B̃ = B/√(I I(0)). For a rigid body I is constant and 
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import lru_cache
 from itertools import pairwise
 from weakref import WeakKeyDictionary
 
@@ -170,10 +170,13 @@ def side_table(side: Side, apart: bool = False) -> SideTable:
 
 def _tabulated(side: Side, arc: Arc, inverse: RotationMap, last: float, apart: bool) -> SideTable | None:
     """The table over the rotations up to `last`, ties apart or not, or None where it does not reach ACCURACY."""
-    rotation_at = partial(arc.rotation, inverse=inverse)
     gravity = side.untied_gravity if apart and side.untied_gravity is not None else side.gravity
     ties = side.ties if apart else ()
     rest = side.at("inertia", 0.0)
+
+    def rotation_at(arcs: np.ndarray) -> np.ndarray:
+        """The rotation; the last of equal pieces may end a rounding error beyond the map."""
+        return inverse.rotation(np.minimum(arcs, inverse.end))
 
     def functions(arcs: np.ndarray) -> np.ndarray:
         """(2 + 3 n, ...) G̃, B̃, and D̃, u D̃ and u of the n ties that are apart."""
@@ -323,6 +326,9 @@ ROOM = 0.25
 AIM = 2e-14
 """Error at which no more pieces are made, relative likewise."""
 
+_FEWEST_PIECES = 8
+"""Hardly a zone needs fewer."""
+
 _MOST_PIECES = 4096
 _NODES = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
 _PROBES = np.linspace(-0.99, 0.99, 16)
@@ -344,7 +350,7 @@ def fitted(
     best = None
     best_error = np.inf
     good = False
-    count = 2
+    count = _FEWEST_PIECES
     while count <= _MOST_PIECES:
         powers, errors, zone = _fit(functions, start, end, count)
         if not np.all(np.isfinite(errors)):

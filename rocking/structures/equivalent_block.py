@@ -45,17 +45,14 @@ class Arc:
         result: np.ndarray = rotation * _evaluated(self.means, rotation / self.last)
         return result
 
-    def rotation(self, arc: np.ndarray, inverse: "RotationMap | None" = None) -> np.ndarray:
-        """Return the rotation [rad] at `arc`, any shape, by Newton's method. inverse: where that begins."""
+    def rotation(self, arc: np.ndarray) -> np.ndarray:
+        """Return the rotation [rad] at `arc`, any shape, by Newton's method."""
         arc = np.asarray(arc, dtype=float)
         if self.means.size == 1:
             clipped: np.ndarray = np.clip(arc, 0.0, self.last)
             return clipped
-        if inverse is None:
-            ends = np.linspace(0.0, self.last, self.means.shape[1] + 1)
-            rotation = np.interp(arc, self.at(ends), ends)
-        else:
-            rotation = inverse.rotation(np.minimum(arc, inverse.end))
+        ends = np.linspace(0.0, self.last, self.means.shape[1] + 1)
+        rotation = np.interp(arc, self.at(ends), ends)
         for _ in range(6):
             mean = _evaluated(self.means, rotation / self.last)
             slope = mean + rotation * _evaluated(self._rise, rotation / self.last)
@@ -155,7 +152,8 @@ def rotation_map(arc: Arc, accuracy: float) -> RotationMap | None:
     end = float(arc.at(arc.last))
     if arc.means.size == 1:
         return RotationMap(_ONE, end)
-    series = _pieces(lambda arcs: arc.rotation(arcs) / arcs, end, accuracy, 1)
+    # It takes about as many pieces as the arc itself.
+    series = _pieces(lambda arcs: arc.rotation(arcs) / arcs, end, accuracy, max(arc.means.shape[1] // 2, 1))
     return None if series is None else RotationMap(series[0], end)
 
 
