@@ -189,4 +189,5 @@ def falls_in_words(falls: Sequence[ExpectedFallsRow]) -> str:
         interval = f"{of_all.expected_falls_low:.0f}–{of_all.expected_falls_high:.0f}"
         sentence += f" (90 %: {interval}, by the spread over {records} records)"
     untold = math.ceil(of_all.without_share)
-    return sentence + (f"; of {untold} it cannot be told." if untold else ".")
+    average = " on average" if records > 1 else ""
+    return sentence + (f"; of {untold}{average} it cannot be told." if untold else ".")

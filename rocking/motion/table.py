@@ -343,7 +343,7 @@ def fitted(
 ) -> np.ndarray | None:
     """Polynomials (f, m, 8) of f functions on m equal pieces of [start, end], good to ROOM beyond its ends, or None.
 
-    Pieces are halved, as often at once as the order of the error, DEGREE + 1, says is surely needed, until the error is
+    Pieces are halved, as often at once as the order of the error, DEGREE + 1, says is needed, until the error is
     AIM of the zone's own maximum, or no longer falls because it is the rounding of the functions themselves; it must
     then be within ACCURACY of `largest` (f,), the maxima over the whole side. Maxima below `least` (f,) count as that.
     """
@@ -364,7 +364,7 @@ def fitted(
             break
         if best_error <= AIM:
             break
-        count <<= max(1, int(np.log2(error / AIM) / (DEGREE + 1)))
+        count <<= max(1, round(np.log2(error / AIM) / (DEGREE + 1)))
     return best if good else None
 
 

@@ -725,6 +725,9 @@ class Crackable(Crushable):
             return (Candidate("as given", np.nan, self),)
         others = self._may_form(count)
         if not self.crack_is_given:
+            for each in others:
+                if each.position == self.crack_position and _alike(each.structure, self):
+                    each.structure.__dict__["_mechanism"] = self.mechanism()  # one object, as below
             return others
         known = replace(self, crack="known")
         known.__dict__["_mechanism"] = self.mechanism()  # one object, so that it is integrated once
@@ -827,6 +830,17 @@ class CrackedAtHeight(Crackable):
     def cracked_by_statics(self) -> Self:
         """Return this structure cracked where statics chooses; the crack is unknown."""
         return replace(self, crack="unknown").cracked_at(self._may_form(CRACKS)[0].position)
+
+
+def _alike(one: Structure, other: Structure) -> bool:
+    """Whether the mechanisms of two structures lift, overturn and lose at impacts alike."""
+
+    def numbers(mechanism: Mechanism) -> tuple[object, ...]:
+        return tuple(
+            (each.uplift_multiplier, each.critical_rotation, each.restitution) for each in mechanism.sides
+        )
+
+    return numbers(one.mechanism()) == numbers(other.mechanism())
 
 
 def remember_as_typed(

@@ -81,7 +81,7 @@ def test_a_class_is_told_in_one_sentence() -> None:
     ]
     assert falls_in_words(rows) == (
         "41 of 300 structures are expected to fall under such a record (90 %: 33–50, by the spread over 2 records); of "
-        "12 it cannot be told."
+        "12 on average it cannot be told."
     )
     assert falls_in_words([]) == ""
     assert falls_in_words([row for row in map(falls_over, [under([0.2], CLASS - 1)]) if row]) == ""
