@@ -7,7 +7,10 @@ from xml.etree import ElementTree
 import pytest
 from PIL import Image
 
-from rocking.reports.figures import figures_archive
+from rocking.assessment.rows import TradeMethod, TradeRow
+from rocking.reports.figures import figures_archive, write_document
+from rocking.reports.trade import write_trade_report
+from tests.unit.assessment.made_rows import filled
 
 from .conftest import detailed
 
@@ -36,6 +39,30 @@ def test_every_figure_of_a_report_is_a_file_of_each_kind(data):
         pixels = Image.open(io.BytesIO(archive.read(f"{name}.png"))).size
         assert pixels[0] / pixels[1] == pytest.approx(width / height, rel=0.25), "but for the margin of 4 pt"
     assert vectors[0].startswith("01_acceleration-of-the-ground")
+
+
+@pytest.mark.parametrize(("kinds", "named"), [("none", []), ("svg", ["trade_figures.zip"])])
+def test_the_figures_of_a_document_stand_beside_it(tmp_path, kinds, named):
+    """Of any document: the one of the trade has the figure that its summary has too."""
+    rows = [
+        filled(
+            TradeRow,
+            structure="",
+            method=method,
+            cases=3,
+            error=0.1,
+            wrong_verdicts=1,
+            unsafe_verdicts=0,
+            cpu_s=1e-4,
+            preparation_record_s=1e-3,
+        )
+        for method in TradeMethod
+    ]
+    write_trade_report(rows, tmp_path / "trade.pdf", tmp_path / "trade.svg", kinds)
+    assert sorted(each.name for each in tmp_path.iterdir()) == sorted(["trade.pdf", "trade.svg", *named])
+    assert write_document(tmp_path / "a.pdf", "plain.typ", {"title": "a", "subtitle": "", "parts": []}, kinds)
+    for name in named:
+        assert len(opened((tmp_path / name).read_bytes()).namelist()) == 1
 
 
 def test_one_kind_alone_and_the_same_bytes_twice(data):
