@@ -277,10 +277,9 @@ def _scene(
     place = known[stands_on] or GROUND
 
     heavy = place.warning(name) if place.supports else None
-    own = structure.typed_restitution
     # What lies below that of the geometry is followed beside it, and reported where it matters.
-    above = own if own is not None and own.kind is Kind.RESTITUTION_ABOVE else None
-    for remark in filter(None, (*structure.described.remarks, above, heavy)):
+    above = [each for each in structure.cautions if each.kind is Kind.RESTITUTION_ABOVE]
+    for remark in filter(None, (*structure.described.remarks, *above, heavy)):
         warnings.warn(f"{where}: {remark}", StructureWarning, stacklevel=3)
     return Scene(name, structure, place, terms)
 

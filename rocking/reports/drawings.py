@@ -170,8 +170,9 @@ def draw_dimensions(
     """
     from matplotlib.patches import Polygon
 
-    if len(structure.front):
-        axes.add_patch(Polygon(structure.front, closed=True, fill=False, edgecolor="0.3", linewidth=0.6))
+    front = structure.described.front
+    if len(front):
+        axes.add_patch(Polygon(front, closed=True, fill=False, edgecolor="0.3", linewidth=0.6))
     for each in structure.dimensions():
         axes.plot(*each.line.T, **_THIN)  # type: ignore[arg-type]
         for end, before in ((0, 1), (-1, -2)):

@@ -301,9 +301,8 @@ def _cautions(report: RecordReport) -> dict[Remark, list[str]]:
     for station in report.stations:
         if not station.rotation_ratio > 0:
             continue
-        for caution in (station.body.caution, station.body.typed_restitution):
-            if caution:
-                concerned.setdefault(caution, []).append(report.called(station.structure))
+        for caution in station.body.cautions:
+            concerned.setdefault(caution, []).append(report.called(station.structure))
     return {caution: list(dict.fromkeys(names)) for caution, names in concerned.items()}
 
 

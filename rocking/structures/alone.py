@@ -16,7 +16,7 @@ from rocking.structures.structure import Structure
 class MechanismAlone(Structure):
     """A mechanism that somebody gives without its geometry: it has one crack, no outline and unknown contacts."""
 
-    contacts_unknown: ClassVar[str] = "a mechanism alone has no contacts that are known"
+    _contacts_unknown: ClassVar[str] = "a mechanism alone has no contacts that are known"
 
     of: Mechanism
 

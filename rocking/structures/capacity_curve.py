@@ -63,7 +63,7 @@ class CapacityCurve(Structure):
 
     type_name: ClassVar[str] = "capacity_curve"
     _usual_restitution: ClassVar[float | str] = math.nan
-    contacts_unknown: ClassVar[str] = "a capacity curve has no contacts that are known"
+    _contacts_unknown: ClassVar[str] = "a capacity curve has no contacts that are known"
     _described_as: ClassVar[dict[str, str]] = {
         "": "Capacity curve of another program, point by point",
         "read": "Capacity curve of another program, in a CSV file",
@@ -168,7 +168,7 @@ class CapacityCurve(Structure):
         return super(CapacityCurve, replace(self)).described
 
     @property
-    def caution(self) -> Remark:
+    def _leaves_out(self) -> Remark:
         """What a curve does not tell."""
         return Remark(Kind.CURVE_ALONE)
 

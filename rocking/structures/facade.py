@@ -241,7 +241,7 @@ class Facade(Tied):
         return False
 
     @property
-    def caution(self) -> Remark | None:
+    def _leaves_out(self) -> Remark | None:
         """A remark where floors stand behind it through which the model lets it rock."""
         if self.behind or self.one_sided or not (any(self.floor_loads) or self.tie_heights):
             return None

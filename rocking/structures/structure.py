@@ -64,7 +64,7 @@ class Structure(ABC):
     (docs/pages/validation.md). hinges_migrate: whether its hinges would move in flight, while the mechanism leaves
     them. _usual_restitution: where none is given. statics_chooses: whether codes check the mechanism of least λ alone,
     as between supports limit analysis finds it; otherwise every crack that may open is a mechanism of its own.
-    contacts_unknown: why no contact forces are known; "" where the moving parts tell them.
+    _contacts_unknown: why no contact forces are known; "" where the moving parts tell them.
     """
 
     type_name: ClassVar[str] = ""
@@ -75,7 +75,7 @@ class Structure(ABC):
     _usual_restitution: ClassVar[float | str] = "momentum"
     statics_chooses: ClassVar[bool] = False
     one_sided = False
-    contacts_unknown: ClassVar[str] = ""
+    _contacts_unknown: ClassVar[str] = ""
 
     restitution_range: Annotated[
         float | None,
@@ -156,21 +156,6 @@ class Structure(ABC):
         """Return it on joints of this friction coefficient; itself where friction holds nothing of it, or is given."""
         return self
 
-    @property
-    def typed_restitution(self) -> Remark | None:
-        """A remark where the restitution that is typed lies far below that of the geometry, or above it; else None."""
-        typed = self._given_restitution
-        has_balance = not self.one_sided and isinstance(self._usual_restitution, str)
-        if not has_balance or not isinstance(typed, float):
-            return None
-        own = self.restitution_of_geometry
-        if own is not None:
-            return Remark.of(Kind.RESTITUTION_TYPED, typed=typed, own=own)
-        most = max(self._momentum_balance(mirrored) for mirrored in (False, True))
-        if typed - most > TYPED_ABOVE:
-            return Remark.of(Kind.RESTITUTION_ABOVE, typed=typed, own=max(most, 0.0))
-        return None
-
     def crushing(self, strength: float) -> "Structure | None":
         """Return it of masonry that crushes at a `strength` [Pa], of a usual weight where none is given.
 
@@ -184,8 +169,23 @@ class Structure(ABC):
         return "overturns"
 
     @property
-    def caution(self) -> Remark | None:
-        """What the model of this structure leaves out beside every verdict on it; None where nothing."""
+    def cautions(self) -> tuple[Remark, ...]:
+        """What its model leaves out beside every verdict on it, and a typed restitution unlike that of the geometry."""
+        cautions = [] if self._leaves_out is None else [self._leaves_out]
+        typed = self._given_restitution
+        has_balance = not self.one_sided and isinstance(self._usual_restitution, str)
+        if has_balance and isinstance(typed, float):
+            own = self.restitution_of_geometry
+            most = max(self._momentum_balance(mirrored) for mirrored in (False, True))
+            if own is not None:
+                cautions.append(Remark.of(Kind.RESTITUTION_TYPED, typed=typed, own=own))
+            elif typed - most > TYPED_ABOVE:
+                cautions.append(Remark.of(Kind.RESTITUTION_ABOVE, typed=typed, own=max(most, 0.0)))
+        return tuple(cautions)
+
+    @property
+    def _leaves_out(self) -> Remark | None:
+        """What the model of this structure leaves out; None where nothing."""
         return None
 
     @cached_property
@@ -285,8 +285,8 @@ class Structure(ABC):
         acceleration; the joints of a wall or an arch are statically indeterminate and their forces nan.
         Raises UnknownContacts, in words, where they are not known (a frame's are indeterminate).
         """
-        if self.contacts_unknown:
-            raise UnknownContacts(self.contacts_unknown)
+        if self._contacts_unknown:
+            raise UnknownContacts(self._contacts_unknown)
         state, resting = self._motion_state(
             rotation, angular_velocity, angular_acceleration, ground, vertical, largest
         )
@@ -360,9 +360,9 @@ class Structure(ABC):
         """Return the dimension lines of the sizes it was described by, at rest; of a list, one for each value."""
         lines = []
         paths = dict(self._dimensions())
-        if len(self.front):
-            foot = self.front[:2]
-            paths["front"] = span(foot[0], foot[1], [0.0, -0.06 * self.front[:, 1].max()])
+        front = self.described.front
+        if len(front):
+            paths["front"] = span(front[0], front[1], [0.0, -0.06 * front[:, 1].max()])
         for given in self.described.values:
             letter = given.field.value.letter
             unit = given.field.suffix
@@ -376,11 +376,6 @@ class Structure(ABC):
                 numbered = letter + str(number).translate(_SUBSCRIPTS)
                 lines.append(Dimension(numbered, text + unit, *own_path))
         return tuple(lines)
-
-    @property
-    def front(self) -> np.ndarray:
-        """The outline of its front (k, 2), m, as it stands beside the section in a drawing; (0, 2) where not known."""
-        return self.described.front
 
     def marks(self, rotation: float = 0.0) -> tuple[Mark, ...]:
         """Return the loads, thrusts, ties and supports on it at a signed `rotation` [rad]."""

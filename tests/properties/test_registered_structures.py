@@ -189,7 +189,7 @@ def test_a_drawing_is_finite_closed_and_measured(structure):
             for shift in (1, 2):
                 edges = (np.abs((part - np.roll(part, shift, axis=0)) @ [1, 1j]) for part in (before, after))
                 np.testing.assert_allclose(*edges, atol=1e-10 * np.ptp(before, axis=0).max())
-    points = np.vstack([*structure.outline(), structure.front])
+    points = np.vstack([*structure.outline(), structure.described.front])
     size = np.ptp(points, axis=0).max()
     dimensions = structure.dimensions()
     assert len(dimensions) >= 2

@@ -259,9 +259,9 @@ def test_a_restitution_above_that_of_the_geometry_is_told(tmp_path):
     with pytest.warns(StructureWarning, match=r"above the 0\.94") as told:
         scenes = load_scenes(path)
     assert len(told) == 1
-    kinds = [each.structure.typed_restitution.kind for each in scenes.values()]
+    kinds = [each.structure.cautions[-1].kind for each in scenes.values()]
     assert kinds == [Kind.RESTITUTION_ABOVE, Kind.RESTITUTION_TYPED]
-    own = scenes["b"].structure.typed_restitution["own"]
+    own = scenes["b"].structure.cautions[-1]["own"]
     assert own == pytest.approx(1 - 1.5 * 0.36 / (0.36 + 9.0), rel=1e-9)
 
 

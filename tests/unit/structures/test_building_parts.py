@@ -61,12 +61,14 @@ def test_a_solid_chimney_rocks_as_the_block_of_its_size():
 
 def test_a_gable_is_drawn_as_a_triangle_beside_its_section():
     gable = part("gable")
-    assert len(gable.front) == 3 and np.ptp(gable.front, axis=0) == pytest.approx([0.9, 3.0])
+    assert len(gable.described.front) == 3 and np.ptp(gable.described.front, axis=0) == pytest.approx(
+        [0.9, 3.0]
+    )
     assert np.ptp(np.vstack(gable.outline()), axis=0) == pytest.approx([0.6, 3.0])
     without = rocking.structure_from_config({"type": "gable", "height_m": 3.0, "thickness_m": 0.6})
-    assert len(without.front) == 3
+    assert len(without.described.front) == 3
     wall = rocking.structure_from_config({"type": "free_wall", "height_m": 3.0, "thickness_m": 0.6})
-    assert len(wall.front) == 0
+    assert len(wall.described.front) == 0
     assert {each.letter for each in part("free_wall").dimensions()} == {"h", "t", "b"}
 
 

@@ -405,8 +405,8 @@ def test_a_tie_that_yields_first_leaves_the_wall_to_overturn():
 
 
 def test_remark_on_floors_behind_ends_where_it_is_said_what_stands_there():
-    assert THREE.caution
-    assert not replace(THREE, behind="nothing").caution
+    assert THREE.cautions
+    assert not replace(THREE, behind="nothing").cautions
 
 
 def test_a_known_crack_leaves_the_bulges_alone():
