@@ -162,13 +162,14 @@ def _forms(structure: Structure) -> tuple[Candidate, ...]:
     """
     several = structure.candidates(CRACKS)
     first = next((each for each in several if each.counts and not _bulges(each)), None)
-    own = None if first is None else first.structure.restitution_of_geometry
-    if first is None or own is None:
+    balanced = None if first is None else first.structure.restitution_of_geometry
+    if first is None or balanced is None:
         return several
+    own, with_own = balanced
     livelier = replace(
         first,
         description=f"restitution {own:.2f} {_OF_GEOMETRY}",
-        structure=first.structure.with_restitution_of_geometry(),
+        structure=with_own,
     )
     if len(several) == 1:
         typed = first.structure.mechanism().restitution

@@ -175,10 +175,10 @@ class Structure(ABC):
         typed = self._given_restitution
         has_balance = not self.one_sided and isinstance(self._usual_restitution, str)
         if has_balance and isinstance(typed, float):
-            own = self.restitution_of_geometry
+            balanced = self.restitution_of_geometry
             most = max(self._momentum_balance(mirrored) for mirrored in (False, True))
-            if own is not None:
-                cautions.append(Remark.of(Kind.RESTITUTION_TYPED, typed=typed, own=own))
+            if balanced is not None:
+                cautions.append(Remark.of(Kind.RESTITUTION_TYPED, typed=typed, own=balanced[0]))
             elif typed - most > TYPED_ABOVE:
                 cautions.append(Remark.of(Kind.RESTITUTION_ABOVE, typed=typed, own=max(most, 0.0)))
         return tuple(cautions)
@@ -483,8 +483,8 @@ class Structure(ABC):
         return not isinstance(self._usual_restitution if own is None else own, str)
 
     @cached_property
-    def restitution_of_geometry(self) -> float | None:
-        """η by its balance of momentum, where the number that is typed lies lower by more than TYPED_LOWER; else None.
+    def restitution_of_geometry(self) -> tuple[float, Self] | None:
+        """η by its balance of momentum, and the structure with it, where the typed number is lower by TYPED_LOWER.
 
         None of what leans on something, which takes part in the impact, and of what has no such balance.
         """
@@ -492,12 +492,10 @@ class Structure(ABC):
         if self.one_sided or not isinstance(typed, float) or not isinstance(self._usual_restitution, str):
             return None
         own = min(self._momentum_balance(mirrored) for mirrored in (False, True))
-        return own if own - typed > TYPED_LOWER else None
-
-    def with_restitution_of_geometry(self) -> Self:
-        """Return it with the restitution of its balance of momentum in place of the one that is typed."""
+        if own - typed <= TYPED_LOWER:
+            return None
         names = {each.name for each in fields(self)} & {"restitution", "inward_restitution"}
-        return replace(self, **dict.fromkeys(names))
+        return own, replace(self, **dict.fromkeys(names))
 
     def _impact(self, mirrored: bool) -> float:
         """η of the impact that ends rocking on one side: the number, or that of a balance where it is a name."""

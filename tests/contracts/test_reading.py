@@ -7,11 +7,14 @@ from types import FrameType
 from typing import Any
 
 import rocking
+from rocking.structures import Structure
 from rocking.study.cli import main
 
 PACKAGE = Path(rocking.__file__).parent
 MOST_PARAMETERS = 6
 """Parameters of a function, beside itself, from which on most would travel better as one thing."""
+MOST_MEMBERS = 30
+"""Public methods and properties of a structure."""
 MOST_FILES = 82
 MOST_FUNCTIONS = 747
 
@@ -36,6 +39,16 @@ def test_few_functions_take_more_than_six_parameters():
         found = [each for each in functions if parameters(each) > MOST_PARAMETERS]
         many += [f"{path.relative_to(PACKAGE)}: {each.name} ({parameters(each)})" for each in found]
     assert 0 < len(many) <= 15, "\n".join(many)
+
+
+def test_a_structure_shows_few_members():
+    """What a reader of any structure has to know, beside the values that its class declares."""
+    shown = [
+        name
+        for name, each in vars(Structure).items()
+        if not name.startswith("_") and (callable(each) or hasattr(type(each), "__get__"))
+    ]
+    assert 20 < len(shown) <= MOST_MEMBERS, shown
 
 
 def test_the_main_job_enters_few_files_and_functions(tmp_path, capsys):
