@@ -1,7 +1,7 @@
 """Walls that something holds, and light roofs: does what is said to stand fall as a stack of courses?
 
-Walls with ties, floors or cross walls, of one to three storeys, walls under light roofs whose top friction holds, and
-walls that keep little of an impact are drawn anew. Each stands under real motions beside a stack of the whole wall with
+Walls with ties, floors or cross walls, of one to three storeys, walls under light roofs whose top friction holds, walls
+that keep little of an impact, and free ones whose restitution is typed too low are drawn anew. Each stands under real motions beside a stack of the whole wall with
 its ties, what stands behind it and its friction, in six courses a storey and with a finer step than `fidelity: contact`
 takes. Nothing was chosen on these walls; that a held wall only probably stands beyond 0.4 φ_cr was read off others, on
 stations of FEMA P-695, so that the stations outside of it are a part of their own.
@@ -30,7 +30,13 @@ from rocking.structures.stack import Stack
 from rocking.structures.tied import Tied
 from rocking.tables import column, row
 
-TRIALS = {"tied wall": 4, "wall with something behind": 2, "light roof": 3, "wall that keeps little": 2}
+TRIALS = {
+    "tied wall": 4,
+    "wall with something behind": 2,
+    "light roof": 3,
+    "wall that keeps little": 2,
+    "typed restitution": 3,
+}
 """Walls drawn under each component."""
 UPLIFTS = (1.05, 3.0)
 """Range of peak acceleration over the least uplift acceleration to which records are scaled, log-uniform."""
@@ -121,11 +127,22 @@ def keeping_little(draw: np.random.Generator) -> LoadedWall | Facade:
             return wall
 
 
+def typed_too_low(draw: np.random.Generator) -> LoadedWall | Facade:
+    """Of one to three storeys that nothing holds, of a restitution 0.05 to 0.25 below that of the geometry."""
+    storeys = int(draw.integers(1, 4))
+    heights = tuple(draw.uniform(2.8, 4.2, storeys).tolist())
+    thicknesses = (float(draw.uniform(0.3, 0.6)),) * storeys
+    loads = tuple(draw.uniform(0, 20e3, storeys).tolist())
+    wall = Facade(heights, thicknesses, UNIT_WEIGHT, floor_loads=loads)
+    return replace(wall, restitution=wall.mechanism().restitution - float(draw.uniform(0.05, 0.25)))
+
+
 DRAWN = {
     "tied wall": tied_wall,
     "wall with something behind": backed_wall,
     "light roof": under_roof,
     "wall that keeps little": keeping_little,
+    "typed restitution": typed_too_low,
 }
 
 

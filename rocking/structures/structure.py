@@ -651,8 +651,8 @@ class Crushable(Structure):
         super().__post_init__()
         if self.compressive_strength is not None and getattr(self, "unit_weight", None) is None:
             raise StructureError(
-                f"unit_weight is missing, but must be given with a compressive_strength of "
-                f"{self.compressive_strength!r} Pa, for what presses on the joints follows from it; give it in N/m³."
+                "unit_weight is missing, but must be given with a compressive_strength, for what presses on the "
+                "joints follows from it; give both, or none."
             )
 
     def crushing(self, strength: float) -> "Structure | None":

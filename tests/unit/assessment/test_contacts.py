@@ -226,7 +226,7 @@ def test_directions_share_the_steps_and_unlike_sides_meet_both_signs(monkeypatch
             assert contact_share(structure, motions, runs=runs).runs == runs
             assert len({each[:2] for each in followed}) == ways
             assert len({each[0] for each in followed}) == ways // signs
-            assert [each[2] for each in followed].count(STEP) == runs * 3 / 4
+            assert [each[2] for each in followed].count(STEP) == pytest.approx(runs * 7 / 8, abs=1)
 
 
 def test_no_step_is_longer_than_the_one_that_was_measured_and_one_is_half_of_it(monkeypatch):
@@ -242,7 +242,7 @@ def test_no_step_is_longer_than_the_one_that_was_measured_and_one_is_half_of_it(
     wall = Wall(1.6, 1.6, 0.25, crack="known")
     contact_share(wall, GroundMotions.of(sine(1.0)))
     assert wall.stack().longest_step >= STEP
-    assert sorted(steps) == pytest.approx(6 * [STEP / 2] + 18 * [STEP])
+    assert sorted(steps) == pytest.approx(3 * [STEP / 2] + 21 * [STEP])
 
 
 def test_a_spire_is_followed_with_few_and_many_courses_unless_it_says_how_many(monkeypatch):
@@ -285,7 +285,7 @@ def test_the_cost_that_is_told_beforehand_is_that_of_its_bodies_and_steps():
     full, contact, auto = (AssessmentSettings(fidelity=each) for each in ("full", "contact", "auto"))
     cost = expected_seconds(SPIRE, [motion], full)
     steps = round(np.ptp(np.flatnonzero(motion.acceleration)) * motion.time_step / STEP)
-    mean = (COURSES + MANY_COURSES) / 2 * (3 + 2) / 4  # courses; every fourth run has twice the steps
+    mean = (COURSES + MANY_COURSES) / 2 * (7 + 2) / 8  # courses; every eighth run has twice the steps
     assert cost == pytest.approx(
         RUNS * SECONDS * mean * steps, rel=0.1
     )  # weak ends of the motion count as still
