@@ -1,10 +1,11 @@
 """Walls that something holds, and light roofs: does what is said to stand fall as a stack of courses?
 
 Walls with ties, floors or cross walls, of one to three storeys, walls under light roofs whose top friction holds, walls
-that keep little of an impact, and free ones whose restitution is typed too low are drawn anew. Each stands under real motions beside a stack of the whole wall with
-its ties, what stands behind it and its friction, in six courses a storey and with a finer step than `fidelity: contact`
-takes. Nothing was chosen on these walls; that a held wall only probably stands beyond 0.4 φ_cr was read off others, on
-stations of FEMA P-695, so that the stations outside of it are a part of their own.
+that keep little of an impact, and free ones whose restitution is typed too low are drawn anew. Each stands under real
+motions beside a stack of the whole wall with its ties, what stands behind it and its friction, in six courses a storey
+and with a finer step than `fidelity: contact` takes. Nothing was chosen on these walls; that a held wall only probably
+stands beyond 0.4 φ_cr was read off others, on stations of FEMA P-695, so that the stations outside of it are a part of
+their own.
 """
 
 import warnings
