@@ -108,7 +108,7 @@ _KNET = Layout("gal", {
     "component": r"^Dir\.\s*(.*)", "station": r"^Station Code\s*(.*)", "event_time": r"^Origin Time\s*(.*)",
     "magnitude": r"^Mag\.\s*(.*)", "latitude": r"^Station Lat\.\s*(.*)", "longitude": r"^Station Long\.\s*(.*)",
     "elevation": r"^Station Height\(m\)\s*(.*)", "peak": r"^Max\. Acc\. \(gal\)\s*(.*)",
-}, mandatory=("duration", "peak"), duration_steps=0.501, duration_digits=0.0, half_digit=5e-4, code="BO")  # fmt: skip
+}, mandatory=("duration", "peak"), duration_steps=0.501, duration_digits=0.0, code="BO")  # fmt: skip
 """What the header states beside the samples, which are held against it."""
 _KNET_FIRST = re.compile("".join(f"{re.escape(name)}.*\n" for name in _KNET_KEYS[:10]))
 _KIKNET = {"1": "NS", "2": "EW", "3": "UD", "4": "NS", "5": "EW", "6": "UD"}

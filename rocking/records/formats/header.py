@@ -152,7 +152,9 @@ class Layout:
         if (rms := self.number("rms", head)) is not None:
             digit = 10.0 ** -len(self.text("rms", head).partition(".")[2])
             record = agree_with_mean_square(record, rms, in_unit, digit)
-        peak = self.number("peak", head) if peak is None else peak
+        if peak is None and (peak := self.number("peak", head)) is not None and peak_digit is None:
+            decimals = re.search(r"\.(\d*)(?:[eEdD]([-+]?\d+))?", self.text("peak", head))
+            peak_digit = 0.5 * 10.0 ** (int(decimals[2] or 0) - len(decimals[1])) if decimals else 0.5
         at = self.number("peak_time", head) if peak_time is None else peak_time
         digit = self.half_digit if peak_digit is None else peak_digit
         return agree_with_header(record, StatedPeak(peak, in_unit, digit, at), file_samples, file_times)

@@ -29,7 +29,7 @@ _DYNA = Layout("", keyed(
     elevation="STATION_ELEVATION_M", distance="EPICENTRAL_DISTANCE_KM", high_pass="LOW_CUT_FREQUENCY_HZ",
     peak="PGA_CM/S^2", peak_time="TIME_PGA_S", start="DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS",
     quantity="DATA_TYPE", unit="UNITS",
-), peak_unit="cm/s2", half_digit=5e-4)  # fmt: skip
+), peak_unit="cm/s2")  # fmt: skip
 _DYNA_END = re.compile(r"(?!AAD_|[A-Z][A-Z0-9_/^]*:)")
 _DYNA_FIRST = re.compile(r"(?:AAD_.*\n)*EVENT_NAME:(?:.*\n){1,100}?SAMPLING_INTERVAL_S:")
 """AFAD puts lines AAD_ above a header after filtering the samples anew (Kahramanmaraş 2023)."""
@@ -262,7 +262,7 @@ _CSMNC = Layout("cm/s2", {
     "peak": r"^PEAK VALUE:\s*(-?[\d.]+)", "peak_time": r"^PEAK VALUE:.*?\bAT\s+([\d.]+)\s*SEC",
     "corrected": r"^(CORRECTED) ", "quantity": r"^(?:UN)?CORRECTED (\w+)\s+UNIT:",
     "unit": r"^(?:UN)?CORRECTED \w+\s+UNIT:\s*(\S+)",
-}, duration_digits=1.0, half_digit=5e-4, per_line=8, width=13)  # fmt: skip
+}, duration_digits=1.0, per_line=8, width=13)  # fmt: skip
 _CSMNC_HEADER = 16
 _CSMNC_FIRST = re.compile(r"(?=(?:.*\n){0,15}NO\. OF POINTS:)(?:.*\n){0,15}OBSERVING POINT:")
 
@@ -279,7 +279,7 @@ _GEONET = Layout("mm/s2", {
     "high_pass": r"transition bands are\s+([\d.]+)", "peak": r"^Acceleration:\s+peak\s+(\S+)\s+mm/s/s",
     "peak_time": r"^Acceleration:\s+peak\s+\S+\s+mm/s/s at\s+([\d.]+)\s*s", "corrected": r"\A(corrected)",
     "rms": r"^Acceleration:.*\brms\s+([\d.]+)",
-}, mandatory=("peak",), half_digit=0.05, code="NZ")  # fmt: skip
+}, mandatory=("peak",), code="NZ")  # fmt: skip
 _GEONET_BLOCK = re.compile(r"(Un)?corrected accelerogram\s", re.I)
 _GEONET_FIRST = re.compile(rf"(?i:{_GEONET_BLOCK.pattern}).*\nSite ")
 _TEXT = 16

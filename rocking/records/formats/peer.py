@@ -34,7 +34,6 @@ _LAYOUT = Layout(
         "peak": r"PGA\s*=\s*([0-9.]+)\s*G\b",
     },
     peak_unit="g",
-    half_digit=5e-6,
 )
 _FILTER_POINTS = re.compile(r"HP\s*=\s*([0-9.]+)\s*HZ", re.I)
 _POLES = re.compile(r"(-?\d+)\s+POLE\s+@\s*([0-9.]+)", re.I)

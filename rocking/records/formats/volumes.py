@@ -116,7 +116,7 @@ _USC = Layout("g/10", _SIZE | {
 _RENADIC = Layout("g/10", _SIZE | {
     "component": r"^CHAN\s*\d+:\s*(\S+)", "station": r"^((?:\S+\s+)?S/N\s*\S+)", "event": r"^([\d/]+ [\d:]+)",
     "peak": r"MAX\s*=\s*(-?[\d.]+)\s*G", "rms": r"^RMS.*=\s*([\d.]+) G\b(?!/)",
-}, peak_unit="g", half_digit=5e-4, width=7)  # fmt: skip
+}, peak_unit="g", width=7)  # fmt: skip
 _BHRC = Layout("g/10", _SIZE | {
     "component": r"^COMP\s+(\S+)", "station": r"FILE:\s*(\w+)", "event": r"^Origin Time\s*:\s*(\S+\s+\S+)",
     "event_time": r"^Origin Time\s*:\s*(\S+\s+\S+)", "magnitude": r"^(Epicenter\b.*)",
@@ -136,16 +136,16 @@ _USC_2 = Layout("cm/s2", {
     "peak_time": r"^PEAK ACCELERATION\s*=.*?\bAT\s+([\d.]+)\s*SEC", "high_pass": r"FILTERED BETWEEN\s+([\d.]+)",
     "event_time": r"\A(?:.*\n){3}(\w{3} \d+, \d{4}) ", "magnitude": r"^MAGNITUDE\s*=\s*([\d.]+)",
     "distance": r"EPICENTRAL DISTANCE\s*=\s*([\d.]+)\s*KM", "place": r"^STATION\s+USC#\s*\d+\s+(.{,34})",
-}, peak_unit="cm/s2", half_digit=5e-4)  # fmt: skip
+}, peak_unit="cm/s2")  # fmt: skip
 """Corrected motion; the header gives its extremes with the other sign than the samples, and so does that of Caltech."""
-_FILM = Layout("g/10", _CSMIP | _SIZE, peak_unit="g", half_digit=5e-4, width=7)
+_FILM = Layout("g/10", _CSMIP | _SIZE, peak_unit="g", width=7)
 _CSMIP_1 = Layout("", _CSMIP | {
     "duration": r"Record length\s*=\s*([\d.]+)", "rms": r"\A(?:.*\n){20}.{30}(.{10})",
-}, peak_unit="g", half_digit=5e-4)  # fmt: skip
+}, peak_unit="g")  # fmt: skip
 _CSMIP_2 = Layout("", _CSMIP | {
     "high_pass": r"(?:3 dB pts at|RAMPS AT)\s+([\d.]+)", "peak": r"Peak acceleration\s*=\s*(-?[\d.]+)",
     "peak_time": r"Peak acceleration\s*=.*?\bat\s+([\d.]+)\s*sec",
-}, peak_unit="cm/s2", half_digit=5e-4)  # fmt: skip
+}, peak_unit="cm/s2")  # fmt: skip
 
 
 def _rows(block: list[str]) -> tuple[str, list[str]]:

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import rocking
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram, Source
@@ -63,3 +64,25 @@ def test_steps_and_peaks_that_no_instrument_gives_are_told_of_arrays_as_of_files
     assert Accelerogram(SHAKING * 1000, 0.01).warnings == (Remark(Kind.PEAK_IMPOSSIBLE),)
     assert len(replace(Accelerogram(SHAKING * 1000, 1e-9), station="A").warnings) == 2
     assert not Accelerogram(SHAKING * 5 * GRAVITY, 1e-4).warnings + Accelerogram(SHAKING, 0.1).warnings
+
+
+@pytest.mark.parametrize(
+    ("stated", "is_told"),
+    [
+        ("0.1", False),
+        ("0.05", False),
+        ("0.054", False),
+        ("0.0541", False),
+        ("0.0546", True),
+        ("0.05450", True),
+    ],
+)
+def test_a_stated_peak_may_be_off_by_half_of_the_last_digit_that_is_printed(tmp_path, stated, is_told):
+    """Of 0.0541 g, which the first four are rounded from; the others are within 1 %, beyond which it is refused."""
+    path = tmp_path / "a.AT2"
+    samples = " ".join(["0.0 0.0541 -0.02 0.01 0.0"] * 40)
+    path.write_text(
+        f"PEER\nMade 1/1/2000, A, 90, PGA={stated} G\nACCELERATION IN UNITS OF G\nNPTS= 200, DT= .01 SEC\n{samples}\n"
+    )
+    (read,) = rocking.read(path)
+    assert (Kind.PEAK_UNLIKE_HEADER in {each.kind for each in read.warnings}) is is_told
