@@ -209,16 +209,23 @@ class CountedCases:
     support_period: float | None
     cases: Sequence[rows.ComparisonRow]
 
+    @property
+    def overturning(self) -> int:
+        """How many overturn in the integration."""
+        return sum(math.isinf(row.integrated_rotation_ratio) for row in self.cases)
+
     @cached_property
-    def falls(self) -> Counter[tuple[bool, bool]]:
-        """How many overturn or not in the closed form, and in the integration."""
-        return Counter(
+    def told(self) -> Counter[str]:
+        """How many fall in both (hits), in the integration alone (misses), in the closed form alone (false_alarms)."""
+        names = {(True, True): "hits", (False, True): "misses", (True, False): "false_alarms"}
+        falls = (
             (math.isinf(row.predicted_rotation_ratio), math.isinf(row.integrated_rotation_ratio))
             for row in self.cases
         )
+        return Counter(names[each] for each in falls if each in names)
 
     @property
-    def ratios(self) -> list[float]:
+    def rock_ratios(self) -> list[float]:
         """Predicted over integrated rotation of those that rock in both."""
         both_rock = (row for row in self.cases if row.within_factor_two is not None)
         return [row.predicted_rotation_ratio / row.integrated_rotation_ratio for row in both_rock]
@@ -237,27 +244,27 @@ class AgreementRow(RowOf[CountedCases]):
     support_period_s: float | None = of_cases(rows.SUPPORT_PERIOD, lambda of: of.support_period)
     records: int = of_cases("Number of records", lambda of: len({row.record for row in of.cases}))
     cases: int = of_cases("Number of cases with a prediction and an integration", lambda of: len(of.cases))
-    both_rock: int = of_cases("Number of cases in which both rock", lambda of: len(of.ratios))
+    both_rock: int = of_cases("Number of cases in which both rock", lambda of: len(of.rock_ratios))
     within_factor_two: int = of_cases(
         "Number of these with a ratio between 1/2 and 2",
         lambda of: sum(bool(row.within_factor_two) for row in of.cases),
     )
     median_ratio: float = of_cases(
         "Median of predicted over integrated rotation where both rock",
-        lambda of: median(of.ratios) if of.ratios else math.nan,
+        lambda of: median(of.rock_ratios) if of.rock_ratios else math.nan,
     )
     overturning: int = of_cases(
         "Number of cases that overturn in the integration",
-        lambda of: of.falls[True, True] + of.falls[False, True],
+        lambda of: of.overturning,
     )
     overturning_hits: int = of_cases(
-        "Number of these that overturn in the closed form", lambda of: of.falls[True, True]
+        "Number of these that overturn in the closed form", lambda of: of.told["hits"]
     )
     overturning_misses: int = of_cases(
-        "Number of these that stand in the closed form", lambda of: of.falls[False, True]
+        "Number of these that stand in the closed form", lambda of: of.told["misses"]
     )
     overturning_false_alarms: int = of_cases(
-        "Number of cases that overturn in the closed form alone", lambda of: of.falls[True, False]
+        "Number of cases that overturn in the closed form alone", lambda of: of.told["false_alarms"]
     )
 
 
