@@ -1,6 +1,7 @@
 """How a report falls onto pages: no table torn after a row or three, no page nearly empty."""
 
 import itertools
+from dataclasses import fields
 
 import pytest
 
@@ -8,9 +9,8 @@ from rocking import DesignSpectrum, check
 from rocking.assessment.rows import RecordRows
 from rocking.codes.rows import CodeCheckRow, code_check_rows
 from rocking.reports.printing import compile_document
-from rocking.tables import frame
 
-from .conftest import SETTINGS, SUMMARISED, Word, detailed, of_structures, pages, summarised, summary_report
+from .conftest import SETTINGS, Word, detailed, of_structures, pages, summarised, summary_report
 
 TEMPLATE = """
 #import "layout.typ": data, document-page, ruled
@@ -109,7 +109,10 @@ def test_the_summary_is_well_laid(example, count, records):
     kind = {name: kinds[place % len(kinds)] for place, name in enumerate(names)}
     rows = [of_structures(example, kind, record).tables for record in sixty("record", records)]
     tables = RecordRows(
-        **{table: [row for each in rows for row in getattr(each, table)] for table in SUMMARISED}
+        **{
+            table.name: [row for each in rows for row in getattr(each, table.name)]
+            for table in fields(RecordRows)
+        }
     )
     structures = {name: example.structures[kind[name]] for name in names}
     document = assert_well_laid(summary_report(summarised(tables, structures), SETTINGS))
@@ -127,12 +130,15 @@ def test_the_first_page_of_the_summary_holds_matrix_and_scatter_in_at_most_250_w
     kind = {f"structure {place}": name for place, name in enumerate(kinds[:count])}
     rows = [of_structures(example, kind, record).tables for record in named]
     tables = RecordRows(
-        **{table: [row for each in rows for row in getattr(each, table)] for table in SUMMARISED}
+        **{
+            table.name: [row for each in rows for row in getattr(each, table.name)]
+            for table in fields(RecordRows)
+        }
     )
     structures = {name: example.structures[each] for name, each in kind.items()}
     level = DesignSpectrum.ntc(ag=0.3, f0=2.5, tc_star=0.35)
     checks = [row for name, each in structures.items() for row in code_check_rows(name, check(each, level))]
-    shown = summarised(tables, structures) | {"code_checks": frame(CodeCheckRow, checks)}
+    shown = summarised(tables, structures) | {CodeCheckRow: checks}
     page = pages(summary_report(shown, SETTINGS))[0]
     assert covered(page) == []
     first = [word[4] for word in page]
