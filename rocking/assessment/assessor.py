@@ -117,10 +117,35 @@ class Assessor:
         return self.compare(self.integrate(record, components, scenes, predictions, vertical))
 
     def pulses(
-        self, horizontal: Sequence[Accelerogram], vertical: Accelerogram | None = None
+        self,
+        horizontal: Sequence[Accelerogram],
+        vertical: Accelerogram | None = None,
+        measured: bool | None = None,
     ) -> tuple[Component, ...]:
-        """Return the components of a record with the pulses of each. vertical: acts with them."""
-        return self._components(horizontal, vertical, measured=self.motion_measures)
+        """Return the components of a record with the pulses of each.
+
+        vertical: acts with them. measured: whether they are measured as a pair, too; None: as `motion_measures` says.
+        """
+        measured = self.motion_measures if measured is None else measured
+        beside = [None if vertical is None else aligned(vertical, each) for each in horizontal]
+        prints = [Motion((each,)).fingerprint for each in horizontal]
+
+        of_pair = cache(partial(horizontal_motions, horizontal))
+        components = []
+        for place, (accelerogram, lift) in enumerate(zip(horizontal, beside, strict=True)):
+            fingerprint = sha256_of("pulses", place, prints, self.settings.pulse, measured, self.version)
+
+            def sought(clock: Clock, place: int = place) -> ComponentPulses:
+                motion = HorizontalMotion()
+                if measured:
+                    with clock.stage("velocity pulse"):
+                        motion = of_pair()[place]
+                with clock.stage("pulses"):
+                    return pulses_of(horizontal[place], self.settings.pulse, motion)
+
+            pulses = self._remembered(ComponentPulses, fingerprint, sought)
+            components.append(pulses.beside(accelerogram, lift))
+        return tuple(components)
 
     def predict(self, components: Sequence[Component], scenes: Mapping[str, Scene]) -> Predictions:
         """Return the closed form of each scene's equivalent block under the pulse of each component."""
@@ -222,30 +247,6 @@ class Assessor:
 
     # The motion -----------------------------------------------------------------------------------------
 
-    def _components(
-        self, horizontal: Sequence[Accelerogram], vertical: Accelerogram | None, measured: bool
-    ) -> tuple[Component, ...]:
-        """The components with the pulses of each. measured: whether their measures as a pair are taken, too."""
-        beside = [None if vertical is None else aligned(vertical, each) for each in horizontal]
-        prints = [Motion((each,)).fingerprint for each in horizontal]
-
-        of_pair = cache(partial(horizontal_motions, horizontal))
-        components = []
-        for place, (accelerogram, lift) in enumerate(zip(horizontal, beside, strict=True)):
-            fingerprint = sha256_of("pulses", place, prints, self.settings.pulse, measured, self.version)
-
-            def sought(clock: Clock, place: int = place) -> ComponentPulses:
-                motion = HorizontalMotion()
-                if measured:
-                    with clock.stage("velocity pulse"):
-                        motion = of_pair()[place]
-                with clock.stage("pulses"):
-                    return pulses_of(horizontal[place], self.settings.pulse, motion)
-
-            pulses = self._remembered(ComponentPulses, fingerprint, sought)
-            components.append(pulses.beside(accelerogram, lift))
-        return tuple(components)
-
     def _on_support(self, support: Carrier, grounds: Sequence[Component]) -> tuple[Component, ...]:
         """The components as they arrive on a support, with the pulses of the motion there."""
         with self.clock.stage("supports"):
@@ -254,7 +255,7 @@ class Assessor:
                 for each in grounds
             ]
         floors = [next(iter(each.horizontal.values())) for each in motions]
-        sought = self._components(floors, None, measured=False)
+        sought = self.pulses(floors, measured=False)
         return tuple(
             replace(each, vertical=motion.vertical, support=support, ground=ground)
             for each, motion, ground in zip(sought, motions, grounds, strict=True)

@@ -64,7 +64,8 @@ class Conclusion:
     def remark(self) -> Remark:
         """What to do about it; where there is nothing to do, what explains the word."""
         word = self.decision.word
-        falls, runs = self.verdict.stack_falls, self.verdict.stack_runs
+        falls = self.verdict.stack_falls
+        runs = self.verdict.stack_runs
         # A range whose upper end is that of contact dynamics is not one of cracks.
         if falls and runs and falls / runs == self.decision.interval[1] > self.decision.interval[0]:
             return Remark.of(Kind.STACKS_FALL, falls=falls, runs=runs)

@@ -20,7 +20,8 @@ FAR = 0.3
 measures how many verdicts this changes, on sites that took no part in any fit."""
 LATTICE_ERROR = 4.0
 """Members times the error of a probability that all but few cases stay below; `calibrate_ensemble` counts them."""
-ONE_THIRD, TWO_THIRDS = 1 / 3, 2 / 3
+ONE_THIRD = 1 / 3
+TWO_THIRDS = 2 / 3
 """Shares at which a structure no longer probably stands, and from which on it probably overturns."""
 BEYOND = 0.4
 """Share of the critical rotation beyond which a chain of a held wall may fall though its mechanism stands (theory:

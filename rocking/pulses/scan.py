@@ -227,13 +227,18 @@ def local_maxima(
     samples: (c, n) m/s². places: (k, 2) onset sample and index of frequency. gains: (k,) m²/s³. Maxima below `share`
     of the largest maximum before them are left out. A few rows of the map are held at a time, never the whole.
     """
-    m, start, end = angles.size, max(first - 1, 0), min(last + 1, samples.shape[1])
+    start = max(first - 1, 0)
+    end = min(last + 1, samples.shape[1])
     scan = _prepared(samples, time_step, angles, start)
-    held, mask = np.zeros((HELD_ROWS + 2, m)), np.zeros(-(-m // WORD) * WORD, np.uint8)
-    room = 2 * HELD_ROWS * m
-    parts, filled, largest = [], 0, 0.0
+    held = np.zeros((HELD_ROWS + 2, angles.size))
+    mask = np.zeros(-(-angles.size // WORD) * WORD, np.uint8)
+    room = 2 * HELD_ROWS * angles.size
+    parts = []
+    filled = 0
+    largest = 0.0
     while start < end:
-        places, gains = np.empty((room, 2), np.int64), np.empty(room)
+        places = np.empty((room, 2), np.int64)
+        gains = np.empty(room)
         k, start, filled, largest = _searched(
             held, mask, start, filled, end, first, last, largest, share, places, gains, *scan
         )

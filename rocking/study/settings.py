@@ -255,14 +255,10 @@ class Settings(AssessmentSettings):
             name: asdict(value) if is_dataclass(value) else value  # type: ignore[arg-type]
             for name, value in vars(self).items()
         }
-        return told | {"about": self.about}
-
-    @property
-    def about(self) -> dict[str, str]:
-        """The facts of the study that every report tells, by its label; what was left blank is left out."""
         labels = {name: each.more.get("told", "") for name, each in described_values(Settings).items()}
-        told = {label: vars(self).get(name) for name, label in labels.items() if label}
-        return {label: str(value) for label, value in told.items() if value}
+        facts = {label: vars(self).get(name) for name, label in labels.items() if label}
+        # What was left blank is left out.
+        return told | {"about": {label: str(fact) for label, fact in facts.items() if fact}}
 
 
 class _Restricted(Settings):
