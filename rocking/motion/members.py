@@ -143,6 +143,11 @@ def follow_runs(
 ) -> MemberResponses:
     """`integrate_members` of what is prepared already."""
     lift = several.lift
+    if isinstance(reduced, Mechanism) and not lift.any():
+        # Without a run that lifts it needs no table, which takes longer than the runs; what is close is left to them.
+        largest = np.abs(several.horizontal).max(initial=0.0) * forcing.excitation
+        if largest < (1 - 1e-9) * reduced.uplift_multiplier:
+            return MemberResponses(np.zeros(lift.size), np.zeros(lift.size, int), {})
     if solvable_exactly(reduced, forcing) and 0 < np.count_nonzero(lift) < lift.size:
         # Members with and without vertical motion each go their own way.
         ratio = np.empty(lift.size)

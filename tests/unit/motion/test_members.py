@@ -104,6 +104,16 @@ def test_a_structure_that_fails_is_nan_and_the_others_go_on():
     assert np.isfinite(ratios[1]).all()
 
 
+@pytest.mark.parametrize("mechanism", MECHANISMS.values(), ids=MECHANISMS)
+def test_a_member_lifts_from_the_uplift_multiplier_on(mechanism):
+    """Whether it is followed alone, without a table, or beside one that lifts."""
+    peak = g * mechanism.uplift_multiplier
+    record = Accelerogram(np.array([0.0, peak, 0.0, -peak, 0.0]), 0.01)
+    for factors in ([1 - 1e-7], [1 + 1e-7], [1 - 1e-7, 1 + 1e-7]):
+        lifted = integrate_members(mechanism, record, Members(factors)).lifted
+        assert lifted.tolist() == [factor > 1 for factor in factors]
+
+
 def test_a_member_that_fails_says_why():
     """Without loss, rattling that a push just above the uplift acceleration began goes on for a day."""
     block = Block(1.0, 0.2).mechanism()
