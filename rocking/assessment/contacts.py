@@ -80,7 +80,7 @@ def doubt(
     sign, at the largest amplitude; what cannot be followed there is in doubt, too. Where the balance of momentum keeps
     less than LEAST_KEPT of the velocity, the impact itself opens contacts. What rests has no contact to open; a single
     body on the ground lands too slowly below a fall of more than a radian; and the bulge of a wall that is held has row
-    8b of the decision instead, as below it no stack fell (theory: section 12.6).
+    8b of the decision instead, with `ties_give`: what they let stand did not fall as a stack (docs, validation).
     """
     settings = settings or AssessmentSettings()
     if not rotation_ratio > 0:
