@@ -1,5 +1,5 @@
 # make: set up and run the shipped example.  make test: the tests of the code.  make test-runs: those that start
-# processes.  make test-all: every test, within an hour.
+# processes or take more than a second.  make test-all: every test, within an hour.
 PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
@@ -55,7 +55,7 @@ $(OPENQUAKE)/.installed: tests/workflow/openquake.lock
 test: $(TOOLS)
 	$(BIN)/python -m pytest -n logical --dist loadfile
 
-# Snakemake, commands, browsers and other processes.
+# Snakemake, commands, browsers and other processes, and what takes more than a second.
 test-runs: $(TOOLS)
 	$(BIN)/python -m pytest -n logical --dist loadfile -m "process and not slow"
 

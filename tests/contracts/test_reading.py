@@ -6,6 +6,8 @@ from pathlib import Path
 from types import FrameType
 from typing import Any
 
+import pytest
+
 import rocking
 from rocking.structures import Structure
 from rocking.study.cli import main
@@ -28,6 +30,7 @@ def parameters(function: ast.FunctionDef) -> int:
     return len([name for name in names if name not in ("self", "cls")])
 
 
+@pytest.mark.process
 def test_few_functions_take_more_than_six_parameters():
     """The doors for Python, constructors that are forms of a file, and declarations; none beside them."""
     many = []
@@ -51,6 +54,7 @@ def test_a_structure_shows_few_members():
     assert 20 < len(shown) <= MOST_MEMBERS, shown
 
 
+@pytest.mark.process
 def test_the_main_job_enters_few_files_and_functions(tmp_path, capsys):
     """One record under one wall, from the file to the PDF; lambdas and comprehensions are no functions to jump to.
 

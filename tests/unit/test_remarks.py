@@ -60,6 +60,7 @@ def test_every_remark_that_the_package_makes_has_the_values_of_its_sentence():
     assert not wrong
 
 
+@pytest.mark.process
 def test_the_words_of_the_catalogue_stand_in_no_other_test():
     """So that a better word is a change in one place. Of twenty characters and four words: fewer say other things."""
     parts = {part for kind in Kind for part in re.split(r"\{[^}]*\}", kind.sentence)}
@@ -184,6 +185,7 @@ def test_what_compares_kinds_is_none(source):
     assert not searches_of_words(source)
 
 
+@pytest.mark.process
 def test_no_code_takes_the_words_of_a_remark_apart():
     """Kinds are compared and values are read; the words are for people alone."""
     wrong = {

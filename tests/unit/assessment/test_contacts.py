@@ -101,6 +101,7 @@ def test_a_spire_that_lifts_never_stands_by_its_mechanisms_alone():
         assert without_stacks(lifts).why.startswith("courses above a rocking body may be thrown; 0 of ")
 
 
+@pytest.mark.process
 def test_few_runs_of_contact_dynamics_let_a_spire_probably_stand_and_many_let_it_stand():
     """The last six of 24 are not followed where none falls before: six falls change no word."""
     motion = sine(1.3 * SPIRE.static_multiplier * GRAVITY, 0.1)

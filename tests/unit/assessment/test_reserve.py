@@ -73,6 +73,7 @@ RECORDS = {
 @pytest.mark.parametrize(
     "name", ["one", *(pytest.param(name, marks=pytest.mark.slow) for name in ("another", "real"))]
 )
+@pytest.mark.process
 def test_it_is_what_a_scan_of_every_member_at_every_level_gives(name):
     """The scan follows 128 members at every level; the reserve, few.
 

@@ -163,6 +163,7 @@ BODIES = [(0.8, 0.3), (0.4, 0.2), (1.5, 0.15), (2.5, 0.2), (4.0, 0.12)]
     [(BODIES[:2], 2.0), pytest.param(BODIES, 4.0, marks=pytest.mark.slow)],
     ids=["two", "all"],
 )
+@pytest.mark.process
 def test_rotation_of_the_coupled_system(bodies, seconds):
     """At a mass ratio of 1e-9 the body no longer pushes the support, and 1e-3 of the rotation is asked for."""
     record = smooth(8, seconds=seconds)

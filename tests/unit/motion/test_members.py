@@ -114,6 +114,7 @@ def test_a_member_lifts_from_the_uplift_multiplier_on(mechanism):
         assert lifted.tolist() == [factor > 1 for factor in factors]
 
 
+@pytest.mark.process
 def test_a_member_that_fails_says_why():
     """Without loss, rattling that a push just above the uplift acceleration began goes on for a day."""
     block = Block(1.0, 0.2).mechanism()

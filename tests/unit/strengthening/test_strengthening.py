@@ -150,6 +150,7 @@ def test_a_range_of_which_every_value_holds_says_that_smaller_ones_may():
     assert "every value of the range holds" in made.words
 
 
+@pytest.mark.process
 def test_the_parapet_that_holds_is_between_one_that_falls_and_the_next_step():
     """Each share is that of `rocking.assess`, which follows the same members by another way in."""
     records = _records(24)
@@ -163,6 +164,7 @@ def test_the_parapet_that_holds_is_between_one_that_falls_and_the_next_step():
     assert found.share == pytest.approx(np.mean(by_assess), abs=1e-12)
 
 
+@pytest.mark.process
 def test_components_of_a_station_are_one():
     """Twelve components of six stations: a station has the mean of its two."""
     records = _records(12)
@@ -188,6 +190,7 @@ def test_a_tie_is_changed_in_newtons_and_the_code_sizes_it_beside():
     assert static_tie(known, strength, (2 * tie, 1e6), spectrum) == 2 * tie
 
 
+@pytest.mark.process
 def test_a_value_with_which_it_does_not_stand_counts_as_overturning():
     """A wall that a vault pushes outwards is pushed over where it is thin."""
     wall = Facade((4.0,), (0.8,), unit_weight=18e3, restitution=0.8, thrust=3e3)

@@ -125,6 +125,7 @@ def masonry(joints, levels, thicknesses, unit_weight, strength):
     return Courses(joints, -of_course, 0 * of_course, weights, strength=presses)
 
 
+@pytest.mark.process
 def test_least_multiplier_is_that_of_limit_analysis_over_courses():
     """To 1e-7: the linear programme meets its constraints to that (primal feasibility of HiGHS)."""
     draw = np.random.default_rng(52)

@@ -78,6 +78,7 @@ def test_a_table_beside_the_curves_fails_alone(tmp_path, monkeypatch):
     assert {name for name, held in rows.items() if not held} == {"intensity_measures"}
 
 
+@pytest.mark.process
 def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):
     records = _records(tmp_path, 3)
     (tmp_path / "made2.AT2").write_bytes(b"not a record")

@@ -45,6 +45,7 @@ def study(tmp_path):
     return folder
 
 
+@pytest.mark.process
 def test_what_holds_a_parapet_is_what_python_says_of_the_same_records(study, capsys):
     assert main(["strengthen", str(study), "parapet / low", "breadth_m", "0.2..1.6", "--target", "0.3"]) == 0
     told = capsys.readouterr().out
@@ -61,6 +62,7 @@ def test_what_holds_a_parapet_is_what_python_says_of_the_same_records(study, cap
     assert {each.stations for each in tried} == {STATIONS}
 
 
+@pytest.mark.process
 def test_a_tie_is_typed_in_kilonewtons_and_sized_by_the_code_beside(study, capsys):
     """At a design level each record has the factor that brings its spectrum to the target in the mean."""
     config = {"design_spectrum": DESIGN, "processing": {"apply": "never"}}
