@@ -84,7 +84,7 @@ class CodeConclusion:
         return placed(self.structure, self.period)
 
 
-_NAMED = 4
+_NAMED = 3
 """Names of a sentence at most."""
 
 

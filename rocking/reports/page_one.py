@@ -21,14 +21,12 @@ from rocking.structures import Structure
 DOMINATES = 0.5
 """Share of the energy of a record from which on one sine is said to dominate it. What the closed form is worth rises
 with that share without a step (`rocking.pulses.pulse.WORTH`), so that the edge is a choice."""
-MOST_ROWS = 15
+MOST_ROWS = 12
 """Structures that have a row, the worst first; the others are named by their words below."""
 UNSAID = (Kind.NOTHING_TO_DO, Kind.NOTHING_DECIDES)
 """Remarks of which a row says nothing."""
 _MOST_NAMED = 20
 """Names of a word below the rows."""
-_ROW, _ROWS = 15.8, 189.6
-"""Largest height of a row, and height of all, mm."""
 _UNIT = 27.0
 """Length of a rotation ratio of 1 on the scale, mm."""
 _FARTHEST = 1.2
@@ -55,12 +53,10 @@ def page_one(
     """
     drawn, others = conclusions[:MOST_ROWS], conclusions[MOST_ROWS:]
     words = {each.decision.word for each in conclusions}
-    height = min(_ROW, _ROWS / max(1, len(drawn)))
     return {
         "trace": [_trace(motion)] if motion else [],
         "sine": _sine(pulse),
-        "row-height": height,
-        "rows": [_row(each, structures.get(each.structure), height) for each in drawn],
+        "rows": [_row(each, structures.get(each.structure)) for each in drawn],
         "others": [
             {"word": str(word), "names": listed(names, _MOST_NAMED)}
             for word in ORDER
@@ -83,14 +79,14 @@ def _sine(pulse: PulseRow | None) -> dict[str, object]:
     }
 
 
-def _row(conclusion: Conclusion, structure: Structure | None, height: float) -> dict[str, object]:
+def _row(conclusion: Conclusion, structure: Structure | None) -> dict[str, object]:
     decision = conclusion.decision
     verdict = conclusion.verdict
     band = [_place(each, "line") for each in (verdict.rotation_ratio_low, verdict.rotation_ratio_high)]
     period = verdict.support_period_s
     below = "" if period is None else f"T_b {period:.3g} s" if period else "on the ground"
     return chip(decision.word, decision.share_in_words) | {
-        "drawing": [_drawing(structure, conclusion, height - 1.8)] if structure else [],
+        "drawing": [_drawing(structure, conclusion)] if structure else [],
         "name": conclusion.structure,
         "below": below,
         "marks": {
@@ -144,12 +140,12 @@ def _trace(motion: Trace) -> dict[str, str]:
     return drawn_by_hand(lines, width, height, alt)
 
 
-def _drawing(structure: Structure, conclusion: Conclusion, height: float) -> dict[str, str]:
+def _drawing(structure: Structure, conclusion: Conclusion) -> dict[str, str]:
     """The mechanism that governs at _DRAWN of its critical rotation, and dashed at rest."""
     broken = cracked(structure, conclusion.verdict.crack)
     side = -1 if conclusion.verdict.peak_side == -1 else 1
     sides = broken.mechanism().sides
     rotation = side * _DRAWN * sides[0 if side > 0 else -1].critical_rotation
-    width = 12.0
+    width, height = 12.0, 14.0
     alt = f"{conclusion.structure}, turned, and at rest."
     return drawn_by_hand(sketch(broken, rotation, width, height), width, height, alt)

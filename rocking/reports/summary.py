@@ -67,7 +67,7 @@ MOST_RECORDS = 200
 """Rows of the list of the records, likewise."""
 MOST_HIGH = 12
 """Structures up to which the rows of the matrix and the scatter below it are high."""
-_HIGH, _LOW = 118.0, 84.0
+_HIGH, _LOW = 118.0, 76.0
 """Heights of the scatter, mm."""
 _BESIDE = 30
 """Letters of a name beside a bar."""

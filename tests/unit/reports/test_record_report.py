@@ -227,8 +227,8 @@ def test_of_a_hundred_structures_all_are_in_the_tables_and_few_are_drawn(example
     data = detailed(of_structures(example, dict.fromkeys(names, "block 4 m"))).data()
     (rest,) = data["details"]
     assert len(rest["verdicts"]["rows"]) == len(rest["methods"]["rows"]) == 100
-    assert len(data["rows"]) == 15
-    assert data["others"][0]["names"].endswith(" and 65 others")
+    assert len(data["rows"]) == 12
+    assert data["others"][0]["names"].endswith(" and 68 others")
     assert data["conclusion"] == "All 100 structures overturn or probably do."
     assert "Another 90 structures" in rest["histories-note"]
 
