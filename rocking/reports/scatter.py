@@ -151,12 +151,18 @@ def _write_counts(axes: Axes, predicted: np.ndarray, integrated: np.ndarray) -> 
     rock = (predicted > 0) & (integrated > 0) & ~sees & ~falls
     factor = np.abs(np.log2(predicted[rock] / integrated[rock]))
     low = np.log10(_LEAST)
-    large: dict[str, Any] = {"fontsize": 11.5, "fontweight": "bold"}
+    # Points that lie behind a count leave it readable.
+    paper = {"facecolor": "white", "alpha": 0.7, "linewidth": 0, "pad": 0.8}
+    large: dict[str, Any] = {"fontsize": 11.5, "fontweight": "bold", "bbox": paper}
+    beside: dict[str, Any] = {"ha": "right", "bbox": paper}
     axes.text(low, _END - 0.05, f"{int((falls & ~sees).sum())} missed", color=_MISSED, va="top", **large)
     axes.text(_ZONE + 0.05, _END - 0.05, f"{int((falls & sees).sum())} right", va="top", **large)
     axes.text(_ZONE + 0.05, low + 0.4, f"{int((sees & ~falls).sum())} false", **large)
-    axes.text(-0.75, low + 0.25, f"{int(rock.sum())} rock in both,", fontsize=9.5, fontweight="bold")
-    axes.text(-0.75, low + 0.12, f"{int((factor <= 1).sum())} within factor two", fontsize=8.5)
+    right = _ZONE - 0.04
+    axes.text(
+        right, low + 0.26, f"{int(rock.sum())} rock in both,", fontsize=9.5, fontweight="bold", **beside
+    )
+    axes.text(right, low + 0.12, f"{int((factor <= 1).sum())} within factor two", fontsize=8.5, **beside)
 
 
 def _write_key(
