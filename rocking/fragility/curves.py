@@ -128,7 +128,7 @@ class Fragility(Drawn):
         name: of the function, by which an exposure model names its class. Levels are in OpenQuake's unit. Raises
         ConfigurationError for a measure that OpenQuake lacks.
         """
-        write_whole(Path(path), nrml(self, name, lognormal))
+        write_whole(Path(path), nrml({name: self}, lognormal))
 
     def to_csv(self, path: str | Path) -> None:
         """Write the curve as a CSV: a row a level, with the measure and its unit in each."""

@@ -3,6 +3,7 @@
 import csv
 import io
 import math
+from collections.abc import Mapping
 from typing import Protocol
 from xml.etree import ElementTree
 
@@ -37,26 +38,34 @@ class Curve(Protocol):
     def dispersion(self) -> float: ...
 
 
-def nrml(curve: Curve, name: str, lognormal: bool) -> bytes:
-    """Return the fragility model of one curve, NRML 0.5; levels where nothing was tried are left out.
+def nrml(curves: Mapping[str, Curve], lognormal: bool) -> bytes:
+    """Return the fragility model of curves of one threshold, by the names of their classes, NRML 0.5.
 
-    A lognormal of median m and dispersion β has the mean m exp(β²/2) and the standard deviation mean √(exp(β²) − 1),
-    which are what OpenQuake asks for.
+    Levels where nothing was tried are left out. A lognormal of median m and dispersion β has the mean m exp(β²/2) and
+    the standard deviation mean √(exp(β²) − 1), which are what OpenQuake asks for.
     """
-    if not name or UNPRINTABLE.search(name):
-        raise ConfigurationError(f"name is {name!r}, but must be printable and not empty.")
-    imt, scale = of_openquake(curve.measure)
-    state = "overturning" if math.isinf(curve.threshold) else f"rotation_{curve.threshold:g}"
-    tried = np.isfinite(curve.probability)
-    levels = curve.levels[tried] * scale
+    threshold = next(iter(curves.values())).threshold
+    state = "overturning" if math.isinf(threshold) else f"rotation_{threshold:g}"
     root = ElementTree.Element("nrml", xmlns=_NRML)
     model = ElementTree.SubElement(
         root, "fragilityModel", id="rocking", assetCategory="buildings", lossCategory="structural"
     )
-    ElementTree.SubElement(
-        model, "description"
-    ).text = f"{state} over {curve.measure}, {curve.independent} stations"
+    over = dict.fromkeys(f"{each.measure}, {each.independent} stations" for each in curves.values())
+    ElementTree.SubElement(model, "description").text = f"{state} over {'; '.join(over)}"
     ElementTree.SubElement(model, "limitStates").text = state
+    for name, curve in curves.items():
+        _add_function(model, curve, name, state, lognormal)
+    ElementTree.indent(root)
+    content: bytes = ElementTree.tostring(root, encoding="utf-8")
+    return b"<?xml version='1.0' encoding='utf-8'?>\n" + content + b"\n"
+
+
+def _add_function(model: ElementTree.Element, curve: Curve, name: str, state: str, lognormal: bool) -> None:
+    if not name or UNPRINTABLE.search(name):
+        raise ConfigurationError(f"name is {name!r}, but must be printable and not empty.")
+    imt, scale = of_openquake(curve.measure)
+    tried = np.isfinite(curve.probability)
+    levels = curve.levels[tried] * scale
     form = {"format": "continuous", "shape": "logncdf"} if lognormal else {"format": "discrete"}
     function = ElementTree.SubElement(model, "fragilityFunction", {"id": name, **form})
     least = f"{levels[0]:.9g}"
@@ -76,9 +85,6 @@ def nrml(curve: Curve, name: str, lognormal: bool) -> bytes:
         imls.text = " ".join(f"{level:.9g}" for level in levels)
         poes = ElementTree.SubElement(function, "poes", ls=state)
         poes.text = " ".join(f"{each:.9g}" for each in curve.probability[tried])
-    ElementTree.indent(root)
-    content: bytes = ElementTree.tostring(root, encoding="utf-8")
-    return b"<?xml version='1.0' encoding='utf-8'?>\n" + content + b"\n"
 
 
 def fragility_csv(curve: Curve) -> bytes:

@@ -48,11 +48,14 @@ from rocking.tables.workbook import workbook
 
 if TYPE_CHECKING:
     from rocking.codes.conclusion import CodeConclusion
+    from rocking.fragility.curves import Fragility
 
 PROVENANCE = "provenance.json"
 """In the folder of the summary: what the results were made from and with."""
 WORKBOOK = "study.xlsx"
 """The tables of the summary in one file."""
+OPENQUAKE = "fragility.xml"
+"""Beside the fragility tables: the curves of all structures as one model of OpenQuake."""
 _NOT_IN_THE_WORKBOOK = (TimingRow, VariationRow)
 """The times differ from run to run; the variations of each case are ten times as many as the cases."""
 
@@ -207,9 +210,9 @@ def write_fragility(
     folder: Path,
     tell: Callable[..., None] = lambda *_: None,
 ) -> tuple[dict[type[Row], list[Row]], list[str]]:
-    """Write the fragility tables of `study` and their description into `folder`.
+    """Write the fragility tables of `study` and their description into `folder`, and its curves for OpenQuake.
 
-    Returned are their rows, and what could not be used.
+    Returned are their rows, and what could not be used. No fragility.xml of a measure that OpenQuake lacks.
 
     A record that cannot be read, or lacks the intensity measure, costs no other. tell: takes a line for each structure,
     how many are done, and of how many.
@@ -231,11 +234,11 @@ def write_fragility(
             "they let go, or leave the fragility out."
         )
     opened, reasons = _opened(records, study)
+    curves: dict[tuple[str, float | None], Fragility] = {}
     tables: dict[type[Row], list[Row]] = {each: [] for each in rows.FRAGILITY_TABLES.values()}
     for count, (name, scene) in enumerate(study.scenes.items(), start=1):
-        structure = scene.structure
-        mechanism = structure.mechanism()
-        if never := never_lets_go(structure):
+        mechanism = scene.structure.mechanism()
+        if never := never_lets_go(scene.structure):
             reasons.append(f"{name}: it cannot overturn, and has no fragility: it {never}.")
             continue
         names, accelerograms, lacking = _measured(opened, settings.intensity_measure, mechanism)
@@ -243,19 +246,20 @@ def write_fragility(
         for support in scene.place.axis:
             period = scene.place.period_of(support)
             try:
-                analysis = fragility(
+                curves[name, period] = fragility(
                     accelerograms,
-                    structure,
+                    scene.structure,
                     intensity_measure=settings.intensity_measure,
                     largest_factor=settings.largest_factor,
                     ensemble=study.settings.ensemble if settings.members else None,
                     tolerance=study.settings.tolerance,
                     support=support,
-                ).analysis
+                )
             # Periods of one structure may be such that few records can tell the measure.
             except ConfigurationError as error:
                 reasons.append(f"{name}: {error}")
                 break
+            analysis = curves[name, period].analysis
             assert analysis is not None
             if hazard and not hazard.is_of(analysis.measure.name):
                 reasons.append(
@@ -265,19 +269,36 @@ def write_fragility(
             for each in rows.curve_rows(name, names, analysis, hazard, period):
                 tables[type(each)].append(each)
             try:
-                of_measures = rows.intensity_measure_rows(name, mechanism, accelerograms, analysis, period)
-                tables[rows.IntensityMeasureRow] += list(of_measures)
+                tables[rows.IntensityMeasureRow] += list(
+                    rows.intensity_measure_rows(name, mechanism, accelerograms, analysis, period)
+                )
             except (
                 Exception
             ) as fault:  # the curves are finished, and no table beside them may take them along
                 log_error(fault)
-                file = rows.IntensityMeasureRow.table.file_name
-                reasons.append(f"{name}: {file} has no row of it: {fault_in_words(fault, 'the log', 'it')}")
+                reasons.append(
+                    f"{name}: {rows.IntensityMeasureRow.table.file_name} has no row of it: "
+                    f"{fault_in_words(fault, 'the log', 'it')}"
+                )
         tell(f"{count} of {len(study.scenes)}: {name}", count, len(study.scenes))
     if not tables[rows.FragilityRow]:
         raise ConfigurationError(reasons[-1])
     write_tables(tables, folder, "rocking-fragility")
+    reasons += _for_openquake(curves, folder / OPENQUAKE)
     return tables, list(dict.fromkeys(reasons))
+
+
+def _for_openquake(curves: Mapping[tuple[str, float | None], "Fragility"], path: Path) -> list[str]:
+    """Write the curves, by structure and period of its support, as one model of OpenQuake; or say why it cannot be."""
+    from rocking.fragility.exchange import nrml  # as above
+
+    named = {f"{name} at {period:g} s" if period else name: curve for (name, period), curve in curves.items()}
+    try:
+        write_whole(path, nrml(named, lognormal=False))
+    except ConfigurationError as error:
+        path.unlink(missing_ok=True)  # of another measure
+        return [str(error)]
+    return []
 
 
 def _opened(

@@ -5,7 +5,7 @@ from pathlib import Path
 from rocking.reports.fragility import write_fragility_report
 from rocking.study.job import begin_job
 from rocking.study.results import keep_rows
-from rocking.study.summary import write_fragility
+from rocking.study.summary import OPENQUAKE, write_fragility
 
 if __name__ == "__main__":
     job = begin_job(snakemake.config, snakemake.params, snakemake.log[0])
@@ -15,4 +15,5 @@ if __name__ == "__main__":
     keep_rows(Path(output.rows), rows)
     write_fragility_report(rows, Path(output.pdf), Path(output.svg), job.study.settings.figures)
     job.tell("\n".join(reasons) or "All records were used.")
-    job.finish(output)
+    model = folder / OPENQUAKE
+    job.finish([*output, *([model] if model.is_file() else [])])

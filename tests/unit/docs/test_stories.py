@@ -13,6 +13,7 @@ from docs.site.pages import FOLDER
 ROOT = FOLDER.parents[1]
 STORIES = {
     "after_an_earthquake": "survey/results/summary/summary.pdf",
+    "a_class_into_openquake": "class/results/fragility/fragility.pdf",
     "tie_for_a_code": "tie/results/summary/structures.pdf",
 }
 _BLOCK = re.compile(r"^```(sh|yaml|text)\n(.*?)^```$", re.M | re.S)

@@ -5,6 +5,7 @@ from dataclasses import replace
 from importlib import import_module
 from itertools import pairwise
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from rocking.errors import ConfigurationError
 from rocking.floors.place import Place
 from rocking.floors.support import Mode, Support
 from rocking.fragility.measures import compared
-from rocking.fragility.rows import FRAGILITY_TABLES, FragilitySummaryRow, IdaRow
+from rocking.fragility.rows import FRAGILITY_TABLES, FragilityRow, FragilitySummaryRow, IdaRow
 from rocking.motion import integrate
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
@@ -134,6 +135,30 @@ def test_bad_input_is_refused_before_anything_is_written(tmp_path, count, hazard
     with pytest.raises(ConfigurationError, match=sentence):
         write_fragility(_records(tmp_path, count), _study(**settings), tmp_path / "out")
     assert not (tmp_path / "out").exists()
+
+
+def test_openquake_gets_a_function_of_each_structure(tmp_path):
+    """Its levels and probabilities are those of the table, of the crack that governs where several may form.
+
+    A measure that OpenQuake lacks leaves no model behind.
+    """
+    out = tmp_path / "out"
+    _, reasons = write_fragility(_records(tmp_path, 2), _study(), out)
+    root = ElementTree.parse(out / "fragility.xml").getroot()
+    functions = {each.get("id"): each for each in root.findall(".//{*}fragilityFunction")}
+    rows = [row for row in read_table(FragilityRow, out) if math.isinf(row.threshold)]
+    rows = [row for row in rows if not math.isnan(row.probability)]
+    assert any(row.governing for row in rows if row.structure == "spire")
+    assert list(functions) == list(dict.fromkeys(row.structure for row in rows))
+    for name, function in functions.items():
+        own = [row for row in rows if row.structure == name and row.governing == (name == "spire")]
+        levels, shares = (function.findtext(f"{{*}}{tag}").split() for tag in ("imls", "poes"))
+        assert np.array(levels, float) == pytest.approx([100 * row.level for row in own])  # cm/s
+        assert np.array(shares, float) == pytest.approx([row.probability for row in own])
+    assert not any("OpenQuake" in reason for reason in reasons)
+    _, reasons = write_fragility(_records(tmp_path, 2), _study(intensity_measure="p_pgv"), out)
+    assert any("OpenQuake lacks" in reason for reason in reasons)
+    assert not (out / "fragility.xml").exists()
 
 
 def test_a_hazard_curve_gives_annual_rates(tmp_path):
