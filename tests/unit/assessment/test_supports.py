@@ -96,7 +96,7 @@ def test_a_support_that_the_record_is_too_coarse_for_costs_no_other():
     assert "at least two samples of the record, 0.2 s" in lost.decision.why
     assert "cannot be told" not in (str(pier.verdict), str(ground.verdict))
     rows = rows_of_record(result)
-    assert [row.support_period_s for row in rows.supports] == [0.0]
+    assert [(row.support, row.support_period_s) for row in rows.supports] == [("roof", 0.0)]
     assert [(row.structure, row.support_period_s) for row in rows.failures] == [("parapet", 0.15)]
     assert with_histories(result, 1e-6).scenes.keys() == result.scenes.keys()
 
