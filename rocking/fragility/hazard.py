@@ -69,6 +69,12 @@ class Hazard:
         path = Path(path)
         text = read_whole(path, _LARGEST_HAZARD, ConfigurationError).decode("utf-8-sig", errors="replace")
         if not text.startswith("#"):
+            names = [name.strip() for name in text.partition("\n")[0].split(",")]
+            if sorted(names) != ["annual_rate", "intensity"]:
+                raise ConfigurationError(
+                    f"{path} has the columns {', '.join(names)[:80]!r}, but must have intensity, in the unit of its "
+                    "measure here (m/s of pgv, g of pga and SA), and annual_rate; convert the levels and rename them."
+                )
             points = list(read_rows(HazardRow, path))
             levels = np.array([point.intensity for point in points])
             rates = np.array([point.annual_rate for point in points])

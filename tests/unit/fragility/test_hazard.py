@@ -189,3 +189,13 @@ def test_the_csv_holds_the_curve(tmp_path):
         ("pgv", "m/s", "inf")
     }
     assert rocking.Hazard is Hazard
+
+
+@pytest.mark.parametrize("head", ["pgv_cm_s,annual_rate", "intensity,poe", "intensity;annual_rate"])
+def test_a_plain_curve_says_its_level_in_one_unit(tmp_path, head):
+    path = tmp_path / "hazard.csv"
+    path.write_text(f"{head}\n10,0.01\n100,0.0001\n")
+    with pytest.raises(
+        ConfigurationError, match=r"must have intensity, in the unit .* \(m/s of pgv.* rename them\."
+    ):
+        Hazard.read(path)
