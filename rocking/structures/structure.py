@@ -494,8 +494,13 @@ class Structure(ABC):
         own = min(self._momentum_balance(mirrored) for mirrored in (False, True))
         if own - typed <= TYPED_LOWER:
             return None
-        names = {each.name for each in fields(self)} & {"restitution", "inward_restitution"}
-        return own, replace(self, **dict.fromkeys(names))
+        # None is the balance of each side; a type that asks for a number gets the least of both
+        balanced = {
+            each.name: None if each.default is None else own
+            for each in fields(self)
+            if each.name in ("restitution", "inward_restitution")
+        }
+        return own, replace(self, **balanced)
 
     def _impact(self, mirrored: bool) -> float:
         """η of the impact that ends rocking on one side: the number, or that of a balance where it is a name."""
