@@ -20,9 +20,6 @@ FAR = 0.3
 measures how many verdicts this changes, on sites that took no part in any fit."""
 LATTICE_ERROR = 4.0
 """Members times the error of a probability that all but few cases stay below; `calibrate_ensemble` counts them."""
-ONE_THIRD = 1 / 3
-TWO_THIRDS = 2 / 3
-"""Shares at which a structure no longer probably stands, and from which on it probably overturns."""
 BEYOND = 0.4
 """Share of the critical rotation beyond which a chain of a held wall may fall though its mechanism stands (theory:
 section on ties)."""
@@ -184,7 +181,7 @@ class CrackFacts:
         error = share_error(
             self.falls + self.failed, self.members, math.inf if self.failed else self.farthest
         )
-        edges = risk, ONE_THIRD, TWO_THIRDS, 1 - risk
+        edges = risk, 1 / 3, 2 / 3, 1 - risk  # those of `step`
         return error > 0 and any(abs(self.share - edge) <= error for edge in edges)
 
     def step_of_followed(self, risk: float) -> Verdict:

@@ -19,7 +19,7 @@ STEP = 5e-4
 """Time step, s: the target `stack` of docs/research says how far a rotation is then from its limit."""
 AFTERWARDS = 20.0
 """The longest time that a stack is followed on still ground, s: it then rocks by what no longer overturns it."""
-SECONDS = 3.5e-7
+SECONDS_A_STEP = 3.5e-7
 """Processor time of a time step for each course, s: as much or less in 48 of 49 runs of walls, façades and spires of 6
 to 13 courses under real records."""
 SHORTEST = 1e-6
@@ -113,7 +113,7 @@ def expected_seconds(stack: Stack, motion: Accelerogram, step: float = STEP) -> 
     A measured time for each course and step while the ground may lift it. step: time step, s.
     """
     first, last = _strong(stack, motion, step)
-    return SECONDS * len(stack.courses) * max(last - first, 0)
+    return SECONDS_A_STEP * len(stack.courses) * max(last - first, 0)
 
 
 def _with_history(response: StackResponse, kept: np.ndarray, step: float, every: int) -> StackResponse:

@@ -206,8 +206,8 @@ class Steps:
             number = counted(sum(each > 0 for each in costs), "structure")
             tell(
                 "contact dynamics",
-                f"{self._record.id}: {number}, each where it cannot be told else, at most {max(costs):.2g} s for one "
-                f"and {sum(costs):.2g} s for all",
+                f"{self._record.id}: up to {sum(costs):.2g} s, if {number} cannot be decided otherwise; the longest "
+                f"takes {max(costs):.2g} s",
             )
         return self._assessor.integrate(self._record.id, components, scenes, predictions, vertical)
 

@@ -22,7 +22,7 @@ from rocking.assessment.motions import GroundMotions, component_of
 from rocking.assessment.one_case import assess_case
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
-from rocking.contacts.dynamics import SECONDS, STEP, follow_stack
+from rocking.contacts.dynamics import SECONDS_A_STEP, STEP, follow_stack
 from rocking.errors import MotionError
 from rocking.quantities import GRAVITY
 from rocking.remarks import Kind, Remark
@@ -288,7 +288,7 @@ def test_the_cost_that_is_told_beforehand_is_that_of_its_bodies_and_steps():
     steps = round(np.ptp(np.flatnonzero(motion.acceleration)) * motion.time_step / STEP)
     mean = (COURSES + MANY_COURSES) / 2 * (7 + 2) / 8  # courses; every eighth run has twice the steps
     assert cost == pytest.approx(
-        RUNS * SECONDS * mean * steps, rel=0.1
+        RUNS * SECONDS_A_STEP * mean * steps, rel=0.1
     )  # weak ends of the motion count as still
     assert expected_seconds(SPIRE, [motion], contact) == pytest.approx(cost * MOST_RUNS / RUNS)
     assert expected_seconds(SPIRE, [motion.scaled(1e-6)], full) == 0
