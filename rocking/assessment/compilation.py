@@ -49,6 +49,16 @@ def compile_all(say: Callable[[str], None] = print) -> None:
             stamp.write(source)
 
 
+def load_all() -> None:
+    """Load what `compile_all` compiles, where it is compiled."""
+    with contextlib.suppress(OSError):
+        if (Path(rock.stats.cache_path) / f"{_processor()}.compiled").read_text(
+            encoding="utf-8"
+        ) == _source():
+            compile_mechanisms()
+            compile_blocks()
+
+
 def _processor() -> str:
     """The processor and the Python for which numba keeps what it compiled."""
     from llvmlite import binding  # numba has imported it

@@ -19,6 +19,7 @@ from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted, shown
 from rocking.study import close_doors
 from rocking.study.folder import REMEMBERED, locked, new_log
+from rocking.study.fork_server import start as start_fork_server
 from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_plan, workflow_folder
 from rocking.study.terminal import (
     Progress,
@@ -78,6 +79,7 @@ def run(folder: Path, options: Sequence[str]) -> int:
     if any(_ANSWERS.fullmatch(option) for option in options):
         return _snakemake(arguments)
     hold(folder.resolve())
+    start_fork_server()  # beside the imports of snakemake
     results = folder / plan.settings.results
     log = results / "summary" / "logs" / "run.log"
     with contextlib.chdir(folder):
@@ -232,6 +234,7 @@ def begin(plan: Plan) -> None:
     """
     hold(Path.cwd())
     os.close(locked(JOBS, fcntl.LOCK_EX))
+    start_fork_server()
     # Of snakemake: starts no more jobs, and waits for those that work.
     graceful: Any = signal.getsignal(signal.SIGTERM)
 

@@ -8,8 +8,6 @@ rule batch:
         seal=seal_of("batches/{batch}"),
     log:
         f"{SUMMARY}/logs/batches/{{batch}}.log",
-    benchmark:
-        f"{SUMMARY}/benchmarks/batches/{{batch}}.tsv"
     params:
         product=product_of("batches/{batch}"),
         key=key_of("batches/{batch}"),

@@ -14,8 +14,6 @@ rule checks:
         seal=seal_of("checks"),
     log:
         f"{SUMMARY}/logs/checks.log",
-    benchmark:
-        f"{SUMMARY}/benchmarks/checks.tsv"
     params:
         product="checks",
         key=key_of("checks"),

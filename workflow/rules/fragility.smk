@@ -17,8 +17,6 @@ rule fragility:
         seal=seal_of("fragility"),
     log:
         f"{SUMMARY}/logs/fragility.log",
-    benchmark:
-        f"{SUMMARY}/benchmarks/fragility.tsv"
     params:
         product="fragility",
         key=key_of("fragility"),

@@ -11,8 +11,6 @@ rule paper:
         directory(f"{RESULTS}/paper"),
     log:
         f"{SUMMARY}/logs/paper.log",
-    benchmark:
-        f"{SUMMARY}/benchmarks/paper.tsv"
     params:
         package_sha256=package_sha256(),
     message:

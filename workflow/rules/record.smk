@@ -22,8 +22,6 @@ rule record:
         seal=seal_of("records/{record}"),
     log:
         f"{SUMMARY}/logs/records/{{record}}.log",
-    benchmark:
-        f"{SUMMARY}/benchmarks/records/{{record}}.tsv"
     params:
         product=product_of("records/{record}"),
         key=key_of("records/{record}"),

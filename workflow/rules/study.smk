@@ -10,6 +10,8 @@ close_doors()  # before the imports that open them
 
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES
 from rocking.hashes import sha256_of
+from rocking.study.fork_server import leave as leave_fork_server
+from rocking.study.fork_server import start as start_fork_server
 from rocking.study.made_from import package_sha256, structure_hashes
 from rocking.study.plan import check_config_file, config_file, make_plan
 from rocking.study.results import kept_of, outcome_of
@@ -28,6 +30,9 @@ if not workflow.overwrite_configfiles:
     update_config(CONFIG, config)  # what --config says
     config.update(CONFIG)
 PLAN = make_plan(config)
+if not workflow.is_main_process:  # on another machine, or within limits of its own
+    leave_fork_server()
+    start_fork_server()
 SEALS = PLAN.seals
 SETTINGS = PLAN.settings
 RESULTS = SETTINGS.results

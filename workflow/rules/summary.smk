@@ -36,8 +36,6 @@ rule summary:
         seal=seal_of("summary"),
     log:
         f"{SUMMARY}/logs/summary.log",
-    benchmark:
-        f"{SUMMARY}/benchmarks/summary.tsv"
     params:
         product="summary",
         key=key_of("summary"),

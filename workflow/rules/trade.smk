@@ -14,8 +14,6 @@ rule trade:
         seal=seal_of("trade"),
     log:
         f"{SUMMARY}/logs/trade.log",
-    benchmark:
-        f"{SUMMARY}/benchmarks/trade.tsv"
     params:
         product="trade",
         key=key_of("trade"),

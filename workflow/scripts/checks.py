@@ -1,5 +1,9 @@
 """Check the structures of a study at its design level: snakemake.* onto rocking.study.checks."""
 
+from rocking.study.fork_server import hand_over
+
+hand_over()  # before the imports that take a second
+
 from pathlib import Path
 
 from rocking.assessment.rows import MechanismRow, RecordRow, VerdictRow

@@ -1,5 +1,9 @@
 """Measure the fragility of a study: snakemake.* onto rocking.study.summary."""
 
+from rocking.study.fork_server import hand_over
+
+hand_over()  # before the imports that take a second
+
 from pathlib import Path
 
 from rocking.reports.fragility import write_fragility_report

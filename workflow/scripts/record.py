@@ -1,5 +1,9 @@
 """One record, or those of a batch, in five steps: snakemake.* onto rocking.study.job."""
 
+from rocking.study.fork_server import hand_over
+
+hand_over()  # before the imports that take a second
+
 from rocking.study.job import begin_job, steps_of
 from rocking.study.results import outcome_of
 

@@ -1,5 +1,9 @@
 """Measure error against time: snakemake.* onto rocking.assessment.trade."""
 
+from rocking.study.fork_server import hand_over
+
+hand_over()  # before the imports that take a second
+
 from pathlib import Path
 
 import numpy as np
