@@ -75,7 +75,7 @@ check: $(TOOLS)
 
 # What the package's own fields say, written where the workflow reads it; a test compares.
 schema: setup
-	$(BIN)/python -c "from rocking.assessment.listed import scenes_schema_file as text; print(text(), end='')" \
+	$(BIN)/python -c "from rocking.assessment.scene import scenes_schema_file as text; print(text(), end='')" \
 	  > workflow/schemas/structures.schema.yaml
 	$(BIN)/python -c "from rocking.study.settings import schema_file as text; print(text(), end='')" \
 	  > workflow/schemas/config.schema.yaml

@@ -17,7 +17,6 @@ import pandas as pd
 
 from docs.research import scores, sites
 from docs.research.report import Tables, Target
-from rocking.assessment.causes import CAUSES, lattice
 from rocking.assessment.cracks import (
     CrackEnsembles,
     FollowedCrack,
@@ -26,7 +25,7 @@ from rocking.assessment.cracks import (
     slides_first,
 )
 from rocking.assessment.decide import Verdict, decide
-from rocking.assessment.ensemble import drawn, ensemble
+from rocking.assessment.ensemble import CAUSES, drawn, ensemble, lattice
 from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings

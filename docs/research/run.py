@@ -70,7 +70,7 @@ def main(
     from docs.research import validation
     from docs.research.report import Target
     from docs.research.shake_table import Campaign
-    from rocking.assessment.listed import load_scenes
+    from rocking.assessment.scene import load_scenes
     from rocking.records import load_catalogue
 
     if name == "validate":

@@ -18,10 +18,9 @@ from docs.research.report import Tables, Target
 from docs.research.sites import Records
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.case import StationResult
-from rocking.assessment.causes import lattice
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack, counting_cracks, slides_first
 from rocking.assessment.decide import Verdict, decide
-from rocking.assessment.ensemble import drawn
+from rocking.assessment.ensemble import drawn, lattice
 from rocking.assessment.motions import GroundMotions, Motion, ground_motions
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings

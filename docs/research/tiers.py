@@ -16,9 +16,8 @@ from docs.research import scores, sites
 from docs.research.report import Target
 from rocking import Accelerogram, Mechanism, Outcome, Verdict, integrate, integrate_batch
 from rocking.assessment import fidelity
-from rocking.assessment.causes import lattice
 from rocking.assessment.decide import Facts, decide
-from rocking.assessment.ensemble import drawn, ensemble
+from rocking.assessment.ensemble import drawn, ensemble, lattice
 from rocking.assessment.fidelity import (
     NUDGES,
     STRUCTURE,

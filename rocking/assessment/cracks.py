@@ -14,9 +14,8 @@ from functools import cached_property, lru_cache, partial
 
 import numpy as np
 
-from rocking.assessment.causes import CAUSES, Origin
 from rocking.assessment.decide import CrackFacts, Facts, Verdict
-from rocking.assessment.ensemble import Ensemble, design, drawn, ensemble, grown
+from rocking.assessment.ensemble import CAUSES, Ensemble, Origin, design, drawn, ensemble, grown
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.motion.forcing import forcing_of

@@ -22,8 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.assessment.causes import CAUSES, Situation, draw
-from rocking.assessment.ensemble import followed_at
+from rocking.assessment.ensemble import CAUSES, Situation, draw, followed_at
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import EnsembleSettings
 from rocking.motion.forcing import forcing_of

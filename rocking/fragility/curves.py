@@ -17,9 +17,8 @@ from typing import Literal
 import numpy as np
 from scipy.special import betaincinv, erfcx, ndtr, stdtr, stdtrit
 
-from rocking.assessment.causes import lattice
 from rocking.assessment.cracks import counting_cracks, never_lets_go
-from rocking.assessment.ensemble import drawn
+from rocking.assessment.ensemble import drawn, lattice
 from rocking.assessment.fidelity import peak_velocity, per_velocity
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import EnsembleSettings

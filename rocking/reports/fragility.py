@@ -21,9 +21,8 @@ from rocking.fragility.rows import (
     IntensityMeasureRow,
 )
 from rocking.quantities import counted
-from rocking.reports.figures import Figures, write_document
 from rocking.reports.panels import Curve, draw_probability
-from rocking.reports.printing import Column, number, plain, table_of, words
+from rocking.reports.printing import Column, Figures, number, plain, table_of, words, write_document
 from rocking.reports.style import elided, new_figure, picture, styled, svg
 from rocking.tables import Row, frame, rows_of, write_whole
 

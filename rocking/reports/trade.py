@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from rocking.assessment.rows import TradeMethod, TradeRow
 from rocking.assessment.trade import break_even, what_follows
 from rocking.reports import printing
-from rocking.reports.figures import Figures, write_document
+from rocking.reports.printing import Figures, write_document
 from rocking.reports.style import PREDICTED, RECORD, new_figure, picture, plain_logarithmic, styled, svg
 from rocking.tables import write_whole
 

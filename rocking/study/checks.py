@@ -22,7 +22,7 @@ from rocking.codes.selection import Selection
 from rocking.errors import ConfigurationError, RockingError, fault_in_words
 from rocking.floors.support import Support
 from rocking.records import load_catalogue
-from rocking.reports.figures import write_document
+from rocking.reports.printing import write_document
 from rocking.reports.structures import CheckedStructure, ListedMechanism, structures_data
 from rocking.structures.tied import Tied
 from rocking.study.job import Study

@@ -121,7 +121,7 @@ def _import_all() -> None:
 
     import rocking.reports.design_figure
     import rocking.reports.explore
-    import rocking.reports.figures
+    import rocking.reports.printing
     import rocking.reports.record
     import rocking.study.checks
     import rocking.study.job

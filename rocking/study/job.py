@@ -273,7 +273,7 @@ def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:
 
 def write_report(result: RecordResult, rows: RecordRows, study: Study, folder: Path) -> None:
     """Write report.pdf of one record into `folder`, beside the tables that it names."""
-    from rocking.reports.figures import write_document  # matplotlib takes a second to import
+    from rocking.reports.printing import write_document  # matplotlib takes a second to import
     from rocking.reports.record import RecordReport, failure_data
 
     if rows.comparison:

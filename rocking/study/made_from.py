@@ -19,9 +19,8 @@ from rocking.hashes import sha256_of, sha256_of_sources
 from rocking.records.catalogue import CatalogueRecord, load_catalogue
 from rocking.records.files import with_hashes
 from rocking.study.contents import ContentHashes
-from rocking.study.design_level import DesignSettings
 from rocking.study.seals import Seals
-from rocking.study.settings import Settings
+from rocking.study.settings import Settings, StudyDesign
 
 Things = Mapping[str, str]
 """What a product is made from: each thing in words, with its hash."""
@@ -50,7 +49,7 @@ PLACES = ("catalogue", "structures", "results", "mirror")
 """The settings that say where something lies: what lies there counts, and every job is handed them."""
 _NUMBERS = tuple(Settings.changing_numbers())
 _TOLD = ("study", "client", "project_number", "author", "date", "display_units")
-_LEVEL = tuple(f"design_spectrum.{name}" for name in DesignSettings.LEVEL)
+_LEVEL = tuple(f"design_spectrum.{name}" for name in StudyDesign.LEVEL)
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,7 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import Any, TypeVar
 
-from rocking.assessment.listed import load_scenes
-from rocking.assessment.scene import Scene
+from rocking.assessment.scene import Scene, load_scenes
 from rocking.described import kind_in_words
 from rocking.errors import ConfigurationError, RockingError
 from rocking.hashes import sha256_of_bytes

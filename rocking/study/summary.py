@@ -186,7 +186,7 @@ def _report(
 
     spectra: of the components, where there is a design level. strips: of the variants.
     """
-    from rocking.reports.figures import write_document  # as above
+    from rocking.reports.printing import write_document  # as above
     from rocking.reports.scatter import prediction_scatter
     from rocking.reports.style import svg
     from rocking.reports.summary import summary_data

@@ -8,9 +8,8 @@ from itertools import chain
 from pathlib import Path
 
 from rocking.assessment.case import StationResult
-from rocking.assessment.listed import load_scenes
 from rocking.assessment.rows import CapacityRow, StructureRow, capacity_rows, structure_rows
-from rocking.assessment.scene import placed
+from rocking.assessment.scene import load_scenes, placed
 from rocking.errors import ConfigurationError, RecordError
 from rocking.quantities import counted
 from rocking.records import Accelerogram

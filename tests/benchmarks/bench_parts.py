@@ -35,9 +35,9 @@ from rocking import (
     integrate,
 )
 from rocking.assessment.ensemble import ensemble
-from rocking.assessment.listed import load_scenes
 from rocking.assessment.methods import Method
 from rocking.assessment.motions import GroundMotions
+from rocking.assessment.scene import load_scenes
 from rocking.codes.static_check import kinematic_check
 from rocking.pulses import extract_pulses
 from rocking.records import load_catalogue, read

@@ -13,7 +13,7 @@ import yaml
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-from rocking.assessment.listed import load_scenes, scenes_schema
+from rocking.assessment.scene import load_scenes, scenes_schema
 from rocking.errors import StructureError
 from rocking.motion import integrate
 from rocking.pulses import Pulse

@@ -4,8 +4,7 @@ import csv
 from dataclasses import replace
 from pathlib import Path
 
-from rocking.assessment.listed import load_scenes
-from rocking.assessment.scene import on_the_ground
+from rocking.assessment.scene import load_scenes, on_the_ground
 from rocking.assessment.settings import EnsembleSettings
 from rocking.floors.place import Place
 from rocking.floors.support import Mode, Support

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from scipy.signal import detrend
 
-from rocking.assessment.listed import load_scenes
 from rocking.assessment.rows import VerdictRow
+from rocking.assessment.scene import load_scenes
 from rocking.motion.integration import integrate
 from rocking.pulses import extract_pulses
 from rocking.records.catalogue import load_catalogue

@@ -10,9 +10,8 @@ import pytest
 
 import rocking
 from rocking.assessment.assess import assess
-from rocking.assessment.causes import CAUSES, lattice
 from rocking.assessment.decide import Verdict
-from rocking.assessment.ensemble import Ensemble, drawn, ensemble
+from rocking.assessment.ensemble import CAUSES, Ensemble, drawn, ensemble, lattice
 from rocking.assessment.methods import ratio_in_words
 from rocking.assessment.motions import GroundMotions, processed
 from rocking.assessment.settings import SIZES, AssessmentSettings, EnsembleSettings

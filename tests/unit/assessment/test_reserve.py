@@ -9,7 +9,7 @@ import pytest
 import rocking
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.case import StationResult
-from rocking.assessment.causes import CAUSES, lattice
+from rocking.assessment.ensemble import CAUSES, lattice
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.reserve import Reserve, reserve
 from rocking.assessment.scene import Scene

@@ -92,7 +92,7 @@ def test_below_so_many_structures_a_record_the_closed_form_costs_more():
 def test_the_report_says_what_the_table_says_in_percent_and_milliseconds(tmp_path, monkeypatch):
     documents = []
     monkeypatch.setattr(
-        "rocking.reports.figures.compile_document", lambda _, data: documents.append(data) or b"%PDF"
+        "rocking.reports.printing.compile_document", lambda _, data: documents.append(data) or b"%PDF"
     )
     write_trade_report([ONE_SINE, MECHANISM], tmp_path / "trade.pdf", tmp_path / "trade.svg")
     said, picture, table = documents[0]["parts"]

@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 
 from rocking.assessment.rows import TradeMethod, TradeRow
-from rocking.reports.figures import figures_archive, write_document
+from rocking.reports.printing import figures_archive, write_document
 from rocking.reports.trade import write_trade_report
 from tests.unit.assessment.made_rows import filled
 

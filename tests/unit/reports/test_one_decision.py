@@ -12,9 +12,8 @@ import pytest
 
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.decide import Verdict
-from rocking.assessment.listed import load_scenes
 from rocking.assessment.rows import VerdictRow, rows_of_record
-from rocking.assessment.scene import placed
+from rocking.assessment.scene import load_scenes, placed
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.dynamic_check import check
 from rocking.records import load_catalogue

@@ -8,10 +8,9 @@ import pytest
 
 from rocking import Block, DesignSpectrum, check
 from rocking.assessment.conclusion import conclusions, worst_of_each
-from rocking.assessment.listed import load_scenes
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import RecordRows
-from rocking.assessment.scene import variants_of
+from rocking.assessment.scene import load_scenes, variants_of
 from rocking.codes.conclusion import code_conclusions
 from rocking.codes.rows import code_check_rows
 from rocking.codes.variants import VariantRow, variants

@@ -13,7 +13,7 @@ from rocking import (
     integrate,
     structure_from_config,
 )
-from rocking.assessment.listed import load_scenes
+from rocking.assessment.scene import load_scenes
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
 from rocking.study.made_from import structure_hashes

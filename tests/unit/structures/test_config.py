@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import yaml
 
-from rocking.assessment.listed import load_scenes, scenes_schema, scenes_schema_file
+from rocking.assessment.scene import load_scenes, scenes_schema, scenes_schema_file
 from rocking.errors import ConfigurationError, StructureError, StructureWarning
 from rocking.floors.place import PERIODS
 from rocking.structures import Arch, Block, Facade, Frame, Spire, Wall, structure_from_config

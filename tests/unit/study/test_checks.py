@@ -12,10 +12,9 @@ import pytest
 
 from rocking import Block, DesignSpectrum, Facade, check
 from rocking.assessment.decide import Verdict
-from rocking.assessment.listed import load_scenes
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import RecordRow, RecordRows, VerdictRow
-from rocking.assessment.scene import on_the_ground
+from rocking.assessment.scene import load_scenes, on_the_ground
 from rocking.codes.check import DynamicCheck
 from rocking.codes.conclusion import code_conclusion_in_words, code_conclusions
 from rocking.codes.rows import CodeCheckRow, code_check_rows
@@ -412,7 +411,7 @@ def test_the_page_to_sign_carries_the_caveat_of_page_one(study, monkeypatch):
     records = [filled(RecordRow, record="a", samples=2)]
     pages = []
     monkeypatch.setattr("rocking.study.checks.structures_data", lambda made, *_: pages.extend(made) or {})
-    monkeypatch.setattr("rocking.reports.figures.compile_document", lambda *_: b"")
+    monkeypatch.setattr("rocking.reports.printing.compile_document", lambda *_: b"")
     changed = read_settings(settings | {"design_spectrum": DESIGN})
     write_checks(Study(on_the_ground(STRUCTURES), changed), folder, verdicts, records)
     data = structures_data(pages, DesignSpectrum.ntc(1.0, 2.5, 0.3), Settings().mapping())
@@ -528,7 +527,7 @@ def test_each_page_tells_the_share_of_its_own_structure(study, monkeypatch):
         return {}
 
     monkeypatch.setattr("rocking.study.checks.structures_data", report)
-    monkeypatch.setattr("rocking.reports.figures.compile_document", lambda *_: b"")
+    monkeypatch.setattr("rocking.reports.printing.compile_document", lambda *_: b"")
     changed = read_settings(settings | {"design_spectrum": DESIGN})
     write_checks(Study(on_the_ground(STRUCTURES), changed), folder, verdicts, records)
     assert {name: page.overturning_share for name, page in pages.items()} == shares

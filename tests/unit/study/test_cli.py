@@ -16,8 +16,7 @@ import pytest
 import yaml
 
 import rocking
-from rocking.assessment.listed import load_scenes
-from rocking.assessment.scene import placed
+from rocking.assessment.scene import load_scenes, placed
 from rocking.errors import ConfigurationError
 from rocking.remarks import Kind, Remark
 from rocking.study.cli import main

@@ -143,7 +143,7 @@ def test_a_summary_draws_the_trade_where_its_study_measures_it(tmp_path, monkeyp
         "rocking.reports.summary.summary_data",
         lambda _tables, _settings, trade, *_: trades.append(trade) or {},
     )
-    monkeypatch.setattr("rocking.reports.figures.compile_document", lambda *_: b"")
+    monkeypatch.setattr("rocking.reports.printing.compile_document", lambda *_: b"")
     results = tmp_path / "results"
     changed = {"reports": True, "trade": StudyTrade(in_summary), "results": str(results)}
     study = replace(_study(), settings=replace(_study().settings, **changed))

@@ -11,10 +11,10 @@ import yaml
 from rocking.errors import ConfigurationError
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.study import made_from
-from rocking.study.design_level import DesignSettings
 from rocking.study.made_from import TABLE
 from rocking.study.plan import Plan, make_plan, plan_of_job
 from rocking.study.seals import Seals
+from rocking.study.settings import StudyDesign
 from rocking.study.workspace import write_catalogue
 
 STRUCTURES = [
@@ -303,7 +303,7 @@ def test_every_setting_stands_in_the_table_of_edits() -> None:
         "fragility.in_every_run",
         "trade.in_summary",
     }
-    others |= {f"design_spectrum.{name}" for name in DesignSettings.LEVEL}
+    others |= {f"design_spectrum.{name}" for name in StudyDesign.LEVEL}
     edits = [each[0] for each in EDITS]
     missing = [
         name
