@@ -157,7 +157,7 @@ def _run(connection: socket.socket) -> NoReturn:
         sys.excepthook(type(error), error, error.__traceback__)
         status = 1
     for text in (sys.stdout, sys.stderr):
-        with contextlib.suppress(OSError):
+        with contextlib.suppress(OSError, AttributeError):  # a closed stream is None
             text.flush()
     os._exit(status)
 
