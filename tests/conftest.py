@@ -165,7 +165,7 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     nothing = {"svg": '<svg xmlns="http://www.w3.org/2000/svg" width="1" height="1"/>', "alt": "none"}
     for module in ("record", "summary"):
         monkeypatch.setattr(f"rocking.reports.{module}.pictures", lambda *_: [])
-    monkeypatch.setattr("rocking.reports.page_one.drawn_by_hand", lambda *_: nothing)
+    monkeypatch.setattr("rocking.reports.record.drawn_by_hand", lambda *_: nothing)
     for figure in ("bars_figure", "basis_figure"):
         monkeypatch.setattr(f"rocking.reports.structures.{figure}", lambda *_: None)
     monkeypatch.setattr("rocking.reports.structures.picture", lambda *_: nothing)

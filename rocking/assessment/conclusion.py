@@ -11,6 +11,8 @@ from rocking.remarks import Kind, Remark
 
 CLASS = 20
 """Structures from which on a list is a class: how many of them fall is of interest, not which ones."""
+UNSAID = (Kind.NOTHING_TO_DO, Kind.NOTHING_DECIDES)
+"""Remarks of which a row of a report says nothing."""
 FALLING = (Verdict.OVERTURNS, Verdict.PROBABLY_OVERTURNS)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.measures import response_spectrum
-from rocking.reports.panels import Trace
+from rocking.reports.drawings import Trace
 from rocking.reports.printing import unit_of
 from rocking.reports.style import PULSE, new_figure, plain_logarithmic, styled
 

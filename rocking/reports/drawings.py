@@ -1,19 +1,29 @@
-"""Drawings of structures: at rest, turned, fallen; with dimension lines, loads, thrusts and ties."""
+"""Drawings of structures: at rest, turned, fallen; with dimension lines, loads, thrusts and ties; and of records.
+
+What every report has is drawn by hand as shapes of SVG: matplotlib takes half a second to import and 25 ms for the
+least of figures.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.reports.style import svg_path
+from rocking.records.measures import record_measures
 from rocking.structures import Structure
 from rocking.structures.drawing import Mark
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.transforms import Transform
+
+    from rocking.pulses import Pulse
+    from rocking.records.accelerogram import Accelerogram
 
 _THIN = {"color": "0.35", "linewidth": 0.4}
 _PAPER = {"facecolor": "white", "edgecolor": "none", "pad": 0.4}
@@ -36,6 +46,65 @@ _FALLEN = 3.0
 """Times the critical rotation up to which a mechanism of several bodies is drawn as fallen."""
 _FARTHEST = 1.5
 """Rotation at which it is drawn at most, rad."""
+
+
+MOST_POINTS = 4000
+"""Points of a trace; a longer one keeps the least and the largest value of each stretch."""
+_BESIDE_SHAKING = 0.15
+"""Share of the strong shaking that is drawn before and after it."""
+
+
+# By hand --------------------------------------------------------------------------------------------------
+
+
+def drawn_by_hand(shapes: Sequence[str], width: float, height: float, alt: str) -> dict[str, str]:
+    """Return a picture of shapes of SVG in mm, as the templates take it."""
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:g}mm" height="{height:g}mm"'
+    return {"svg": f'{head} viewBox="0 0 {width:g} {height:g}">{"".join(shapes)}</svg>', "alt": alt}
+
+
+def svg_path(points: np.ndarray, height: float, look: str, closed: bool = False) -> str:
+    """Return a line through points (k, 2) in mm from the lower left corner of a picture of that height, as SVG."""
+    places = " ".join(
+        f"{x:.3f},{y:.3f}" for x, y in np.column_stack([points[:, 0], height - points[:, 1]]).tolist()
+    )
+    return f'<poly{"gon" if closed else "line"} points="{places}" {look}/>'
+
+
+@dataclass(frozen=True, eq=False)
+class Trace:
+    """One component of the ground with its ranked pulses, the dominant one first."""
+
+    accelerogram: Accelerogram
+    pulses: Sequence[Pulse]
+
+    @cached_property
+    def span(self) -> tuple[float, float]:
+        """The time of 5 to 95 % of the Arias intensity with a margin, and of the dominant pulse, s."""
+        begin, end = record_measures(self.accelerogram).significant_times
+        for pulse in self.pulses[:1]:
+            begin = min(begin, pulse.start_time)
+            end = max(end, pulse.end_time)
+        if not end > begin:  # nothing shakes
+            return 0.0, self.accelerogram.duration
+        margin = _BESIDE_SHAKING * (end - begin)
+        return max(0.0, begin - margin), min(self.accelerogram.duration, end + margin)
+
+
+def thinned(times: np.ndarray, values: np.ndarray, most: int = MOST_POINTS) -> tuple[np.ndarray, np.ndarray]:
+    """Return the envelope of a trace in at most `most` points: least and largest value of each stretch, in order.
+
+    No peak is lost, or moved by more than a stretch; a trace of few samples stays as it is.
+    """
+    size = values.size
+    if size <= most:
+        return times, values
+    stretch = math.ceil(2 * size / most)
+    padded = np.pad(values, (0, -size % stretch), mode="edge").reshape(-1, stretch)
+    begins = np.arange(len(padded)) * stretch
+    places = np.unique(np.concatenate([begins + padded.argmin(axis=1), begins + padded.argmax(axis=1)]))
+    places = places[places < size]
+    return times[places], values[places]
 
 
 def _extent(structure: Structure, rotation: float) -> tuple[np.ndarray, np.ndarray]:
@@ -91,6 +160,9 @@ def sketch(
             shapes.append(path(mark.line, f'stroke="{_GREEN}" stroke-width="0.35"'))
             shapes.append(path(head, f'fill="{_GREEN}"', closed=True))
     return shapes
+
+
+# On axes --------------------------------------------------------------------------------------------------
 
 
 def draw_structure(

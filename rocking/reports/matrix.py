@@ -3,12 +3,11 @@
 import math
 from collections.abc import Sequence
 
-from rocking.assessment.conclusion import Conclusion, worst_of_each
+from rocking.assessment.conclusion import UNSAID, Conclusion, worst_of_each
 from rocking.assessment.decide import ORDER, Verdict, worst_first
 from rocking.assessment.rows import PulseRow, RecordRow
 from rocking.quantities import GRAVITY, percents
 from rocking.remarks import Kind
-from rocking.reports.page_one import UNSAID
 from rocking.reports.printing import NOTHING, chip, number
 
 MOST_RECORDS = 12

@@ -7,18 +7,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from rocking.errors import MotionError, RockingError
 from rocking.quantities import percent, shown
-from rocking.records.measures import record_measures
-from rocking.reports.drawings import draw_dimensions, draw_structure
+from rocking.reports.drawings import MOST_POINTS, draw_dimensions, draw_structure, thinned
 from rocking.reports.style import (
-    MOST_POINTS,
     PREDICTED,
     PULSE,
     RECORD,
@@ -26,7 +22,6 @@ from rocking.reports.style import (
     plain_logarithmic,
     styled,
     svg,
-    thinned,
 )
 
 if TYPE_CHECKING:
@@ -52,8 +47,6 @@ _CLOSE = 0.08, 0.16
 """Share of the map's width and height within which the ranks of pulses would stand on each other."""
 _PAPER = {"facecolor": "white", "edgecolor": "none", "pad": 0.4, "alpha": 0.85}
 """Behind a text that stands on a dark picture."""
-_BESIDE_SHAKING = 0.15
-"""Share of the strong shaking that is drawn before and after it."""
 _STILL = 0.01
 """Share of its largest rotation up to which a structure is still."""
 
@@ -89,26 +82,6 @@ def svg_of(thing: object) -> bytes:
 
 
 # What a report and a method draw alike ---------------------------------------------------------------------
-
-
-@dataclass(frozen=True, eq=False)
-class Trace:
-    """One component of the ground with its ranked pulses, the dominant one first."""
-
-    accelerogram: Accelerogram
-    pulses: Sequence[Pulse]
-
-    @cached_property
-    def span(self) -> tuple[float, float]:
-        """The time of 5 to 95 % of the Arias intensity with a margin, and of the dominant pulse, s."""
-        begin, end = record_measures(self.accelerogram).significant_times
-        for pulse in self.pulses[:1]:
-            begin = min(begin, pulse.start_time)
-            end = max(end, pulse.end_time)
-        if not end > begin:  # nothing shakes
-            return 0.0, self.accelerogram.duration
-        margin = _BESIDE_SHAKING * (end - begin)
-        return max(0.0, begin - margin), min(self.accelerogram.duration, end + margin)
 
 
 def draw_motion(

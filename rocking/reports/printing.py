@@ -21,6 +21,7 @@ import typst
 
 from rocking.assessment.decide import Verdict
 from rocking.assessment.methods import NEGLIGIBLE, Method, rests
+from rocking.assessment.reserve import Reserve
 from rocking.quantities import GRAVITY, counted
 from rocking.reports.style import COMMON, FONT_FOLDER, glyphs
 from rocking.tables import Row, write_whole
@@ -156,11 +157,20 @@ def band_text(result: Banded, to: str) -> str:
     return low if low == high else f"{low}{to}{high}"
 
 
+def reserve_in_figures(reserve: Reserve | None) -> str:
+    """Return the factors at which 5 % and half of the members overturn: "0.28–0.54", "2.5–3+" or "3+"; "" without."""
+    if reserve is None:
+        return ""
+    beyond = f"{reserve.limit:g}+"
+    low, median = (beyond if math.isnan(each) else number(each, 2) for each in (reserve.low, reserve.median))
+    return low if low == median else f"{low}–{median}"
+
+
 def settings_texts(settings: Mapping[str, Any]) -> dict[str, object]:
     """Return what both reports print of the settings: who, what and when; tolerance and acceleration scale."""
     return {
         "about": dict(settings.get("about", {})),
-        "units": units_in_words(),
+        "units": _UNITS_IN_WORDS[_DISPLAYED.get()],
         "tolerance": plain(float(settings["tolerance"])),
         "acceleration-scale": str(settings["acceleration_scale"]),
     }
@@ -269,11 +279,6 @@ _DISPLAYED: ContextVar[str] = ContextVar("display units", default=SI)
 def unit_of(si: str) -> Unit:
     """Return the unit that the report at hand shows in place of the SI unit "m/s²", "m/s", "m", or any other."""
     return _IN_PLACE_OF[_DISPLAYED.get()].get(si, Unit(si, 1.0))
-
-
-def units_in_words() -> str:
-    """Return the units of the report at hand, for the foot of a page."""
-    return _UNITS_IN_WORDS[_DISPLAYED.get()]
 
 
 @contextmanager

@@ -7,9 +7,12 @@ from functools import cached_property
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from rocking.assessment.case import RecordResult, StationResult
-from rocking.assessment.conclusion import Conclusion, conclusion_in_words, conclusions, worst_cases
+from rocking.assessment.conclusion import UNSAID, Conclusion, conclusion_in_words, conclusions, worst_cases
 from rocking.assessment.cracks import cracked
+from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.methods import NEGLIGIBLE, Agreement, agreement
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
@@ -22,30 +25,32 @@ from rocking.assessment.rows import (
     structure_rows,
 )
 from rocking.assessment.scene import placed, variants_of
-from rocking.quantities import GRAVITY, counted, listed, percent
+from rocking.quantities import GRAVITY, counted, listed, percent, percents
 from rocking.records.dates import day_of
 from rocking.remarks import Kind, Remark
 from rocking.reports import printing
 from rocking.reports import record_figures as figures
 from rocking.reports.design_figure import design_figure
-from rocking.reports.page_one import page_one
-from rocking.reports.panels import Trace, rotation_ratios
+from rocking.reports.drawings import Trace, drawn_by_hand, sketch, svg_path, thinned
+from rocking.reports.panels import rotation_ratios
 from rocking.reports.printing import (
     MEASURED,
     Column,
     Notice,
+    chip,
     columns_of,
     compile_document,
     displaying,
     number,
     plain,
     remainder,
+    reserve_in_figures,
     strong,
     table_of,
     words,
 )
 from rocking.reports.record_figures import History
-from rocking.reports.style import pictures
+from rocking.reports.style import PULSE, pictures
 from rocking.reports.supports import SupportPanel, floor_sentences, support_panels, supports_figure
 from rocking.structures import Structure
 from rocking.structures.structure import WEAK_MASONRY
@@ -65,6 +70,26 @@ MOST_PULSES = 3
 """Ranks of pulses that are printed."""
 MOST_COMPARED = 24
 """Cases whose comparison is drawn, those with the largest rotations."""
+DOMINATES = 0.5
+"""Share of the energy of a record from which on one sine is said to dominate it. What the closed form is worth rises
+with that share without a step (`rocking.pulses.pulse.WORTH`), so that the edge is a choice."""
+MOST_ROWS = 12
+"""Structures that have a row, the worst first; the others are named by their words below."""
+_MOST_NAMED = 20
+"""Names of a word below the rows."""
+_UNIT = 27.0
+"""Length of a rotation ratio of 1 on the scale, mm."""
+_FARTHEST = 1.2
+"""Rotation ratio at the end of the scale; what came back from beyond it stands there."""
+_FALLEN = {"form": 36.5, "block": 41.5, "whole": 46.5, "line": 48.5}
+"""Where on the scale stands what falls, mm: within its grey zone, a place for each mark."""
+_DRAWN = 0.8
+"""Rotation ratio at which a structure is drawn."""
+_ROOM = 12.0, 14.0
+"""Width and height of a drawing, mm."""
+_STRIP = 118.0, 20.0
+"""Width and height of the strip of the record, mm."""
+_POINTS = 1200
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,54 +113,46 @@ class RecordReport:
 
     def data(self) -> dict[str, object]:
         """Return what the template is given: texts, tables and figures."""
-        with displaying(self.settings):
-            return self._data()
-
-    def _data(self) -> dict[str, object]:
-        details = bool(self.settings.get("details", False))
-        return {
-            **_head(self),
-            "running": f"{self.record}.{self.scale_note}" if self.scale_note else self.record,
-            "scale-note": self.scale_note,
-            **printing.settings_texts(self.settings),
-            "notices": [notice.data for notice in _notices(self)],
-            **page_one(self.conclusions, self.structures, self.motion, self.dominant),
-            "left-out": "; ".join(
-                replace(each, about=listed(names, 1)).brief
-                for each, names in self.left_out.items()
-                if each.kind in TOLD_FIRST
-            ),
-            "strips": self._strips(),
-            "advice": _advice(self),
-            "sentences": _sentences(self),
-            **_assumptions(self),
-            "details": [_details(self)] if details else [],
-        }
-
-    def _strips(self) -> list[dict[str, Any]]:
-        """The variants of structures under this record."""
         groups = variants_of({name: each.scene for name, each in self.result.scenes.items()})
-        if not groups:
-            return []
-        from rocking.codes.variants import variants  # which a study without variants has no need of
-        from rocking.reports.variants import strips
+        strips: list[dict[str, Any]] = []
+        with displaying(self.settings):
+            if groups:
+                from rocking.codes.variants import variants  # which a study without variants has no need of
+                from rocking.reports.variants import strips as strips_of
 
-        return strips(variants(groups, self.conclusions), self.structures)
+                strips = strips_of(variants(groups, self.conclusions), self.structures)
+            return {
+                **_head(self),
+                "running": f"{self.result.record}.{self.scale_note}"
+                if self.scale_note
+                else self.result.record,
+                "scale-note": self.scale_note,
+                **printing.settings_texts(self.settings),
+                "notices": [notice.data for notice in _notices(self)],
+                **page_one(self.conclusions, self.structures, self.motion, self.dominant),
+                "left-out": "; ".join(
+                    replace(each, about=listed(names, 1)).brief
+                    for each, names in self.left_out.items()
+                    if each.kind in TOLD_FIRST
+                ),
+                "strips": strips,
+                "advice": _advice(self),
+                "sentences": _sentences(self),
+                **_assumptions(self),
+                "details": [_details(self)] if self.settings.get("details", False) else [],
+            }
 
     @cached_property
     def left_out(self) -> dict[Remark, list[str]]:
         """What the models of structures that lift leave out, or take from what was typed, with the structures."""
-        return _cautions(self) | _crushing(self)
-
-    @property
-    def record(self) -> str:
-        """The identifier of the record."""
-        return self.result.record
-
-    @property
-    def stations(self) -> list[StationResult]:
-        """The results of all structures, the worst first."""
-        return self.result.worst_first
+        concerned: dict[Remark, list[str]] = {}
+        for station in self.result.worst_first:
+            for caution in station.body.cautions if station.rotation_ratio > 0 else ():
+                concerned.setdefault(caution, []).append(self.called(station.structure))
+        would_crush = [each.structure for each in self.result.worst_first if _would_crush(each)]
+        if would_crush:
+            concerned[Remark(Kind.CRUSHING_WOULD_TELL)] = [self.called(each) for each in would_crush]
+        return {remark: list(dict.fromkeys(names)) for remark, names in concerned.items()}
 
     @cached_property
     def conclusions(self) -> list[Conclusion]:
@@ -145,7 +162,7 @@ class RecordReport:
     @cached_property
     def numbers(self) -> dict[str, str]:
         """The number by which each structure is called, from 1, by name."""
-        names = dict.fromkeys([*self.structures, *(station.structure for station in self.stations)])
+        names = dict.fromkeys([*self.structures, *(station.structure for station in self.result.worst_first)])
         return {name: str(place) for place, name in enumerate(names, start=1)}
 
     def called(self, name: str) -> str:
@@ -183,7 +200,7 @@ class RecordReport:
         cases = worst_cases(self.tables.comparison)
         histories = []
         for station in self.result.worst_periods:
-            case = cases.get((self.record, station.structure, station.support_period_s))
+            case = cases.get((self.result.record, station.structure, station.support_period_s))
             response = self.result.responses.get(case.case) if case else None
             if case and response and case.integrated_rotation_ratio > NEGLIGIBLE:
                 crack = station.cases[case.component].crack if case.component in station.cases else ""
@@ -227,6 +244,101 @@ def failure_data(record: str, message: str) -> dict[str, object]:
     }
 
 
+# Page one ------------------------------------------------------------------------------------------------
+
+
+def page_one(
+    conclusions: Sequence[Conclusion],
+    structures: Mapping[str, Structure],
+    motion: Trace | None,
+    pulse: PulseRow | None,
+) -> dict[str, object]:
+    """Return what the template of page one is given below its title.
+
+    conclusions: of all structures, the worst first. motion: the component that stands for the record, None without one;
+    pulse: its dominant pulse.
+    """
+    drawn, others = conclusions[:MOST_ROWS], conclusions[MOST_ROWS:]
+    words = {each.decision.word for each in conclusions}
+    # Whom to trust where closed form and integration differ.
+    clause = "No sine was found: there are no rings."
+    if pulse is not None and pulse.explained_energy >= DOMINATES:
+        clause = "One sine dominates: rings and dots mostly agree."
+    elif pulse is not None:
+        clause = "No sine dominates: trust the dots, not the rings."
+    return {
+        "trace": [_trace(motion)] if motion else [],
+        "sine": {"share": percents(pulse.explained_energy) if pulse else "", "clause": clause},
+        "rows": [_row(each, structures.get(each.structure)) for each in drawn],
+        "others": [
+            {"word": str(word), "names": listed(names, _MOST_NAMED)}
+            for word in ORDER
+            if (names := [each.structure for each in others if each.decision.word is word])
+        ],
+        "untold": Verdict.CANNOT_BE_TOLD in words,
+    }
+
+
+def _trace(motion: Trace) -> dict[str, str]:
+    """The acceleration of a component while it shakes, and its dominant pulse, without axes."""
+    record = motion.accelerogram
+    begin, end = motion.span
+    inside = (record.times >= begin) & (record.times <= end)
+    shaking = thinned(record.times[inside], record.acceleration[inside], _POINTS)
+    curves = [(*shaking, 'fill="none" stroke="#595959" stroke-width="0.21"')]
+    for pulse in motion.pulses[:1]:
+        cycle = np.linspace(pulse.start_time, pulse.end_time, 121)
+        curves.append((cycle, pulse.acceleration(cycle), f'fill="none" stroke="{PULSE}" stroke-width="0.53"'))
+
+    width, height = _STRIP
+    reach = 1.05 * max(record.peak_acceleration, 1e-9)
+    lines = []
+    for times, acceleration, look in curves:
+        across = width * (times - begin) / (end - begin)
+        up = height / 2 * (1 + acceleration / reach)
+        lines.append(svg_path(np.stack([across, up], axis=1), height, look))
+    alt = "Acceleration of the ground and the sine that explains most of its energy."
+    return drawn_by_hand(lines, width, height, alt)
+
+
+def _row(conclusion: Conclusion, structure: Structure | None) -> dict[str, object]:
+    """The row of a structure: drawn at _DRAWN of its critical rotation and dashed at rest, its word and its marks."""
+    decision = conclusion.decision
+    verdict = conclusion.verdict
+    drawing = []
+    if structure is not None:
+        broken = cracked(structure, verdict.crack)
+        sign = -1 if verdict.peak_side == -1 else 1
+        side = broken.mechanism().sides[0 if sign > 0 else -1]
+        shapes = sketch(broken, sign * _DRAWN * side.critical_rotation, *_ROOM)
+        drawing.append(drawn_by_hand(shapes, *_ROOM, f"{conclusion.structure}, turned, and at rest."))
+
+    band = [_place(each, "line") for each in (verdict.rotation_ratio_low, verdict.rotation_ratio_high)]
+    period = verdict.support_period_s
+    below = "" if period is None else f"T_b {period:.3g} s" if period else "on the ground"
+    return chip(decision.word, decision.share_in_words) | {
+        "drawing": drawing,
+        "name": conclusion.structure,
+        "below": below,
+        "marks": {
+            "form": _place(conclusion.closed_form, "form"),
+            "block": _place(conclusion.block, "block"),
+            "whole": _place(conclusion.integrated, "whole"),
+            "line": band if None not in band else [],
+        },
+        "reserve": reserve_in_figures(verdict.reserve),
+        "alone": bool(verdict.reserve_doubts),
+        "remark": "" if conclusion.remark.kind in UNSAID else conclusion.remark.brief,
+    }
+
+
+def _place(ratio: float, mark: str) -> float | None:
+    """The place of a rotation ratio on the scale, mm; None where there is none."""
+    if math.isnan(ratio):
+        return None
+    return _FALLEN[mark] if ratio == math.inf else _UNIT * min(ratio, _FARTHEST)
+
+
 # Sentences -----------------------------------------------------------------------------------------------
 
 
@@ -235,15 +347,19 @@ def _head(report: RecordReport) -> dict[str, object]:
     rows = report.tables.record
     drawn = report.motion.accelerogram.component if report.motion else ""
     names = [_unique(getattr(row, which) for row in rows) for which in ("event", "station")]
-    title = ": ".join(filter(None, names)) or report.record
+    title = ": ".join(filter(None, names)) or report.result.record
     distances = [row.epicentral_distance_m / 1000 for row in rows if row.epicentral_distance_m]
     parts = {
         "{}": (day_of(row.event_time) for row in rows if day_of(row.event_time) not in row.event),
-        "magnitude {}": (_magnitude(row) for row in rows if row.magnitude),
+        "magnitude {}": (
+            f"{plain(row.magnitude)} ({row.magnitude_type})".removesuffix(" ()")
+            for row in rows
+            if row.magnitude
+        ),
         "epicentre at {} km": map(plain, distances),
     }
     texts = [text.format(each) for text, many in parts.items() if (each := _unique(many))]
-    shown = f"{report.record}, {drawn}" if drawn else report.record
+    shown = f"{report.result.record}, {drawn}" if drawn else report.result.record
     of_drawn = next((row for row in rows if row.component == drawn), None)
     return {
         "title": title,
@@ -264,7 +380,7 @@ def _head(report: RecordReport) -> dict[str, object]:
 def _sentences(report: RecordReport) -> list[str]:
     """Return what a reader has to know beside the verdicts, and what file and integrations warn of, each once."""
     depends = []
-    for station in report.stations:
+    for station in report.result.worst_first:
         ratios = [
             row.integrated_rotation_ratio
             for row in report.tables.variations
@@ -295,44 +411,29 @@ def _sentences(report: RecordReport) -> list[str]:
     ]
 
 
-def _cautions(report: RecordReport) -> dict[Remark, list[str]]:
-    """Return what the models of structures that lift leave out, each with the structures that it is about."""
-    concerned: dict[Remark, list[str]] = {}
-    for station in report.stations:
-        if not station.rotation_ratio > 0:
-            continue
-        for caution in station.body.cautions:
-            concerned.setdefault(caution, []).append(report.called(station.structure))
-    return {caution: list(dict.fromkeys(names)) for caution, names in concerned.items()}
+def _would_crush(station: StationResult) -> bool:
+    """Whether a compressive strength of 2 MPa would change a structure that states none.
 
-
-def _crushing(report: RecordReport) -> dict[Remark, list[str]]:
-    """Return that a compressive strength of 2 MPa would change some structures that state none, with these.
-
-    λ falls, and so does what overturns them in proportion: as far as the reserves on this record tell.
+    λ falls, and so does what overturns it in proportion: as far as the reserve on this record tells.
     """
-    names = []
-    for station in report.stations:
-        reserve = station.reserve
-        # What no factor overturns, no loss of λ does; to crush an arch takes a fifth of a second.
-        if reserve is None or math.isnan(reserve.low):
-            continue
-        crushed = station.body.crushing(WEAK_MASONRY)
-        if crushed is None:
-            continue
-        factor = station.body.static_multiplier / crushed.static_multiplier
-        share = 0.0 if math.isnan(station.overturning_share) else station.overturning_share
-        reached = [(0.95, reserve.high), (0.5, reserve.median), (0.05, reserve.low)]
-        then = next((each for each, at in reached if at <= factor), 0.0)
-        if then - share > MOVED or then >= 0.05 > share:
-            names.append(report.called(station.structure))
-    return {Remark(Kind.CRUSHING_WOULD_TELL): list(dict.fromkeys(names))} if names else {}
+    reserve = station.reserve
+    # What no factor overturns, no loss of λ does; to crush an arch takes a fifth of a second.
+    if reserve is None or math.isnan(reserve.low):
+        return False
+    crushed = station.body.crushing(WEAK_MASONRY)
+    if crushed is None:
+        return False
+    factor = station.body.static_multiplier / crushed.static_multiplier
+    share = 0.0 if math.isnan(station.overturning_share) else station.overturning_share
+    reached = [(0.95, reserve.high), (0.5, reserve.median), (0.05, reserve.low)]
+    then = next((each for each, at in reached if at <= factor), 0.0)
+    return then - share > MOVED or then >= 0.05 > share
 
 
 def _advice(report: RecordReport) -> list[str]:
     """Return what would tell more of the cases that are not sure, each thing to do once with its structures."""
     to_do: dict[str, list[str]] = {}
-    for station in report.stations:
+    for station in report.result.worst_first:
         if station.decision.word.is_sure:
             continue
         for remark in station.decision.tells:
@@ -352,7 +453,7 @@ def _notices(report: RecordReport) -> list[Notice]:
     """Return the warnings that stand above everything: nothing moves, scale factor, what failed."""
     tables = report.tables
     notices = []
-    if tables.comparison and all(station.rotation_ratio == 0 for station in report.stations):
+    if tables.comparison and all(station.rotation_ratio == 0 for station in report.result.worst_first):
         still = "No structure uplifts: the ground acceleration never reaches an uplift acceleration."
         notices.append(Notice(still, strong=False))
     scaled = [row for row in tables.record if row.scale_factor != 1]
@@ -388,12 +489,6 @@ def _contact_failures(report: RecordReport) -> Iterator[str]:
     for name, kinds in of_structure.items():
         if kinds:
             yield f"{name} ({' and '.join(sorted(kinds, reverse=True))})"
-
-
-def _magnitude(row: RecordRow) -> str:
-    """Return the magnitude of the earthquake on its scale, as far as the file states one: 6.5 (Mw)."""
-    scale = f" ({row.magnitude_type})" if row.magnitude_type else ""
-    return f"{plain(row.magnitude)}{scale}"
 
 
 def _key_numbers(row: RecordRow) -> str:
@@ -526,7 +621,7 @@ def _tables(report: RecordReport) -> dict[str, object]:
     structures = list(structure_rows(report.structures))
     return {
         "facts": facts_table(record),
-        "verdicts": table_of(report.stations, number_of, *verdict_columns(bool(tables.supports))),
+        "verdicts": table_of(report.result.worst_first, number_of, *verdict_columns(bool(tables.supports))),
         "structures": table_of(structures, number_of, *STRUCTURE_COLUMNS),
         "pulses": table_of(ranked, *columns_of(PulseRow, PULSE_FIELDS)),
         "methods": table_of(

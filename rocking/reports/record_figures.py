@@ -15,7 +15,8 @@ from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import RATIO_COLUMNS, ComparisonRow
 from rocking.assessment.scene import placed
 from rocking.quantities import GRAVITY, counted
-from rocking.reports.panels import Trace, draw_energy_map, draw_motion, draw_rotation, moving_span
+from rocking.reports.drawings import Trace
+from rocking.reports.panels import draw_energy_map, draw_motion, draw_rotation, moving_span
 from rocking.reports.printing import LOOKS, number, ratio, unit_of
 from rocking.reports.style import PREDICTED, PULSE, TEXT_WIDTH, elided, new_figure, panel_at, styled, wrapped
 

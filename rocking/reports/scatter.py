@@ -11,7 +11,7 @@ from matplotlib.patches import Rectangle
 
 from rocking.assessment.rows import ComparisonRow, PulseRow
 from rocking.quantities import percents
-from rocking.reports.page_one import DOMINATES
+from rocking.reports.record import DOMINATES
 from rocking.reports.style import new_figure, panel_at, styled
 
 WIDTH = 180.0

@@ -33,8 +33,6 @@ SMALL_LETTER = 0.6
 """Width of a usual small letter of the figures over the size of the font."""
 _TRIES = 8
 """Largest number of times that a drawing is shrunk to make room for its texts."""
-MOST_POINTS = 4000
-"""Points of a trace; a longer one keeps the least and the largest value of each stretch."""
 FONT_FOLDER = Path(str(getattr(find_spec("matplotlib"), "origin", ""))).parent / "mpl-data" / "fonts" / "ttf"
 COMMON = {
     *range(0x20, 0x7F),
@@ -108,23 +106,6 @@ def picture(figure: Figure, alt: str) -> dict[str, str]:
     return {"svg": svg(figure), "alt": alt}
 
 
-def drawn_by_hand(shapes: Sequence[str], width: float, height: float, alt: str) -> dict[str, str]:
-    """Return a picture of shapes of SVG in mm, as the templates take it.
-
-    What every report has is drawn so: matplotlib takes half a second to import and 25 ms for the least of figures.
-    """
-    head = f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:g}mm" height="{height:g}mm"'
-    return {"svg": f'{head} viewBox="0 0 {width:g} {height:g}">{"".join(shapes)}</svg>', "alt": alt}
-
-
-def svg_path(points: np.ndarray, height: float, look: str, closed: bool = False) -> str:
-    """Return a line through points (k, 2) in mm from the lower left corner of a picture of that height, as SVG."""
-    places = " ".join(
-        f"{x:.3f},{y:.3f}" for x, y in np.column_stack([points[:, 0], height - points[:, 1]]).tolist()
-    )
-    return f'<poly{"gon" if closed else "line"} points="{places}" {look}/>'
-
-
 def pictures(
     draw: Callable[..., Figure], things: Sequence[Any], alt: str, *more: Any
 ) -> list[dict[str, str]]:
@@ -177,22 +158,6 @@ def room_for_texts(figure: Figure, axes: Axes) -> None:
         foot, head = axes.get_ylim()
         middle = (foot + head) / 2
         axes.set_ylim(middle + (foot - middle) * grown, middle + (head - middle) * grown)
-
-
-def thinned(times: np.ndarray, values: np.ndarray, most: int = MOST_POINTS) -> tuple[np.ndarray, np.ndarray]:
-    """Return the envelope of a trace in at most `most` points: least and largest value of each stretch, in order.
-
-    No peak is lost, or moved by more than a stretch; a trace of few samples stays as it is.
-    """
-    size = values.size
-    if size <= most:
-        return times, values
-    stretch = math.ceil(2 * size / most)
-    padded = np.pad(values, (0, -size % stretch), mode="edge").reshape(-1, stretch)
-    begins = np.arange(len(padded)) * stretch
-    places = np.unique(np.concatenate([begins + padded.argmin(axis=1), begins + padded.argmax(axis=1)]))
-    places = places[places < size]
-    return times[places], values[places]
 
 
 @cache

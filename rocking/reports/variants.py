@@ -7,11 +7,9 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from rocking.reports.drawings import room, sketch
-from rocking.reports.page_one import reserve_in_figures
-from rocking.reports.printing import chip
+from rocking.reports.drawings import drawn_by_hand, room, sketch
+from rocking.reports.printing import chip, reserve_in_figures
 from rocking.reports.sentences import Sentences
-from rocking.reports.style import drawn_by_hand
 
 if TYPE_CHECKING:
     from rocking.codes.variants import Variant

@@ -14,17 +14,16 @@ from rocking.assessment.methods import Agreement
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.records.measures import record_measures
-from rocking.reports.drawings import draw_structure, fallen_rotation
+from rocking.reports.drawings import MOST_POINTS, Trace, draw_structure, fallen_rotation, thinned
 from rocking.reports.explore import drawings
-from rocking.reports.page_one import page_one
+from rocking.reports.record import page_one
 from rocking.reports.record_figures import (
     History,
-    Trace,
     comparison_figure,
     histories_figure,
     pulses_figure,
 )
-from rocking.reports.style import COMMON, MOST_POINTS, TEXT_WIDTH, glyphs, thinned
+from rocking.reports.style import COMMON, TEXT_WIDTH, glyphs
 from rocking.structures import Arch, Block, Facade, LoadedWall, Wall
 from tests.unit.assessment.made_rows import compared
 

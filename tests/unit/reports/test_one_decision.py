@@ -212,7 +212,7 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
     report = detailed(RecordReport(result, tables, study.structures, study.settings.mapping()))
     data = report.data()
     told = [line for each in result.stations for line in _told(each, 1.0)]
-    of_all = zip(report.stations, data["details"][0]["verdicts"]["rows"], strict=True)
+    of_all = zip(report.result.worst_first, data["details"][0]["verdicts"]["rows"], strict=True)
     lines = workbook_lines(tables)
     stations = {row.record: row.station for row in tables.record}
     for station, cells in of_all:

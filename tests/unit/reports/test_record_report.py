@@ -258,7 +258,7 @@ def test_a_contact_that_fails_is_told(example):
 @pytest.mark.usefixtures("undrawn")
 def test_a_reserve_that_may_be_too_high_is_told_as_such(example):
     """Of a structure whose contacts open the mechanism knows too little; of the others nothing is said."""
-    name = next(each.structure for each in example.stations if each.reserve is not None)
+    name = next(each.structure for each in example.result.worst_first if each.reserve is not None)
     assert detailed(example).data()["details"][0]["reserve-note"] == ""
     scene = example.result.scenes[name]
     station = scene.worst
@@ -273,7 +273,7 @@ def test_a_reserve_that_may_be_too_high_is_told_as_such(example):
 
 def test_the_reserve_of_a_spire_is_always_told_as_the_mechanisms(example):
     """Its courses may be thrown at every factor, also where it falls as a mechanism and its verdict needs no doubt."""
-    name = next(each.structure for each in example.stations if each.reserve is not None)
+    name = next(each.structure for each in example.result.worst_first if each.reserve is not None)
     station = example.result.scenes[name].worst
     assert station.reserve_in_words == str(station.reserve)
     spire = Spire(width=3.0, height=15.0, wall_thickness=0.25, crack_height=5.0)
