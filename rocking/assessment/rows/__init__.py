@@ -4,12 +4,20 @@ Rows about a record and about a study are imported from here. Those about checks
 imported from their files, for they ask the methods themselves, which take a quarter of a second to load.
 """
 
-from rocking.assessment.rows.of_motion import RECORD as RECORD
-from rocking.assessment.rows.of_motion import Identity as Identity
-from rocking.assessment.rows.of_motion import PulseRow as PulseRow
-from rocking.assessment.rows.of_motion import ReadComponent as ReadComponent
-from rocking.assessment.rows.of_motion import RecordRow as RecordRow
-from rocking.assessment.rows.of_motion import pulses_found as pulses_found
+from rocking.assessment.rows.of_inputs import RECORD as RECORD
+from rocking.assessment.rows.of_inputs import CapacityRow as CapacityRow
+from rocking.assessment.rows.of_inputs import Identity as Identity
+from rocking.assessment.rows.of_inputs import Named as Named
+from rocking.assessment.rows.of_inputs import Placed as Placed
+from rocking.assessment.rows.of_inputs import PlacedRow as PlacedRow
+from rocking.assessment.rows.of_inputs import PulseRow as PulseRow
+from rocking.assessment.rows.of_inputs import ReadComponent as ReadComponent
+from rocking.assessment.rows.of_inputs import RecordRow as RecordRow
+from rocking.assessment.rows.of_inputs import StructureNameRow as StructureNameRow
+from rocking.assessment.rows.of_inputs import StructureRow as StructureRow
+from rocking.assessment.rows.of_inputs import capacity_rows as capacity_rows
+from rocking.assessment.rows.of_inputs import pulses_found as pulses_found
+from rocking.assessment.rows.of_inputs import structure_rows as structure_rows
 from rocking.assessment.rows.of_record import RATIO_COLUMNS as RATIO_COLUMNS
 from rocking.assessment.rows.of_record import RECORD_TABLES as RECORD_TABLES
 from rocking.assessment.rows.of_record import ComparedCase as ComparedCase
@@ -30,22 +38,14 @@ from rocking.assessment.rows.of_record import rows_of_record as rows_of_record
 from rocking.assessment.rows.of_record import worst_period_each as worst_period_each
 from rocking.assessment.rows.of_study import SUMMARY_TABLES as SUMMARY_TABLES
 from rocking.assessment.rows.of_study import AgreementRow as AgreementRow
-from rocking.assessment.rows.of_study import CapacityRow as CapacityRow
 from rocking.assessment.rows.of_study import CountedFalls as CountedFalls
 from rocking.assessment.rows.of_study import ExpectedFallsRow as ExpectedFallsRow
-from rocking.assessment.rows.of_study import Named as Named
-from rocking.assessment.rows.of_study import Placed as Placed
-from rocking.assessment.rows.of_study import PlacedRow as PlacedRow
 from rocking.assessment.rows.of_study import SpectrumRow as SpectrumRow
-from rocking.assessment.rows.of_study import StructureNameRow as StructureNameRow
-from rocking.assessment.rows.of_study import StructureRow as StructureRow
 from rocking.assessment.rows.of_study import TimedAnswer as TimedAnswer
 from rocking.assessment.rows.of_study import TradeMethod as TradeMethod
 from rocking.assessment.rows.of_study import TradeRow as TradeRow
 from rocking.assessment.rows.of_study import TriedMethod as TriedMethod
 from rocking.assessment.rows.of_study import agreement_rows as agreement_rows
-from rocking.assessment.rows.of_study import capacity_rows as capacity_rows
 from rocking.assessment.rows.of_study import falls_over as falls_over
 from rocking.assessment.rows.of_study import falls_under as falls_under
 from rocking.assessment.rows.of_study import spectrum_rows as spectrum_rows
-from rocking.assessment.rows.of_study import structure_rows as structure_rows

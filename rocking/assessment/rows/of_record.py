@@ -17,9 +17,11 @@ from rocking.assessment.methods import (
     within_factor_two,
 )
 from rocking.assessment.reserve import Reserve
-from rocking.assessment.rows.of_motion import (
+from rocking.assessment.rows.of_inputs import (
     COMPONENT,
     RECORD,
+    STRUCTURE,
+    SUPPORT_PERIOD,
     ComponentRow,
     Identified,
     Identity,
@@ -47,10 +49,6 @@ if TYPE_CHECKING:  # else who reads a table would load numba
     from rocking.assessment.motions import Component
     from rocking.motion.response import ModelCheck, Response
 
-STRUCTURE = "Name of the structure in the structure list"
-SUPPORT_PERIOD = (
-    "First period of the support below the structure; 0: its ground, to compare with; empty: it has none"
-)
 PEAK_SIDE = "Side of the largest rotation or of the overturning: 1, -1, or 0 without uplift"
 
 

@@ -1,204 +1,21 @@
-"""Rows about a whole study: its structures, their blocks, its counts, its spectrum and what accuracy costs."""
+"""Rows about a whole study: its counts, its spectrum and what accuracy costs."""
 
 import math
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
 from itertools import product
 from statistics import median
-from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
 from rocking.assessment.methods import Agreement, agreement, ratio, rests
-from rocking.assessment.rows import of_motion as motion_rows
+from rocking.assessment.rows import of_inputs as inputs
 from rocking.assessment.rows import of_record as rows
 from rocking.records import Accelerogram
-from rocking.structures import Side, Structure
-from rocking.structures.capacity import StaticCurve
-from rocking.structures.equivalent_block import EquivalentBlock, Scale
-from rocking.structures.structure import WEAK_MASONRY
 from rocking.tables import Columns, Row, RowOf, row
-
-if TYPE_CHECKING:
-    pass
-
-_P = "p of the equivalent block linearised about the critical rotation"
-_ETA = "Ratio of angular velocities after and before an impact"
-CAPACITY_POINTS = 21
-"""Rotations of a capacity curve, from rest to the critical one."""
-
-
-@dataclass(frozen=True)
-class Named:
-    """Anything about one structure of the list, whatever the records. structure: its name."""
-
-    structure: str
-
-
-N = TypeVar("N", bound=Named)
-of_named = Columns(Named)
-
-
-@row()
-class StructureNameRow(RowOf[N]):
-    """A row about one structure of the list."""
-
-    structure: str = of_named(rows.STRUCTURE, lambda named: named.structure)
-
-
-@dataclass(frozen=True)
-class Placed(Named):
-    """Anything about one structure where it stands.
-
-    support_period: of the support, s; 0 on the ground below one, None where it has none.
-    """
-
-    support_period: float | None = field(default=None, kw_only=True)
-
-
-L = TypeVar("L", bound=Placed)
-of_placed = Columns(Placed)
-
-
-@row()
-class PlacedRow(StructureNameRow[L]):
-    """A row about one structure of the list where it stands."""
-
-    support_period_s: float | None = of_placed(rows.SUPPORT_PERIOD, lambda placed: placed.support_period)
-
-
-@dataclass(frozen=True)
-class ListedStructure(Named):
-    """One structure of the list."""
-
-    body: Structure
-
-    @property
-    def geometry(self) -> str:
-        """Its sizes with their units."""
-        return self.body.description
-
-    @property
-    def side(self) -> Side | None:
-        """The positive side; None where it cannot overturn to it."""
-        positive = self.body.mechanism().positive
-        return positive if positive.can_overturn else None
-
-
-of_listed = Columns(ListedStructure)
-of_side = of_listed.optional(lambda of: of.side)
-of_block_defects = of_listed.optional(lambda of: of.body.mechanism().block_defects if of.side else None)
-of_crushing = of_listed.optional(lambda of: of.body.crushing(WEAK_MASONRY))
-
-
-def of_block(scale: Scale) -> Columns[EquivalentBlock]:
-    """Return the declaration of columns about an equivalent block, which what cannot overturn has not."""
-    return of_listed.optional(lambda of: of.body.mechanism().equivalent_block(scale) if of.side else None)
-
-
-@row("structures")
-class StructureRow(StructureNameRow[ListedStructure]):
-    """One row per structure: its mechanism and its equivalent block."""
-
-    type: str = of_listed(
-        "Type of the structure, as in the structure list", lambda of: of.body.described.type_name
-    )
-    geometry: str = of_listed("Sizes of the structure with their units", lambda of: of.geometry)
-    crack: str = of_listed(
-        "Hinge or crack, whose place is open; empty where none is", lambda of: of.body.crack_name
-    )
-    frequency_parameter_rad_s: float = of_side(_P, lambda side: side.frequency_parameter, equation="Eq. 11")
-    frequency_parameter_at_rest_rad_s: float = of_block("rest")(
-        "p of the block exact at rest, which predicts unless the settings name another one",
-        lambda block: block.frequency_parameter,
-    )
-    critical_rotation_rad: float = of_side(
-        "Critical rotation; empty to a side it cannot overturn to", lambda side: side.critical_rotation
-    )
-    uplift_multiplier: float = of_listed(
-        "Uplift acceleration in g", lambda of: of.body.mechanism().uplift_multiplier, equation="Eq. 7"
-    )
-    static_multiplier: float = of_listed(
-        "Least uplift acceleration in g over all cracks", lambda of: of.body.static_multiplier
-    )
-    static_multiplier_crushing: float = of_crushing(
-        "The same if the edges of its joints crush at 2 MPa; empty where it states a strength or would not stand",
-        lambda crushed: crushed.static_multiplier,
-    )
-    acceleration_scale_linearised: float = of_block("linearised")(
-        "Scale a_sc of the linearised block",
-        lambda block: block.acceleration_scale,
-        equation="Eq. 11",
-    )
-    acceleration_scale_uplift: float = of_block("uplift")(
-        "Scale a_sc,alt of the true uplift",
-        lambda block: block.acceleration_scale,
-        equation="Eq. 13",
-    )
-    restitution: float = of_listed(
-        _ETA, lambda of: of.body.mechanism().positive.restitution, equation="Eq. 2"
-    )
-    restoring_defect: float = of_block_defects(
-        "Largest error of the block's restoring force, relative", lambda defects: defects.restoring
-    )
-    forcing_defect: float = of_block_defects(
-        "Growth of the forcing up to φ_cr; unsafe where above 0", lambda defects: defects.forcing
-    )
-
-
-def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow]:
-    """Yield the row of each structure."""
-    for each in structures.items():
-        yield StructureRow.of(ListedStructure(*each))
-
-
-@dataclass(frozen=True)
-class CapacityPoint(Named):
-    """One point of the capacity curve of one side. place: its place on the curve."""
-
-    side: str
-    curve: StaticCurve
-    place: int
-
-
-of_point = Columns(CapacityPoint)
-
-
-@row("capacity")
-class CapacityRow(StructureNameRow[CapacityPoint]):
-    """One row per structure, side and rotation: the static load multiplier against displacement."""
-
-    side: str = of_point("Side of the rotation: positive or negative", lambda at: at.side)
-    rotation_rad: float = of_point("Rotation", lambda at: float(at.curve.rotation[at.place]))
-    multiplier: float = of_point(
-        "Horizontal acceleration in g that holds the balance",
-        lambda at: float(at.curve.multiplier[at.place]),
-        equation="G/B",
-    )
-    displacement_m: float = of_point(
-        "Displacement of the corner that moves farthest sideways",
-        lambda at: float(at.curve.displacement[at.place]),
-    )
-    effective_displacement_m: float = of_point(
-        "Displacement d* = d_k Σ P δ²/(δ_k Σ P δ)",
-        lambda at: float(at.curve.effective_displacement[at.place]),
-    )
-    participating_mass_ratio: float = of_point(
-        "Mass ratio e* = (Σ P δ)²/(Σ P · Σ P δ²)", lambda at: at.curve.participating_mass_ratio
-    )
-
-
-def capacity_rows(structures: Mapping[str, Structure]) -> Iterator[CapacityRow]:
-    """Yield the capacity curve of each side of each structure, at CAPACITY_POINTS rotations."""
-    for name, structure in structures.items():
-        both = {"positive": 1, "negative": -1}
-        for side, sign in list(both.items())[: len(structure.mechanism().sides)]:
-            curve = structure.capacity_curve(sign, CAPACITY_POINTS)
-            for place in range(curve.rotation.size):
-                yield CapacityRow.of(CapacityPoint(name, side, curve, place))
 
 
 @dataclass(frozen=True, eq=False)
@@ -241,7 +58,7 @@ class AgreementRow(RowOf[CountedCases]):
     structure: str = of_cases(
         "Name of the structure in the structure list; empty for all together", lambda of: of.structure
     )
-    support_period_s: float | None = of_cases(rows.SUPPORT_PERIOD, lambda of: of.support_period)
+    support_period_s: float | None = of_cases(inputs.SUPPORT_PERIOD, lambda of: of.support_period)
     records: int = of_cases("Number of records", lambda of: len({row.record for row in of.cases}))
     cases: int = of_cases("Number of cases with a prediction and an integration", lambda of: len(of.cases))
     both_rock: int = of_cases("Number of cases in which both rock", lambda of: len(of.rock_ratios))
@@ -301,17 +118,19 @@ of_spectrum = Columns(BlockUnderRecord)
 class SpectrumRow(RowOf[BlockUnderRecord]):
     """One row per component and equivalent block under the whole record; written by rocking spectrum."""
 
-    component: str = of_spectrum(motion_rows.COMPONENT, lambda of: of.accelerogram.component)
-    frequency_parameter_rad_s: float = of_spectrum(_P, lambda of: of.frequency_parameter, equation="Eq. 11")
+    component: str = of_spectrum(inputs.COMPONENT, lambda of: of.accelerogram.component)
+    frequency_parameter_rad_s: float = of_spectrum(
+        inputs.FREQUENCY_PARAMETER, lambda of: of.frequency_parameter, equation="Eq. 11"
+    )
     uplift_multiplier: float = of_spectrum(
         "Uplift acceleration of the equivalent block in g", lambda of: of.uplift_multiplier, equation="Eq. 12"
     )
-    restitution: float = of_spectrum(_ETA, lambda of: of.restitution, equation="Eq. 2")
+    restitution: float = of_spectrum(inputs.RESTITUTION, lambda of: of.restitution, equation="Eq. 2")
     rotation_ratio: float = of_spectrum(
         "Largest rotation over critical rotation; INF if it overturns", lambda of: of.rotation_ratio
     )
-    scale_factor: float = of_spectrum(motion_rows.SCALE_FACTOR, lambda of: of.accelerogram.scale_factor)
-    record_sha256: str = of_spectrum(motion_rows.RECORD_SHA256, lambda of: of.accelerogram.source.sha256)
+    scale_factor: float = of_spectrum(inputs.SCALE_FACTOR, lambda of: of.accelerogram.scale_factor)
+    record_sha256: str = of_spectrum(inputs.RECORD_SHA256, lambda of: of.accelerogram.source.sha256)
 
 
 def spectrum_rows(
@@ -406,8 +225,8 @@ def falls_over(records: Sequence[ExpectedFallsRow]) -> ExpectedFallsRow | None:
 
 
 SUMMARY_TABLES: tuple[type[Row], ...] = (
-    motion_rows.RecordRow,
-    motion_rows.PulseRow,
+    inputs.RecordRow,
+    inputs.PulseRow,
     rows.ComparisonRow,
     rows.VerdictRow,
     rows.SupportRow,
@@ -415,8 +234,8 @@ SUMMARY_TABLES: tuple[type[Row], ...] = (
     rows.VariationRow,
     ExpectedFallsRow,
     AgreementRow,
-    StructureRow,
-    CapacityRow,
+    inputs.StructureRow,
+    inputs.CapacityRow,
     rows.FailureRow,
     rows.TimingRow,
 )
