@@ -224,7 +224,7 @@ def screening_trials(
             verdict=decide(in_study.facts).word,
             exhaustive=exhaustive,
             share=in_study.governing.ensemble.overturning_share,
-            largest_share=in_full.worst.ensemble.overturning_share,
+            largest_share=in_full.governing.ensemble.overturning_share,
             fresh_share=fresh,
         )
 

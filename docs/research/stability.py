@@ -142,7 +142,7 @@ def stability_trials(
                 of_members=decide(told.ensembles.facts).word if told.ensembles else told.verdict,
                 true_verdict=true_verdict,
                 members=sum(each.ensemble.members for each in followed),
-                share=told.overturning_share,
+                share=told.decision.share,
                 true_share=true_share,
             )
 

@@ -48,6 +48,16 @@ class StructureAssessment(StationResult, Drawn):
         return cracks(self.body)[0].mechanism.uplift_multiplier
 
     @property
+    def body(self) -> Structure:
+        """The structure itself."""
+        return self.scene.structure
+
+    @property
+    def overturning_share(self) -> float:
+        """Share of the members that overturn; of a single run 0 or 1, nan where there is none."""
+        return self.decision.share
+
+    @property
     def why(self) -> str:
         """The reason for the verdict."""
         return self.decision.why

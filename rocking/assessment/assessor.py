@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, field, fields, replace
-from functools import cache, cached_property, partial
+from functools import cache, partial
 from math import isclose, isnan
 from typing import Protocol, TypeVar
 
@@ -23,7 +23,7 @@ from rocking.assessment.motions import (
     ComponentPulses,
     HorizontalMotion,
     Motion,
-    component_names,
+    by_name,
     ground_motions,
     horizontal_motions,
     pulses_of,
@@ -75,12 +75,6 @@ class _Shaking:
     vertical: Accelerogram | None
     support: Carrier | None = None
     pair: Motion | None = None
-
-    @cached_property
-    def by_name(self) -> dict[str, Component]:
-        """The components by their names."""
-        names = component_names([each.accelerogram for each in self.components])
-        return dict(zip(names, self.components, strict=True))
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,13 +143,12 @@ class Assessor:
 
     def predict(self, components: Sequence[Component], scenes: Mapping[str, Scene]) -> Predictions:
         """Return the closed form of each scene's equivalent block under the pulse of each component."""
-        names = component_names([each.accelerogram for each in components])
         of_all: dict[tuple[str, str], Prediction | None] = {}
         for scene in scenes.values():
             try:
                 mechanism = scene.structure.mechanism()
                 mechanism.equivalent_block(self.settings.acceleration_scale)  # no part of what is timed
-                for name, component in zip(names, components, strict=True):
+                for name, component in by_name(components).items():
                     with self.clock.stage(Method.CLOSED_FORM):
                         of_all[scene.name, name] = predict(mechanism, component.candidates, self.settings)
             except RockingError:
@@ -178,7 +171,6 @@ class Assessor:
         """
         scenes = on_friction(scenes, self.settings.friction_coefficient)
         grounds = components
-        horizontal = [each.accelerogram for each in components]
         failures: list[tuple[str, Failure]] = []
         shakings: dict[Carrier | None, _Shaking] = {}
         stations: dict[tuple[str, Carrier | None], StationResult] = {}
@@ -192,7 +184,7 @@ class Assessor:
                 components = grounds if support is None else self._on_support(support, grounds)
                 shaking = shakings[support] = self._shaking(components, vertical, support, failures)
             except RockingError as error:
-                names = component_names(horizontal)
+                names = list(by_name(grounds))
                 stations |= {(each.name, support): _lost(each, support, names, error) for each in carried}
                 continue
             if support is not None:
@@ -279,7 +271,7 @@ class Assessor:
                 shaking = replace(shaking, pair=pair)
             except RockingError as error:
                 failures.append((BOTH_COMPONENTS, Failure("directions", str(error))))
-        for name, component in shaking.by_name.items():
+        for name, component in by_name(shaking.components).items():
             if component.failure:
                 failures.append((name, Failure("pulses", component.failure)))
         return shaking
@@ -289,7 +281,7 @@ class Assessor:
     def _station(self, scene: Scene, shaking: _Shaking, predictions: Predictions) -> StationResult:
         """The result of one scene at one place."""
         cases = {}
-        for name, component in shaking.by_name.items():
+        for name, component in by_name(shaking.components).items():
             prediction = predictions.get((scene.name, name))
             case = self._case(scene, component, prediction, alone=shaking.pair is None)
             cases[name] = replace(case, component=name)
@@ -316,8 +308,8 @@ class Assessor:
             return case
         ensembles = case.ensembles or station.ensembles
         crack = ensembles.governing.description if ensembles else ""
-        body = cracked(station.body, crack)
-        own, other = station.body.mechanism(), body.mechanism()
+        body = cracked(station.scene.structure, crack)
+        own, other = station.scene.structure.mechanism(), body.mechanism()
         # The hinge that statics seeks and the candidate at the same height are computed apart.
         same = isclose(own.uplift_multiplier, other.uplift_multiplier, rel_tol=1e-9)
         if same and isclose(own.critical_rotation, other.critical_rotation, rel_tol=1e-9):
@@ -379,13 +371,13 @@ class Assessor:
         # The factors of a mechanism would say nothing of what slides first, or falls in contact dynamics alone.
         if not isnan(case.slides_at) or station.falls_in_stacks_alone:
             return station
-        several = cracks(station.body)
+        several = cracks(station.scene.structure)
         description = case.ensembles.governing.description
         governing = next((each for each in several if each.description == description), several[0])
         if not governing.mechanism.can_overturn:
             return station
         of_pair = case is station.directions and shaking.pair is not None
-        motion = shaking.pair if of_pair else motion_of(shaking.by_name[case.component])
+        motion = shaking.pair if of_pair else motion_of(by_name(shaking.components)[case.component])
         assert motion is not None
 
         try:
@@ -462,7 +454,7 @@ def with_histories(result: RecordResult, tolerance: float) -> RecordResult:
             components = result.components_under(station)
             cases = {
                 component: _with_history(
-                    case, cracked(station.body, case.crack), components[component], tolerance
+                    case, cracked(station.scene.structure, case.crack), components[component], tolerance
                 )
                 for component, case in station.cases.items()
             }

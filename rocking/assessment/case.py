@@ -23,7 +23,7 @@ from rocking.assessment.decide import BEYOND, Decision, Facts, Verdict, decide
 from rocking.assessment.ensemble import NO_MEMBERS, Ensemble
 from rocking.assessment.fidelity import Answer, Estimate
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
-from rocking.assessment.motions import Carrier, Component, component_names
+from rocking.assessment.motions import Carrier, Component, by_name
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.scene import Scene, periods_in_words
 from rocking.motion.response import UNKNOWN, ModelCheck, Response
@@ -257,11 +257,6 @@ class StationResult:
         return self.scene.name
 
     @property
-    def body(self) -> Structure:
-        """The structure itself."""
-        return self.scene.structure
-
-    @property
     def support_period_s(self) -> float | None:
         """First period of the support, s; 0 on the ground below one, None where the place has no support."""
         if not self.scene.place.supports:
@@ -279,7 +274,7 @@ class StationResult:
         """The case that decides, None where no component gave a result; and the decision."""
         if self.directions is not None and self.directions.ensembles is not None:
             # All directions are one: what a component lacks takes nothing away.
-            return self.directions, decide(self.directions.facts(self.body))
+            return self.directions, decide(self.directions.facts(self.scene.structure))
         answered = [each for each in self.cases.values() if each.answer is not None]
         if not answered:
             first = [each.failure.message for each in self.cases.values() if each.failure][:1]
@@ -290,7 +285,7 @@ class StationResult:
             for each in both
             if each.failure
         )
-        decided = [(each, decide(each.facts(self.body, missing))) for each in answered]
+        decided = [(each, decide(each.facts(self.scene.structure, missing))) for each in answered]
         return max(decided, key=lambda pair: (pair[1].severity, *_rotation_severity(pair[0])))
 
     def check_of(self, candidate: Candidate) -> ModelCheck | None:
@@ -303,7 +298,7 @@ class StationResult:
             if candidate.description == case.crack:
                 return case.check
             case = case.statics
-        return case.check if case is not None and is_own(candidate, self.body) else None
+        return case.check if case is not None and is_own(candidate, self.scene.structure) else None
 
     @property
     def decision(self) -> Decision:
@@ -354,7 +349,7 @@ class StationResult:
         case = self.decisive
         if case is None or case.contact is None:
             return False
-        by_mechanisms = decide(replace(case.facts(self.body), stacks=None, doubts=())).word
+        by_mechanisms = decide(replace(case.facts(self.scene.structure), stacks=None, doubts=())).word
         return self.decision.word.badness >= max(Verdict.UNCERTAIN.badness, by_mechanisms.badness + 1)
 
     def with_reserve(self, reserve: Reserve | None) -> "StationResult":
@@ -383,7 +378,7 @@ class StationResult:
         ]
         if any(each.check.bounces for each in both):
             doubts.append(Remark(Kind.CONTACTS_OPEN))
-        if self.body.tapers:
+        if self.scene.structure.tapers:
             doubts.append(Remark(Kind.COURSES_THROWN))
         return tuple(sorted(set(doubts), key=lambda each: each.kind))
 
@@ -440,11 +435,6 @@ class StationResult:
     def severity(self) -> tuple[float, ...]:
         """Key by which the worst of several comes last: verdict, then share of members, then rotation."""
         return *self.decision.severity, _or_least(self.rotation_ratio)
-
-    @property
-    def overturning_share(self) -> float:
-        """Share of the members that overturn; of a single run 0 or 1, nan where there is none."""
-        return self.decision.share
 
     @property
     def crack(self) -> str:
@@ -523,8 +513,7 @@ class RecordResult:
     def components_under(self, station: StationResult) -> dict[str, Component]:
         """Return the components as a structure meets them, by the names of the components."""
         support = station.support
-        components = self.components if support is None else self.floors.get(support, self.components)
-        return dict(zip(self.names, components, strict=True))
+        return by_name(self.components if support is None else self.floors.get(support, self.components))
 
     @cached_property
     def stations(self) -> list[StationResult]:
@@ -550,7 +539,7 @@ class RecordResult:
     @property
     def names(self) -> list[str]:
         """The names of the components, in their order; keys of the other mappings."""
-        return component_names(self.accelerograms)
+        return list(by_name(self.components))
 
     @property
     def accelerograms(self) -> list[Accelerogram]:

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from rocking.assessment.decide import Decision, Verdict
+from rocking.assessment.decide import Verdict
 from rocking.assessment.rows import ComparisonRow, ExpectedFallsRow, VerdictRow, worst_period_each
 from rocking.quantities import percents
 from rocking.remarks import Kind, Remark
@@ -29,52 +29,37 @@ class Conclusion:
     elsewhere: Sequence[VerdictRow] = ()
 
     @property
-    def structure(self) -> str:
-        """Name of the structure."""
-        return self.verdict.structure
-
-    @property
-    def decision(self) -> Decision:
-        """What becomes of it."""
-        return self.verdict.decision
-
-    @property
-    def closed_form(self) -> float:
-        """Rotation ratio of the closed form; nan without one."""
-        return self.case.predicted_rotation_ratio if self.case else math.nan
-
-    @property
-    def block(self) -> float:
-        """Rotation ratio of the equivalent block under the record; nan without one."""
-        return self.case.block_on_record_rotation_ratio if self.case else math.nan
-
-    @property
-    def integrated(self) -> float:
-        """Rotation ratio of the mechanism under the record; nan without one."""
-        return self.case.integrated_rotation_ratio if self.case else math.nan
+    def ratios(self) -> tuple[float, float, float]:
+        """Rotation ratios of the closed form, of the block and of the mechanism under the record; nan without one."""
+        if self.case is None:
+            return math.nan, math.nan, math.nan
+        whole = self.case.integrated_rotation_ratio
+        return self.case.predicted_rotation_ratio, self.case.block_on_record_rotation_ratio, whole
 
     @property
     def severity(self) -> tuple[float, ...]:
         """Key by which the worst comes last: the word, the share, then the reserve and the rotation."""
         reserve = self.verdict.reserve
         factor = reserve.low if reserve and not math.isnan(reserve.low) else math.inf
-        rotation = -1.0 if math.isnan(self.integrated) else self.integrated
-        return *self.decision.severity, -factor, rotation
+        integrated = self.ratios[-1]
+        rotation = -1.0 if math.isnan(integrated) else integrated
+        return *self.verdict.decision.severity, -factor, rotation
 
     # Whole on purpose: what comes first, one line after another.
     @property
     def remark(self) -> Remark:
         """What to do about it; where there is nothing to do, what explains the word."""
-        word = self.decision.word
+        decision = self.verdict.decision
+        word = decision.word
         falls = self.verdict.stack_falls
         runs = self.verdict.stack_runs
         # A range whose upper end is that of contact dynamics is not one of cracks.
-        if falls and runs and falls / runs == self.decision.interval[1] > self.decision.interval[0]:
+        if falls and runs and falls / runs == decision.interval[1] > decision.interval[0]:
             return Remark.of(Kind.STACKS_FALL, falls=falls, runs=runs)
-        if self.decision.tells and not word.is_sure:
-            return self.decision.tells[0]
-        if self.decision.doubts:
-            return self.decision.doubts[0]
+        if decision.tells and not word.is_sure:
+            return decision.tells[0]
+        if decision.doubts:
+            return decision.doubts[0]
         shares = [each.overturning_share for each in self.elsewhere if each.overturning_share >= 0]
         if shares and "–" in (share := percents(*shares)):
             return Remark.of(Kind.OTHER_PERIODS, share=share)
@@ -83,7 +68,7 @@ class Conclusion:
             if largest == math.inf:
                 return Remark(Kind.CONTACTS_OPEN)
             return Remark.of(Kind.CONTACT_SLIDES, lifting=self.case.lifting_friction, largest=largest)
-        falls = self.integrated == math.inf
+        falls = self.ratios[-1] == math.inf
         if word is Verdict.PROBABLY_OVERTURNS and not falls:
             return Remark(Kind.STANDS_AS_RECORDED)
         if word in FALLING:
@@ -136,7 +121,7 @@ def worst_of_each(made: Iterable[Conclusion]) -> list[Conclusion]:
     """Return of each structure the conclusion under its worst record, the worst first."""
     worst: dict[str, Conclusion] = {}
     for each in sorted(made, key=lambda each: each.severity, reverse=True):
-        worst.setdefault(each.structure, each)
+        worst.setdefault(each.verdict.structure, each)
     return list(worst.values())
 
 

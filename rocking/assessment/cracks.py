@@ -100,32 +100,20 @@ class CrackEnsembles:
     @cached_property
     def facts(self) -> Facts:
         """The facts of the cracks alone from which the decision follows."""
-        risk = self.statics.ensemble.settings.risk
+        risk = self.followed[0].ensemble.settings.risk
         return Facts(cracks=tuple(each.facts for each in self.followed), risk=risk)
-
-    @property
-    def statics(self) -> FollowedCrack:
-        """The crack of least λ, which statics chooses, or the only one."""
-        return self.followed[0]
 
     @cached_property
     def governing(self) -> FollowedCrack:
         """The worst crack that counts; that of statics among equals."""
-        return (
-            self.followed[self.facts.cracks.index(self.facts.governing)]
-            if self.facts.governing
-            else self.statics
-        )
-
-    @cached_property
-    def worst(self) -> FollowedCrack:
-        """The worst crack of all that were followed; the first among equals."""
-        return max(self.followed, key=lambda each: each.facts.severity(self.facts.risk))
+        governing = self.facts.governing
+        return self.followed[self.facts.cracks.index(governing) if governing else 0]
 
     @property
     def beside(self) -> FollowedCrack | None:
         """The crack reported beside the one that governs: that of statics, or the worst beside a given one; or None."""
-        other = self.statics if self.worst is self.governing else self.worst
+        worst = max(self.followed, key=lambda each: each.facts.severity(self.facts.risk))
+        other = self.followed[0] if worst is self.governing else worst
         return None if other is self.governing else other
 
 

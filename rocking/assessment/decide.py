@@ -160,11 +160,6 @@ class CrackFacts:
         return (self.falls + self.failed) / self.members if self.members else math.nan
 
     @property
-    def lowest_share(self) -> float:
-        """The same, those that failed counted as standing."""
-        return self.falls / self.members if self.members else math.nan
-
-    @property
     def count(self) -> str:
         """Members that overturn, of how many: "12 of 64", "12 to 14 of 64" where two failed."""
         up_to = f" to {self.falls + self.failed}" if self.failed else ""
@@ -417,7 +412,7 @@ def decide(facts: Facts) -> Decision:
         first = next((each for each in followed if not each.bulges), governing)
         disagree = not governing.bulges and governing.step(risk) is not first.step(risk)
         ends = {governing, first} if disagree else {governing}
-        interval = min(each.lowest_share for each in ends), max(each.share for each in ends)
+        interval = min(each.falls / each.members for each in ends), max(each.share for each in ends)
         # 7: failed members count as falling, but alone they make nothing fall.
         falls_without = _envelope((each, each.step_of_followed(risk)) for each in followed)
         open_ = word.badness >= Verdict.PROBABLY_OVERTURNS.badness or not all(

@@ -38,38 +38,21 @@ class Origin(StrEnum):
 
 
 @dataclass(frozen=True)
-class Interval:
-    """All values within ± `half_width` of the `centre`."""
+class Range:
+    """A few values, each as likely as the others, and all those within ± `half_width` of them."""
 
-    centre: float
-    half_width: float
+    values: tuple[object, ...]
+    half_width: float = 0.0
 
     @property
     def varies(self) -> bool:
         """Whether it holds more than one value."""
-        return self.half_width > 0
+        return len(self.values) > 1 or self.half_width > 0
 
     def at(self, coordinates: np.ndarray) -> np.ndarray:
         """Return the values (m,) at coordinates (m,) in (0, 1)."""
-        return self.centre + self.half_width * (2 * coordinates - 1)
-
-
-@dataclass(frozen=True)
-class Options:
-    """A few values, each as likely as the others."""
-
-    values: tuple[object, ...]
-
-    @property
-    def varies(self) -> bool:
-        """Whether there is more than one value."""
-        return len(self.values) > 1
-
-    def at(self, coordinates: np.ndarray) -> np.ndarray:
-        """Return the values (m,) at coordinates (m,) in (0, 1)."""
-        places = (coordinates * len(self.values)).astype(int)
-        drawn: np.ndarray = np.array(self.values)[places]
-        return drawn
+        drawn: np.ndarray = np.array(self.values)[(coordinates * len(self.values)).astype(int)]
+        return drawn + self.half_width * (2 * coordinates - 1) if self.half_width else drawn
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,33 +84,33 @@ class Cause:
     name: str
     origin: Origin
     generator: int
-    range_in: Callable[[Situation], Interval | Options]
+    range_in: Callable[[Situation], Range]
 
 
 CAUSES = (
     # A factor on the ground motion, the vertical component included.
-    Cause("amplitude", Origin.IGNORANCE, 1, lambda case: Interval(1.0, case.settings.amplitude_range)),
+    Cause("amplitude", Origin.IGNORANCE, 1, lambda case: Range((1.0,), case.settings.amplitude_range)),
     # A difference from the restitution of the structure.
     Cause(
-        "restitution", Origin.IGNORANCE, 182667, lambda case: Interval(0.0, case.settings.restitution_range)
+        "restitution", Origin.IGNORANCE, 182667, lambda case: Range((0.0,), case.settings.restitution_range)
     ),
     # The sign of the horizontal motion changes nothing for a structure with two sides alike.
     Cause(
         "polarity",
         Origin.CHANCE,
         469891,
-        lambda case: Options(
+        lambda case: Range(
             (-1.0, 1.0) if case.settings.polarity and not case.structure.symmetric else (1.0,)
         ),
     ),
-    Cause("direction", Origin.CHANCE, 377, lambda case: Options(case.motions.directions)),
-    Cause("processing", Origin.IGNORANCE, 1723, lambda case: Options(case.motions.processings)),
+    Cause("direction", Origin.CHANCE, 377, lambda case: Range(case.motions.directions)),
+    Cause("processing", Origin.IGNORANCE, 1723, lambda case: Range(case.motions.processings)),
     # Half of the members feel the vertical motion where there is one.
     Cause(
         "vertical",
         Origin.IGNORANCE,
         1677,
-        lambda case: Options((False,) if case.motions.vertical is None else (True, False)),
+        lambda case: Range((False,) if case.motions.vertical is None else (True, False)),
     ),
 )
 """Every cause, in the order of the coordinates of a point.

@@ -49,12 +49,12 @@ class Agreement(StrEnum):
 
 def rests(rotation_ratio: float) -> bool:
     """Whether a structure with this largest rotation ratio rests; False for nan."""
-    return rotation_ratio <= NEGLIGIBLE
+    return _severity(rotation_ratio) == 0
 
 
 def rocks(rotation_ratio: float) -> bool:
     """Whether a structure with this largest rotation ratio rocks and stays up; False for nan."""
-    return NEGLIGIBLE < rotation_ratio < math.inf
+    return _severity(rotation_ratio) == 1
 
 
 def agreement(predicted: float, integrated: float) -> Agreement:
@@ -106,4 +106,5 @@ def within_factor_two(predicted: float, integrated: float) -> bool | None:
 
 
 def _severity(rotation_ratio: float) -> int:
-    return 0 if rests(rotation_ratio) else 1 if rocks(rotation_ratio) else 2
+    """0 of what rests, 1 of what rocks and stays up, 2 of what overturns, or of nan."""
+    return 0 if rotation_ratio <= NEGLIGIBLE else 1 if rotation_ratio < math.inf else 2

@@ -220,12 +220,12 @@ class ComponentPulses:
         return Component(accelerogram, vertical, self.motion, analysis, self.candidates, self.failure)
 
 
-def component_names(accelerograms: Sequence[Accelerogram]) -> list[str]:
-    """Return the names of the components, or numbers where two have the same name or one of two has none."""
-    names = [each.component for each in accelerograms]
+def by_name(components: Sequence[Component]) -> dict[str, Component]:
+    """Return the components by their names, or by numbers where two have the same name or one of two has none."""
+    names = [each.accelerogram.component for each in components]
     if len(names) > 1 and (len(set(names)) < len(names) or not all(names)):
-        return [f"component {place}" for place, _ in enumerate(names, start=1)]
-    return names
+        names = [f"component {place}" for place, _ in enumerate(names, start=1)]
+    return dict(zip(names, components, strict=True))
 
 
 def pulses_of(
@@ -263,22 +263,21 @@ def horizontal_motions(accelerograms: Sequence[Accelerogram]) -> list[Horizontal
 
     Two components that share time step and start are a pair; fewer, more or others stand each alone.
     """
+    groups: list[Sequence[Accelerogram]] = [[each] for each in accelerograms]
+    peaks = None
     if len(accelerograms) == 2:
-        first, second = accelerograms
         with suppress(RecordError):  # two that do not belong together stand alone
-            pair = _motion(first, second, rotd(first, second))
-            return [pair, pair]
-    return [_motion(accelerogram) for accelerogram in accelerograms]
-
-
-def _motion(
-    first: Accelerogram, second: Accelerogram | None = None, peaks: RotD | None = None
-) -> HorizontalMotion:
-    try:
-        pulse = velocity_pulse(first, second)
-    except PulseError:  # the motion holds none, which is no failure of the record
-        return HorizontalMotion(rotd=peaks)
-    azimuth = first.azimuth
-    if second is not None:
-        azimuth = azimuth_of_axis(first.azimuth, second.azimuth, pulse.orientation)
-    return HorizontalMotion(pulse, None if azimuth is None else azimuth % 180, peaks)
+            first, second = accelerograms
+            peaks = rotd(first, second)
+            groups = [accelerograms]
+    motions = []
+    for first, *others in groups:
+        motion = HorizontalMotion(rotd=peaks)
+        with suppress(PulseError):  # the motion holds none, which is no failure of the record
+            pulse = velocity_pulse(first, *others)
+            azimuth = first.azimuth
+            for second in others:
+                azimuth = azimuth_of_axis(first.azimuth, second.azimuth, pulse.orientation)
+            motion = HorizontalMotion(pulse, None if azimuth is None else azimuth % 180, peaks)
+        motions += [motion] * (1 + len(others))
+    return motions

@@ -225,16 +225,15 @@ class _Ladder:
             np.interp(factors * side, edges, overturning) for side in (1 - self.width, 1 + self.width)
         )
         rising = isotonic_regression((high - low) / (2 * self.width * factors)).x
-        return [_crossing(self.log_factors, rising, share) for share in SHARES]
-
-
-def _crossing(logs: np.ndarray, rising: np.ndarray, share: float) -> float:
-    """The level at which a curve that rises at `logs` reaches `share`, linear in between; nan where it does not."""
-    above = int(np.searchsorted(rising, share - 1e-9))  # but for rounding
-    if above == rising.size:
-        return math.nan
-    if above == 0:
-        return math.exp(logs[0])
-    rise = rising[above] - rising[above - 1]
-    part = (share - rising[above - 1]) / rise
-    return math.exp(logs[above - 1] + part * (logs[above] - logs[above - 1]))
+        crossings = []
+        for share in SHARES:
+            above = int(np.searchsorted(rising, share - 1e-9))  # but for rounding
+            if above == rising.size:
+                crossings.append(math.nan)
+            elif above == 0:
+                crossings.append(math.exp(self.log_factors[0]))
+            else:
+                below = self.log_factors[above - 1]
+                part = (share - rising[above - 1]) / (rising[above] - rising[above - 1])
+                crossings.append(math.exp(below + part * (self.log_factors[above] - below)))
+        return crossings

@@ -32,7 +32,7 @@ class Variant:
     @property
     def share(self) -> float:
         """Share of the members that overturn; nan where none can be said."""
-        return self.conclusion.decision.share if self.conclusion else math.nan
+        return self.conclusion.verdict.decision.share if self.conclusion else math.nan
 
     @property
     def reserve(self) -> float:
@@ -100,7 +100,7 @@ def variants(
     groups: names of the scenes by the structure. concluded: on each scene, under its worst record. checked: at the
     design level.
     """
-    conclusion_of = {each.structure: each for each in concluded}
+    conclusion_of = {each.verdict.structure: each for each in concluded}
     check_of = {each.structure: each for each in checked}
     made = {}
     for structure, names in groups.items():

@@ -202,7 +202,7 @@ def _case(
     history = None
     if row and response:
         crack = station.cases[row.component].crack if row.component in station.cases else ""
-        history = rotation_ratios(response, cracked(station.body, crack).mechanism())
+        history = rotation_ratios(response, cracked(station.scene.structure, crack).mechanism())
     if response and history and response.rotation_ratio > NEGLIGIBLE:
         times = history[0]
         ratios = np.clip(history[1], -_BEYOND, _BEYOND)

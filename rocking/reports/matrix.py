@@ -32,17 +32,17 @@ def matrix(
     Without rows where there are more records than stand beside each other. made: the conclusions on all. The legend is
     empty where the cells hold their words.
     """
-    columns = worst_first((each.verdict.record, each.decision) for each in made)
-    by_pair = {(each.verdict.record, each.structure): each for each in made}
-    shares = worst_first((each.structure, each.decision) for each in made)
-    worst = {each.structure: each for each in worst_of_each(made)}
-    names = sorted(shares, key=lambda name: worst[name].decision.word.badness, reverse=True)
+    columns = worst_first((each.verdict.record, each.verdict.decision) for each in made)
+    by_pair = {(each.verdict.record, each.verdict.structure): each for each in made}
+    shares = worst_first((each.verdict.structure, each.verdict.decision) for each in made)
+    worst = {each.verdict.structure: each for each in worst_of_each(made)}
+    names = sorted(shares, key=lambda name: worst[name].verdict.decision.word.badness, reverse=True)
     if not 0 < len(columns) <= MOST_RECORDS:
         return {"heads": [], "rows": [], "legend": [], "left-out": 0}
     shown = names[:MOST_STRUCTURES]
     has_room = len(columns) <= MOST_WITH_ALL
     in_words = len(columns) <= MOST_IN_WORDS
-    present = {by_pair[pair].decision.word for pair in by_pair if pair[1] in shown}
+    present = {by_pair[pair].verdict.decision.word for pair in by_pair if pair[1] in shown}
     return {
         "legend": [] if in_words else [chip(word) for word in ORDER if word in present],
         "upright": not has_room,
@@ -75,7 +75,7 @@ def _head(record: str, records: Sequence[RecordRow], pulses: Sequence[PulseRow],
 def _cell(conclusion: Conclusion | None, records: int) -> dict[str, object]:
     if conclusion is None:
         return {"word": "", "share": "", "fill": "#ffffff", "ink": "#000000", "hatched": False}
-    decision = conclusion.decision
+    decision = conclusion.verdict.decision
     untold = decision.word is Verdict.CANNOT_BE_TOLD
     if records > MOST_IN_WORDS:
         share = decision.share_in_words.removesuffix("\u00a0%").replace("at least ", "≥")

@@ -147,7 +147,7 @@ class RecordReport:
         """What the models of structures that lift leave out, or take from what was typed, with the structures."""
         concerned: dict[Remark, list[str]] = {}
         for station in self.result.worst_first:
-            for caution in station.body.cautions if station.rotation_ratio > 0 else ():
+            for caution in station.scene.structure.cautions if station.rotation_ratio > 0 else ():
                 concerned.setdefault(caution, []).append(self.called(station.structure))
         would_crush = [each.structure for each in self.result.worst_first if _would_crush(each)]
         if would_crush:
@@ -259,7 +259,7 @@ def page_one(
     pulse: its dominant pulse.
     """
     drawn, others = conclusions[:MOST_ROWS], conclusions[MOST_ROWS:]
-    words = {each.decision.word for each in conclusions}
+    words = {each.verdict.decision.word for each in conclusions}
     # Whom to trust where closed form and integration differ.
     clause = "No sine was found: there are no rings."
     if pulse is not None and pulse.explained_energy >= DOMINATES:
@@ -269,11 +269,11 @@ def page_one(
     return {
         "trace": [_trace(motion)] if motion else [],
         "sine": {"share": percents(pulse.explained_energy) if pulse else "", "clause": clause},
-        "rows": [_row(each, structures.get(each.structure)) for each in drawn],
+        "rows": [_row(each, structures.get(each.verdict.structure)) for each in drawn],
         "others": [
             {"word": str(word), "names": listed(names, _MOST_NAMED)}
             for word in ORDER
-            if (names := [each.structure for each in others if each.decision.word is word])
+            if (names := [each.verdict.structure for each in others if each.verdict.decision.word is word])
         ],
         "untold": Verdict.CANNOT_BE_TOLD in words,
     }
@@ -303,7 +303,7 @@ def _trace(motion: Trace) -> dict[str, str]:
 
 def _row(conclusion: Conclusion, structure: Structure | None) -> dict[str, object]:
     """The row of a structure: drawn at _DRAWN of its critical rotation and dashed at rest, its word and its marks."""
-    decision = conclusion.decision
+    decision = conclusion.verdict.decision
     verdict = conclusion.verdict
     drawing = []
     if structure is not None:
@@ -311,19 +311,20 @@ def _row(conclusion: Conclusion, structure: Structure | None) -> dict[str, objec
         sign = -1 if verdict.peak_side == -1 else 1
         side = broken.mechanism().sides[0 if sign > 0 else -1]
         shapes = sketch(broken, sign * _DRAWN * side.critical_rotation, *_ROOM)
-        drawing.append(drawn_by_hand(shapes, *_ROOM, f"{conclusion.structure}, turned, and at rest."))
+        drawing.append(drawn_by_hand(shapes, *_ROOM, f"{conclusion.verdict.structure}, turned, and at rest."))
 
+    closed_form, block, whole = conclusion.ratios
     band = [_place(each, "line") for each in (verdict.rotation_ratio_low, verdict.rotation_ratio_high)]
     period = verdict.support_period_s
     below = "" if period is None else f"T_b {period:.3g} s" if period else "on the ground"
     return chip(decision.word, decision.share_in_words) | {
         "drawing": drawing,
-        "name": conclusion.structure,
+        "name": conclusion.verdict.structure,
         "below": below,
         "marks": {
-            "form": _place(conclusion.closed_form, "form"),
-            "block": _place(conclusion.block, "block"),
-            "whole": _place(conclusion.integrated, "whole"),
+            "form": _place(closed_form, "form"),
+            "block": _place(block, "block"),
+            "whole": _place(whole, "whole"),
             "line": band if None not in band else [],
         },
         "reserve": reserve_in_figures(verdict.reserve),
@@ -365,7 +366,7 @@ def _head(report: RecordReport) -> dict[str, object]:
         "title": title,
         "subtitle": " · ".join([*texts, shown]),
         "conclusion": conclusion_in_words(
-            {each.structure: each.decision.word for each in report.conclusions}
+            {each.verdict.structure: each.verdict.decision.word for each in report.conclusions}
         ),
         "at-design-level": "At the design level: summary/structures.pdf." if report.level else "",
         "peaks": []
@@ -420,11 +421,11 @@ def _would_crush(station: StationResult) -> bool:
     # What no factor overturns, no loss of λ does; to crush an arch takes a fifth of a second.
     if reserve is None or math.isnan(reserve.low):
         return False
-    crushed = station.body.crushing(WEAK_MASONRY)
+    crushed = station.scene.structure.crushing(WEAK_MASONRY)
     if crushed is None:
         return False
-    factor = station.body.static_multiplier / crushed.static_multiplier
-    share = 0.0 if math.isnan(station.overturning_share) else station.overturning_share
+    factor = station.scene.structure.static_multiplier / crushed.static_multiplier
+    share = 0.0 if math.isnan(station.decision.share) else station.decision.share
     reached = [(0.95, reserve.high), (0.5, reserve.median), (0.05, reserve.low)]
     then = next((each for each, at in reached if at <= factor), 0.0)
     return then - share > MOVED or then >= 0.05 > share

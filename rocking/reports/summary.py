@@ -110,7 +110,7 @@ def _data(
     shown = worst_period_each(verdicts)
     comparison = rows_of(ComparisonRow, rows)
     made = conclusions(verdicts, comparison)
-    words_of_all = {each.structure: each.decision.word for each in worst_of_each(made)}
+    words_of_all = {each.verdict.structure: each.verdict.decision.word for each in worst_of_each(made)}
     judged = {row.record for row in shown}
     many = len(judged) > MOST_RECORDS_BESIDE
     failures = rows_of(FailureRow, rows)

@@ -65,7 +65,7 @@ def _cell(
         **{"word": words("not judged"), "share": "", "fill": "#ffffff", "ink": "#000000", "hatched": False},
     }
     if conclusion is not None:
-        decision = conclusion.decision
+        decision = conclusion.verdict.decision
         share = words.decimal(decision.share_in_words) if not math.isnan(decision.share) else ""
         cell |= chip(decision.word, share, words(f"verdict {decision.word}"))
         figures = words.decimal(reserve_in_figures(conclusion.verdict.reserve))

@@ -51,7 +51,7 @@ def write_checks(
         raise ConfigurationError(
             "setting design_spectrum.ag_g is null, and so is points, but checks need a design level; give one."
         )
-    worst = {each.structure: each for each in worst_of_each(conclusions(verdicts, []))}
+    worst = {each.verdict.structure: each for each in worst_of_each(conclusions(verdicts, []))}
     selection, without_sets, unread = _sets(study)
     of_records = list(records)
     station_of = {each.record: _station(each) for each in of_records}

@@ -88,7 +88,7 @@ def closing_lines(
     """
     worst = worst_of_each(conclusions(verdicts, []))
     records = len({each.record for each in verdicts})
-    shown = {(each.verdict.record, each.structure): each for each in worst[:_WORST]}
+    shown = {(each.verdict.record, each.verdict.structure): each for each in worst[:_WORST]}
     of_shown: list[ComparisonRow] = []
     seen = false = 0
     missed = Counter[str]()
@@ -103,20 +103,20 @@ def closing_lines(
             false += integrated < predicted == math.inf
     if worst:
         count = f"{counted(records, 'record')}, {counted(len(worst), 'structure')}. "
-        words = {each.structure: each.decision.word for each in worst}
+        words = {each.verdict.structure: each.verdict.decision.word for each in worst}
         for said in (count + conclusion_in_words(words, records), falls_in_words(expected)):
             yield from wrap(said, _WIDTH)
         yield "Largest rotation, 1 = critical, of the worst, each under its worst record:"
         yield f"{'':<17}  {'record':<22}  closed form   block  integrated  members that overturn"
     own = (row for row in verdicts if (row.record, row.structure) in shown)
     for each in conclusions(own, of_shown):
-        ratios = [_rotation(ratio) for ratio in (each.closed_form, each.block, each.integrated)]
+        ratios = map(_rotation, each.ratios)
         marks = "  ".join(f"{text:>{width}}" for text, width in zip(ratios, (11, 6, 10), strict=True))
-        line = f"{_cut(each.structure, 17):<17}  {_cut(each.verdict.record, 22):<22}  {marks}  "
-        yield f"{line}{each.decision.word} {each.decision.share_in_words}".rstrip()
-    if any("–" in each.decision.share_in_words for each in worst[:_WORST]):
+        line = f"{_cut(each.verdict.structure, 17):<17}  {_cut(each.verdict.record, 22):<22}  {marks}  "
+        yield f"{line}{each.verdict.decision.word} {each.verdict.decision.share_in_words}".rstrip()
+    if any("–" in each.verdict.decision.share_in_words for each in worst[:_WORST]):
         yield "A range: two cracks, or the mechanism and contact dynamics, disagree."
-    others = [(each.decision.word, _cut(each.structure, 30)) for each in worst[_WORST:]]
+    others = [(each.verdict.decision.word, _cut(each.verdict.structure, 30)) for each in worst[_WORST:]]
     if names := {word: [name for its, name in others if its is word] for word, _ in others}:
         text = "; ".join(map(": ".join, _named(names, _NAMED - _WORST).items()))
         yield from wrap(text, _WIDTH, initial_indent="Others  ", subsequent_indent=" " * 8)

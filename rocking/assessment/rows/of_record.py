@@ -560,7 +560,7 @@ def held_mechanisms(station: "StationResult", identity: Identity) -> Iterator[He
     from rocking.assessment.cracks import mechanisms_of  # as above: it loads what integrates
 
     followed = {each.description: each for each in station.ensembles.followed} if station.ensembles else {}
-    family = mechanisms_of(station.body)
+    family = mechanisms_of(station.scene.structure)
     for candidate in family:
         only = candidate is family[0]  # which has no name where no other one may form
         own = followed.get(candidate.description) or (followed.get("") if only else None)

@@ -29,7 +29,7 @@ def test_without_an_ensemble_the_single_run_of_the_worst_component_decides_and_i
     ratios, word, share
 ):
     result = station(*(case(str(place), ratio, side=place) for place, ratio in enumerate(ratios)))
-    assert (result.verdict, result.overturning_share, result.ensemble.members) == (word, share, 0)
+    assert (result.verdict, result.decision.share, result.ensemble.members) == (word, share, 0)
     assert result.decision.share_in_words == "one run"
     assert result.peak_side == ratios.index(max(ratios))
     assert result.direction == ("1" if len(ratios) == 2 else ""), "of the worst, where there are several"
@@ -70,7 +70,7 @@ def test_a_crack_that_overturns_in_one_run_is_the_worse_of_the_two():
     block = station(fallen)
     wall = Wall.hinged_at(6.0, 3.0, 0.4, crack="unknown")
     result = replace(block, scene=replace(block.scene, structure=wall))
-    assert (result.verdict, result.crack, result.overturning_share) == ("uncertain", "crack at 3 m", 1.0)
+    assert (result.verdict, result.crack, result.decision.share) == ("uncertain", "crack at 3 m", 1.0)
     # beside a crack that is given it is told alone
     assert block.verdict == "probably stands"
 
@@ -79,7 +79,7 @@ def test_a_crack_that_stands_too_changes_neither_the_verdict_nor_the_crack():
     standing = replace(case("EW", 0.2), variations=(Variation(0.25, crack="crack at 3 m"),))
     result = station(standing)
     assert result.verdict == "probably stands"
-    assert (result.crack, result.overturning_share) == ("", 0.0)
+    assert (result.crack, result.decision.share) == ("", 0.0)
 
 
 def test_a_fall_under_another_processing_is_no_fall_of_a_crack():
@@ -96,7 +96,7 @@ def test_the_worst_crack_gives_every_number_and_statics_stands_beside_it():
         replace(case("EW", 0.3), ensembles=CrackEnsembles((static, worse, other))),
     )
     assert (result.verdict, result.crack) == ("uncertain", "crack at 8.5 m")
-    assert result.overturning_share == 40 / 64
+    assert result.decision.share == 40 / 64
     assert result.decision.interval == (0.0, 40 / 64)
     assert math.isinf(result.ensemble.rotation_ratio_high) and result.severity[1] == 40 / 64
     assert (result.statics.description, result.statics.ensemble.overturning_members) == ("crack at 3.0 m", 0)

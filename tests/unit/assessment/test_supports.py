@@ -106,11 +106,11 @@ def test_a_stored_case_of_one_support_is_not_taken_for_another(tmp_path):
     first = replace(FULL, store=store).assess("r", [record], on_roof([0.2, 0.6]))
     again = replace(FULL, store=store).assess("r", [record], on_roof([0.2, 0.6]))
     alone = FULL.assess("r", [record], on_roof([0.2, 0.6]))
-    assert len({station.overturning_share for station in first.stations}) > 1
+    assert len({station.decision.share for station in first.stations}) > 1
     assert len(first.stations) > 3
     for other in (again, alone):
         for station, same in zip(first.stations, other.stations, strict=True):
-            assert same.overturning_share == station.overturning_share
+            assert same.decision.share == station.decision.share
             assert same.rotation_ratio == station.rotation_ratio
 
 
@@ -137,8 +137,8 @@ def test_a_period_at_which_it_falls_is_found_where_it_stands_at_the_ends_and_in_
     result = FULL.assess("r", [Accelerogram(waves, STEP)], on_roof([0.1, 0.9]))
     ground, *carried = result.stations
     assert len(carried) == 9
-    falls = [station.overturning_share for station in carried]
-    assert ground.overturning_share == falls[0] == falls[4] == falls[8] == 0 < max(falls)
+    falls = [station.decision.share for station in carried]
+    assert ground.decision.share == falls[0] == falls[4] == falls[8] == 0 < max(falls)
 
 
 def test_fragility_is_against_the_intensity_of_the_ground():

@@ -80,7 +80,7 @@ def test_common_letters_need_no_font_of_the_machine():
 def test_page_one_draws_the_mechanism_at_four_fifths_of_the_critical_rotation_on_its_side(example):
     """The dashed outline at rest is drawn after the turned one; both are as like as pictures of two sizes."""
     name = "block 4 m"
-    (conclusion,) = (each for each in example.conclusions if each.structure == name)
+    (conclusion,) = (each for each in example.conclusions if each.verdict.structure == name)
     block = example.structures[name]
     critical = block.mechanism().critical_rotation
     for side in (1, -1):

@@ -13,7 +13,7 @@ def test_numbers_are_those_of_the_result_to_six_digits_and_nothing_stands_for_na
     json.dumps(content, allow_nan=False)
     cases = content["cases"]
     for station in example.result.worst_first:
-        share = station.overturning_share
+        share = station.decision.share
         told = cases[station.structure]["share"]
         assert told == (None if math.isnan(share) else pytest.approx(share, rel=5e-6))
     assert any(case["share"] is not None for case in cases.values())
