@@ -24,8 +24,8 @@ from rocking.pulses import (
     velocity_pulse,
 )
 from rocking.records import Accelerogram, RotD, rotd
+from rocking.records.direction import aligned, azimuth_of_axis, rotate
 from rocking.records.processing import process, variants
-from rocking.records.rotation import aligned, azimuth_of_axis, rotate
 from rocking.remarks import Remark
 
 AS_IT_IS = "unchanged"

@@ -15,8 +15,8 @@ import numpy as np
 from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.direction import paired
 from rocking.records.processing import integral
-from rocking.records.rotation import paired
 
 SUPPORT = 7.0
 """Length of db4 in its own time; its centre frequency is 5 cycles over it."""

@@ -1,6 +1,5 @@
 """Accelerogram: what every reader returns. An acceleration history and where it came from, nothing else."""
 
-from collections.abc import Iterator
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -12,7 +11,6 @@ from rocking.drawn import Drawn
 from rocking.errors import RecordError, about
 from rocking.hashes import sha256_of_bytes
 from rocking.quantities import GRAVITY, UNPRINTABLE, finite, four_digits, positive
-from rocking.records.traces import OBSPY_EXTRAS
 from rocking.remarks import Kind, Remark
 
 if TYPE_CHECKING:
@@ -27,6 +25,30 @@ SHORTEST_STEP = 1e-4
 """s; no accelerograph has a shorter one."""
 LONGEST_STEP = 0.1
 """s; a longer one leaves out what makes a structure rock."""
+
+OBSPY_EXTRAS = (
+    "component",
+    "event",
+    "azimuth",
+    "vertical",
+    "borehole",
+    "processed",
+    "processing",
+    "warnings",
+    "magnitude",
+    "magnitude_type",
+    "event_time",
+    "latitude",
+    "longitude",
+    "elevation",
+    "epicentral_distance",
+    "high_pass_frequency",
+    "scale_factor",
+    "initial_velocity",
+    "initial_displacement",
+    "smooth_steps",
+)
+"""The facts for which a trace of obspy has no place."""
 
 
 @dataclass(frozen=True)
@@ -102,20 +124,14 @@ class Accelerogram(Drawn):
                 raise RecordError(
                     f"smooth_steps is {self.smooth_steps!r}, but must be a whole number from 1 on."
                 )
-        for doubt in self._doubts():
-            if doubt not in self.warnings:
-                object.__setattr__(self, "warnings", (*self.warnings, doubt))
-
-    def _doubts(self) -> Iterator[Remark]:
+        doubts = []
         if not SHORTEST_STEP <= self.time_step <= LONGEST_STEP:
-            yield Remark.of(
-                Kind.STEP_UNUSUAL,
-                time_step_s=self.time_step,
-                shortest_s=SHORTEST_STEP,
-                longest_s=LONGEST_STEP,
-            )
+            limits = {"shortest_s": SHORTEST_STEP, "longest_s": LONGEST_STEP}
+            doubts.append(Remark.of(Kind.STEP_UNUSUAL, "", time_step_s=self.time_step, **limits))
         if self.peak_acceleration > LARGEST_PEAK:
-            yield Remark(Kind.PEAK_IMPOSSIBLE)
+            doubts.append(Remark(Kind.PEAK_IMPOSSIBLE))
+        new = (doubt for doubt in doubts if doubt not in self.warnings)
+        object.__setattr__(self, "warnings", (*self.warnings, *new))
 
     def __repr__(self) -> str:
         names = [name for name in (self.component, self.station, self.event) if name]

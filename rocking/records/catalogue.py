@@ -145,8 +145,13 @@ def _defects(record: CatalogueRecord) -> Iterator[str]:
             object.__setattr__(record, name, each.checked(getattr(record, name)))
         except ValueError as error:
             yield f"{each.key} is {error}"
-    checks = (*_checks_of_files(record), *_checks_of_source(record), *_checks_of_scale(record))
+    checks = (*_checks_of_files(record), *_checks_of_source(record))
     yield from (sentence for is_right, sentence in checks if not is_right)
+    if record.scale_factor == 0:
+        yield "scale_factor is 0, but must not be; leave the row out instead."
+    if record.scale_factor != 1 and record.scale_to:
+        given = f"scale_factor is {record.scale_factor:g} beside scale_to {shown(record.scale_to)}"
+        yield f"{given}; give one of the two."
     for cell, check in ((record.unit, acceleration_factor), (record.scale_to, ScalingTarget.parse)):
         if cell:
             try:
@@ -203,15 +208,6 @@ def _checks_of_source(record: CatalogueRecord) -> Iterator[_Check]:
         f"source_path is {shown(source_path)}, but must be a relative path without '..' for each file.",
     )
     yield _COMMIT.fullmatch(commit), f"source_commit is {shown(commit)}, but must be 40 hexadecimal digits."
-
-
-def _checks_of_scale(record: CatalogueRecord) -> Iterator[_Check]:
-    """Yield the checks of the factor on the record."""
-    yield record.scale_factor != 0, "scale_factor is 0, but must not be; leave the row out instead."
-    yield (
-        record.scale_factor == 1 or not record.scale_to,
-        f"scale_factor is {record.scale_factor:g} beside scale_to {shown(record.scale_to)}; give one of the two.",
-    )
 
 
 def is_safe_id(text: str) -> bool:

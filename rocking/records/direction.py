@@ -1,4 +1,7 @@
-"""Direction: where a component points, decided once from what its reader, its name, its file and its row say."""
+"""Direction: where a component points, decided once from what its reader, its name, its file and its row say.
+
+And a horizontal pair seen from another direction, with the vertical component beside it.
+"""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -6,6 +9,11 @@ from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any, Literal, Protocol
 
+import numpy as np
+
+from rocking.errors import RecordError
+from rocking.quantities import finite
+from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Kind, Remark
 
 SaidBy = Literal["", "header", "name", "file"]
@@ -92,8 +100,7 @@ class Direction:
     def of(cls, name: str) -> "Direction":
         """Return what the name of a component says, in plain degrees ("228"), bearings ("N26W"), words and codes.
 
-        >>> from rocking.records.direction import Direction
-        >>> Direction.of("N26W").azimuth, Direction.of("+V").vertical, Direction.of("--L").relative
+        >>>         >>> Direction.of("N26W").azimuth, Direction.of("+V").vertical, Direction.of("--L").relative
         (334.0, True, 'L')
         """
         return _of_name(name)
@@ -296,8 +303,7 @@ def without_ending(name: str) -> str:
 def direction_in_name(name: str) -> tuple[str, str]:
     """Return the name of a file before the direction at its end, and that direction; ("", "") where it ends in none.
 
-    >>> from rocking.records.direction import direction_in_name
-    >>> direction_in_name("RSN779_LOMAP_LGP090.time_g.csv")
+    >>>     >>> direction_in_name("RSN779_LOMAP_LGP090.time_g.csv")
     ('RSN779_LOMAP_LGP', '090')
     """
     stem = without_ending(name)
@@ -322,3 +328,111 @@ _NO_DIRECTION = re.compile(
     r"(?i)(scaled?|clean(ed)?|rounded|filled|sped|speed|back|set|sized?)[-_. ](up|down)$"
 )
 """The end of a name in which "up" says what was done, as in "scaled_up"."""
+
+
+_FLATTEST = np.sin(np.radians(30.0))
+
+
+@dataclass(frozen=True)
+class RotD:
+    """Peak accelerations over all directions (Boore 2010), m/s²: median and largest, and the azimuth of the largest.
+
+    azimuth: degrees clockwise from north in [0, 180), or from the first component where azimuths are unknown.
+
+    >>> rocking.RotD(rotd50=2.0, rotd100=2.5, azimuth=30.0).rotd100
+    2.5
+    """
+
+    rotd50: float
+    rotd100: float
+    azimuth: float
+
+
+def rotate(first: Accelerogram, second: Accelerogram, angle: float) -> Accelerogram:
+    """Return the horizontal motion along an axis at `angle`, rad, from the first component towards the second.
+
+    The components have one time step and one start, and are taken as orthogonal; the longer is cut to the shorter.
+    Raises RecordError when they do not fit together.
+    """
+    a, b = paired(first, second)
+    angle = finite(RecordError, "angle", angle, "rad")
+    shares = np.cos(angle), np.sin(angle)
+    one = first.component or "one"
+    degrees = np.degrees(angle)
+    sentence = (
+        f"Rotated by {degrees:.2f}° from component {one} towards component {second.component or 'two'}."
+    )
+    changes: dict[str, Any] = {"component": f"{degrees:.0f}° from {one}"}
+    changes["azimuth"] = azimuth_of_axis(first.azimuth, second.azimuth, angle)
+    short, long = sorted((first.acceleration.size, second.acceleration.size))
+    cut = [Remark.of(Kind.CUT_TO_THE_SHORTER, short=short, long=long)] if short < long else []
+    warnings = dict.fromkeys((*first.warnings, *second.warnings, *cut))
+    changes["warnings"] = tuple(warnings)
+    for name in ("initial_velocity", "initial_displacement"):
+        changes[name] = shares[0] * getattr(first, name) + shares[1] * getattr(second, name)
+    return first.processed_by(shares[0] * a + shares[1] * b, sentence, **changes)
+
+
+def azimuth_of_axis(first: float | None, second: float | None, angle: float) -> float | None:
+    """Return the azimuth of an axis at `angle` [rad] from the first component; None unless they are square, to 1°."""
+    if first is None or second is None:
+        return None
+    apart = (second - first) % 360
+    if abs(min(apart, 360 - apart) - 90) > 1:
+        return None
+    return float((first + np.degrees(angle) * (1 if apart < 180 else -1)) % 360)
+
+
+def rotd(first: Accelerogram, second: Accelerogram, step: float = 1.0) -> RotD:
+    """Return RotD50 and RotD100 of peak acceleration over directions `step` degrees apart.
+
+    Components without azimuths are taken as orthogonal.
+
+    >>> north, across, up = rocking.read("records/20161113_110259_WTMC_20.V2A")
+    >>> round(rocking.rotd(north, across).rotd100, 1)
+    9.9
+    """
+    if not 0 < step <= 90:
+        raise RecordError(f"step is {step!r} degrees, but must be above 0 and at most 90.")
+    a, b = paired(first, second)
+    if first.azimuth is not None and second.azimuth is not None:
+        one, two = np.radians([first.azimuth, second.azimuth])
+        base = np.sin(two - one)
+        if abs(base) < _FLATTEST:
+            azimuths = f"{first.azimuth:g}° and {second.azimuth:g}°"
+            raise RecordError(f"the azimuths are {azimuths}, but must differ by 30° or more.")
+        axes = np.radians([0.0, 90.0])
+        a, b = (np.sin(two - axis) / base * a + np.sin(axis - one) / base * b for axis in axes)
+    angles = np.arange(0.0, 180.0, step)
+    peaks = np.array([np.abs(a * np.cos(t) + b * np.sin(t)).max() for t in np.radians(angles)])
+    return RotD(float(np.median(peaks)), float(peaks.max()), float(angles[peaks.argmax()]))
+
+
+def paired(first: Accelerogram, second: Accelerogram) -> tuple[np.ndarray, np.ndarray]:
+    """Return both accelerations, m/s², over the samples they share. Raises RecordError where they do not fit."""
+    if abs(first.time_step / second.time_step - 1) > 1e-9:
+        steps = f"time_step is {first.time_step!r} s and {second.time_step!r} s"
+        raise RecordError(f"{steps}, but must be one; resample first.")
+    if first.vertical or second.vertical:
+        raise RecordError("a component is vertical, but both must be horizontal.")
+    if first.start_time and second.start_time and first.start_time != second.start_time:
+        starts = f"{first.start_time} and {second.start_time}"
+        raise RecordError(f"the components start at {starts}, but must start together.")
+    n = min(first.acceleration.size, second.acceleration.size)
+    return first.acceleration[:n], second.acceleration[:n]
+
+
+def aligned(vertical: Accelerogram, horizontal: Accelerogram) -> Accelerogram:
+    """Return `vertical` with as many samples as `horizontal`: cut, or still after its end.
+
+    Raises RecordError when their time steps differ by more than rounding.
+    """
+    if not np.isclose(vertical.time_step, horizontal.time_step, rtol=1e-9, atol=0):
+        steps = f"time_step of the vertical component is {vertical.time_step!r} s"
+        raise RecordError(
+            f"{steps}, but the horizontal one has {horizontal.time_step!r} s; resample one of them."
+        )
+    size = horizontal.acceleration.size
+    samples = vertical.acceleration[:size]
+    samples = np.pad(samples, (0, size - samples.size))
+    return replace(vertical, acceleration=samples, time_step=horizontal.time_step)

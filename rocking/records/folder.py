@@ -14,11 +14,10 @@ from rocking.errors import CatalogueError, RecordError
 from rocking.quantities import acceleration_unit
 from rocking.records.archive import is_archive, members
 from rocking.records.catalogue import is_safe_id, read_rows
-from rocking.records.dates import day_of
 from rocking.records.direction import angle_between, names_no_direction, pair_doubt, without_ending
 from rocking.records.formats.format import plain
 from rocking.records.formats.layouts import NAME, Layouts
-from rocking.records.formats.text import is_number
+from rocking.records.formats.text import day_of, is_number
 from rocking.records.grouping import named_channel, rsn_of, stations, without_direction
 from rocking.records.joining import SQUARE
 from rocking.records.listing import CELLS, ListedChannel, ListedFile, doubts_of, listed_file

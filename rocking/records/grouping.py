@@ -8,7 +8,6 @@ from itertools import combinations
 
 import numpy as np
 
-from rocking.records.dates import day_of
 from rocking.records.direction import (
     Direction,
     angle_between,
@@ -16,6 +15,7 @@ from rocking.records.direction import (
     names_no_direction,
     without_ending,
 )
+from rocking.records.formats.text import day_of
 from rocking.records.joining import SQUARE, why_apart
 from rocking.records.listing import ListedChannel, ListedFile
 from rocking.remarks import Kind, Remark

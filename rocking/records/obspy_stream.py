@@ -7,12 +7,12 @@ import numpy as np
 
 from rocking.errors import RecordError, about
 from rocking.quantities import acceleration_factor
-from rocking.records.accelerogram import Accelerogram, Source
+from rocking.records.accelerogram import OBSPY_EXTRAS, Accelerogram, Source
 from rocking.records.direction import directed
 from rocking.records.formats.format import without_offset
 from rocking.records.joining import SAME_STEP
 from rocking.records.read import checked_channels
-from rocking.records.traces import OBSPY_EXTRAS, calibrated, joined, names, quantity_order, site, unit_left_by
+from rocking.records.traces import calibrated, joined, names, quantity_order, site, unit_left_by
 from rocking.remarks import Kind, Remark
 
 _CALIBRATED_TO_DISPLACEMENT = "GSE1", "GSE2", "CSS", "NNSA_KB_CORE"

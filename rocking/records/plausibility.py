@@ -1,11 +1,12 @@
-"""Plausibility: what a record's samples tell against its header, against any ground, or of damage.
+"""Plausibility: what a record's samples tell against its header, against any ground, or of damage; and its instrument.
 
 A peak that contradicts its own header, or that no ground has, does not pass unseen. Each test of damage (a struck
 sample, gaps, a row that is repeated) asks whether what stands there could be chance, in so long a record; none of the
-real files is accused.
+real files is accused. Where the instrument stood, and what it measured, names and headers say.
 """
 
 import math
+import re
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -34,7 +35,8 @@ _ROUNDING = 1e-3
 _NEAR = 0.02  # how close a ratio must come to a factor between units to be explained by it
 _PLAUSIBLE = (0.005, 1.5)
 _NEIGHBOURS = 3
-"""Samples by which the stated time of a peak may be off: it has few digits, and counts from 0 or from 1."""
+"""Samples by which the stated time of a peak may be off, as it has few digits, and counts from 0 or from 1; and those
+beside a sample that it is compared with."""
 
 
 class StatedPeak(NamedTuple):
@@ -227,7 +229,6 @@ _ALONE = 3.0, 2.0
 
 Of the strongest real records a peak reaches 2.6 and 1.1, or 1.7 and 1.6 times.
 """
-_NEIGHBOURS = 3
 _SHORTEST = 100
 """Samples below which a record is too short for a remark on its course."""
 
@@ -331,3 +332,95 @@ def repeated_rows(records: Sequence[Accelerogram]) -> Remark | None:
     if not unlikely.size:
         return None
     return Remark.of(Kind.ROW_REPEATED, time_s=float(unlikely[0] + 1) * records[0].time_step)
+
+
+_STRUCTURE = re.compile(
+    r"(?i)\b(roof|floor|fl|flr|storey|story|penthouse|mezzanine|attic|deck|bent|column|girder|abutment|pier|crest|tower|"
+    r"dam|gallery|basement|bsmt|bldg|building|bridge)\b"
+)
+_FREE = re.compile(r"\bfree[- ]?field\b", re.I)
+_DOWN_HOLE = re.compile(r"(?i)\b(down-?hole|bore-?hole|depth|below (ground|surface))\b|-\s*\d+(\.\d+)?\s*m\b")
+_CODE = re.compile(r"(?!CH\d)[A-Z](?:([HLMPJ])[ENZ123]|([DFK])[FHEIOZ])(\d\d)?")
+"""A channel code but for CH1, CH2 and CH3, which count the channels of a logger."""
+_NO_MOTION = {"J": "rotational sensor", "D": "pressure sensor", "F": "magnetometer", "K": "thermometer"}
+
+
+BURIED = 5.0
+"""m below the surface from which on an instrument stands in a borehole; vaults are shallower."""
+_DEPTH = re.compile(r"(?i)(\d+(?:\.\d+)?)\s*(m|ft|feet)\b")
+
+
+def is_down_hole(place: str) -> bool:
+    """Whether the `place` of an instrument, as a header writes it, is a borehole or more than 5 m below the ground."""
+    if not _DOWN_HOLE.search(place):
+        return False
+    depths = [float(depth) * (1.0 if unit in "mM" else 0.3048) for depth, unit in _DEPTH.findall(place)]
+    return max(depths) >= BURIED if depths else bool(re.search(r"(?i)(down|bore)-?hole", place))
+
+
+def site_warnings(place: str) -> tuple[Remark, ...]:
+    """Return a warning when the `place` of an instrument is in a structure or below the ground."""
+    if _DOWN_HOLE.search(place):
+        return (Remark.of(Kind.DOWN_HOLE, place=place),)
+    if _STRUCTURE.search(place) and not _FREE.search(place):
+        return (Remark.of(Kind.IN_A_STRUCTURE, place=place),)
+    return ()
+
+
+def channel_warnings(component: str) -> tuple[Remark, ...]:
+    """Return a warning when a channel code is that of a seismometer (BH?, HH?, HL?), not of an accelerometer (?N?)."""
+    code = _CODE.fullmatch(component.strip().upper())
+    if not code:
+        return ()
+    if other := _NO_MOTION.get(code[1] or code[2]):
+        return (Remark.of(Kind.CHANNEL_NO_MOTION, component.strip(), sensor=other),)
+    kind = {"H": "high-gain seismometer", "L": "low-gain seismometer", "M": "mass position", "P": "geophone"}
+    return (Remark.of(Kind.CHANNEL_OF_VELOCITY, component.strip(), sensor=kind[code[1]]),)
+
+
+_ACCELERATION = re.compile(r"(?<![a-z])(acc|acel|beschl)", re.I)
+_OTHER = {
+    "velocity": re.compile(
+        r"(?<![a-z])vel(oc\w*|(?![a-z]))|(?<![\w/])(cm|m|mm|in)/s(ec)?\b(?!\s*[/^*²2])", re.I
+    ),
+    "displacement": re.compile(r"(?<![a-z])displ?(ac\w*|(?![a-z]))", re.I),
+}
+_OF_THE_GROUND = re.compile(r"shear|wave|vs[ _,]?30", re.I)  # the velocity of a site is no record
+_SUFFIXES = {
+    ".vt2": "velocity",
+    ".vel": "velocity",
+    ".vtx": "velocity",
+    ".dt2": "displacement",
+    ".dis": "displacement",
+    ".disp": "displacement",
+    ".semv": "velocity",
+    ".semd": "displacement",
+}
+
+
+def other_quantity(text: str) -> str | None:
+    """Return "velocity" or "displacement" when `text`, a header or the name of a column, speaks of it alone."""
+    if _ACCELERATION.search(text) or _OF_THE_GROUND.search(text):
+        return None
+    return next((word for word, pattern in _OTHER.items() if pattern.search(text)), None)
+
+
+def refuse_other_quantity(file: str, text: str) -> None:
+    """Raise RecordError when `text`, a header, or the ending of the name `file` speaks of another quantity."""
+    suffix = next((word for end, word in _SUFFIXES.items() if file.lower().endswith(end)), None)
+    if quantity := other_quantity(text) or suffix:
+        raise RecordError(f"this is a file of {quantity}; use the acceleration of the same record.")
+
+
+_QUANTITY_IN_NAME = re.compile(r"(?<![a-z])(vel(?:ocity|oc)?|disp(?:l|lacement)?)(?![a-z])", re.I)
+
+
+def refuse_by_name(file: str) -> None:
+    """Raise RecordError when the name of a file of bare numbers speaks of velocity or displacement alone."""
+    word = _QUANTITY_IN_NAME.search(file)
+    if word and not _ACCELERATION.search(file):
+        quantity = "velocity" if word[1][0] in "vV" else "displacement"
+        raise RecordError(
+            f"its name speaks of {quantity}, and nothing in it of acceleration; use the acceleration of the same "
+            "record, or rename the file if it is that."
+        )

@@ -207,13 +207,14 @@ def adaptive_baseline(acceleration: np.ndarray, time_step: float) -> tuple[np.nd
     last = min(strong + int(0.85 * (acceleration.size - strong)), acceleration.size - _LEFT)
     ends = np.unique(np.linspace(strong, last, _CANDIDATES).astype(int)).tolist()
 
-    def largest(candidate: tuple[int, int, np.ndarray]) -> float:
-        course = np.cumsum(
-            velocity - candidate[2]
-        )  # a drift that is left makes it larger than the ground's own
-        return float(max(course.max(), -course.min()))
-
-    end, degree, drift = min(_drifts(velocity, onset, ends), key=largest)
+    least = np.inf
+    for candidate in _drifts(velocity, onset, ends):
+        # A drift that is left makes the displacement larger than the ground's own.
+        course = np.cumsum(velocity - candidate[2])
+        largest = max(course.max(), -course.min())
+        if largest < least:
+            least = largest
+            end, degree, drift = candidate
     sentence = (
         f"Adaptive baseline: drift of velocity fitted before {onset * time_step:g} s and after {end * time_step:g} s "
         f"(degree {degree}), bridged between, and its acceleration removed."

@@ -28,10 +28,15 @@ from rocking.records.direction import (
 )
 from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
-from rocking.records.formats.layouts import Layouts, Signature
+from rocking.records.formats.layouts import Signature
 from rocking.records.formats.tables import signature_of
-from rocking.records.instrument import channel_warnings, site_warnings
-from rocking.records.plausibility import damage_warnings, pass_limits, repeated_rows
+from rocking.records.plausibility import (
+    channel_warnings,
+    damage_warnings,
+    pass_limits,
+    repeated_rows,
+    site_warnings,
+)
 from rocking.records.sheet import is_workbook, table_of_workbook
 from rocking.remarks import Kind, Remark
 from rocking.tables import read_whole
@@ -68,7 +73,7 @@ def read(
         raise RecordError(f"path is {shown(path)}, but must be the path of a file, as a text or a Path.")
     path = Path(path)
     stationxml = Path(inventory) if inventory else None
-    options = Options(unit, time_step, stationxml, path.parent, response, layouts=Layouts(path.parent))
+    options = Options(unit, time_step, stationxml, path.parent, response)
     if path.suffix.lower() == ENDING and is_archive(path):
         return _read_archive(path, options)
     return read_raw(bytes_of(path), path, options)

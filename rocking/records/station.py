@@ -78,7 +78,6 @@ def station_of(channels: Sequence[Accelerogram], record: CatalogueRecord) -> Sta
         channels = _named_by_row(channels, record)
         if len(record.files) > 1:
             channels = joined(channels)
-        _check_names(channels, record)
         upwards = (channel for channel in channels if channel.vertical and not channel.borehole)
         named = record.vertical_component
         vertical = _called(named, channels) if named else next(upwards, None)
@@ -114,14 +113,6 @@ def _called_now(channel: Accelerogram, name: str) -> Accelerogram:
     return named.warned(*doubts_of_channel(named))
 
 
-def _check_names(channels: Sequence[Accelerogram], record: CatalogueRecord) -> None:
-    """Raise RecordError where the row names a component that no file holds."""
-    names = [channel.component for channel in channels]
-    for name in filter(None, (*record.components, record.vertical_component)):
-        if name not in names:
-            raise RecordError(f"component is {name!r}, but the file holds {_listed(channels)}.")
-
-
 _ANSWERED = (Kind.SOME_MAY_BE_VERTICAL, Kind.LONE_MAY_BE_VERTICAL)
 """What is no longer in doubt once a row names the horizontal components."""
 
@@ -151,8 +142,11 @@ def _horizontal(
 
 
 def _called(name: str, channels: Sequence[Accelerogram]) -> Accelerogram:
-    """Return the first channel of that name."""
-    return next(channel for channel in channels if channel.component == name)
+    """Return the first channel of that name. Raises RecordError where no file holds it."""
+    named = next((channel for channel in channels if channel.component == name), None)
+    if named is None:
+        raise RecordError(f"component is {name!r}, but the file holds {_listed(channels)}.")
+    return named
 
 
 def _listed(channels: Sequence[Accelerogram]) -> str:

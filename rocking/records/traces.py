@@ -13,32 +13,9 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
-from rocking.records.instrument import BURIED
+from rocking.records.plausibility import BURIED
 from rocking.remarks import Kind, Remark
 
-OBSPY_EXTRAS = (
-    "component",
-    "event",
-    "azimuth",
-    "vertical",
-    "borehole",
-    "processed",
-    "processing",
-    "warnings",
-    "magnitude",
-    "magnitude_type",
-    "event_time",
-    "latitude",
-    "longitude",
-    "elevation",
-    "epicentral_distance",
-    "high_pass_frequency",
-    "scale_factor",
-    "initial_velocity",
-    "initial_displacement",
-    "smooth_steps",
-)
-"""The facts for which a trace of obspy has no place."""
 _CORNERS = (0.02, 0.05, 0.8, 0.95)
 """Band in which a full response is removed: Hz, Hz, and shares of the Nyquist frequency."""
 

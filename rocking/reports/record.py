@@ -26,7 +26,7 @@ from rocking.assessment.rows import (
 )
 from rocking.assessment.scene import placed, variants_of
 from rocking.quantities import GRAVITY, counted, listed, percent, percents
-from rocking.records.dates import day_of
+from rocking.records.formats.text import day_of
 from rocking.remarks import Kind, Remark
 from rocking.reports import printing
 from rocking.reports import record_figures as figures

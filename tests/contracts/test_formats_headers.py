@@ -11,7 +11,7 @@ from made_files import MADE, MADE_BINARY, content_of, format_of, read_text
 
 from rocking.errors import RecordError
 from rocking.records.formats import Options, by_obspy
-from rocking.records.formats.header import Layout, keyed
+from rocking.records.formats.format import Layout, keyed
 from rocking.records.read import read_content
 from rocking.remarks import Kind, Remark
 

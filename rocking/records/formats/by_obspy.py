@@ -21,11 +21,10 @@ from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import GRAVITY, acceleration_unit, positive
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.direction import Direction
-from rocking.records.formats import header, text
-from rocking.records.formats.format import Format, Options, without_offset
-from rocking.records.formats.header import Layout
+from rocking.records.formats import text
+from rocking.records.formats.format import Format, Layout, Options, required, without_offset
 from rocking.records.formats.text import LARGEST_SERIES
-from rocking.records.instrument import BURIED, refuse_other_quantity
+from rocking.records.plausibility import BURIED, refuse_other_quantity
 from rocking.records.traces import STEEP, calibrated, first_line, joined, names, printed, site
 from rocking.remarks import Kind, Remark
 from rocking.tables import read_whole
@@ -122,7 +121,7 @@ def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
     head = "\n".join(rows)
     # Of "3920.5(gal)" obspy would take the whole part, and "1_0" for a number.
     scale = r"^Scale Factor\s*(\d+)\(gal\)/(\d+)\s*$"
-    parts = header.required("a Scale Factor like 3920(gal)/6182761", scale, head)
+    parts = required("a Scale Factor like 3920(gal)/6182761", scale, head)
     for part in parts.groups():
         positive(RecordError, "Scale Factor", text.number("Scale Factor", part))
     text.check_plain(text.after_lines(content, len(_KNET_KEYS)))

@@ -8,13 +8,26 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.dates import iso_date
 from rocking.records.direction import Direction
-from rocking.records.formats import header, text
-from rocking.records.formats.format import Format, Options
-from rocking.records.formats.header import Layout, key, keyed
-from rocking.records.instrument import refuse_other_quantity
-from rocking.records.plausibility import agree_with_velocity
+from rocking.records.formats import text
+from rocking.records.formats.format import (
+    NUMBER,
+    Format,
+    Layout,
+    Options,
+    check_equal,
+    in_blocks,
+    key,
+    keyed,
+    optional,
+    optional_number,
+    parted,
+    site,
+    typed_magnitude,
+    universal,
+)
+from rocking.records.formats.text import iso_date
+from rocking.records.plausibility import agree_with_velocity, refuse_other_quantity
 from rocking.remarks import Kind, Remark
 
 
@@ -43,14 +56,14 @@ _WORD = r"([\w/^*]*)"
 
 
 def _read_dyna(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = header.parted(content, _DYNA_END.match, "of numbers", _DYNA_HEADER)
+    head, rows = parted(content, _DYNA_END.match, "of numbers", _DYNA_HEADER)
     is_filtered_anew = head.startswith("AAD_")
     head = re.sub("^AAD_", "", head, flags=re.M)
-    date = iso_date(header.optional(key("EVENT_DATE_YYYYMMDD"), head))
-    scales = f"Mw={header.optional(key('MAGNITUDE_W'), head)} ML={header.optional(key('MAGNITUDE_L'), head)}"
-    facts: dict[str, Any] = header.typed_magnitude(scales)
-    facts["event"] = f"{header.optional(key('EVENT_NAME'), head)} {date}"
-    facts["event_time"] = f"{date} {header.optional(key('EVENT_TIME_HHMMSS'), head)}"
+    date = iso_date(optional(key("EVENT_DATE_YYYYMMDD"), head))
+    scales = f"Mw={optional(key('MAGNITUDE_W'), head)} ML={optional(key('MAGNITUDE_L'), head)}"
+    facts: dict[str, Any] = typed_magnitude(scales)
+    facts["event"] = f"{optional(key('EVENT_NAME'), head)} {date}"
+    facts["event_time"] = f"{date} {optional(key('EVENT_TIME_HHMMSS'), head)}"
     if is_filtered_anew:  # the peak that the header states is that of the samples before
         facts["peak"] = 0.0
     return _DYNA.series(head, rows, options, **facts)
@@ -70,12 +83,12 @@ def _directions(line: str) -> list[str]:
 
 
 def _read_afad(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = header.parted(content, _directions, "names the columns (N-S, E-W, U-D)", _AFAD_HEADER)
+    head, rows = parted(content, _directions, "names the columns (N-S, E-W, U-D)", _AFAD_HEADER)
     labels = _directions(rows[0])
     table = text.table(rows[1:], len(labels))
     _, notes = text.whole(table[:, 0], _AFAD.count(head), per_line=1)
-    line = header.optional(r"^(.*PGA.*:.*)", head)
-    peaks = [header.optional_number(rf"\({re.escape(label)}\)\s*{header.NUMBER}", line) for label in labels]
+    line = optional(r"^(.*PGA.*:.*)", head)
+    peaks = [optional_number(rf"\({re.escape(label)}\)\s*{NUMBER}", line) for label in labels]
     is_processed = "RAW" not in line
     return _AFAD.channels(head, table, labels, options, peaks=peaks, warnings=notes, processed=is_processed)
 
@@ -93,7 +106,7 @@ _RESORCE = Layout("m/s2", {"network": r"^Network\s*:\s*(\S+)", "quantity": r"^(\
 
 def _read_resorce(content: bytes, options: Options) -> list[Accelerogram]:
     title = "names the time series and its unit"
-    head, rows = header.parted(content, _RESORCE_TITLE.match, title, _RESORCE_HEADER)
+    head, rows = parted(content, _RESORCE_TITLE.match, title, _RESORCE_HEADER)
     return _RESORCE.series(f"{head}\n{rows[0]}", rows[1:], options)
 
 
@@ -112,7 +125,7 @@ _ESD_START = re.compile(r"(?im)^[ \t]*time of first sample:[ \t]*(\d\d)\.(\d\d)\
 
 
 def _read_esd(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = header.parted(content, _ESD_SECTION.match, "that begins with ->", _ESD_HEADER)
+    head, rows = parted(content, _ESD_SECTION.match, "that begins with ->", _ESD_HEADER)
     begins = [at for at, row in enumerate(rows) if row.lstrip().startswith(("->", "STOP"))]
     ends = [*begins[1:], len(rows)]
     sections = [rows[begin:end] for begin, end in zip(begins, ends, strict=True)]
@@ -122,7 +135,7 @@ def _read_esd(content: bytes, options: Options) -> list[Accelerogram]:
         raise RecordError(f"the file holds {held}; use the file of corrected acceleration (.cor).")
     (title, *numbers) = of_motion[0]
     start = _ESD_START.search(head)
-    facts = {"start_time": header.universal("{2}-{1}-{0} {3}".format(*start.groups()), 0.0)} if start else {}
+    facts = {"start_time": universal("{2}-{1}-{0} {3}".format(*start.groups()), 0.0)} if start else {}
     (record,) = _ESD.series(f"{head}\n{title}", numbers, options, **facts)
     velocity = [lines[1:] for lines in sections if re.match(r"\s*-> *corrected vel", lines[0], re.I)]
     return [agree_with_velocity(record, text.fields(velocity[0], 13)) if velocity else record]
@@ -136,13 +149,13 @@ _CWB = Layout("gal", {"unit": key("AMPLITUDEUNIT", _WORD)} | keyed(
 
 
 def _read_cwb(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = header.parted(content, re.compile("#Data:").match, "begins with #Data:", _CWB_HEADER)
+    head, rows = parted(content, re.compile("#Data:").match, "begins with #Data:", _CWB_HEADER)
     head = re.sub("^#", "", head, flags=re.M)
     labels = re.findall(r"([A-Z])\(", _CWB.required("channels", head))
     scales = re.findall(r"^Magnitude\((\w+)\)(:.*)", head, re.I | re.M)  # lines like "Magnitude(Mw):7.6"
-    facts = header.typed_magnitude(" ".join(scale + value for scale, value in scales))
-    lines = (header.optional(rf"^.*MAX.*\b{label}\s*:(.*)", head) for label in labels)
-    extremes = (re.findall(header.NUMBER, line, re.I) for line in lines)  # the greatest and the least
+    facts = typed_magnitude(" ".join(scale + value for scale, value in scales))
+    lines = (optional(rf"^.*MAX.*\b{label}\s*:(.*)", head) for label in labels)
+    extremes = (re.findall(NUMBER, line, re.I) for line in lines)  # the greatest and the least
     facts["peaks"] = [max((abs(float(each)) for each in two), default=None) for two in extremes]
     facts["event_time"] = _in_zone(_CWB.text("event_time", head), "+08:00")
     facts["event"] = facts["event_time"]
@@ -167,7 +180,7 @@ _REPEATED = 2  # surplus lines that some files of the network end in
 
 
 def _read_unam(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = header.parted(content, re.compile(_DATA, re.I).match, f"begins with {_DATA}", _UNAM_HEADER)
+    head, rows = parted(content, re.compile(_DATA, re.I).match, f"begins with {_DATA}", _UNAM_HEADER)
     rules = [i for i, line in enumerate(rows[:10]) if _RULE.match(line)]
     if len(rules) < 2:
         raise RecordError(f"no heading {_DATA} above two rules; the file is cut.")
@@ -177,7 +190,7 @@ def _read_unam(content: bytes, options: Options) -> list[Accelerogram]:
     if len(sizes) != 1:
         raise RecordError(f"the channels declare {sizes} samples, but must be equally long.")
     samples = text.count("NUM. TOTAL DE MUESTRAS", sizes[0])
-    width = header.optional_number(r"^FORMATO DATOS.*\d+F(\d+)", head)
+    width = optional_number(r"^FORMATO DATOS.*\d+F(\d+)", head)
     table = text.table(rows[rules[1] + 1 :], len(heads), max(1, int(width or 10)))
     table, notes = _without_repeats(table, samples)
     _, surplus = text.whole(table[:, 0], samples, per_line=1)
@@ -188,9 +201,9 @@ def _read_unam(content: bytes, options: Options) -> list[Accelerogram]:
 def _unam_channel(head: str, values: np.ndarray, options: Options, notes: tuple[Remark, ...]) -> Accelerogram:
     step = text.number("INTERVALO DE MUESTREO", _UNAM.required("step", head))
     keys = "VEL. DE MUESTREO", "FACTOR DE DECIMACION", "ACEL. MAX."
-    rate, decimation, place = (header.optional_number(key(name) + "$", head) for name in keys)
+    rate, decimation, place = (optional_number(key(name) + "$", head) for name in keys)
     if rate is not None:
-        header.check_equal("the interval", step, (decimation or 1.0) / max(1e-9, rate))
+        check_equal("the interval", step, (decimation or 1.0) / max(1e-9, rate))
     parts = [part.strip() for part in _UNAM.text("orientation", head).split(";") if part.strip()]
     directions = (part for part in parts if Direction.of(part).is_known)
     facts: dict[str, Any] = {"warnings": notes}
@@ -201,7 +214,7 @@ def _unam_channel(head: str, values: np.ndarray, options: Options, notes: tuple[
     facts["peak_digit"] = 10.0 ** -len(printed[0].partition(".")[2]) if printed else 0.0
     # Of bearing and sense, "N90E;" or "V;+", one may be blank.
     facts["component"] = next(directions, parts[-1])
-    origin = _in_zone(header.optional(key("HORA EPICENTRO (GMT)"), head), "GMT")
+    origin = _in_zone(optional(key("HORA EPICENTRO (GMT)"), head), "GMT")
     facts["event_time"] = f"{_UNAM.text('event', head)} {origin}"
     return _UNAM.channel(head, values, options, step=step, **facts)
 
@@ -246,7 +259,7 @@ _JMA_FIRST = re.compile(rf"SITE CODE=(?:.*\n){{6}}[ \t]*{_JMA_NAMES}[ \t]*(?:\n|
 
 def _read_jma(content: bytes, options: Options) -> list[Accelerogram]:
     """The header gives no number of samples."""
-    head, rows = header.parted(content, _JMA_HEADER)
+    head, rows = parted(content, _JMA_HEADER)
     labels = _JMA_NAMES.split(",")
     if broken := next((row for row in rows if row.strip() and row.count(",") != len(labels) - 1), ""):
         raise RecordError(f"a line of the samples is {broken[:40]!r}, but must hold {len(labels)} numbers.")
@@ -268,7 +281,7 @@ _CSMNC_FIRST = re.compile(r"(?=(?:.*\n){0,15}NO\. OF POINTS:)(?:.*\n){0,15}OBSER
 
 
 def _read_csmnc(content: bytes, options: Options) -> list[Accelerogram]:
-    return _CSMNC.series(*header.parted(content, _CSMNC_HEADER), options)
+    return _CSMNC.series(*parted(content, _CSMNC_HEADER), options)
 
 
 _GEONET = Layout("mm/s2", {
@@ -301,7 +314,7 @@ def _geonet_channel(block: list[str], options: Options, total: int) -> Accelerog
     # A corrected file goes on with velocity and displacement.
     size = len(rows) // 3 if len(rows) == 3 * -(-samples // _PER_LINE) else len(rows)
     values = text.filled(rows[:size], samples, _PER_LINE, _WIDTH)
-    unit = header.optional(r"readings in units of\s+([\d.]+)\s*mm/s/s", head) or "1"
+    unit = optional(r"readings in units of\s+([\d.]+)\s*mm/s/s", head) or "1"
     factor = text.number("raw unit", unit)
     integers = " ".join(block[_TEXT : _TEXT + 4]).split()
     at = _GEONET.number("peak_time", head)
@@ -338,7 +351,7 @@ _MISSING = 1.69e38
 
 
 def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = header.parted(content, _SMC_TEXT)
+    head, rows = parted(content, _SMC_TEXT)
     kind = head.partition("\n")[0].strip()
     if kind[:1] not in ("0", "1", "2"):
         raise RecordError(f"this SMC file is of kind {kind[:40]!r}, not of acceleration.")
@@ -370,11 +383,11 @@ def _read_smc(content: bytes, options: Options) -> list[Accelerogram]:
 def _smc_facts(head: str, reals: np.ndarray) -> dict[str, Any]:
     """The facts of the real header of an SMC file, as arguments of Layout.channel()."""
     # "Moment Mag=6.7   Ml=6.4" as "Mw=6.7 Ml=6.4".
-    scales = header.optional(r"^Moment (Mag.*)", head).replace("Mag", "Mw")
-    facts: dict[str, Any] = header.typed_magnitude(" ".join(scales.split()))
+    scales = optional(r"^Moment (Mag.*)", head).replace("Mag", "Mw")
+    facts: dict[str, Any] = typed_magnitude(" ".join(scales.split()))
 
     place = (real if abs(real) < _MISSING else None for real in reals[_PLACE].tolist())
-    facts |= header.site(*place)
+    facts |= site(*place)
 
     # The time of an extreme stands before it.
     extremes = [(abs(reals[at]), reals[at - 1]) for at in (_LARGEST, _SMALLEST) if abs(reals[at]) < _MISSING]
@@ -426,7 +439,7 @@ _EMOD3D = Layout("", {
 
 
 def _read_emod3d(content: bytes, options: Options) -> list[Accelerogram]:
-    head, rows = header.parted(content, 2)
+    head, rows = parted(content, 2)
     refuse_other_quantity(options.file, head)
     return _EMOD3D.series(head, rows, options, processed=None)
 
@@ -498,7 +511,7 @@ GEONET = Format(
     "GeoNet (GNS Science), New Zealand",
     "first line Corrected or Uncorrected accelerogram above a Site line",
     _GEONET_FIRST,
-    header.in_blocks(_GEONET_BLOCK, _geonet_channel),
+    in_blocks(_GEONET_BLOCK, _geonet_channel),
     "GEONET",
 )
 SMC = Format(

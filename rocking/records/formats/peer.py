@@ -1,12 +1,11 @@
-"""PEER AT2 in every spelling of its header, and the VT2 and DT2 files that are not acceleration."""
+"""PEER AT2 in every spelling of its header; VT2 and DT2 files, which are not acceleration, are refused."""
 
 import re
 from typing import Any
 
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.formats.format import Format, Options
-from rocking.records.formats.header import Layout
+from rocking.records.formats.format import Format, Layout, Options
 from rocking.records.formats.text import after_lines, count, is_number, lines, number, numbers, whole
 from rocking.remarks import Kind, Remark
 
@@ -43,40 +42,33 @@ _IN_BRACKETS = re.compile(r"\([^()]*\)")
 """The sense of a direction, or a network of its own part, as in "CHI-CHI 09/20/99, CHY101, E, (CWB)"."""
 _HEADER_LINES = 8
 _LONGEST_COMPONENT = 16
+_FIRST = re.compile(
+    r"(?i)(?:.*\n){0,7}?(?:.{0,199}?NPTS[ \t]*=[ \t]*[^\s,]{1,40}[ \t]*,?[ \t]*DT[ \t]*=[ \t]*[0-9.+-]|"
+    r"[ \t]*\d{1,20}[ \t]{1,40}\S{1,40}[ \t]{1,40}NPTS[ \t]*,[ \t]*DT)"
+)
+"""The line by which a file is known, one of the first eight, as _STEPS; bounded, so that no text takes long."""
 
 
-def _header(content: bytes) -> tuple[list[str], re.Match[str]] | None:
-    """Return the lines up to the one that gives NPTS and DT, and its match."""
-    head = lines(content, _HEADER_LINES)
-    for i, line in enumerate(head):
-        if size := next((m for pattern in _STEPS if (m := pattern.search(line[:200]))), None):
-            return head[: i + 1], size
-    return None
-
-
-def _kind(content: bytes) -> str:
-    """Return the quantity that a PEER header names, acceleration unless it says another; "" for another file."""
-    header = _header(content)
-    if header is None:
-        return ""
-    text = "\n".join(header[0]).upper()
-    series = _SERIES.search(text)  # what it says counts more than a title that speaks of an accelerogram
-    if not series and re.search(r"\bACC(EL|\b)", text):
+def _quantity(head: str) -> str:
+    """Return the quantity that a header in capitals names, acceleration unless it says another."""
+    series = _SERIES.search(head)  # what it says counts more than a title that speaks of an accelerogram
+    if not series and re.search(r"\bACC(EL|\b)", head):
         return "acceleration"
-    quantity = series or re.search(r"\b(VELOCITY|DISPLACEMENT)\b", text)
-    return quantity[1].lower() if quantity else "velocity" if _VELOCITY_UNIT.search(text) else "acceleration"
-
-
-def _refuse(content: bytes, options: Options) -> list[Accelerogram]:
-    raise RecordError(f"this is a PEER {_kind(content)} file; use the AT2 file of the same record.")
+    quantity = series or re.search(r"\b(VELOCITY|DISPLACEMENT)\b", head)
+    return quantity[1].lower() if quantity else "velocity" if _VELOCITY_UNIT.search(head) else "acceleration"
 
 
 def _read(content: bytes, options: Options) -> list[Accelerogram]:
-    header = _header(content)
-    if header is None:
+    head = lines(content, _HEADER_LINES)
+    steps = ((place, pattern.search(line[:200])) for place, line in enumerate(head) for pattern in _STEPS)
+    found = next(((place, match) for place, match in steps if match), None)
+    if found is None:
         raise RecordError("the header holds no line with NPTS and DT; give a PEER AT2 file.")
-    head, size = header
+    place, size = found
+    head = head[: place + 1]
     text = "\n".join(head)
+    if (quantity := _quantity(text.upper())) != "acceleration":
+        raise RecordError(f"this is a PEER {quantity} file; use the AT2 file of the same record.")
     unit = next((unit for pattern, unit in _UNITS if pattern.search(text)), "")
     declared = count("NPTS", size["npts"])
     values, warnings = whole(numbers(after_lines(content, len(head))), declared, per_line=8)
@@ -109,15 +101,8 @@ def _component(title: str) -> str:
 PEER_AT2 = Format(
     "PEER AT2",
     "PEER (NGA databases), USA",
-    "line with NPTS and DT in the first 8 lines of an acceleration file",
-    lambda content: _kind(content) == "acceleration",
+    "line with NPTS and DT in the first 8 lines",
+    _FIRST,
     _read,
     "PEER_AT2",
-)
-PEER_OTHER = Format(
-    "PEER VT2 or DT2",
-    "PEER (NGA databases), USA",
-    "NPTS and DT below VELOCITY or DISPLACEMENT TIME SERIES",
-    lambda content: _kind(content) in ("velocity", "displacement"),
-    _refuse,
 )

@@ -23,12 +23,13 @@ from rocking.records.formats.layouts import (
     Answer,
     AskedError,
     Column,
+    Layouts,
     Question,
     Signature,
     TableLayout,
 )
 from rocking.records.formats.remarks import Declarations, factor_warnings, meaning, speaks_of_factor
-from rocking.records.instrument import refuse_by_name, refuse_other_quantity
+from rocking.records.plausibility import refuse_by_name, refuse_other_quantity
 from rocking.remarks import Kind, Remark
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
@@ -269,8 +270,9 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     table = Table.of(pointed) or Table((), 1, 0)  # it was recognised by that
     _refuse_others(table, options.file)
 
-    signature = table.signature(options.layouts.place)
-    answer = options.layouts.answer(signature)
+    layouts = options.layouts or Layouts(options.folder)
+    signature = table.signature(layouts.place)
+    answer = layouts.answer(signature)
     layout = answer.layout if answer else None
     above, start = _above(table, layout, pointed)
     body, filled = _plain_rows(

@@ -1,8 +1,9 @@
-"""Numbers out of text, fast, yet strict about every character; and the step of printed times."""
+"""Numbers out of text, fast, yet strict about every character; the step of printed times; and dates as ISO 8601."""
 
 import re
 import warnings
 from contextlib import suppress
+from datetime import datetime
 
 import numpy as np
 
@@ -18,16 +19,13 @@ _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 def lines(content: bytes, limit: int | None = None) -> list[str]:
     """Return the first `limit` lines (all by default) as text: bytes beyond ASCII as UTF-8, else as Latin-1."""
     head = content if limit is None else content[: 400 * limit]
-    return _decoded(head).split("\n", -1 if limit is None else limit)[:limit]
-
-
-def _decoded(head: bytes) -> str:
-    """Return the text of bytes, whose last character may be cut, in UTF-8 if they are that, else in Latin-1."""
     try:
-        return head.decode("utf-8")
+        text = head.decode("utf-8")
     except UnicodeDecodeError as error:
+        # The limit may cut the last character.
         is_cut = error.start >= len(head) - 3 and error.reason == "unexpected end of data"
-        return head[: error.start].decode("utf-8") if is_cut else head.decode("latin-1")
+        text = head[: error.start].decode("utf-8") if is_cut else head.decode("latin-1")
+    return text.split("\n", -1 if limit is None else limit)[:limit]
 
 
 def after_lines(content: bytes, number: int) -> bytes:
@@ -88,25 +86,18 @@ def check_plain(text: bytes) -> None:
 def fields(rows: list[str], width: int = 0, margin: int = 0) -> np.ndarray:
     """Return the numbers of `rows`, (n,), apart by blanks; where they touch, by columns of `width` after a `margin`.
 
-    width: 0 where they never touch.
+    width: 0 where they never touch. Raises RecordError where a word, or a column, is not one number.
     """
     try:
         return numbers("\n".join(rows))
     except RecordError:
         if not width or not all(map(str.isascii, rows)):
             raise
-        return numbers(_parted(rows, width, margin))
-
-
-def _parted(rows: list[str], width: int, margin: int) -> str:
-    """Return the text of `rows` with a blank after each column. Raises RecordError where one holds not one number."""
     bare = (row.rstrip()[margin:] for row in rows)
     cells = [row[at : at + width] for row in bare for at in range(0, len(row), width)]
     if broken := next((cell for cell in cells if len(cell.split()) != 1), ""):
-        raise RecordError(
-            f"a column of {width} characters holds {broken.strip()!r}, not one number."
-        ) from None
-    return " ".join(cells)
+        raise RecordError(f"a column of {width} characters holds {broken.strip()!r}, not one number.")
+    return numbers(" ".join(cells))
 
 
 def table(rows: list[str], columns: int, width: int = 0, margin: int = 0) -> np.ndarray:
@@ -238,3 +229,75 @@ def check_no_gap(times: np.ndarray, longest: float) -> None:
     if gaps[at] > longest * (1 + 1e-9):
         gap = f"no samples between {times[at]:g} and {times[at + 1]:g} s, more than {longest:g} s apart"
         raise RecordError(f"{gap}; cut the record there, a gap is not bridged.")
+
+
+_MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
+_MONTH = rf"(?P<word>(?:{'|'.join(_MONTHS)})[a-z]*)\.?"
+_WEEKDAY = r"(?:(?:mon|tue|wed|thu|fri|sat|sun)[a-z]*\.?,?\s+)?"
+_DATES = (
+    r"(?P<year>\d{4})(?P<parting>[-/. ])(?P<month>\d\d?)(?P=parting)(?P<day>\d\d?)",
+    r"(?P<year>\d{4})(?P<month>\d\d)(?P<day>\d\d)",
+    rf"(?P<year>\d{{4}})[- ]{_MONTH}[- ](?P<day>\d\d?)",
+    rf"{_WEEKDAY}{_MONTH}\s+(?P<day>\d\d?)\s*,?\s*(?P<year>\d{{4}})",
+    rf"{_WEEKDAY}(?P<day>\d\d?)[- ]{_MONTH},?[- ](?P<year>\d{{4}})",
+    r"(?P<month>\d\d?)/(?P<day>\d\d?)/(?P<year>\d{4}|\d\d)",
+)
+_TIME = r"(?P<hour>\d\d?):?(?P<minute>\d\d)(?::?(?P<second>\d\d(?:\.\d*)?))?"
+_ZONE = r"\(?(?P<zone>[A-Za-z]{1,4}|[+-]\d\d:?\d\d)\)?"
+_SPELLINGS = [
+    re.compile(rf"\s*{date}(?:(?:\s*[,T]\s*|\s+|-){_TIME})?(?:\s*{_ZONE})?\s*", re.I) for date in _DATES
+]
+_ZONES = {
+    "Z": "Z", "UT": "Z", "UTC": "Z", "GMT": "Z", "JST": "+09:00", "BTM": "+08:00", "PST": "-08:00", "PDT": "-07:00",
+    "MST": "-07:00", "MDT": "-06:00", "EST": "-05:00", "EDT": "-04:00", "NZST": "+12:00", "NZDT": "+13:00",
+}  # fmt: skip
+"""The zones that headers name, as ISO 8601 writes them; CST is another in America and in China."""
+_CENTURY = 30
+"""A year of two digits from here on is of the twentieth century: no digital record is older than 1930."""
+
+
+def iso_date(text: str) -> str:
+    """Return the date, and the time as far as it is given, of `text` in ISO 8601; `text` where it is no date.
+
+    The zone is the one that the text names, and none where it names none. Of "2/9/1971" the month stands first, as in
+    the files of American agencies, unless only the second number can be one.
+
+    >>> iso_date("Mon Feb 13, 2012 13:06:45.0 PST"), iso_date("1/17/94, 12:31")
+    ('2012-02-13T13:06:45-08:00', '1994-01-17T12:31')
+    """
+    match = next((found for each in _SPELLINGS if (found := each.fullmatch(text))), None)
+    if match is None:
+        return text
+    parts = match.groupdict()
+
+    year = int(parts["year"])
+    if year < 100:
+        year += 1900 if year >= _CENTURY else 2000
+    day = int(parts["day"])
+    month = _MONTHS.index(parts["word"][:3].lower()) + 1 if "word" in parts else int(parts["month"])
+    if "word" not in parts and month > 12 >= day:
+        month, day = day, month
+
+    seconds = float(parts["second"] or 0)
+    try:
+        date = datetime(year, month, day, int(parts["hour"] or 0), int(parts["minute"] or 0), int(seconds))
+    except ValueError:  # there is no such day or time
+        return text
+    zone = (parts["zone"] or "").upper()
+    offset = f"{zone[:3]}:{zone[-2:]}" if zone[:1] in ("+", "-") else _ZONES.get(zone)
+    if zone and offset is None:
+        return text
+    if not parts["hour"]:
+        return f"{date:%Y-%m-%d}"
+    if parts["second"] is None:
+        time = f"{date:%Y-%m-%dT%H:%M}"
+    else:
+        fraction = f"{seconds % 1:.6f}".rstrip("0").rstrip(".")[1:]
+        time = f"{date:%Y-%m-%dT%H:%M:%S}{fraction}"
+    return time + (offset or "")
+
+
+def day_of(text: str) -> str:
+    """Return the day of a date in ISO 8601, in any other text what it is."""
+    is_iso = re.match(r"\d{4}-\d\d-\d\d(?:T|$)", text)
+    return text[:10] if is_iso else text

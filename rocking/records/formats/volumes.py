@@ -13,9 +13,20 @@ from rocking.errors import RecordError
 from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.direction import Direction
-from rocking.records.formats import header, text
-from rocking.records.formats.format import Format, Options, without_offset
-from rocking.records.formats.header import Layout
+from rocking.records.formats import text
+from rocking.records.formats.format import (
+    Format,
+    Layout,
+    Options,
+    check_end,
+    check_equal,
+    distance,
+    in_blocks,
+    optional,
+    optional_number,
+    required,
+    without_offset,
+)
 from rocking.records.plausibility import agree_with_mean_square, agree_with_velocity
 from rocking.remarks import Kind, Remark
 
@@ -65,7 +76,7 @@ def _cosmos(block: list[str], options: Options, total: int) -> Accelerogram | No
     end = next((i for i, row in enumerate(block) if i > at and _END.match(row)), None)
     if end is None:
         raise RecordError("no line End-of-data ends a channel: the file is truncated; fetch it again.")
-    header.check_end(block[end + 1 :])
+    check_end(block[end + 1 :])
     per_line, width = (max(1, int(data[name])) for name in ("per_line", "width"))
     reals = _reals(block[:at])
     step = reals[_STEP] / 1000 if 0 < reals[_STEP] < 1e4 else reals[_RECORDER_STEP]
@@ -76,7 +87,7 @@ def _cosmos(block: list[str], options: Options, total: int) -> Accelerogram | No
     stated = [None if abs(real - _UNKNOWN) < 1e-3 else real for real in reals]
     note = Remark.of(Kind.LENGTH_UNLIKE_HEADER, stated_s=length, lasts_s=lasts)
     facts: dict[str, Any] = {"component": _component(head), "warnings": (note,) if wrong else ()}
-    facts |= {"elevation": stated[_ELEVATION], "epicentral_distance": header.distance(stated[_DISTANCE])}
+    facts |= {"elevation": stated[_ELEVATION], "epicentral_distance": distance(stated[_DISTANCE])}
     facts |= {"peak": stated[_PEAK], "peak_time": stated[_PEAK_TIME]}
     record = _COSMOS.channel(head, values, options, unit=data["unit"], step=step, total=total, **facts)
     if record.processed or len(reals) <= _RMS:
@@ -96,10 +107,10 @@ def _reals(head: list[str]) -> list[float]:
 
 def _component(head: str) -> str:
     """Return the direction of the channel line ("360 deg" as 360, "Up"), else the channel code of the SCNL comment."""
-    direction = header.optional(r"^Sta\s+Chan?\s*[^:]*:\s*([^(\n]*?)\s*\(", head).split(":")[-1].strip()
-    if degrees := header.optional(r"^(\d+)\s*deg", direction):
+    direction = optional(r"^Sta\s+Chan?\s*[^:]*:\s*([^(\n]*?)\s*\(", head).split(":")[-1].strip()
+    if degrees := optional(r"^(\d+)\s*deg", direction):
         return degrees
-    code = header.optional(r"<SCNL>\s*[^.\s]+\.([A-Z0-9]{3})\.", head)
+    code = optional(r"<SCNL>\s*[^.\s]+\.([A-Z0-9]{3})\.", head)
     return code if direction.lower() in ("", "other") and code else direction
 
 
@@ -151,11 +162,11 @@ _CSMIP_2 = Layout("", _CSMIP | {
 def _rows(block: list[str]) -> tuple[str, list[str]]:
     """Return the text and the rows of numbers of one channel in tenths of g. Raises RecordError for another unit."""
     head = "\n".join(block[:_TEXT])
-    header.required("units of G/10", r"^(UNITS)\b.*\bG/10", head)
-    header.required("points and length", _DURATION, head)
+    required("units of G/10", r"^(UNITS)\b.*\bG/10", head)
+    required("points and length", _DURATION, head)
     body = block[_HEADER:]
     end = next((i for i, row in enumerate(body) if row.startswith("/&")), len(body))
-    header.check_end(body[end + 1 :])
+    check_end(body[end + 1 :])
     return head, [row for row in body[:end] if row.strip()]
 
 
@@ -166,7 +177,7 @@ def _digitised(
     head, rows = _rows(block)
     times, values = text.table(rows, 2, layout.width, layout.margin).T
     text.whole(times, layout.count(head), per_line=0)
-    duration = text.number("duration", header.optional(_DURATION, head))
+    duration = text.number("duration", optional(_DURATION, head))
     # The length may count a last step or not.
     if abs(duration - times[-1]) > 2 * np.ptp(times) / (times.size - 1) + 0.001:
         stated = f"the header declares a length of {duration:g} s, but the last sample is at {times[-1]:g} s"
@@ -180,7 +191,7 @@ def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
     head, rows = _rows(block)
     samples = text.filled(rows, _BHRC.count(head), _BHRC.per_line, _BHRC.width)
     values, offset = without_offset(samples, options.unit_of("g/10"))
-    step = text.number("duration", header.optional(_DURATION, head)) / values.size
+    step = text.number("duration", optional(_DURATION, head)) / values.size
     reals = " ".join(block[_REALS_AT : _REALS_AT + 2]).split()
     printed = reals[_RATE] if len(reals) > _RATE else "0"
     rate = float(printed) if text.is_number(printed) else 0.0
@@ -193,7 +204,7 @@ def _bhrc(block: list[str], options: Options, _: int) -> Accelerogram:
     facts: dict[str, Any] = {"processing": (offset,), "warnings": notes}
     facts["vertical"] = Direction.of(letter).vertical
     if letter in ("L", "T"):
-        facts["azimuth"] = header.optional_number(rf"Azimuth\b.*\b{letter}\s+(\d+)", head)
+        facts["azimuth"] = optional_number(rf"Azimuth\b.*\b{letter}\s+(\d+)", head)
     return _BHRC.channel(head, values, options, step=step, **facts)
 
 
@@ -219,7 +230,7 @@ def _read_csmip(content: bytes, options: Options) -> list[Accelerogram]:
     if any(_announcement(line) or _VOLUME_1.match(line) for line in rest):
         channels.append(rest)
     else:
-        header.check_end(rest)
+        check_end(rest)
     return [_csmip(block, options, len(channels)) for block in channels]
 
 
@@ -252,11 +263,11 @@ def _csmip(block: list[str], options: Options, total: int) -> Accelerogram:
     rate = facts.get("rate")
     step = 1 / max(1e-9, text.number("rate", rate)) if rate else text.number("step", facts["step"])
     points = r"^\s*(\S+)\s+(?:points of )?instrument" if is_corrected else r"^No\. of points\s*=\s*(\S+)"
-    if points := header.optional(points, head):
-        header.check_equal("the number of points", text.count("number of points", points), values.size, 0)
-    interval = header.optional_number(r"^At equally-spaced intervals of\s+([\d.]+)", head)
+    if points := optional(points, head):
+        check_equal("the number of points", text.count("number of points", points), values.size, 0)
+    interval = optional_number(r"^At equally-spaced intervals of\s+([\d.]+)", head)
     if is_corrected and interval:
-        header.check_equal("the interval", interval, step)
+        check_equal("the interval", interval, step)
     more: dict[str, Any] = {
         "unit": facts["unit"] or "",
         "step": step,
@@ -279,7 +290,7 @@ COSMOS = Format(
     "COSMOS, CESMD and USGS, USA",
     "first line like Corrected acceleration (Format v01.20",
     _COSMOS_FIRST,
-    header.in_blocks(_COSMOS_FIRST, _cosmos),
+    in_blocks(_COSMOS_FIRST, _cosmos),
     "COSMOS_V1V2",
 )
 USC = Format(
@@ -287,7 +298,7 @@ USC = Format(
     "University of Southern California",
     "first line FILE n OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I",
     _USC_FIRST,
-    header.in_blocks(_USC_FIRST, partial(_digitised, _USC)),
+    in_blocks(_USC_FIRST, partial(_digitised, _USC)),
     "USC_V1",
 )
 USC_2 = Format(
@@ -295,14 +306,14 @@ USC_2 = Format(
     "University of Southern California",
     "first line CORRECTED ACCELEROGRAM with a component (COMP)",
     _USC_2_FIRST,
-    header.in_blocks(_USC_2_FIRST, _csmip),
+    in_blocks(_USC_2_FIRST, _csmip),
 )
 RENADIC = Format(
     "RENADIC",
     "RENADIC (Universidad de Chile)",
     "first line UNCORRECTED ACCELEROGRAM DATA PROCESSED with RENADIC below",
     re.compile(_VOLUME_1.pattern + _OF_RENADIC, re.I),
-    header.in_blocks(_VOLUME_1, partial(_digitised, _RENADIC, is_even=True)),
+    in_blocks(_VOLUME_1, partial(_digitised, _RENADIC, is_even=True)),
     "RENADIC",
 )
 BHRC = Format(
@@ -310,7 +321,7 @@ BHRC = Format(
     "BHRC, Iran",
     "first line * VOL1DS FILE:",
     _BHRC_FIRST,
-    header.in_blocks(_BHRC_FIRST, _bhrc),
+    in_blocks(_BHRC_FIRST, _bhrc),
     "BHRC",
 )
 CSMIP = Format(

@@ -12,7 +12,7 @@ from made_files import MADE, STEP, TRUE, N, by_obspy, read_text
 from rocking.errors import RecordError, UndeclaredError
 from rocking.records import Accelerogram
 from rocking.records.formats import Options
-from rocking.records.formats.header import check_duration
+from rocking.records.formats.format import check_duration
 from rocking.records.plausibility import agree_with_velocity
 from rocking.records.read import LARGEST_FILE, read_content, unpack
 from rocking.remarks import Kind, Remark

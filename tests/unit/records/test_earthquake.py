@@ -3,8 +3,8 @@
 import pytest
 
 from rocking.records import read
-from rocking.records.dates import day_of, iso_date
-from rocking.records.formats.header import typed_magnitude
+from rocking.records.formats.format import typed_magnitude
+from rocking.records.formats.text import day_of, iso_date
 
 SAID = {
     "formats_esm_dyna/HI.ARS1..HNE.D.20190728.160908.C.ACC.ASC":

@@ -10,7 +10,7 @@ from obspy.io.sac import SACTrace
 from rocking.errors import RecordError
 from rocking.records import Accelerogram, read
 from rocking.records.direction import Direction
-from rocking.records.formats.header import coordinates
+from rocking.records.formats.format import coordinates
 from rocking.records.formats.layouts import AskedError
 from rocking.remarks import Kind, Remark
 from tests.contracts.made_files import TRUE, columns, cwb, smc

@@ -5,7 +5,7 @@ import pytest
 
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
-from rocking.records.rotation import rotate, rotd
+from rocking.records.direction import rotate, rotd
 from rocking.remarks import Kind, Remark
 
 RNG = np.random.default_rng(1)
