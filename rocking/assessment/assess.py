@@ -9,7 +9,7 @@ import numpy as np
 
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.case import StationResult
-from rocking.assessment.cracks import cracked, cracks
+from rocking.assessment.cracks import FollowedCrack, cracked, cracks
 from rocking.assessment.methods import Method, ratio_in_words
 from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
@@ -96,6 +96,11 @@ class StructureAssessment(StationResult, Drawn):
     def causes(self) -> Mapping[str, np.ndarray]:
         """Value of each cause that varied, by member, (m,)."""
         return self.ensemble.causes
+
+    @property
+    def statics(self) -> FollowedCrack | None:
+        """The crack of statics where another one governs, or the worst beside one that is given; None without one."""
+        return self.ensembles.statics_beside if self.ensembles else None
 
     @property
     def statics_crack(self) -> str:

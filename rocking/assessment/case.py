@@ -12,7 +12,6 @@ from functools import cached_property
 from rocking.assessment.contacts import ContactShare, stackable
 from rocking.assessment.cracks import (
     CrackEnsembles,
-    FollowedCrack,
     counting_cracks,
     decided_by,
     is_own,
@@ -142,11 +141,6 @@ class CaseResult:
         return replace(self, prediction=None, responses=responses, answer=answer, reserve=None)
 
     @property
-    def ensemble(self) -> Ensemble | None:
-        """The ensemble of the crack that governs; None where none ran."""
-        return self.ensembles.governing.ensemble if self.ensembles else None
-
-    @property
     def predicted_rotation_ratio(self) -> float:
         """Rotation ratio of the closed form; nan without a pulse."""
         return self.prediction.maximum.rotation_ratio if self.prediction else math.nan
@@ -231,7 +225,8 @@ class CaseResult:
     @property
     def severity(self) -> tuple[bool, float]:
         """Key by which the worst of several components comes last."""
-        return self.overturns, _or_least(self.integrated_rotation_ratio)
+        ratio = self.integrated_rotation_ratio
+        return self.overturns, -1.0 if math.isnan(ratio) else ratio
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -314,18 +309,12 @@ class StationResult:
     @property
     def ensemble(self) -> Ensemble:
         """The ensemble of the crack that governs; one without members where none ran."""
-        own = self.decisive.ensemble if self.decisive else None
-        return own or NO_MEMBERS
+        return self.ensembles.governing.ensemble if self.ensembles else NO_MEMBERS
 
     @property
     def ensembles(self) -> CrackEnsembles | None:
         """The ensembles of every crack that was followed; None without any."""
         return self.decisive.ensembles if self.decisive else None
-
-    @property
-    def statics(self) -> FollowedCrack | None:
-        """The crack of statics where another one governs, or the worst beside one that is given; None without one."""
-        return self.ensembles.beside if self.ensembles else None
 
     @property
     def reserve(self) -> Reserve | None:
@@ -335,10 +324,10 @@ class StationResult:
         under the record itself.
         """
         case = self.decisive
-        if case is None or case.reserve is None or case.ensemble is None or self.falls_in_stacks_alone:
+        if case is None or case.reserve is None or self.falls_in_stacks_alone:
             return None
         share = self.decision.share
-        return case.reserve.held_to(case.ensemble.overturning_share if math.isnan(share) else share)
+        return case.reserve.held_to(self.ensemble.overturning_share if math.isnan(share) else share)
 
     @cached_property
     def falls_in_stacks_alone(self) -> bool:
@@ -434,7 +423,7 @@ class StationResult:
     @property
     def severity(self) -> tuple[float, ...]:
         """Key by which the worst of several comes last: verdict, then share of members, then rotation."""
-        return *self.decision.severity, _or_least(self.rotation_ratio)
+        return *self.decision.severity, -1.0 if math.isnan(self.rotation_ratio) else self.rotation_ratio
 
     @property
     def crack(self) -> str:
@@ -569,8 +558,5 @@ def _without_history(response: Response) -> Response:
 
 def _rotation_severity(case: CaseResult) -> tuple[float, bool, float]:
     """Key by which the worst of several cases with one decision comes last."""
-    return (_or_least(case.ensemble.rotation_ratio_high) if case.ensemble else -1.0, *case.severity)
-
-
-def _or_least(value: float) -> float:
-    return -1.0 if math.isnan(value) else value
+    high = case.ensembles.governing.ensemble.rotation_ratio_high if case.ensembles else math.nan
+    return -1.0 if math.isnan(high) else high, *case.severity

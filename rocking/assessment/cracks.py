@@ -110,7 +110,7 @@ class CrackEnsembles:
         return self.followed[self.facts.cracks.index(governing) if governing else 0]
 
     @property
-    def beside(self) -> FollowedCrack | None:
+    def statics_beside(self) -> FollowedCrack | None:
         """The crack reported beside the one that governs: that of statics, or the worst beside a given one; or None."""
         worst = max(self.followed, key=lambda each: each.facts.severity(self.facts.risk))
         other = self.followed[0] if worst is self.governing else worst

@@ -107,16 +107,12 @@ def thinned(times: np.ndarray, values: np.ndarray, most: int = MOST_POINTS) -> t
     return times[places], values[places]
 
 
-def _extent(structure: Structure, rotation: float) -> tuple[np.ndarray, np.ndarray]:
-    """The lower left and the upper right corner, m, of a structure turned and at rest."""
+def room(structure: Structure, rotation: float, width: float, height: float) -> tuple[float, np.ndarray]:
+    """Return the scale [mm/m] at which `sketch` fills a picture of that size in mm, and the middle (2,), m, of it."""
     every = np.vstack([*structure.outline(rotation), *structure.outline()])
-    return every.min(axis=0), every.max(axis=0)
-
-
-def room(structure: Structure, rotation: float, width: float, height: float) -> float:
-    """Return the scale [mm/m] at which `sketch` fills a picture of that size in mm."""
-    bottom, top = _extent(structure, rotation)
-    return float(min((np.array([width, height]) - 1.3) / (top - bottom)))  # circles stand over the edges
+    bottom, top = every.min(axis=0), every.max(axis=0)
+    scale = min((np.array([width, height]) - 1.3) / (top - bottom))  # circles stand over the edges
+    return float(scale), (bottom + top) / 2
 
 
 def sketch(
@@ -127,39 +123,38 @@ def sketch(
     With its hinges (circles), loads (arrows), ties and supports (lines), as `draw_structure` draws them. scale: mm/m;
     0: that at which it fills the picture.
     """
-    parts = structure.outline(rotation)
-    at_rest = structure.outline()
-    bottom, top = _extent(structure, rotation)
-    scale = scale or room(structure, rotation, width, height)
-
-    def path(points: np.ndarray, look: str, closed: bool = False) -> str:
-        placed = (points - (bottom + top) / 2) * scale + np.array([width, height]) / 2
-        return svg_path(placed, height, f'{look} stroke-linejoin="round"', closed)
-
+    largest, middle = room(structure, rotation, width, height)
+    scale = scale or largest
     filled = 'fill="#c7c7c7" stroke="#595959" stroke-width="0.18"'
     dashed = 'fill="none" stroke="#4d4d4d" stroke-width="0.18" stroke-dasharray="0.65 0.28"'
-    shapes = [path(each, filled, closed=True) for each in parts]
-    shapes += [path(each, dashed, closed=True) for each in at_rest]
+    circled = 'fill="white" stroke="black" stroke-width="0.21"'
     around = np.array([[np.cos(turn), np.sin(turn)] for turn in np.linspace(0, 2 * np.pi, 13)])
-    for hinge in structure.hinges(rotation):
-        circle = hinge + 0.53 / scale * around
-        shapes.append(path(circle, 'fill="white" stroke="black" stroke-width="0.21"', closed=True))
+
+    areas = [(each, filled) for each in structure.outline(rotation)]
+    areas += [(each, dashed) for each in structure.outline()]
+    areas += [(hinge + 0.53 / scale * around, circled) for hinge in structure.hinges(rotation)]
+    paths = [(points, look, True) for points, look in areas]
     for mark in structure.marks(rotation):
         tail, tip = mark.line
         if mark.kind == "support":
-            shapes.append(path(mark.line, 'stroke="#737373" stroke-width="0.78"'))
+            paths.append((mark.line, 'stroke="#737373" stroke-width="0.78"', False))
         elif mark.kind == "tie":
-            shapes.append(path(mark.line, f'stroke="{_TIE}" stroke-width="0.35"'))
+            paths.append((mark.line, f'stroke="{_TIE}" stroke-width="0.35"', False))
             for end, size in zip(mark.line, (2.4, 1.8), strict=True):
                 plate = end + np.array([[0.0, -size / 2], [0.0, size / 2]]) / scale
-                shapes.append(path(plate, f'stroke="{_TIE}" stroke-width="0.56"'))
+                paths.append((plate, f'stroke="{_TIE}" stroke-width="0.56"', False))
         elif (length := float(np.hypot(*(tip - tail)))) > 0:
             back = (tail - tip) / length * 1.2 / scale
             aside = 0.35 * np.array([-back[1], back[0]])
             head = np.stack([tip, tip + back + aside, tip + back - aside])
-            shapes.append(path(mark.line, f'stroke="{_GREEN}" stroke-width="0.35"'))
-            shapes.append(path(head, f'fill="{_GREEN}"', closed=True))
-    return shapes
+            paths.append((mark.line, f'stroke="{_GREEN}" stroke-width="0.35"', False))
+            paths.append((head, f'fill="{_GREEN}"', True))
+
+    centre = np.array([width, height]) / 2
+    return [
+        svg_path((points - middle) * scale + centre, height, f'{look} stroke-linejoin="round"', closed)
+        for points, look, closed in paths
+    ]
 
 
 # On axes --------------------------------------------------------------------------------------------------

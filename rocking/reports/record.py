@@ -1,7 +1,7 @@
 """The report of one record: two pages for a client; with details: true every figure and table behind them."""
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib.metadata import version
@@ -115,6 +115,10 @@ class RecordReport:
         """Return what the template is given: texts, tables and figures."""
         groups = variants_of({name: each.scene for name, each in self.result.scenes.items()})
         strips: list[dict[str, Any]] = []
+        factors = _unique(plain(row.scale_factor) for row in self.tables.record if row.scale_factor != 1)
+        scale_note = f" Accelerations ×\u00a0{factors}, declared." if factors else ""
+        motion = self.motion
+        dominant = self.dominant(motion.accelerogram.component) if motion else None
         with displaying(self.settings):
             if groups:
                 from rocking.codes.variants import variants  # which a study without variants has no need of
@@ -123,13 +127,11 @@ class RecordReport:
                 strips = strips_of(variants(groups, self.conclusions), self.structures)
             return {
                 **_head(self),
-                "running": f"{self.result.record}.{self.scale_note}"
-                if self.scale_note
-                else self.result.record,
-                "scale-note": self.scale_note,
+                "running": f"{self.result.record}.{scale_note}" if scale_note else self.result.record,
+                "scale-note": scale_note,
                 **printing.settings_texts(self.settings),
                 "notices": [notice.data for notice in _notices(self)],
-                **page_one(self.conclusions, self.structures, self.motion, self.dominant),
+                **page_one(self.conclusions, self.structures, motion, dominant),
                 "left-out": "; ".join(
                     replace(each, about=listed(names, 1)).brief
                     for each, names in self.left_out.items()
@@ -187,10 +189,8 @@ class RecordReport:
         """The component that stands for the record, the one of the largest peak; None without one."""
         return max(self.motions, key=lambda each: each.accelerogram.peak_acceleration, default=None)
 
-    @property
-    def dominant(self) -> PulseRow | None:
-        """The dominant pulse of that component; None without one."""
-        component = self.motion.accelerogram.component if self.motion else ""
+    def dominant(self, component: str) -> PulseRow | None:
+        """Return the dominant pulse of a component; None without one."""
         ranked = (row for row in self.tables.pulses if row.component == component and row.ranked)
         return min(ranked, key=lambda row: row.rank, default=None)
 
@@ -213,12 +213,6 @@ class RecordReport:
     def support_panels(self) -> list[SupportPanel]:
         """The supports that carry a structure."""
         return support_panels(self.result)
-
-    @cached_property
-    def scale_note(self) -> str:
-        """The declared scale factors for captions and the running head, or nothing."""
-        factors = _unique(plain(row.scale_factor) for row in self.tables.record if row.scale_factor != 1)
-        return f" Accelerations ×\u00a0{factors}, declared." if factors else ""
 
     @cached_property
     def labels(self) -> dict[str, str]:
@@ -378,6 +372,7 @@ def _head(report: RecordReport) -> dict[str, object]:
     }
 
 
+# Whole on purpose: the sentences in their order.
 def _sentences(report: RecordReport) -> list[str]:
     """Return what a reader has to know beside the verdicts, and what file and integrations warn of, each once."""
     depends = []
@@ -396,11 +391,19 @@ def _sentences(report: RecordReport) -> list[str]:
     warnings = (scene.place.warning(scene.name) for scene in scenes)
     heavy = dict.fromkeys(str(each) for each in warnings if each)
     carried = sorted(report.result.carried, key=lambda scene: scene.worst.severity, reverse=True)
-    failing = list(_contact_failures(report))
+    # What the contacts of each structure do under any component.
+    of_contacts: dict[str, set[str]] = {}
+    for row in report.tables.comparison:
+        fail = {kind for kind, does in (("slides", row.slides), ("bounces", row.bounces)) if does}
+        of_contacts.setdefault(report.called(row.structure), set()).update(fail)
+    failing = [
+        f"{name} ({' and '.join(sorted(kinds, reverse=True))})"
+        for name, kinds in of_contacts.items()
+        if kinds
+    ]
     contacts = f"The model does not hold, because a contact fails, for {listed(failing)}."
     return [
-        *(_key_numbers(row) for row in report.tables.record),
-        *(_pulse_sentence(report.tables, motion) for motion in report.motions if motion.pulses),
+        *_motion_sentences(report),
         *_doubts(report.tables.comparison, several=len(report.motions) > 1),
         *(f"{scene.sentence}." for scene in carried[:MOST_DRAWN]),
         *(floor_sentences(report.support_panels) if carried else []),
@@ -478,52 +481,37 @@ def _notices(report: RecordReport) -> list[Notice]:
     return [*notices, *map(Notice, told)]
 
 
-def _contact_failures(report: RecordReport) -> Iterator[str]:
-    """Yield each structure whose contacts fail, with what they do under any component."""
-    of_structure: dict[str, set[str]] = {}
-    for row in report.tables.comparison:
-        kinds = of_structure.setdefault(report.called(row.structure), set())
-        if row.slides:
-            kinds.add("slides")
-        if row.bounces:
-            kinds.add("bounces")
-    for name, kinds in of_structure.items():
-        if kinds:
-            yield f"{name} ({' and '.join(sorted(kinds, reverse=True))})"
-
-
-def _key_numbers(row: RecordRow) -> str:
-    """PGA, PGV, D5–95 and T_p of a component in a line."""
-    period = row.velocity_pulse_period_s
-    pulse = f"Tp {number(period)} s" if math.isfinite(period) else "no Tp"
-    like = {None: "", True: " (pulse-like)", False: " (not pulse-like)"}[row.velocity_pulse_like]
-    return (
-        f"{words(row.component)}: PGA {number(row.peak_acceleration_m_s2 / GRAVITY)} g, "
-        f"PGV {printing.quantity(row.peak_velocity_m_s, 'm/s')}, D5–95 {number(row.significant_duration_s)} s, "
-        f"{pulse}{like}"
-    )
-
-
-def _pulse_sentence(tables: RecordRows, motion: Trace) -> str:
-    """Say what the dominant pulse of a component is, and what makes it doubtful."""
-    component = motion.accelerogram.component
-    ranked = (row for row in tables.pulses if row.component == component and row.ranked)
-    row = min(ranked, key=lambda row: row.rank)
-    doubts = [str(Remark(kind)) for kind in row.flags]
-    if any(each.pulse_periods_unlike for each in tables.record if each.component == component):
-        doubts.append(
-            "Its period differs by more than a factor of two from that of the velocity pulse: they are two features."
+def _motion_sentences(report: RecordReport) -> list[str]:
+    """Return PGA, PGV, D5–95 and T_p of each component; then what its dominant pulse is, and what makes it doubtful."""
+    numbers = []
+    pulses = []
+    for row in report.tables.record:
+        period = row.velocity_pulse_period_s
+        velocity_pulse = f"Tp {number(period)} s" if math.isfinite(period) else "no Tp"
+        like = {None: "", True: " (pulse-like)", False: " (not pulse-like)"}[row.velocity_pulse_like]
+        numbers.append(
+            f"{words(row.component)}: PGA {number(row.peak_acceleration_m_s2 / GRAVITY)} g, "
+            f"PGV {printing.quantity(row.peak_velocity_m_s, 'm/s')}, D5–95 {number(row.significant_duration_s)} s, "
+            f"{velocity_pulse}{like}"
         )
-    pulse = (
-        f"Component {words(component)}: amplitude {printing.quantity(abs(row.amplitude_m_s2), 'm/s²')}, "
-        f"period {number(row.period_s)} s, from {number(row.start_time_s)} s on; it "
-        f"explains {percent(row.explained_energy)}\u00a0% of the acceleration energy."
-    )
-    alike = percent(row.same_outcome_share)
-    value = (
-        f"Where a pulse explains so much, closed form and integration end alike in {alike}\u00a0% of cases."
-    )
-    return " ".join([pulse, value, *doubts])
+        pulse = report.dominant(row.component)
+        if pulse is None:
+            continue
+        doubts = [str(Remark(kind)) for kind in pulse.flags]
+        if row.pulse_periods_unlike:
+            doubts.append(
+                "Its period differs by more than a factor of two from that of the velocity pulse: "
+                "they are two features."
+            )
+        told = (
+            f"Component {words(row.component)}: amplitude {printing.quantity(abs(pulse.amplitude_m_s2), 'm/s²')}, "
+            f"period {number(pulse.period_s)} s, from {number(pulse.start_time_s)} s on; it "
+            f"explains {percent(pulse.explained_energy)}\u00a0% of the acceleration energy."
+        )
+        alike = percent(pulse.same_outcome_share)
+        worth = f"Where a pulse explains so much, closed form and integration end alike in {alike}\u00a0% of cases."
+        pulses.append(" ".join([told, worth, *doubts]))
+    return numbers + pulses
 
 
 def _doubts(rows: Sequence[ComparisonRow], several: bool) -> list[str]:

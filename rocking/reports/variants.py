@@ -46,7 +46,7 @@ def _cells(
         side = mechanism.positive
         rotation = _DRAWN * side.critical_rotation if side.can_overturn else 0.0
         turned[each.name] = rotation
-    scale = min(room(structures[name], rotation, _WIDTH, _HEIGHT) for name, rotation in turned.items())
+    scale = min(room(structures[name], rotation, _WIDTH, _HEIGHT)[0] for name, rotation in turned.items())
     return [_cell(each, structures[each.name], turned[each.name], scale, words) for each in row]
 
 

@@ -235,7 +235,9 @@ RATIO_COLUMNS = {
 
 of_decision = of_structure.part(lambda of: of.station.decision)
 of_ensemble = of_structure.part(lambda of: of.station.ensemble)
-of_statics = of_structure.optional(lambda of: of.station.statics)
+of_statics = of_structure.optional(
+    lambda of: of.station.ensembles.statics_beside if of.station.ensembles else None
+)
 of_reserve = of_structure.optional(lambda of: of.station.reserve)
 of_stacks = of_structure.optional(lambda of: of.station.stacks)
 

@@ -99,7 +99,8 @@ def test_the_worst_crack_gives_every_number_and_statics_stands_beside_it():
     assert result.decision.share == 40 / 64
     assert result.decision.interval == (0.0, 40 / 64)
     assert math.isinf(result.ensemble.rotation_ratio_high) and result.severity[1] == 40 / 64
-    assert (result.statics.description, result.statics.ensemble.overturning_members) == ("crack at 3.0 m", 0)
+    beside = result.ensembles.statics_beside
+    assert (beside.description, beside.ensemble.overturning_members) == ("crack at 3.0 m", 0)
     why = "40 of 64 members overturn with the crack at 8.5 m, 0 of 64 with the crack at 3.0 m of statics"
     assert result.decision.why == why
     assert result.decided_by.startswith("nothing decides by itself, most which crack opens (")

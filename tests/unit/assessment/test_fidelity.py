@@ -86,7 +86,7 @@ def test_where_an_ensemble_would_follow_the_block_may_settle_it():
     assert falls.method is Method.BLOCK_ON_RECORD and falls.outcome is Outcome.OVERTURNS
     settings = AssessmentSettings(fidelity="auto")
     case = assess_case(BLOCK, component_of(motion, settings.pulse), settings=settings)
-    assert case.answer.method is Method.BLOCK_ON_RECORD and case.ensemble is None
+    assert case.answer.method is Method.BLOCK_ON_RECORD and case.ensembles is None
 
 
 def test_an_estimate_settles_up_to_the_risk_and_on_the_side_where_it_lies():

@@ -76,7 +76,7 @@ def test_a_pair_and_its_vertical_component_go_through_the_support():
     assert len(result.stations) > 3
     for station in result.stations:
         assert station.directions is not None
-        assert station.directions.ensemble is not None
+        assert station.directions.ensembles is not None
         assert not station.directions.failures
         assert len(station.cases) == 2
         if support := station.support:
