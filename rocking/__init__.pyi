@@ -31,10 +31,10 @@ from .fragility.measures import IntensityMeasure as IntensityMeasure
 from .fragility.measures import intensity_measure as intensity_measure
 from .motion.batch import integrate_batch as integrate_batch
 from .motion.batch import rocking_spectrum as rocking_spectrum
+from .motion.integration import MemberResponses as MemberResponses
+from .motion.integration import Members as Members
 from .motion.integration import integrate as integrate
-from .motion.members import MemberResponses as MemberResponses
-from .motion.members import Members as Members
-from .motion.members import integrate_members as integrate_members
+from .motion.integration import integrate_members as integrate_members
 from .motion.response import Response as Response
 from .pulses import Pulse as Pulse
 from .pulses import PulseAnalysis as PulseAnalysis

@@ -26,7 +26,7 @@ from rocking.assessment.decide import decide
 from rocking.assessment.settings import AssessmentSettings
 from rocking.contacts.dynamics import follow_stack
 from rocking.errors import RockingError, StructureWarning
-from rocking.structures.restraint import FRICTION
+from rocking.structures.linkage import FRICTION
 from rocking.structures.stack import Stack
 from rocking.structures.tied import Tied
 from rocking.tables import column, row

@@ -23,8 +23,7 @@ from rocking.contacts.dynamics import STEP, follow_stack
 from rocking.contacts.dynamics import expected_seconds as seconds_of_run
 from rocking.errors import RockingError
 from rocking.floors.place import swinging
-from rocking.motion.integration import integrate, strict
-from rocking.motion.members import Members, integrate_members
+from rocking.motion.integration import Members, integrate, integrate_members, strict
 from rocking.motion.response import check_model
 from rocking.records import Accelerogram
 from rocking.remarks import Kind, Remark

@@ -18,8 +18,8 @@ from rocking.assessment.decide import CrackFacts, Facts, Verdict
 from rocking.assessment.ensemble import CAUSES, Ensemble, Origin, design, drawn, ensemble, grown
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
-from rocking.motion.forcing import forcing_of
 from rocking.motion.response import lifting_friction
+from rocking.motion.table import forcing_of
 from rocking.remarks import Kind, Remark
 from rocking.structures import Mechanism, Structure
 from rocking.structures.structure import CRACKS, Candidate

@@ -21,9 +21,8 @@ from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import SIZES, EnsembleSettings
 from rocking.errors import MotionError
-from rocking.motion.forcing import forcing_of
-from rocking.motion.integration import TOLERANCES, Rocking, Runs, reduce
-from rocking.motion.members import follow_runs
+from rocking.motion.integration import TOLERANCES, Rocking, Runs, follow_runs, reduce
+from rocking.motion.table import forcing_of
 from rocking.quantities import within
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
 

@@ -27,10 +27,9 @@ import numpy as np
 
 from rocking.assessment.methods import Method
 from rocking.errors import StructureError
-from rocking.motion.forcing import forcing_of
-from rocking.motion.integration import integrate
-from rocking.motion.members import Members, integrate_members
+from rocking.motion.integration import Members, integrate, integrate_members
 from rocking.motion.response import Response
+from rocking.motion.table import forcing_of
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.records.measures import record_measures

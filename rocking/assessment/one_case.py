@@ -17,8 +17,7 @@ from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.motions import AS_IT_IS, Component, GroundMotions, Motion, ground_motions, processed
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import RockingError
-from rocking.motion.integration import integrate, strict
-from rocking.motion.members import Members, integrate_members
+from rocking.motion.integration import Members, integrate, integrate_members, strict
 from rocking.motion.response import UNKNOWN, Response, check_model
 from rocking.pulses import Pulse, PulseEvidence, predicting_pulse
 from rocking.records import Accelerogram

@@ -25,7 +25,7 @@ import numpy as np
 from rocking.assessment.ensemble import CAUSES, Situation, draw, followed_at
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import EnsembleSettings
-from rocking.motion.forcing import forcing_of
+from rocking.motion.table import forcing_of
 from rocking.structures import Mechanism
 
 SHARES = (0.05, 0.5, 0.95)

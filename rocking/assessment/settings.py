@@ -8,7 +8,7 @@ from rocking.described import check_described, described
 from rocking.errors import ConfigurationError
 from rocking.pulses import PULSE_METHODS, PulseSettings
 from rocking.structures.equivalent_block import Scale
-from rocking.structures.restraint import FRICTION
+from rocking.structures.linkage import FRICTION
 
 
 class Heading(StrEnum):

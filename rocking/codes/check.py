@@ -9,7 +9,7 @@ from rocking.errors import ConfigurationError
 from rocking.floors.support import Support
 from rocking.quantities import finite, kind_of, positive
 from rocking.remarks import Kind, Remark
-from rocking.structures.restraint import Restraint
+from rocking.structures.linkage import Restraint
 
 CONFIDENCE_FACTOR = 1.35
 """The factor of the level of knowledge LC1, which C8.7.1.2.1 asks for unless crushing enters α, as with a

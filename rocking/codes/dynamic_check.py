@@ -234,7 +234,7 @@ class _Body:
     def answer(self, motions: Sequence[Accelerogram]) -> tuple[float, int]:
         """Return the mean over the motions of the largest d over its limit, and under how many d_0 is exceeded."""
         # numba comes with it, and the scheduler of a study, which imports the rows of this check, needs it for nothing
-        from rocking.motion.members import Members, integrate_members
+        from rocking.motion.integration import Members, integrate_members
 
         members = Members(polarity=self.polarities)
         uses: list[float] = []

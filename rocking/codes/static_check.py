@@ -20,7 +20,7 @@ from rocking.errors import ConfigurationError, StructureError
 from rocking.quantities import GRAVITY, kind_of, positive
 from rocking.remarks import Kind, Remark
 from rocking.structures import Structure
-from rocking.structures.restraint import FRICTION
+from rocking.structures.linkage import FRICTION
 from rocking.structures.tied import Tied
 
 _SAME = 1e-9

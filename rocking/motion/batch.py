@@ -11,17 +11,19 @@ import numpy as np
 
 from rocking.drawn import Drawn
 from rocking.errors import MotionError, RockingError
-from rocking.motion.forcing import Forcing, GroundMotion, forcing_of
 from rocking.motion.integration import (
     LARGEST_GROWTH,
     TOLERANCES,
+    Members,
     Rocking,
     Runs,
+    concluded,
     follow_blocks,
+    follow_runs,
     reduce,
     solvable_exactly,
 )
-from rocking.motion.members import Members, concluded, follow_runs
+from rocking.motion.table import Forcing, GroundMotion, forcing_of
 from rocking.quantities import kind_of, within
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import EquivalentBlock

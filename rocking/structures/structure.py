@@ -24,12 +24,13 @@ from rocking.structures.linkage import (
     Linkage,
     Motion,
     MotionState,
+    Reaction,
     Restitution,
+    Restraint,
     UnknownContacts,
     momentum_balance,
 )
 from rocking.structures.mechanism import Mechanism, Side
-from rocking.structures.restraint import Reaction, Restraint
 from rocking.structures.stack import Course, Held, Stack, Stop
 
 if TYPE_CHECKING:

@@ -12,13 +12,11 @@ from numpy.typing import ArrayLike
 
 from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
 from rocking.quantities import GRAVITY
-from rocking.structures.chain import Chain
 from rocking.structures.drawing import Mark, plane
 from rocking.structures.fields import OneSided, Value
-from rocking.structures.held_wall import HeldWall, Opening
-from rocking.structures.linkage import STILL, Hung, Linkage, MotionState
+from rocking.structures.held_wall import Chain, HeldWall, Opening
+from rocking.structures.linkage import STILL, Hung, Linkage, MotionState, Reaction, Restraint
 from rocking.structures.mechanism import Tie
-from rocking.structures.restraint import Reaction, Restraint
 from rocking.structures.structure import Candidate, CrackedAtHeight
 
 UnitWeight = Annotated[float, Value("Weight of the masonry", 20.0, "kN/m³", (8, 30), bounds={"ge": 1e-6})]

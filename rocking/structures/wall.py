@@ -24,11 +24,11 @@ from rocking.structures.linkage import (
     MotionState,
     Parts,
     Restitution,
+    Restraint,
     cross,
     keeps_last,
 )
 from rocking.structures.mechanism import Tie
-from rocking.structures.restraint import Restraint
 from rocking.structures.stack import (
     FRICTION,
     Course,

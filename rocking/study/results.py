@@ -15,7 +15,7 @@ from rocking.errors import RockingError
 from rocking.records import CatalogueRecord
 from rocking.study.seals import MADE_FROM
 from rocking.tables import Row, frame, read_whole, write_whole, written_together
-from rocking.tables.csv_rows import check_columns, readable
+from rocking.tables.rows import check_columns, readable
 
 if TYPE_CHECKING:
     from pandas import DataFrame

@@ -15,15 +15,6 @@ that begins like a formula is written behind an apostrophe, control characters a
 takes both back.
 """
 
-from rocking.tables.csv_rows import csv_lines as csv_lines
-from rocking.tables.csv_rows import data_package as data_package
-from rocking.tables.csv_rows import frame as frame
-from rocking.tables.csv_rows import read_rows as read_rows
-from rocking.tables.csv_rows import read_table as read_table
-from rocking.tables.csv_rows import rows_of as rows_of
-from rocking.tables.csv_rows import rows_written as rows_written
-from rocking.tables.csv_rows import write_rows as write_rows
-from rocking.tables.csv_rows import write_tables as write_tables
 from rocking.tables.edited import edited_text as edited_text
 from rocking.tables.edited import read_edited as read_edited
 from rocking.tables.files import read_start as read_start
@@ -32,10 +23,19 @@ from rocking.tables.files import regular_file as regular_file
 from rocking.tables.files import whole as whole
 from rocking.tables.files import write_whole as write_whole
 from rocking.tables.files import written_together as written_together
-from rocking.tables.row import Columns as Columns
-from rocking.tables.row import Row as Row
-from rocking.tables.row import RowOf as RowOf
-from rocking.tables.row import Table as Table
-from rocking.tables.row import cell as cell
-from rocking.tables.row import column as column
-from rocking.tables.row import row as row
+from rocking.tables.rows import Columns as Columns
+from rocking.tables.rows import Row as Row
+from rocking.tables.rows import RowOf as RowOf
+from rocking.tables.rows import Table as Table
+from rocking.tables.rows import cell as cell
+from rocking.tables.rows import column as column
+from rocking.tables.rows import csv_lines as csv_lines
+from rocking.tables.rows import data_package as data_package
+from rocking.tables.rows import frame as frame
+from rocking.tables.rows import read_rows as read_rows
+from rocking.tables.rows import read_table as read_table
+from rocking.tables.rows import row as row
+from rocking.tables.rows import rows_of as rows_of
+from rocking.tables.rows import rows_written as rows_written
+from rocking.tables.rows import write_rows as write_rows
+from rocking.tables.rows import write_tables as write_tables

@@ -8,7 +8,7 @@ from typing import Any
 
 from rocking.described import Described
 from rocking.quantities import escaped
-from rocking.tables.row import Row
+from rocking.tables.rows import Row
 
 MOST_ROWS = 1_048_575
 """Rows below the head of a sheet; the format holds no more."""

@@ -33,7 +33,7 @@ from rocking.assessment.rows.of_inputs import (
 from rocking.floors.place import FloorMeasures
 from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Regime
-from rocking.structures.restraint import Reaction
+from rocking.structures.linkage import Reaction
 from rocking.structures.structure import Candidate
 from rocking.tables import Columns, Row, RowOf, row, write_tables, written_together
 

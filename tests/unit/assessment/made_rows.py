@@ -29,7 +29,7 @@ from rocking.assessment.settings import EnsembleSettings
 from rocking.errors import StructureError
 from rocking.motion.response import Response
 from rocking.structures import Block, Outcome
-from rocking.tables.row import Row, empty
+from rocking.tables.rows import Row, empty
 
 R = TypeVar("R", bound=Row)
 

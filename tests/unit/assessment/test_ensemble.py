@@ -17,7 +17,7 @@ from rocking.assessment.motions import GroundMotions, processed
 from rocking.assessment.settings import SIZES, AssessmentSettings, EnsembleSettings
 from rocking.errors import ConfigurationError
 from rocking.motion import integrate
-from rocking.motion.members import follow_runs
+from rocking.motion.integration import follow_runs
 from rocking.records import Accelerogram
 from rocking.records.accelerogram import Source
 from rocking.records.processing import Processing, process

@@ -9,7 +9,7 @@ import pytest
 import rocking.floors.support as floors
 from rocking.errors import RecordError
 from rocking.motion import Members, integrate, integrate_members
-from rocking.motion.forcing import CURVE_ERROR, forcing_of
+from rocking.motion.table import CURVE_ERROR, forcing_of
 from rocking.records import Accelerogram
 from rocking.structures import Block, Wall
 

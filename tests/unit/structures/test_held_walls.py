@@ -13,8 +13,7 @@ import rocking
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
 from rocking.structures import Facade, LoadedWall
-from rocking.structures.chain import Chain
-from rocking.structures.held_wall import Opening
+from rocking.structures.held_wall import Chain, Opening
 from rocking.structures.linkage import Hung, Parts
 
 PER_STOREY = 5

@@ -11,7 +11,7 @@ from rocking.assessment.settings import AssessmentSettings
 from rocking.quantities import GRAVITY
 from rocking.remarks import Kind
 from rocking.structures import Facade, LoadedWall, Wall
-from rocking.structures.restraint import FRICTION
+from rocking.structures.linkage import FRICTION
 
 BY_HAND = 1e-9
 HEIGHT, THICKNESS, FLOOR = 3.6, 0.35, 4e3
