@@ -122,7 +122,8 @@ class Assessor:
         """
         measured = self.motion_measures if measured is None else measured
         beside = [None if vertical is None else aligned(vertical, each) for each in horizontal]
-        prints = [Motion((each,)).fingerprint for each in horizontal]
+        # Where nothing is kept, nothing is hashed.
+        prints = [Motion((each,)).fingerprint for each in horizontal] if self.store is not None else []
 
         of_pair = cache(partial(horizontal_motions, horizontal))
         components = []

@@ -219,9 +219,13 @@ def load_scenes(path: str | Path) -> dict[str, Scene]:
     names: list[object] = []
     for where, entry, texts, base in sorted(entries, key=lambda each: not _is_support(each.values)):
         name = entry.get("name") if isinstance(entry, Mapping) else None
-        if run_together := _run_together(entry):
-            key, _, value = run_together.partition(":")
-            defects.append(f"{where}: {run_together} has no blank behind its colon; write {key}: {value}.")
+        unvalued = (
+            [str(key) for key, value in entry.items() if value is None] if isinstance(entry, Mapping) else []
+        )
+        if run_together := [key for key in unvalued if re.fullmatch(r"\w+:\S.{,60}", key)][:1]:
+            # YAML reads such a key with its value, and no value.
+            key, _, value = run_together[0].partition(":")
+            defects.append(f"{where}: {run_together[0]} has no blank behind its colon; write {key}: {value}.")
             names.append(name)
             continue
         if not isinstance(name, str) or not name.strip():
@@ -258,14 +262,6 @@ def load_scenes(path: str | Path) -> dict[str, Scene]:
     if defects:
         raise ConfigurationError("\n".join(defects))
     return scenes
-
-
-def _run_together(entry: object) -> str:
-    """The first key of an entry that YAML read with its value, for want of a blank behind the colon; "" for none."""
-    if not isinstance(entry, Mapping):
-        return ""
-    keys = (str(key) for key, value in entry.items() if value is None)
-    return next((key for key in keys if re.fullmatch(r"\w+:\S.{,60}", key)), "")
 
 
 def _repeated(name: object) -> str:

@@ -111,11 +111,13 @@ class RecordReport:
         """Return the document."""
         return compile_document("record.typ", self.data())
 
+    # Whole on purpose: what the template asks for, one thing after another.
     def data(self) -> dict[str, object]:
         """Return what the template is given: texts, tables and figures."""
         groups = variants_of({name: each.scene for name, each in self.result.scenes.items()})
         strips: list[dict[str, Any]] = []
-        factors = _unique(plain(row.scale_factor) for row in self.tables.record if row.scale_factor != 1)
+        record = self.tables.record
+        factors = _unique(plain(row.scale_factor) for row in record if row.scale_factor != 1)
         scale_note = f" Accelerations ×\u00a0{factors}, declared." if factors else ""
         motion = self.motion
         dominant = self.dominant(motion.accelerogram.component) if motion else None
@@ -140,7 +142,17 @@ class RecordReport:
                 "strips": strips,
                 "advice": _advice(self),
                 "sentences": _sentences(self),
-                **_assumptions(self),
+                # What was assumed, and files and versions; the time of the run is left out.
+                "friction": plain(self.settings.get("friction_coefficient")),
+                "vertical": _unique(row.vertical_component for row in record),
+                "arch": any(each.hinges_migrate for each in self.structures.values()),
+                "tapering": any(each.tapers for each in self.structures.values()),
+                "times": _unique(row.start_time for row in record),
+                "files": _unique(f"{words(row.file)}, SHA-256 {row.record_sha256}" for row in record),
+                "settings": _unique(f"{row.settings_sha256[:16]}…" for row in record),
+                "version": version("rocking"),
+                "supported": bool(self.result.carried),
+                "measured": {name: each.figure for name, each in MEASURED.items()},
                 "details": [_details(self)] if self.settings.get("details", False) else [],
             }
 
@@ -619,24 +631,6 @@ def _tables(report: RecordReport) -> dict[str, object]:
             *_period_column(bool(tables.supports)),
             *_method_columns(tables.comparison),
         ),
-    }
-
-
-def _assumptions(report: RecordReport) -> dict[str, object]:
-    """Return what the sentences on what was assumed, and on files and versions, ask for."""
-    record = report.tables.record
-    return {
-        "friction": plain(report.settings.get("friction_coefficient")),
-        "vertical": _unique(row.vertical_component for row in record),
-        "arch": any(each.hinges_migrate for each in report.structures.values()),
-        "tapering": any(each.tapers for each in report.structures.values()),
-        # the time of the run is left out
-        "times": _unique(row.start_time for row in record),
-        "files": _unique(f"{words(row.file)}, SHA-256 {row.record_sha256}" for row in record),
-        "settings": _unique(f"{row.settings_sha256[:16]}…" for row in record),
-        "version": version("rocking"),
-        "supported": bool(report.result.carried),
-        "measured": {name: each.figure for name, each in MEASURED.items()},
     }
 
 

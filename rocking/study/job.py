@@ -29,11 +29,11 @@ from rocking.records.scaling import ScalingTarget, scaled_to
 from rocking.records.station import station_of
 from rocking.structures import Structure
 from rocking.study.folder import locked
-from rocking.study.made_from import TABLE, records_of, settings_sha256
+from rocking.study.made_from import TABLE, records_of
 from rocking.study.plan import JOBS, plan_of_job
 from rocking.study.results import case_timings_of, cases_of, outcome_of, write_outcome
 from rocking.study.seals import Seals
-from rocking.study.settings import Settings
+from rocking.study.settings import Settings, settings_sha256
 from rocking.study.terminal import line_writer, log_error, record_line, tell, tell_error
 from rocking.tables import write_rows, written_together
 

@@ -15,12 +15,12 @@ from typing import Protocol
 
 from rocking.assessment.scene import Scene
 from rocking.errors import RockingError
-from rocking.hashes import sha256_of, sha256_of_sources
+from rocking.hashes import sha256_of
 from rocking.records.catalogue import CatalogueRecord, load_catalogue
 from rocking.records.files import with_hashes
 from rocking.study.contents import ContentHashes
 from rocking.study.seals import Seals
-from rocking.study.settings import Settings, StudyDesign
+from rocking.study.settings import NUMBERS, Settings, StudyDesign, package_sha256, structure_hashes
 
 Things = Mapping[str, str]
 """What a product is made from: each thing in words, with its hash."""
@@ -47,7 +47,6 @@ class Inputs(Protocol):
 
 PLACES = ("catalogue", "structures", "results", "mirror")
 """The settings that say where something lies: what lies there counts, and every job is handed them."""
-_NUMBERS = tuple(Settings.changing_numbers())
 _TOLD = ("study", "client", "project_number", "author", "date", "display_units")
 _LEVEL = tuple(f"design_spectrum.{name}" for name in StudyDesign.LEVEL)
 
@@ -76,14 +75,14 @@ class Line:
 
 TABLE: Mapping[str, Line] = {
     "records": Line(
-        (*_NUMBERS, *_TOLD, "reports", "details", "figures", "histories", *_LEVEL),
+        (*NUMBERS, *_TOLD, "reports", "details", "figures", "histories", *_LEVEL),
         files=("design_spectrum.points",),
         documents=False,
     ),
-    "batches": Line((*_NUMBERS, "reports", "histories"), documents=False),
+    "batches": Line((*NUMBERS, "reports", "histories"), documents=False),
     "summary": Line(
         (
-            *_NUMBERS,
+            *NUMBERS,
             *_TOLD,
             "reports",
             "figures",
@@ -98,13 +97,13 @@ TABLE: Mapping[str, Line] = {
         documents=False,
     ),
     "checks": Line(
-        (*_NUMBERS, *_TOLD, "language", "figures", "design_spectrum"),
+        (*NUMBERS, *_TOLD, "language", "figures", "design_spectrum"),
         files=("design_spectrum.points",),
         pool=True,
         terms=True,
     ),
-    "fragility": Line((*_NUMBERS, "fragility", "figures"), files=("fragility.hazard",)),
-    "trade": Line((*_NUMBERS, "trade", "figures")),
+    "fragility": Line((*NUMBERS, "fragility", "figures"), files=("fragility.hazard",)),
+    "trade": Line((*NUMBERS, "trade", "figures")),
 }
 """By the kind of product. All are made from the records and their files, the structures in their order, this package
 and the libraries as well; a record and a batch from their own records alone, the others from all in their order."""
@@ -168,17 +167,6 @@ def _pool(catalogue: Path, plan: Inputs) -> Things:
     return things | {"the files of the pool": sha256_of(*hashes)}
 
 
-def structure_hashes(scenes: Mapping[str, Scene]) -> dict[str, str]:
-    """Return one hash for what each structure says of itself and its support, by its name."""
-    return {name: sha256_of(each.structure.described.entry, each.place) for name, each in scenes.items()}
-
-
-def settings_sha256(settings: Settings, scenes: Mapping[str, Scene]) -> str:
-    """Return the hash that every row names: of the settings that change a number, the structures and the package."""
-    numbers = settings.told_in(_NUMBERS)
-    return sha256_of(*numbers.items(), *structure_hashes(scenes).items(), package_sha256(reports=False))
-
-
 _LIBRARIES = ("rocking", "obspy", "numpy", "scipy", "pandas", "matplotlib", "numba", "snakemake", "typst")
 
 
@@ -192,26 +180,3 @@ def versions() -> dict[str, str]:
         except PackageNotFoundError:
             continue
     return found
-
-
-_SOURCE = {".py", ".csv", ".json", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
-_SPOKEN = {f"study/{name}.py" for name in ("cli", "run", "terminal", "workspace", "seals", "contents")}
-"""The files that start a study, talk about it and remember it: they change nothing that a job writes."""
-
-
-@cache
-def package_sha256(reports: bool = True) -> str:
-    """Return one hash for the source of this package that a job depends on.
-
-    reports: with that of the reports, which changes no number.
-    """
-    root = Path(__file__).parents[1]
-    return sha256_of_sources(root, _sources(root, reports))
-
-
-def _sources(root: Path, reports: bool) -> Iterable[Path]:
-    for path in root.rglob("*"):
-        name = path.relative_to(root).as_posix()
-        of_a_job = name not in _SPOKEN and (reports or not name.startswith("reports/"))
-        if of_a_job and path.suffix in _SOURCE:
-            yield path

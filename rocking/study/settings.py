@@ -1,11 +1,12 @@
 """The settings of a study: those of each part of the package, and what is the study's own.
 
 Each says its type, unit, bounds and meaning where it is declared. config.yaml is read and checked as a whole, and
-written, with its JSON schema, from these. After a change: make schema
+written, with its JSON schema, from these. After a change: make schema. Every row names them by a hash.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, fields, is_dataclass
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
@@ -21,6 +22,7 @@ from rocking.described import (
     read_described,
 )
 from rocking.errors import ConfigurationError, RecordError
+from rocking.hashes import sha256_of, sha256_of_sources
 from rocking.quantities import GRAVITY
 from rocking.records.processing import Processing
 from rocking.records.scaling import ScalingTarget
@@ -29,6 +31,7 @@ from rocking.structures.structure import CRACKS
 from rocking.tables.yaml_file import scalar_value
 
 if TYPE_CHECKING:
+    from rocking.assessment.scene import Scene
     from rocking.codes.design_spectrum import DesignSpectrum
 
 _LARGEST_USUAL = 0.6
@@ -486,3 +489,41 @@ def _entries(section: Any) -> dict[str, tuple[Described | None, Any]]:
 
 def _meaning(description: Described) -> str:
     return f"{description.meaning}, {description.unit}" if description.unit else description.meaning
+
+
+# What every row names -----------------------------------------------------------------------------------
+
+NUMBERS = tuple(Settings.changing_numbers())
+"""The settings, and the sections of settings, that change a number of a table."""
+_SOURCE = {".py", ".csv", ".json", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
+_SPOKEN = {f"study/{name}.py" for name in ("cli", "run", "terminal", "workspace", "seals", "contents")}
+"""The files that start a study, talk about it and remember it: they change nothing that a job writes."""
+
+
+def structure_hashes(scenes: Mapping[str, "Scene"]) -> dict[str, str]:
+    """Return one hash for what each structure says of itself and its support, by its name."""
+    return {name: sha256_of(each.structure.described.entry, each.place) for name, each in scenes.items()}
+
+
+def settings_sha256(settings: Settings, scenes: Mapping[str, "Scene"]) -> str:
+    """Return the hash that every row names: of the settings that change a number, the structures and the package."""
+    numbers = settings.told_in(NUMBERS)
+    return sha256_of(*numbers.items(), *structure_hashes(scenes).items(), package_sha256(reports=False))
+
+
+@cache
+def package_sha256(reports: bool = True) -> str:
+    """Return one hash for the source of this package that a job depends on.
+
+    reports: with that of the reports, which changes no number.
+    """
+    root = Path(__file__).parents[1]
+    return sha256_of_sources(root, _sources(root, reports))
+
+
+def _sources(root: Path, reports: bool) -> Iterable[Path]:
+    for path in root.rglob("*"):
+        name = path.relative_to(root).as_posix()
+        of_a_job = name not in _SPOKEN and (reports or not name.startswith("reports/"))
+        if of_a_job and path.suffix in _SOURCE:
+            yield path

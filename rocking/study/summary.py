@@ -32,8 +32,9 @@ from rocking.errors import ConfigurationError, RockingError, fault_in_words
 from rocking.records import Accelerogram, CatalogueRecord
 from rocking.structures import Mechanism, Structure
 from rocking.study.job import Job, Study
-from rocking.study.made_from import package_sha256, structure_hashes, versions
+from rocking.study.made_from import versions
 from rocking.study.results import Outcome, kept_of, kept_rows, outcomes_of, remove_others
+from rocking.study.settings import package_sha256, structure_hashes
 from rocking.study.terminal import log_error
 from rocking.tables import (
     Row,

@@ -19,9 +19,8 @@ from rocking.records.formats.layouts import NAME
 from rocking.records.listing import listing_text
 from rocking.records.read import read
 from rocking.study.job import Study, assess_catalogued, rows_of, write_report
-from rocking.study.made_from import settings_sha256
 from rocking.study.plan import workflow_folder
-from rocking.study.settings import Settings, first_yaml
+from rocking.study.settings import Settings, first_yaml, settings_sha256
 from rocking.study.terminal import bar
 from rocking.tables import Row, write_tables, write_whole
 

@@ -12,10 +12,10 @@ from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES
 from rocking.hashes import sha256_of
 from rocking.study.fork_server import leave as leave_fork_server
 from rocking.study.fork_server import start as start_fork_server
-from rocking.study.made_from import package_sha256, structure_hashes
 from rocking.study.plan import check_config_file, config_file, make_plan
 from rocking.study.results import kept_of, outcome_of
 from rocking.study.run import begin
+from rocking.study.settings import package_sha256, structure_hashes
 from rocking.study.terminal import check_any_read
 from snakemake.utils import update_config
 

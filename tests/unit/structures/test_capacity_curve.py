@@ -16,7 +16,7 @@ from rocking import (
 from rocking.assessment.scene import load_scenes
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
-from rocking.study.made_from import structure_hashes
+from rocking.study.settings import structure_hashes
 
 KINKED = (0.0, 0.03, 0.06, 0.2, 0.5), (0.15, 0.19, 0.1, 0.08, -0.02)
 RESTITUTION = 0.85

@@ -15,12 +15,11 @@ from rocking.errors import ConfigurationError
 from rocking.records import CatalogueRecord
 from rocking.remarks import Kind, Remark
 from rocking.study import contents as contents_module
-from rocking.study import made_from
+from rocking.study import settings as settings_module
 from rocking.study.contents import ContentHashes
 from rocking.study.job import begin_job
-from rocking.study.made_from import settings_sha256
 from rocking.study.plan import Plan, batches_of, make_plan
-from rocking.study.settings import Settings
+from rocking.study.settings import Settings, settings_sha256
 
 ROOT = Path(__file__).parents[3]
 SHA256 = "0" * 64
@@ -121,13 +120,13 @@ def test_what_changes_no_number_does_not_change_the_hash_of_the_settings(tmp_pat
 
 def test_the_hash_of_the_package_follows_its_source(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shutil.copytree(ROOT / "rocking", tmp_path / "rocking", ignore=shutil.ignore_patterns("__pycache__"))
-    monkeypatch.setattr(made_from, "__file__", str(tmp_path / "rocking" / "study" / "made_from.py"))
-    whole = made_from.package_sha256.__wrapped__()
+    monkeypatch.setattr(settings_module, "__file__", str(tmp_path / "rocking" / "study" / "settings.py"))
+    whole = settings_module.package_sha256.__wrapped__()
     with (tmp_path / "rocking" / "study" / "plan.py").open("a") as stream:
         stream.write("# edited\n")
-    edited = made_from.package_sha256.__wrapped__()
+    edited = settings_module.package_sha256.__wrapped__()
     (tmp_path / "rocking" / "quantities.py").rename(tmp_path / "rocking" / "measures.py")
-    assert len({whole, edited, made_from.package_sha256.__wrapped__()}) == 3
+    assert len({whole, edited, settings_module.package_sha256.__wrapped__()}) == 3
 
 
 @given(
@@ -241,14 +240,14 @@ def test_results_whose_record_is_gone_are_told(tmp_path: Path) -> None:
 def test_an_edit_of_the_reports_is_in_the_hash_of_the_package_and_not_in_that_of_its_numbers(
     tmp_path, monkeypatch
 ):
-    for name in ("reports/page.py", "motion/table.py", "study/made_from.py"):
+    for name in ("reports/page.py", "motion/table.py", "study/settings.py"):
         path = tmp_path / name
         path.parent.mkdir()
         path.write_text("1\n")
-    monkeypatch.setattr(made_from, "__file__", str(tmp_path / "study" / "made_from.py"))
+    monkeypatch.setattr(settings_module, "__file__", str(tmp_path / "study" / "settings.py"))
 
     def hashes() -> tuple[str, str]:
-        hash_of = made_from.package_sha256.__wrapped__
+        hash_of = settings_module.package_sha256.__wrapped__
         return hash_of(), hash_of(reports=False)
 
     before = hashes()
