@@ -48,33 +48,38 @@ class Kind(StrEnum):
 
     # What else makes a decision doubtful.
     COMPONENT_MISSING = auto(), "a component gave no result"
-    OTHER_CRACK_WORSE = auto(), "another crack than the one given is worse", "another crack is worse"
+    OTHER_CRACK_WORSE = auto(), "a crack other than the one given is worse", "another crack is worse"
     MEMBERS_FAILED = auto(), "members could not be followed", "some members failed"
-    NO_STACK = auto(), "contact dynamics cannot follow it, for it is no stack of courses", "no stack of courses"
-    HELD_BEYOND = auto(), "a held wall turns so far that its mechanism may say too little", "turns far"
+    NO_STACK = auto(), (
+        "contact dynamics cannot follow it, because it is not a stack of courses"
+    ), "not a stack of courses"
+    HELD_BEYOND = auto(), (
+        "a held wall rotates so far that its mechanism may predict too little"
+    ), "rotates far"
     TIES_GIVE = auto(), (
-        "its ties stretch, and under the motion that they let through the wall between them turns far"
+        "its ties stretch, and under the motion that they transmit the wall between them rotates far"
     ), "its ties give"
-    CURVE_ALONE = auto(), "a capacity curve tells neither impacts nor sliding nor which contacts open", "curve alone"
-
+    CURVE_ALONE = auto(), (
+        "a capacity curve says nothing of impacts, sliding or opening contacts"
+    ), "curve alone"
     # What would tell more of a decision.
-    TIE_STRENGTH = auto(), "give the strength at which its ties let go", "give the ties' strength"
+    TIE_STRENGTH = auto(), "give the strength at which its ties fail", "give the ties' strength"
     FRICTION = auto(), "measure the friction of its joints, and give it (friction_coefficient)", "measure friction"
     INPUT = auto(), "give a record and settings under which it can be followed", "not followed"
     ENSEMBLE = auto(), "follow an ensemble of members (ensemble: members)", "follow an ensemble"
     TOLERANCE = auto(), "give a restitution below 1, or another tolerance", "give restitution below 1"
-    CRACK = auto(), "find out where it cracks, and give it (crack: known)", "find where it cracks"
+    CRACK = auto(), "find out where it cracks, and state it (crack: known)", "find where it cracks"
     RESTITUTION = auto(), (
         "measure the restitution, or take it from tests of such masonry"
     ), "measure its restitution"
     PROCESSING = auto(), (
-        "take a processed record of the network instead of the raw one"
-    ), "take a processed record"
+        "use a processed record of the network instead of the raw one"
+    ), "use a processed record"
     CONTACT_DYNAMICS = auto(), "follow it by 64 runs of contact dynamics (fidelity: contact)", "contact dynamics"
     COMPONENT = auto(), "find the component that gave no result", "find missing component"
 
     # What explains a decision of which nothing more would tell.
-    OTHER_PERIODS = auto(), "at other periods {share} overturn", "other T_b: {share}"
+    OTHER_PERIODS = auto(), "at other periods {share} overturn", "at other T_b {share} fall"
     CONTACT_SLIDES = auto(), (
         "a contact needs a friction of {lifting:.2g} as it lifts and up to {largest:.2g} as it rocks"
     ), "slides below μ {lifting:.2g}–{largest:.2g}"
@@ -92,14 +97,16 @@ class Kind(StrEnum):
         "{longest_s:g} s."
     )
     PEAK_IMPOSSIBLE = auto(), (
-        "The peak acceleration is above the 5 g that no ground has reached; check the unit and the factor."
+        "The peak acceleration is above 5 g, which no recorded ground motion has reached; check the unit and the "
+        "factor."
     )
     PEAK_RARE = auto(), (
-        "The peak acceleration is {peak_g:.3g} g, above 3 g: almost no ground moves so; check unit and file."
+        "The peak acceleration is {peak_g:.3g} g, above 3 g: hardly any recorded ground motion is so strong; check "
+        "unit and file."
     )
     PEAK_RARE_BY_FACTOR = auto(), (
-        "Multiplied by {factor:g} the peak acceleration is {peak_g:.3g} g, above 3 g: almost no ground moves so; check "
-        "the factor."
+        "Multiplied by {factor:g} the peak acceleration is {peak_g:.3g} g, above 3 g: hardly any recorded ground "
+        "motion is so strong; check the factor."
     )
     PEAK_TINY = auto(), "The peak acceleration is {peak_g:.3g} g, below 1e-5 g: noise, or a wrong unit."
     PEAK_TINY_BY_UNIT = auto(), (
@@ -107,8 +114,8 @@ class Kind(StrEnum):
         "be plausible."
     )
     SCALED_FAR = auto(), (
-        "Scaled by {factor:.3g}, beyond a factor of {largest:g}: a motion so far from that strength has another "
-        "duration and other periods; choose another record."
+        "Scaled by {factor:.3g}, beyond a factor of {largest:g}: a record that is really so strong or weak has "
+        "another duration and other periods; choose another record."
     )
     SAMPLE_ALONE = auto(), (
         "The sample at {time_s:g} s is {peak_g:.3g} g and stands alone; without it the peak acceleration is "
@@ -153,8 +160,8 @@ class Kind(StrEnum):
         "a number or a factor is damaged."
     )
     PEAK_ELSEWHERE = auto(), (
-        "The header puts the peak at {stated_s:g} s, but it stands at {time_s:g} s: lines may be missing, repeated or "
-        "out of order before it, or the time step is another."
+        "The header puts the peak at {stated_s:g} s, but it occurs at {time_s:g} s: lines may be missing, repeated "
+        "or out of order before it, or the time step differs."
     )
     MEAN_SQUARE_UNLIKE_HEADER = auto(), (
         "The root mean square of the samples is {value:.6g} {unit}, but the header states {stated:.6g} {unit}: numbers "
@@ -177,46 +184,48 @@ class Kind(StrEnum):
         "The header declares {declared} samples; the {lines} surplus lines repeat the end and are left out."
     )
     SEAM_CUT = auto(), (
-        "The header declares {declared} numbers or points: those behind a seam of the file, of another trace, are left "
-        "out."
+        "The header declares {declared} numbers or points: those after a seam in the file, which belong to another "
+        "trace, are left out."
     )
-    CHANNELS_UNLIKE_HEADER = auto(), "The header speaks of {announced:g} channels, but the file holds {held}."
+    CHANNELS_UNLIKE_HEADER = auto(), "The header announces {announced:g} channels, but the file holds {held}."
     CHANNELS_OF_GEONET = auto(), "A GeoNet file holds 3 components, but this one holds {held}."
     LENGTH_UNLIKE_HEADER = auto(), (
         "The header gives the series a length of {stated_s:g} s, but its samples last {lasts_s:g} s."
     )
     RATE_NO_NUMBER = auto(), (
-        "The header gives a rate of {rate!r}, which is no number: the file may be damaged."
+        "The header gives a rate of {rate!r}, which is not a number: the file may be damaged."
     )
     RATE_UNLIKE_STEP = auto(), (
-        "The header gives a rate of {rate_hz:g} Hz, but duration and count a step of {time_step_s:g} s."
+        "The header gives a rate of {rate_hz:g} Hz, but duration and number of samples give a step of "
+        "{time_step_s:g} s."
     )
     MATCHED_TO_SPECTRUM = auto(), (
         "The header says that the record is matched to a spectrum: artificial, not a recorded motion."
     )
     SCALE_APPLIED = auto(), "Samples multiplied by the SCALE that the header states, {factor:g}."
     CALIBRATION_NOT_APPLIED = auto(), (
-        "The header states a calibration of {factor:g}, which in this format leads to a displacement: the samples are "
-        "taken as they stand, in the unit that is declared."
+        "The header states a calibration of {factor:g}, which in this format converts to displacement: the samples "
+        "are taken as they are, in the unit that is declared."
     )
     FACTOR_NOT_APPLIED = auto(), (
-        "The text above the numbers speaks of a factor or of counts ({text}): no factor is applied, and they are read "
-        "as they stand."
+        "The text above the numbers mentions a factor or counts ({text}): no factor is applied, and the numbers are "
+        "read as they are."
     )
     SENSITIVITY_ELSEWHERE = auto(), (
         "The overall sensitivity of {about} is stated at {at_hz:g} Hz and differs by {off:.0%} from the product of its "
         "stages at other frequencies: the sensitivity was used."
     )
     SENSITIVITY_UNLIKE_STAGES = auto(), (
-        "The overall sensitivity of {about} is more than 5 % off what the stages of its response give at the frequency "
-        "it is stated for; the stages were used: ask the network which one holds."
+        "The overall sensitivity of {about} is more than 5 % off what the stages of its response give at the "
+        "frequency it is stated for; the stages were used: ask the network which of the two is valid."
     )
-
     # The dominant pulse of a record.
     PULSE_UNSTABLE = auto(), "The choice is unstable: another pulse often wins when the record is turned."
     PULSE_AT_AN_END = auto(), "The pulse touches an end of the record, so part of it may be missing."
     PULSE_FILTERED = auto(), "The pulse is long enough that the record's high-pass filter has reduced it."
-    PULSE_SYMMETRIC = auto(), "Two pulses of opposite sign, half a cycle apart, stand for the motion equally well."
+    PULSE_SYMMETRIC = auto(), (
+        "Two pulses of opposite sign, half a cycle apart, represent the motion equally well."
+    )
     PULSE_AT_BAND_LIMIT = auto(), (
         "The period lies at a limit of the band that was searched, so the true pulse may lie outside it."
     )
@@ -230,46 +239,43 @@ class Kind(StrEnum):
 
     # An integration.
     WEIGHTLESS = auto(), (
-        "the vertical motion takes away more than gravity for an instant, so that bodies would fly; the model keeps "
+        "for an instant the ground falls faster than gravity, so that bodies would lose contact; the model keeps "
         "them on the ground."
     )
-
     # A structure, and where it stands.
     SIZE_UNUSUAL = auto(), (
         "{about} is {value:.6g}{unit}, but is usually between {low:g} and {high:g}{unit} for {type}; check the unit."
     )
     BROADER_THAN_TALL = auto(), (
-        "{about} is {across_m:.6g} m and {height} {height_m:.6g} m: so broad a body slides before it rocks; check "
+        "{about} is {across_m:.6g} m and {height} {height_m:.6g} m: a body this broad slides before it rocks; check "
         "which is which."
     )
     HELD_AT_CEILING = auto(), (
-        "{about} of type wall: held at floor and ceiling, it moves at neither; a wall that stands free at its top, as "
-        "a boundary wall does, is a free_wall."
+        "{about} of type wall: taken as held at floor and ceiling; a wall that is free at its top, such as a "
+        "boundary wall, is a free_wall."
     )
     FLOORS_BEHIND = auto(), (
-        "It rocks inwards as freely as outwards, though the floors that it carries or is tied to stand behind it: with "
-        "behind: floors or cross_walls and the restitution of its impact on them it does not; neither is the safe side "
-        "in every case, so follow both."
+        "It rocks inwards as freely as outwards, although the floors that it carries or is tied to are behind it; "
+        "behind: floors or cross_walls, with the restitution of its impact on them, prevents this. Neither is always "
+        "on the safe side, so assess both."
     )
     RESTITUTION_TYPED = auto(), (
-        "The restitution of {typed:.2g} is typed, while the balance of momentum of the geometry gives "
-        "{own:.2g}, with which less energy is lost: both are followed, and where their words differ the share is a "
-        "range."
+        "The restitution of {typed:.2g} is typed, while the balance of momentum of the geometry gives {own:.2g}, "
+        "with which less energy is lost: both are followed, and where their verdicts differ the share is a range."
     ), "{about}: restitution {typed:.2g} typed, {own:.2g} by geometry"
     RESTITUTION_ABOVE = auto(), (
-        "The restitution of {typed:.2g} is typed, above the {own:.2g} that the balance of momentum leaves rigid bodies "
-        "of this geometry: it rocks longer than they would; check it, or leave it out."
+        "The restitution of {typed:.2g} is typed, above the {own:.2g} that the balance of momentum gives for rigid "
+        "bodies of this geometry: it rocks longer than they would; check it, or leave it out."
     )
     CRUSHING_WOULD_TELL = auto(), (
-        "{about}: no compressive_strength is given. If the edges of the joints crush at 2 MPa, they start at less "
-        "(static_multiplier_crushing in structures.csv), which by their reserves under this record changes the word or "
-        "moves the share that overturns by more than 0.1: give the strength."
-    ), "{about}: crushing at 2 MPa would tell"
+        "{about}: no compressive_strength is given. If the edges of the joints crush at 2 MPa, rocking starts at a "
+        "lower acceleration (static_multiplier_crushing in structures.csv), which by the reserves under this record "
+        "changes the verdict or moves the share that overturns by more than 0.1: give the strength."
+    ), "{about}: crushing at 2 MPa would matter"
     HEAVY_ON_SUPPORT = auto(), (
-        "{about} has {ratio:.2g} of the mass of {support}: beyond {limit:g} what it gives back changes rotations by "
-        "more than a per cent, at 0.1 by 11 % in the median, and is left out here."
+        "{about} has {ratio:.2g} of the mass of {support}: beyond {limit:g} its reaction on the support changes "
+        "rotations by more than one per cent, at 0.1 by 11 % in the median, and is left out here."
     )
-
     # Why the displacement of a limit state is what it is.
     LIMIT_SHARE = auto(), "{share:g} d₀"
     LIMIT_TIE_BREAKS = auto(), "a tie breaks"
@@ -280,66 +286,67 @@ class Kind(StrEnum):
     VERIFIED = auto(), "verified by {clause}"
     NOT_VERIFIED = auto(), "not verified by {clause}", "not verified"
     OTHER_SETS = auto(), "{share} of sets of other stations would meet it"
+    OTHER_SETS_UNKNOWN = auto(), "too few stations to say what sets of other stations would give"
     CHECK_NOT_MET = auto(), "not met"
     DISPLACEMENT_EXCEEDED = auto(), "not met: d₀ is exceeded under {exceeding} of {motions} motions"
     SETS_TOO_FEW = auto(), (
-        "met by this set, but not called met: other sets within the limits: {sets}, and {asked} must be asked; give "
-        "more records, or a narrower range of periods"
+        "met by this set, but not called met: only {sets} other sets lie within the limits, and {asked} are "
+        "required; give more records, or a narrower range of periods"
     )
     SETS_DISAGREE = auto(), (
-        "met by this set, but not called met: it is by {share_percent:.0f} % of {sets} sets, and {least_percent:.0f} % "
-        "must"
+        "met by this set, but not called met: {share_percent:.0f} % of {sets} sets meet it, and {least_percent:.0f} "
+        "% are required"
     )
     OTHER_STATIONS = auto(), (
-        "That the check is met is no proof for other stations than the {stations} of the pool: even if none of these "
-        "lets it fall, up to {unseen_percent:.0f} % of all stations may, and of sets of other stations as few as "
-        "{least_percent:.0f} % may meet the check, as the stations and earthquakes of the pool bear it out."
+        "That the check is met is no proof for other stations than the {stations} of the pool: even if it falls at "
+        "none of these, it may fall at up to {unseen_percent:.0f} % of all stations, and as few as "
+        "{least_percent:.0f} % of sets of other stations may meet the check, to judge by the stations and "
+        "earthquakes of the pool."
     )
     NO_DISPLACEMENT = auto(), (
-        "It cannot overturn: it {why}. The displacement d₀ that the nonlinear and the dynamic check ask for does not "
-        "exist, so that neither was made; the force in the ties is not checked."
+        "It cannot overturn: it {why}. The displacement d₀ that the nonlinear and the dynamic check require does not "
+        "exist, so neither was made; the force in the ties is not checked."
     )
-
     # What holds a wall sideways. In motion: the largest forces of ties in 65 walls (theory: what the hold needs).
     TIE_MUST_BEAR = auto(), (
-        "The tie at {height_m:.4g} m has no strength (tie_strength) and is taken for one that holds: as the wall "
-        "{about} it must bear {needed_kN_m:.3g} kN/m, and in motion, with the impacts of the wall, some 2.8 times that "
-        "(1.9 to 4.8 in eight of ten walls); give it."
+        "The tie at {height_m:.4g} m has no strength (tie_strength) and is assumed to hold: when the wall {about} it "
+        "carries {needed_kN_m:.3g} kN/m statically, and in motion, with the impacts of the wall, about 2.8 times "
+        "that (1.9 to 4.8 in eight of ten walls); give its strength."
     )
     TIE_BEARS = auto(), (
-        "The tie at {height_m:.4g} m lets go at {gives_kN_m:.3g} kN/m and bears {needed_kN_m:.3g} kN/m at rest, as the "
-        "wall {about}; in motion, with the impacts of the wall, ties bore some 2.8 times that (1.9 to 4.8 in eight of "
-        "ten walls), so that statics shows a third of what it gets."
+        "The tie at {height_m:.4g} m fails at {gives_kN_m:.3g} kN/m and carries {needed_kN_m:.3g} kN/m statically "
+        "when the wall {about}; in motion, with the impacts of the wall, ties carried about 2.8 times the static "
+        "force (1.9 to 4.8 in eight of ten walls)."
     )
     TIE_YIELDS = auto(), (
-        "The tie at {height_m:.4g} m lets go at {gives_kN_m:.3g} kN/m, before the wall {about}, for which it would "
-        "have to bear {needed_kN_m:.3g} kN/m."
+        "The tie at {height_m:.4g} m fails at {gives_kN_m:.3g} kN/m, before the wall {about}, for which it would "
+        "have to carry {needed_kN_m:.3g} kN/m."
     )
     TOP_HOLDS = auto(), (
-        "The top at {height_m:.4g} m needs {needed_kN_m:.3g} kN/m at rest, as the wall {about}; friction of "
-        "{friction:.2g} under what lies on it and ties there hold {gives_kN_m:.3g} kN/m. In motion, with the impacts "
-        "of the wall, it needs some 2.8 times that of rest (1.9 to 4.8 in eight of ten walls)."
+        "The top at {height_m:.4g} m needs {needed_kN_m:.3g} kN/m statically when the wall {about}; friction of "
+        "{friction:.2g} under what lies on it, and ties there, provide {gives_kN_m:.3g} kN/m. In motion, with the "
+        "impacts of the wall, it needs about 2.8 times the static force (1.9 to 4.8 in eight of ten walls)."
     )
     TOP_SLIPS = auto(), (
-        "The top at {height_m:.4g} m slips: as the wall {about} it needs {needed_kN_m:.3g} kN/m, and friction of "
-        "{friction:.2g} under what lies on it and ties there hold {gives_kN_m:.3g} kN/m, so that the wall is followed "
-        "as one that slips there; ties of {tie_kN_m:.3g} kN/m at the top (tie_heights) hold it at rest, and in motion "
-        "it needs some 2.8 times that force."
-    ), "its top slips: of {needed_kN_m:.3g} kN/m friction and ties hold {gives_kN_m:.3g}"
+        "The top at {height_m:.4g} m slips: when the wall {about} it needs {needed_kN_m:.3g} kN/m, and friction of "
+        "{friction:.2g} under what lies on it, and ties there, provide {gives_kN_m:.3g} kN/m, so the wall is "
+        "computed as one that slips there; ties of {tie_kN_m:.3g} kN/m at the top (tie_heights) hold it statically, "
+        "and in motion it needs about 2.8 times that force."
+    ), "its top slips: it needs {needed_kN_m:.3g} kN/m, friction and ties provide {gives_kN_m:.3g}"
     TOP_MUST_BE_HELD = auto(), (
-        "The top at {height_m:.4g} m is taken to be held: as the wall {about} it needs {needed_kN_m:.3g} kN/m at rest, "
-        "and in motion, with the impacts of the wall, some 2.8 times that (1.9 to 4.8 in eight of ten walls)."
+        "The top at {height_m:.4g} m is assumed to be held: when the wall {about} it needs {needed_kN_m:.3g} kN/m "
+        "statically, and in motion, with the impacts of the wall, about 2.8 times that (1.9 to 4.8 in eight of ten "
+        "walls)."
     )
     TOP_TAKEN_AS_HELD = auto(), (
-        "The top is taken to be held: as the wall {about} it needs {share:.2g} of the weight of the wall at rest, and "
-        "some 2.8 times that in motion, though nothing that presses on it is given, so that no friction holds it."
+        "The top is assumed to be held: when the wall {about} it needs {share:.2g} of the weight of the wall "
+        "statically, and about 2.8 times that in motion, but no load on it is given, so no friction holds it."
     )
-
     # What was read of a file, and what was not.
-    FIRST_NUMBERS = auto(), "The first of the numbers are no samples, but {what}."
+    FIRST_NUMBERS = auto(), "The first of the numbers are not samples but {what}."
     UNLIKE_ITS_ANSWER = auto(), (
-        "It is read as {answer!r}, by layouts.csv, but looks otherwise ({holds}): see whether it is like the other "
-        "files of its folder."
+        "It is read as {answer!r}, as layouts.csv says, but looks different ({holds}): check whether it is like the "
+        "other files of its folder."
     )
     ROW_FILLED_UP = auto(), "The last row is filled up with NaN, which are left out."
     LINE_ENDS_DOUBLED = auto(), (
@@ -361,16 +368,17 @@ class Kind(StrEnum):
         "taken as horizontal; leave it out in the catalogue if it is not."
     )
     DIRECTION_CONTRADICTED = auto(), (
-        "The header of {about} lets the channel point {direction}, which its code contradicts; the header is followed: "
-        "see which of the two is true, and name the horizontal ones in the column component."
+        "The header of {about} gives the direction {direction}, which the channel code contradicts; the header is "
+        "followed: check which of the two is right, and name the horizontal ones in the column component."
     )
     SOME_MAY_BE_VERTICAL = auto(), (
-        "Of the {channels} channels {names} may be vertical, for nothing says which one is: name the horizontal ones "
-        "in the column component of the catalogue, or as --component."
+        "Of the {channels} channels {names} may be vertical, because nothing says which one is: name the horizontal "
+        "ones in the column component of the catalogue, or as --component."
     )
     LONE_MAY_BE_VERTICAL = auto(), (
-        "The direction of the component {about} is unknown, for its name is neither a direction nor an angle, and it "
-        "may be vertical: if it is horizontal, name it in the column component of the catalogue, or as --component."
+        "The direction of the component {about} is unknown, because its name is neither a direction nor an angle, "
+        "and it may be vertical: if it is horizontal, name it in the column component of the catalogue, or as "
+        "--component."
     )
     VERTICAL_BY_NAME = auto(), (
         "Only the name of the file says that the motion is vertical ({word}): if it is horizontal, name it in the "
@@ -394,25 +402,27 @@ class Kind(StrEnum):
 
     # The files of a folder, each beside the others.
     COUNTS_WITHOUT_UNIT = auto(), (
-        "Its samples are counts of the recorder where no unit is filled in: put the StationXML of the station beside "
+        "Without a unit its samples are taken as counts of the recorder: put the StationXML of the station beside "
         "it, or name it in the column inventory."
     )
     VERTICAL_IN_NAME = auto(), "The file's name says {word}, but {about} is taken as horizontal."
     STATIONS_UNLIKE = auto(), (
-        "The stream holds channels of {number} stations ({stations}): they are no record of one place; take each by "
-        "itself."
+        "The stream holds channels of {number} stations ({stations}): they are not a record of one place; read each "
+        "station separately."
     )
     STEPS_OF_STREAM_UNLIKE = auto(), (
-        "The channels of the stream have time steps from {least_s:g} to {most_s:g} s: resample them before they act "
-        "together."
+        "The channels of the stream have time steps from {least_s:g} to {most_s:g} s: resample them before they are "
+        "used together."
     )
     TILTED = auto(), (
         "The sensor {about} dips {dip_deg:g}°, neither level nor upright: its motion is taken along the nearer of the "
         "two."
     )
-    CONTENT_REPEATED = auto(), "Its content is that of {original}: as two records it would count twice."
+    CONTENT_REPEATED = auto(), (
+        "Its content is that of {original}: listed as two records it would count twice."
+    )
     NOT_SQUARE = auto(), "Components {first} and {second} are {angle_deg:g}° apart, not at right angles."
-    COMPONENT_TWICE = auto(), "component {about} comes {times} times"
+    COMPONENT_TWICE = auto(), "component {about} occurs {times} times"
     STEPS_UNLIKE = auto(), "their time steps are {least_s:g} and {most_s:g} s"
     BEGINNINGS_UNKNOWN = auto(), "they hold {least} and {most} samples and do not all say when they begin"
     COMPONENT_NOT_NAMED = auto(), "{about} does not name its component"
@@ -428,7 +438,7 @@ class Kind(StrEnum):
     ROWS_TO_JOIN = auto(), (
         "{files} are components of one station: name them all in the row {rows} to join them."
     )
-    READINGS_UNUSABLE = auto(), "{about}: {why}; every file is read anew."
+    READINGS_UNUSABLE = auto(), "{about}: {why}; every file is read again."
     RECORD_REPEATED = auto(), (
         "{about} ({file}): its content is that of {other} ({other_file}), so that one motion counts twice; leave one "
         "of them out."
@@ -436,10 +446,10 @@ class Kind(StrEnum):
     FILE_UNLISTED = auto(), "{about} is not in the catalogue; rocking catalogue {folder} adds what is new."
     FILES_UNLISTED = auto(), "{files} files are not in the catalogue; rocking catalogue {folder} adds what is new."
     RECORD_GONE = auto(), (
-        "{about} is of a record that is not in the catalogue any more; remove it if you do not need it."
+        "{about} belongs to a record that is no longer in the catalogue; remove it if you do not need it."
     )
-    OTHER_VERSION = auto(), "The results are of another version of rocking; they are computed again."
-    OUTDATED = auto(), "{about}: {why}; computed again by: rocking run . {about}."
+    OTHER_VERSION = auto(), "The results are of another version of rocking; they are recomputed."
+    OUTDATED = auto(), "{about}: {why}; recompute it with: rocking run . {about}."
     # fmt: on
 
 

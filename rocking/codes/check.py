@@ -106,10 +106,10 @@ class Check:
         return "met" if self.passed else "not met"
 
     def __str__(self) -> str:
+        demand = "beyond d_0" if math.isinf(self.demand) else f"{self.demand:.4g} {self.unit}"
         return (
-            f"{self.clause}, {self.limit_state}: capacity {self.capacity:.4g} {self.unit}, demand "
-            f"{self.demand:.4g} {self.unit}, ratio {self.ratio:.3g}, {self.refusal or self.outcome} "
-            f"({self.mechanism})"
+            f"{self.clause}, {self.limit_state}: capacity {self.capacity:.4g} {self.unit}, demand {demand}, "
+            f"ratio {self.ratio:.3g}, {self.refusal or self.outcome} ({self.mechanism})"
         )
 
 
@@ -161,15 +161,6 @@ class DynamicCheck(Check):
         return super().outcome
 
     @property
-    def sentence(self) -> str:
-        """The share of the sets that meet it, with its interval and the cases that are open."""
-        low, high = self.interval
-        return (
-            f"of {self.sets} sets drawn {100 * self.share:.0f} % meet it ({100 * low:.0f} to {100 * high:.0f} % "
-            "for sets of other stations)"
-        )
-
-    @property
     def caution(self) -> Remark | None:
         """How far the stations of the pool speak for others, which belongs beside a check that is met."""
         if not self.passed:
@@ -181,6 +172,12 @@ class DynamicCheck(Check):
             unseen_percent=100 * unseen,
             least_percent=100 * self.interval[0],
         )
+
+
+def says_nothing(interval: tuple[float, float]) -> bool:
+    """Whether the interval of a share reaches from below 1 % to above 99 %, so that a reader learns nothing from it."""
+    low, high = interval
+    return low < 0.01 and high > 0.99
 
 
 class Part(StrEnum):

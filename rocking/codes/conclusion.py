@@ -3,10 +3,9 @@
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import chain
 
 from rocking.assessment.scene import placed
-from rocking.codes.check import Part, ratio_in_words
+from rocking.codes.check import Part, ratio_in_words, says_nothing
 from rocking.codes.rows import CodeCheckRow
 from rocking.quantities import counted, percents
 from rocking.remarks import Kind, Remark
@@ -53,8 +52,11 @@ class CodeConclusion:
     @property
     def other_sets(self) -> Remark | None:
         """How many sets of other stations would meet the dynamic check, where one was made."""
-        share = self.other_share_in_words
-        return Remark.of(Kind.OTHER_SETS, share=share) if share else None
+        if self.other_share is None:
+            return None
+        if says_nothing(self.other_share):
+            return Remark(Kind.OTHER_SETS_UNKNOWN)
+        return Remark.of(Kind.OTHER_SETS, share=percents(*self.other_share))
 
     @property
     def other_share(self) -> tuple[float, float] | None:
@@ -64,8 +66,10 @@ class CodeConclusion:
 
     @property
     def other_share_in_words(self) -> str:
-        """That interval: "20–100 %"; "" without one."""
-        return percents(*self.other_share) if self.other_share else ""
+        """That interval: "20–100 %"; "too few stations to say" of one that spans everything, "" without one."""
+        if self.other_share is None:
+            return ""
+        return "too few stations to say" if says_nothing(self.other_share) else percents(*self.other_share)
 
     @property
     def ratios(self) -> Mapping[str, str]:
@@ -91,7 +95,8 @@ _NAMED = 3
 def code_conclusion_in_words(concluded: Sequence[CodeConclusion]) -> str:
     """Return the sentence on all structures: "By the code 2 of 6 structures are verified …".
 
-    It ends in how many sets of other stations would say so, the widest interval of all. "" without any structure.
+    It ends in how many sets of other stations would meet the dynamic checks, by the widest interval of all, where that
+    says anything. "" without any structure.
     """
     if not concluded:
         return ""
@@ -105,13 +110,17 @@ def code_conclusion_in_words(concluded: Sequence[CodeConclusion]) -> str:
     names = names if others else ""
     verb = "is" if len(verified) == 1 else "are"
     whole = f"{len(verified)} of {counted(len(concluded), 'structure')}"
-    # Unsaid, one that is verified and overturns under the records of the study is taken for a contradiction.
-    level = "at the design level, which these records may exceed"
     shares = [each.other_share for each in concluded if each.verified and each.other_share]
     end = ""
     if shares:
-        end = f"; {percents(*chain.from_iterable(shares))} of other stations’ sets agree"
-    return f"By the code {whole} {verb} verified {level}{names}{end}."
+        widest = min(low for low, _ in shares), max(high for _, high in shares)
+        end = f"; {percents(*widest)} of sets of other stations would agree"
+        if says_nothing(widest):
+            end = "; the pool has too few stations to speak for others"
+    # Unsaid, one that is verified and overturns under the records of the study is taken for a contradiction.
+    return (
+        f"By the code {whole} {verb} verified at the design level{names}; these records may exceed it{end}."
+    )
 
 
 def code_conclusions(rows: Iterable[CodeCheckRow]) -> list[CodeConclusion]:

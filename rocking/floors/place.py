@@ -219,8 +219,9 @@ def _by_storeys(mapping: Mapping[str, Any]) -> float | None:
     if not given:
         return None
     if missing := sorted(_STOREY_KEYS - given):
+        them = "it" if len(missing) == 1 else "them"
         raise ConfigurationError(
-            f"a support with {', '.join(sorted(given))} needs {' and '.join(missing)}; give it."
+            f"a support with {', '.join(sorted(given))} needs {' and '.join(missing)}; give {them}."
         )
     storeys = finite(ConfigurationError, "storeys", mapping["storeys"])
     if storeys < 1 or storeys != int(storeys):

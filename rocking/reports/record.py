@@ -1,7 +1,7 @@
 """The report of one record: two pages for a client; with details: true every figure and table behind them."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib.metadata import version
@@ -24,7 +24,7 @@ from rocking.assessment.rows import (
     VerdictRow,
     structure_rows,
 )
-from rocking.assessment.scene import placed, variants_of
+from rocking.assessment.scene import variants_of
 from rocking.quantities import GRAVITY, counted, listed, percent, percents
 from rocking.records.formats.text import day_of
 from rocking.remarks import Kind, Remark
@@ -141,7 +141,8 @@ class RecordReport:
                 ),
                 "strips": strips,
                 "advice": _advice(self),
-                "sentences": _sentences(self),
+                "components": _components(self),
+                "known": _known(self),
                 # What was assumed, and files and versions; the time of the run is left out.
                 "friction": plain(self.settings.get("friction_coefficient")),
                 "vertical": _unique(row.vertical_component for row in record),
@@ -384,9 +385,42 @@ def _head(report: RecordReport) -> dict[str, object]:
     }
 
 
-# Whole on purpose: the sentences in their order.
-def _sentences(report: RecordReport) -> list[str]:
-    """Return what a reader has to know beside the verdicts, and what file and integrations warn of, each once."""
+def _components(report: RecordReport) -> dict[str, object]:
+    """Return the table of the components: peaks, duration, velocity pulse and dominant sine of each."""
+    rows = [(row, report.dominant(row.component)) for row in report.tables.record]
+    acceleration = printing.unit_of("m/s²")
+    velocity = printing.unit_of("m/s")
+
+    def of_sine(show: Callable[[PulseRow], str]) -> Callable[[tuple[RecordRow, PulseRow | None]], str]:
+        return lambda pair: show(pair[1]) if pair[1] else printing.NOTHING
+
+    return table_of(
+        rows,
+        ("Component", "auto", "l", lambda pair: words(pair[0].component)),
+        ("PGA [g]", "1", "r", lambda pair: number(pair[0].peak_acceleration_m_s2 / GRAVITY)),
+        (f"PGV [{velocity.name}]", "1", "r", lambda pair: number(pair[0].peak_velocity_m_s / velocity.size)),
+        ("D5–95 [s]", "1", "r", lambda pair: number(pair[0].significant_duration_s)),
+        ("T_p [s]", "1", "r", lambda pair: number(pair[0].velocity_pulse_period_s)),
+        ("Pulse-like", "1", "r", lambda pair: _PULSE_LIKE[pair[0].velocity_pulse_like]),
+        (
+            f"Sine: amplitude [{acceleration.name}]",
+            "1.2",
+            "r",
+            of_sine(lambda row: number(abs(row.amplitude_m_s2) / acceleration.size)),
+        ),
+        ("period [s]", "1", "r", of_sine(lambda row: number(row.period_s))),
+        ("onset [s]", "1", "r", of_sine(lambda row: number(row.start_time_s))),
+        ("energy [%]", "1", "r", of_sine(lambda row: percent(row.explained_energy))),
+        ("same outcome [%]", "1.1", "r", of_sine(lambda row: percent(row.same_outcome_share))),
+    )
+
+
+_PULSE_LIKE = {None: printing.NOTHING, True: "yes", False: "no"}
+
+
+# Whole on purpose: the topics of the second page, from the record to the file.
+def _known(report: RecordReport) -> list[dict[str, object]]:
+    """Return by topic what a reader has to know beside the verdicts, and the warnings, each once."""
     depends = []
     for station in report.result.worst_first:
         ratios = [
@@ -398,7 +432,7 @@ def _sentences(report: RecordReport) -> list[str]:
         if any(map(math.isinf, ratios)) and any(map(math.isfinite, ratios)):
             depends.append(report.called(station.structure))
     depends = list(dict.fromkeys(depends))
-    remark = f"Whether it overturns depends on the processing of the record: {listed(depends)}."
+    remark = f"The processing of the record decides whether these overturn: {listed(depends)}."
     scenes = (each.scene for each in report.result.carried)
     warnings = (scene.place.warning(scene.name) for scene in scenes)
     heavy = dict.fromkeys(str(each) for each in warnings if each)
@@ -414,17 +448,20 @@ def _sentences(report: RecordReport) -> list[str]:
         if kinds
     ]
     contacts = f"The model does not hold, because a contact fails, for {listed(failing)}."
-    return [
-        *_motion_sentences(report),
-        *_doubts(report.tables.comparison, several=len(report.motions) > 1),
-        *(f"{scene.sentence}." for scene in carried[:MOST_DRAWN]),
-        *(floor_sentences(report.support_panels) if carried else []),
-        *([contacts] if failing else []),
-        *(str(replace(each, about=listed(names))) for each, names in report.left_out.items()),
-        *([remark] if depends else []),
-        *heavy,
-        *warnings_of(report.tables),
-    ]
+    topics = {
+        "Dominant sine": _pulse_doubts(report),
+        "Closed form": _doubts(report.tables.comparison, several=len(report.motions) > 1),
+        "Supports": [
+            *(f"{scene.sentence}." for scene in carried[:MOST_DRAWN]),
+            *(floor_sentences(report.support_panels) if carried else []),
+            *heavy,
+        ],
+        "Contacts": [contacts] if failing else [],
+        "Models": [str(replace(each, about=listed(names))) for each, names in report.left_out.items()],
+        "Processing": [remark] if depends else [],
+        "Warnings": warnings_of(report.tables),
+    }
+    return [{"topic": topic, "texts": texts} for topic, texts in topics.items() if texts]
 
 
 def _would_crush(station: StationResult) -> bool:
@@ -493,42 +530,25 @@ def _notices(report: RecordReport) -> list[Notice]:
     return [*notices, *map(Notice, told)]
 
 
-def _motion_sentences(report: RecordReport) -> list[str]:
-    """Return PGA, PGV, D5–95 and T_p of each component; then what its dominant pulse is, and what makes it doubtful."""
-    numbers = []
-    pulses = []
+def _pulse_doubts(report: RecordReport) -> list[str]:
+    """Say what makes a dominant pulse doubtful, each doubt once with the components that it is about."""
+    of_doubt: dict[str, list[str]] = {}
     for row in report.tables.record:
-        period = row.velocity_pulse_period_s
-        velocity_pulse = f"Tp {number(period)} s" if math.isfinite(period) else "no Tp"
-        like = {None: "", True: " (pulse-like)", False: " (not pulse-like)"}[row.velocity_pulse_like]
-        numbers.append(
-            f"{words(row.component)}: PGA {number(row.peak_acceleration_m_s2 / GRAVITY)} g, "
-            f"PGV {printing.quantity(row.peak_velocity_m_s, 'm/s')}, D5–95 {number(row.significant_duration_s)} s, "
-            f"{velocity_pulse}{like}"
-        )
         pulse = report.dominant(row.component)
-        if pulse is None:
-            continue
-        doubts = [str(Remark(kind)) for kind in pulse.flags]
+        doubts = [str(Remark(kind)) for kind in pulse.flags] if pulse else []
         if row.pulse_periods_unlike:
             doubts.append(
-                "Its period differs by more than a factor of two from that of the velocity pulse: "
-                "they are two features."
+                "Its period differs from T_p by more than a factor of two: sine and velocity pulse are two features."
             )
-        told = (
-            f"Component {words(row.component)}: amplitude {printing.quantity(abs(pulse.amplitude_m_s2), 'm/s²')}, "
-            f"period {number(pulse.period_s)} s, from {number(pulse.start_time_s)} s on; it "
-            f"explains {percent(pulse.explained_energy)}\u00a0% of the acceleration energy."
-        )
-        alike = percent(pulse.same_outcome_share)
-        worth = f"Where a pulse explains so much, closed form and integration end alike in {alike}\u00a0% of cases."
-        pulses.append(" ".join([told, worth, *doubts]))
-    return numbers + pulses
+        for doubt in doubts:
+            of_doubt.setdefault(doubt, []).append(words(row.component))
+    several = len(report.tables.record) > 1
+    return [f"{listed(names)}: {doubt}" if several else doubt for doubt, names in of_doubt.items()]
 
 
 def _doubts(rows: Sequence[ComparisonRow], several: bool) -> list[str]:
-    """Say where the closed form says less than happens, and which of its two simplifications is the reason."""
-    reasons: dict[str, list[str]] = {}
+    """Say where the closed form predicts less than happens, and which of its two simplifications is the reason."""
+    reasons: dict[str, dict[str, list[str]]] = {}
     compared = [row for row in rows if row.agreement is not Agreement.UNKNOWN]
     for row in sorted(compared, key=lambda row: -row.integrated_rotation_ratio):
         if row.agreement is Agreement.TOO_LOW:
@@ -536,21 +556,36 @@ def _doubts(rows: Sequence[ComparisonRow], several: bool) -> list[str]:
                 agreement(simpler, row.integrated_rotation_ratio) is Agreement.SAME
                 for simpler in (row.block_on_record_rotation_ratio, row.mechanism_on_pulse_rotation_ratio)
             )
-            name = placed(row.structure, row.support_period_s)
-            name += f" ({words(row.component)})" if several else ""
-            reasons.setdefault(_BLAME[same], []).append(name)
+            # At several periods of a support it is named once.
+            of_structure = reasons.setdefault(_BLAME[same], {}).setdefault(row.structure, [])
+            if row.component not in of_structure:
+                of_structure.append(row.component)
     if not reasons:
-        return ["The closed form says of no structure less than happens."] if compared else []
+        return ["The closed form predicts less than happens for no structure."] if compared else []
     return [
-        f"The closed form misses what happens to {listed(names, 8)}: {why}." for why, names in reasons.items()
+        "The closed form predicts less than happens for "
+        + listed(
+            [f"{name} ({' and '.join(map(words, of))})" if several else name for name, of in names.items()], 8
+        )
+        + f": {why}."
+        for why, names in reasons.items()
     ]
 
 
 _BLAME: dict[tuple[bool, ...], str] = {
-    (True, True): "either simplification alone would have kept the outcome, both together do not",
-    (True, False): "the equivalent block under the whole record has it, so the single pulse is the reason",
-    (False, True): "the mechanism under the pulse has it, so the equivalent block is the reason",
-    (False, False): "neither the block under the whole record nor the mechanism under the pulse has it",
+    (True, True): "either simplification alone gives the right outcome, both together do not",
+    (
+        True,
+        False,
+    ): "the equivalent block under the whole record gives the right outcome, so the single pulse is the reason",
+    (
+        False,
+        True,
+    ): "the mechanism under the pulse gives the right outcome, so the equivalent block is the reason",
+    (
+        False,
+        False,
+    ): "neither the block under the whole record nor the mechanism under the pulse gives the right outcome",
 }
 """The cause by whether the block under the record, and the mechanism under the pulse, end as the integration does."""
 

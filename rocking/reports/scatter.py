@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from rocking.assessment.rows import ComparisonRow, PulseRow
-from rocking.quantities import percents
+from rocking.quantities import counted, percents
 from rocking.reports.record import DOMINATES
 from rocking.reports.style import new_figure, panel_at, styled
 
@@ -139,8 +139,8 @@ def _draw_quadrants(axes: Axes) -> None:
     axes.set(
         xlim=(low, _END),
         ylim=(low, _END),
-        xlabel="closed form (1: critical)",
-        ylabel="integrated (1: critical)",
+        xlabel="closed form: rotation over critical rotation [-]",
+        ylabel="integration: rotation over critical rotation [-]",
     )
 
 
@@ -157,7 +157,12 @@ def _write_counts(axes: Axes, predicted: np.ndarray, integrated: np.ndarray) -> 
     beside: dict[str, Any] = {"ha": "right", "bbox": paper}
     axes.text(low, _END - 0.05, f"{int((falls & ~sees).sum())} missed", color=_MISSED, va="top", **large)
     axes.text(_ZONE + 0.05, _END - 0.05, f"{int((falls & sees).sum())} right", va="top", **large)
-    axes.text(_ZONE + 0.05, low + 0.4, f"{int((sees & ~falls).sum())} false", **large)
+    axes.text(
+        _ZONE + 0.05,
+        low + 0.4,
+        counted(int((sees & ~falls).sum()), "false alarm").replace(" alarm", "\nalarm"),
+        **large,
+    )
     right = _ZONE - 0.04
     axes.text(
         right, low + 0.26, f"{int(rock.sum())} rock in both,", fontsize=9.5, fontweight="bold", **beside

@@ -10,7 +10,7 @@ import numpy as np
 from rocking.assessment.conclusion import Conclusion
 from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.reserve import Reserve
-from rocking.codes.check import LEAST_SHARE, Check, DynamicCheck, Part, StructureCheck
+from rocking.codes.check import LEAST_SHARE, Check, DynamicCheck, Part, StructureCheck, says_nothing
 from rocking.codes.conclusion import CodeConclusion, code_conclusions
 from rocking.codes.design_spectrum import DesignSpectrum, NtcSpectrum, PointSpectrum
 from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
@@ -251,7 +251,8 @@ def _answer(
     dynamic = checked.dynamic
     if conclusion.verified and dynamic:
         others = words.percents(*dynamic.interval)
-        details.append(words("others may not", share=others))
+        unknown = says_nothing(dynamic.interval)
+        details.append(words("others unknown") if unknown else words("others may not", share=others))
     if dynamic is None:
         # Why there are no sets stands above the page.
         if checked.remark is not None and checked.remark.kind is Kind.NO_DISPLACEMENT:
@@ -328,7 +329,8 @@ def _sure(page: CheckedStructure, dynamic: DynamicCheck | None, words: Sentences
     lines: list[tuple[str, str]] = []
     if dynamic is not None:
         lines.append((words.percents(dynamic.share), words("sure sets", sets=dynamic.sets)))
-        lines.append((words.percents(*dynamic.interval), words("sure others")))
+        if not says_nothing(dynamic.interval):
+            lines.append((words.percents(*dynamic.interval), words("sure others")))
     if page.stations:
         low, high = (
             words.decimal(percent(each)) for each in share_interval(page.overturning_share, page.stations)
@@ -507,6 +509,8 @@ def ratio_words(check: Check, words: Sentences) -> str:
 
 
 def _valued(check: Check, value: float, words: Sentences) -> str:
+    if math.isinf(value):  # of the dynamic check alone
+        return words("exceeded")
     letter = "d" if check.unit == "m" else "a_g"
     return f"{letter} = {words.quantity(value, check.unit)}"
 
@@ -549,7 +553,9 @@ def _sentences(page: CheckedStructure, checked: StructureCheck, words: Sentences
             multiplier=words.number(mechanism.onset_multiplier),
             mass=words.number(mechanism.participating_mass_ratio),
             factor=words.plain(mechanism.confidence_factor),
-            displacement=words.quantity(mechanism.ultimate_displacement, "m"),
+            displacement=words("no displacement")
+            if math.isinf(mechanism.ultimate_displacement)
+            else words.quantity(mechanism.ultimate_displacement, "m"),
             start=words.quantity(checked.damage_level, "m/s²"),
         )
     ]
@@ -593,6 +599,8 @@ def _sentences(page: CheckedStructure, checked: StructureCheck, words: Sentences
     dynamic = checked.dynamic
     if dynamic is not None:
         low, high = (words.decimal(percent(each)) for each in dynamic.interval)
+        unknown = says_nothing(dynamic.interval)
+        others = words("dynamic unknown") if unknown else words("dynamic others", low=low, high=high)
         outcome = words.of(dynamic.refusal) if dynamic.refusal else words(dynamic.outcome)
         lines.append(
             words(
@@ -600,8 +608,7 @@ def _sentences(page: CheckedStructure, checked: StructureCheck, words: Sentences
                 motions=words.counted(dynamic.motions, "motion"),
                 sets=dynamic.sets,
                 share=words.decimal(percent(dynamic.share)),
-                low=low,
-                high=high,
+                others=others,
                 outcome=outcome,
             )
         )

@@ -67,7 +67,7 @@ MOST_RECORDS = 200
 """Rows of the list of the records, likewise."""
 MOST_HIGH = 12
 """Structures up to which the rows of the matrix and the scatter below it are high."""
-_HIGH, _LOW = 118.0, 76.0
+_HIGH, _LOW = 112.0, 76.0
 """Heights of the scatter, mm."""
 _BESIDE = 30
 """Letters of a name beside a bar."""
@@ -407,7 +407,7 @@ def _worth(method: Method, comparison: Sequence[ComparisonRow]) -> _Worth:
 
 
 AGREEMENT_COLUMNS: list[Column] = [
-    ("Structure", "1.4", "l", lambda row: row.structure or "all"),
+    ("Structure", "1.4", "l", lambda row: placed(row.structure, row.support_period_s) or "all"),
     *columns_of(
         AgreementRow,
         "records=0.7 cases=0.6 both_rock=0.7 within_factor_two=0.8 median_ratio=0.7 overturning=1 overturning_hits=1 "
@@ -415,10 +415,9 @@ AGREEMENT_COLUMNS: list[Column] = [
     ),
 ]
 UNSAFE_COLUMNS: list[Column] = [
-    *columns_of(
-        ComparisonRow,
-        "record=1.4 component=auto structure=1.4 predicted_rotation_ratio integrated_rotation_ratio regime",
-    ),
+    *columns_of(ComparisonRow, "record=1.4 component=auto"),
+    ("Structure", "1.4", "l", lambda row: placed(row.structure, row.support_period_s)),
+    *columns_of(ComparisonRow, "predicted_rotation_ratio integrated_rotation_ratio regime"),
     (
         "Closed form beside integration",
         "1.6",

@@ -198,7 +198,8 @@ def floor_sentences(panels: Sequence[SupportPanel]) -> list[str]:
             )
             if floor.analysis is not None:
                 pulse = floor.analysis.evidence.pulse
-                text += f" and the dominant pulse has {quantity(abs(pulse.amplitude), 'm/s²')} and {pulse.period:.2g} s"
+                amplitude = quantity(abs(pulse.amplitude), "m/s²").replace(" ", "\u00a0")
+                text += f", and the dominant sine has {amplitude} and {pulse.period:.2g} s"
             parts.append(text)
         sentences.append(f"On {panel.structures[0].scene.place.name}, {'; '.join(parts)}.")
     return sentences

@@ -37,7 +37,7 @@ class MechanismAlone(Structure):
     def stack(self, courses: int | None = None) -> Stack:
         """Raise StructureError."""
         raise StructureError(
-            "a mechanism alone is no stack of courses, so that contact dynamics cannot follow it."
+            "a mechanism alone is not a stack of courses, so that contact dynamics cannot follow it."
         )
 
     def _linkage(self, mirrored: bool) -> Linkage:

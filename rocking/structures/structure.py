@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.errors import DoesNotStandError, StructureError, StructureWarning
+from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
 from rocking.quantities import GRAVITY, within
 from rocking.remarks import Kind, Remark
 from rocking.structures.capacity import StaticCapacity
@@ -335,7 +335,7 @@ class Structure(ABC):
         courses: their number; None: the bodies of the mechanism where the crack is known, else COURSES.
         """
         raise StructureError(
-            f"a {self.type_name} is no stack of courses, so that contact dynamics cannot follow it; choose another "
+            f"a {self.type_name} is not a stack of courses, so that contact dynamics cannot follow it; choose another "
             "fidelity than contact."
         )
 
@@ -656,9 +656,11 @@ class Crushable(Structure):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.compressive_strength is not None and getattr(self, "unit_weight", None) is None:
-            raise StructureError(
-                "unit_weight is missing, but must be given with a compressive_strength, for what presses on the "
-                "joints follows from it; give both, or none."
+            raise SizeError.of(
+                "unit_weight",
+                "missing",
+                ", but must be given with a compressive_strength, for what presses on the joints follows from it; give "
+                "both, or none.",
             )
 
     def crushing(self, strength: float) -> "Structure | None":

@@ -68,7 +68,7 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
         structure: Structure = form.construct(**arguments)
     except SizeError as error:
         # By the key of the file, and as it was typed; of a list it is the one value that is wrong.
-        key = next((key for key in values if form.keys[key].name == error.name), error.name)
+        key = next((key for key, field in form.keys.items() if field.name == error.name), error.name)
         typed = values.get(key)
         value = error.value if typed is None or isinstance(typed, list | tuple) else shown(typed)
         raise SizeError.of(key, value, error.said) from None
@@ -100,7 +100,9 @@ def _form(kind: str, values: Mapping[str, object], keys_typed: Iterable[str]) ->
     form = max(of_kind, key=lambda form: len(set(form.required) & values.keys()))
     missing = [key for key in form.required if key not in values]
     if missing:
-        raise ConfigurationError(f"{article(kind)} needs {' and '.join(missing)}; give it.")
+        raise ConfigurationError(
+            f"{article(kind)} needs {' and '.join(missing)}; give {'it' if len(missing) == 1 else 'them'}."
+        )
     foreign = [key for key in values if key not in form.keys]
     if foreign:
         raise ConfigurationError(

@@ -10,7 +10,7 @@ from typing import Annotated, ClassVar, Literal, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
+from rocking.errors import DoesNotStandError, SizeError, StructureWarning
 from rocking.quantities import GRAVITY
 from rocking.structures.drawing import Mark, plane
 from rocking.structures.fields import OneSided, Value
@@ -477,17 +477,17 @@ class Tied(CrackedAtHeight):
         for height in self.tie_heights:
             check_inside("tie_heights", height, self.height)
         if 0 < stiffness < _LEAST_STIFFNESS:
-            raise StructureError(
-                f"tie_stiffness is {stiffness!r} N/m², but must be 0 or at least {_LEAST_STIFFNESS!r} N/m², below "
-                "which a tie holds nothing."
-            )
+            said = f", but must be 0 or at least {_LEAST_STIFFNESS!r} N/m², below which a tie holds nothing."
+            raise SizeError.of("tie_stiffness", repr(stiffness), said)
         if strength is not None and strength < pretension:
-            raise StructureError(
-                f"tie_strength is {strength!r} N/m, but must be at least the pretension of {pretension!r} N/m."
+            raise SizeError.of(
+                "tie_strength",
+                repr(strength),
+                ", but must be at least the pretension of the tie (tie_pretension).",
             )
         if strength is not None and not stiffness:
-            raise StructureError(
-                "tie_stiffness is 0 N/m², but must be greater than 0 for a tie with a tie_strength; give it."
+            raise SizeError.of(
+                "tie_stiffness", "0", ", but must be greater than 0 for a tie with a tie_strength; give it."
             )
         if strength is None and self.tie_plastic_elongation:
             raise SizeError.of(
@@ -496,13 +496,14 @@ class Tied(CrackedAtHeight):
                 " m, but needs a tie_strength at which the tie yields; give it.",
             )
         if (stiffness or pretension) and not self.tie_heights:
-            raise StructureError("tie_heights is empty, but must say where the ties are; give it.")
+            raise SizeError.of("tie_heights", "empty", ", but must say where the ties are; give it.")
         if self.tie_heights and not (stiffness or pretension):
-            raise StructureError(
-                "tie_stiffness is 0 N/m², but must be greater than 0 for ties to hold; give it."
+            raise SizeError.of(
+                "tie_stiffness", "0", ", but must be greater than 0 for ties to hold; give it."
             )
         if pretension > 0 and not self.one_sided:
-            raise StructureError(
-                f"tie_pretension is {pretension!r} N/m, but must be 0 unless the wall is one_sided: moving inwards, a "
-                "tightened tie goes slack."
+            raise SizeError.of(
+                "tie_pretension",
+                repr(pretension),
+                ", but must be 0 unless the wall is one_sided: moving inwards, a tightened tie goes slack.",
             )

@@ -34,6 +34,7 @@ _WORST = 5
 """Structures of the table at the end."""
 _NAMED = 8
 """Names of a list; a line is to be read at a glance."""
+NO_BREAK = "\u00a0"
 _WIDTH = 104
 """Characters of a line at the end."""
 _PIPE = "ROCKING_PROGRESS"
@@ -106,7 +107,7 @@ def closing_lines(
         words = {each.verdict.structure: each.verdict.decision.word for each in worst}
         for said in (count + conclusion_in_words(words, records), falls_in_words(expected)):
             yield from wrap(said, _WIDTH)
-        yield "Largest rotation, 1 = critical, of the worst, each under its worst record:"
+        yield "Largest rotation over critical rotation of the worst structures, each under its worst record:"
         yield f"{'':<17}  {'record':<22}  closed form   block  integrated  members that overturn"
     own = (row for row in verdicts if (row.record, row.structure) in shown)
     for each in conclusions(own, of_shown):
@@ -125,9 +126,9 @@ def closing_lines(
         where = f" ({count_of_most} of them in {_cut(most, 24)})" if records > 1 and count_of_most else ""
         text = (
             f"Closed form against integration: {seen} of {counted(falls, 'fall')} seen, "
-            f"{missed.total()} missed{where}, {counted(false, 'false alarm')}"
+            f"{missed.total()} missed{where}, {counted(false, 'false alarm').replace(' ', NO_BREAK)}"
         )
-        yield from wrap(text, _WIDTH, subsequent_indent=" " * 8)
+        yield from (line.replace(NO_BREAK, " ") for line in wrap(text, _WIDTH, subsequent_indent=" " * 8))
     if failed := sorted({failure.record for failure in failures}):
         text = f"{counted(len(failed), 'record')} failed, wholly or in part: {listed(failed, _NAMED)}"
         yield from wrap(text, _WIDTH, subsequent_indent=" " * 8)

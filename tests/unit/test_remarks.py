@@ -87,7 +87,7 @@ def test_what_a_remark_is_about_stands_before_a_sentence_that_does_not_name_it()
     (Remark.of(Kind.SAMPLE_ALONE, time_s=1.5, peak_g=3.0591, others_g=0.10197), "at 1.5 s is 3.06 g and"),
     (Remark.of(Kind.STILL_RINGING, share=0.0314, after_s=60.0), "at 3.1% of its peak"),
     (Remark.of(Kind.PEAK_UNLIKE_HEADER, peak_m_s2=9.80665, stated_m_s2=9.9), "is 9.80665 m/s², but the header"),
-    (Remark.of(Kind.RATE_NO_NUMBER, rate="1OO"), "a rate of '1OO', which is no number"),
+    (Remark.of(Kind.RATE_NO_NUMBER, rate="1OO"), "a rate of '1OO', which is not a number"),
     (Remark(Kind.LONE_MAY_BE_VERTICAL, "QQX"), "direction of the component QQX is unknown"),
 ])  # fmt: skip
 def test_the_words_give_numbers_as_a_person_reads_them(remark, words):

@@ -98,7 +98,7 @@ def test_the_page_takes_up_fragility_where_it_was_measured(finished, tmp_path: P
     assert study.planned() == []
     told = study.rocking("run", str(study.folder)).stdout
     why = "fragility: results/fragility/fragility.csv is not as it was written"
-    assert f"{why}; computed again by: rocking run . fragility." in told
+    assert f"{why}; recompute it with: rocking run . fragility." in told
 
 
 def test_a_record_that_changed_and_one_more_compute_their_own_jobs_only(finished, tmp_path: Path) -> None:

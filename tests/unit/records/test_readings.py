@@ -122,14 +122,14 @@ def test_a_store_that_is_not_ours_is_ignored_with_a_line(
     reads.clear()
     second = again(folder)
     assert len(reads) == 3 and second.split("\n\n")[0] == table
-    assert f"{STORE}: " in second and "read anew" in second
+    assert f"{STORE}: " in second and "read again" in second
     reads.clear()
-    assert "read anew" not in again(folder) and not reads
+    assert "read again" not in again(folder) and not reads
 
 
 def test_a_pipe_in_its_place_is_not_waited_for(folder: Path, reads: list[str]) -> None:
     os.mkfifo(folder / STORE)
-    assert "it is no regular file; give the path of a file; every file is read anew." in again(folder)
+    assert "it is no regular file; give the path of a file; every file is read again." in again(folder)
     assert len(reads) == 3
 
 

@@ -43,7 +43,9 @@ def test_the_page_after_the_first_says_it_once_for_all_periods_and_page_one_name
     data = report.data()
     sentence = report.result.scenes["parapet"].sentence
     assert sentence.startswith("parapet on roof ")
-    assert [each for each in data["sentences"] if each.startswith("parapet on roof")] == [f"{sentence}."]
+    assert [
+        text for each in data["known"] for text in each["texts"] if text.startswith("parapet on roof")
+    ] == [f"{sentence}."]
     (row,) = (each for each in data["rows"] if each["name"] == "parapet")
     carried = [each for each in report.tables.verdicts if each.support_period_s]
     worst = max(carried, key=lambda each: each.severity)

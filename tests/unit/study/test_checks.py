@@ -199,7 +199,7 @@ def test_the_most_detailed_check_that_has_an_answer_decides(formulas, dynamic, c
     assert [checked.part_of(each) for each in checked.checks] == parts
     (conclusion,) = code_conclusions(code_check_rows("wall", checked))
     assert str(conclusion.remark) == f"{'verified' if verified else 'not verified'} by {clause}"
-    beside = "would meet it" in str(conclusion)
+    beside = "sets of other stations would" in str(conclusion)
     assert beside == (verified and dynamic is not None)
 
 
@@ -226,15 +226,30 @@ def test_one_sentence_tells_what_is_verified_and_what_other_stations_would_say()
         for row in code_check_rows(name, replace(FORMULAS, dynamic=found(True, interval=(low, 1.0))))
     ]
     rows += code_check_rows("spire", WEAK)
-    level = "at the design level, which these records may exceed"
-    verified = f"By the code 2 of 3 structures are verified {level}: pier, wall"
+    verified = "By the code 2 of 3 structures are verified at the design level: pier, wall; these records may exceed it"
     assert code_conclusion_in_words(code_conclusions(rows)) == (
-        f"{verified}; 20–100\u00a0% of other stations’ sets agree."
+        f"{verified}; 20–100\u00a0% of sets of other stations would agree."
     )
     assert code_conclusion_in_words(code_conclusions(code_check_rows("spire", WEAK))) == (
         "By the code none of 1 structure is verified at the design level."
     )
     assert code_conclusion_in_words([]) == ""
+
+
+def test_an_interval_that_spans_everything_is_told_as_too_few_stations():
+    """ "0–100 %" tells a reader nothing, wherever it would stand."""
+    rows = code_check_rows("pier", replace(FORMULAS, dynamic=found(True, interval=(0.004, 1.0))))
+    (conclusion,) = code_conclusions(rows)
+    assert (
+        str(conclusion)
+        == "verified by C8.7.1.2.1.9 (too few stations to say what sets of other stations would give)"
+    )
+    assert conclusion.other_share_in_words == "too few stations to say"
+    assert "too few stations to speak for others" in code_conclusion_in_words([conclusion])
+    (wide,) = code_conclusions(
+        code_check_rows("pier", replace(FORMULAS, dynamic=found(True, interval=(0.01, 1.0))))
+    )
+    assert wide.other_share_in_words == "1–100\u00a0%"
 
 
 def test_the_same_conclusion_stands_in_terminal_summary_workbook_and_page_to_explore(tmp_path):
@@ -389,9 +404,11 @@ def test_the_page_tells_a_reserve_that_was_not_sought_from_one_that_was_not_reac
     low = Reserve(0.8, 1.1, math.nan, 3.0)
     high = Reserve(1.6, 2.2, 3.0, 3.0)
     assert "No reserve was sought" in share()
-    assert share(never, never) == "3\u00a0× on any record lets fewer than 5 % of the members overturn."
+    assert (
+        share(never, never) == "3\u00a0× applied to any record lets fewer than 5 % of the members overturn."
+    )
     both = share(high, low, never)
-    assert both.startswith("0.80\u00a0× on the most demanding record lets 5 %")
+    assert both.startswith("0.80\u00a0× applied to the most demanding record lets 5 %")
     assert both.endswith("; the median over 3 records is 1.6\u00a0×.")
     assert "the median over 3 records is > 3\u00a0×" in share(low, never, never)
     assert share(low, doubts=(Kind.CONTACTS_OPEN,)).endswith("too high where contacts open.")
