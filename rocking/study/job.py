@@ -35,7 +35,7 @@ from rocking.study.results import case_timings_of, cases_of, outcome_of, write_o
 from rocking.study.seals import Seals
 from rocking.study.settings import Settings, settings_sha256
 from rocking.study.terminal import line_writer, log_error, record_line, tell, tell_error
-from rocking.tables import write_rows, written_together
+from rocking.tables import write_rows, write_tables, written_together
 
 WORTH_TELLING = 5.0
 """Processor time of contact dynamics of a record, s, from which on it is told before."""
@@ -254,7 +254,7 @@ def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:
     spectra: Mapping[str, Sequence[float]] = {}
     with written_together():
         if job.product.startswith("records/"):
-            rows.write(folder)
+            write_tables(rows.tables, folder)
         if study.settings.reports:
             from rocking.reports.design_figure import component_spectra  # matplotlib takes a second to import
             from rocking.reports.explore import record_content

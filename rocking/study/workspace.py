@@ -22,7 +22,7 @@ from rocking.study.job import Study, assess_catalogued, rows_of, write_report
 from rocking.study.plan import workflow_folder
 from rocking.study.settings import Settings, first_yaml, settings_sha256
 from rocking.study.terminal import bar
-from rocking.tables import Row, write_tables, write_whole
+from rocking.tables import Row, write_tables, write_whole, written_together
 
 
 def start(folder: Path) -> list[Path]:
@@ -131,13 +131,14 @@ def assess_file(
     result = assess_catalogued(record, study, study.open(record, channels))
     rows = rows_of(result, record, study)
     if output is not None:
-        rows.write(output / record.id)
-        write_report(result, rows, study, output / record.id)
-        tables: dict[type[Row], Iterable[Row]] = {
+        of_structures: dict[type[Row], Iterable[Row]] = {
             StructureRow: structure_rows(study.structures),
             CapacityRow: capacity_rows(study.structures),
         }
-        write_tables(tables, output / "summary")
+        with written_together():
+            write_tables(rows.tables, output / record.id)
+            write_report(result, rows, study, output / record.id)
+            write_tables(of_structures, output / "summary")
     lines = [line for station in result.worst_first for line in _told(station, record.scale_factor)]
     return lines + [f"not assessed: {each.structure or each.stage}: {each.message}" for each in rows.failures]
 

@@ -4,7 +4,6 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from rocking.assessment.decide import Decision, Verdict
@@ -35,7 +34,7 @@ from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Regime
 from rocking.structures.linkage import Reaction
 from rocking.structures.structure import Candidate
-from rocking.tables import Columns, Row, RowOf, row, write_tables, written_together
+from rocking.tables import Columns, Row, RowOf, row
 
 if TYPE_CHECKING:  # else who reads a table would load numba
     from rocking.assessment.case import (
@@ -709,11 +708,6 @@ class RecordRows:
             TimingRow: self.timings,
             VerdictRow: self.verdicts,
         }
-
-    def write(self, folder: Path) -> None:
-        """Write every table into `folder`, all or none."""
-        with written_together():
-            write_tables(self.tables, folder)
 
 
 RECORD_TABLES: tuple[type[Row], ...] = tuple(RecordRows().tables)

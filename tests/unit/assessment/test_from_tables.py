@@ -16,7 +16,7 @@ from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
 from rocking.structures import Arch, Block, Side, Wall
-from rocking.tables import write_rows
+from rocking.tables import write_rows, write_tables
 from tests.oracles.sine_on_block import largest_rotation
 
 STRUCTURES = {
@@ -39,7 +39,7 @@ def folder(request, tmp_path_factory) -> Path:
     motion = Pulse(0.45 * g, 2 * math.pi / 0.45, 1.0).acceleration(np.arange(1000) * STEP)
     settings = AssessmentSettings(acceleration_scale=request.param, ensemble=EnsembleSettings(members=0))
     result = Assessor(settings).assess("made", [Accelerogram(motion, STEP)], on_the_ground(STRUCTURES))
-    rows_of_record(result).write(folder)
+    write_tables(rows_of_record(result).tables, folder)
     write_rows(StructureRow, structure_rows(STRUCTURES), folder / "structures.csv")
     return folder
 

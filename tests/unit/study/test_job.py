@@ -34,7 +34,7 @@ from rocking.study.results import Results, keep_rows, kept_of, outcome_of, outco
 from rocking.study.settings import Settings, StudyTrade
 from rocking.study.summary import summarise, write_summary
 from rocking.study.terminal import line_writer
-from rocking.tables import csv_lines, frame, read_rows
+from rocking.tables import csv_lines, frame, read_rows, write_tables
 from tests.unit.assessment.made_rows import Impossible, filled
 from tests.unit.study.made_jobs import made_job, take_steps, worked
 
@@ -59,9 +59,9 @@ def _rows(record: CatalogueRecord, study: Study, opened=None) -> RecordRows:
 
 def _assessed(record: CatalogueRecord, study: Study, folder: Path) -> list[str]:
     """Write the tables of `record` into `folder` and return the sentences of what failed."""
-    tables = _rows(record, study)
-    tables.write(folder)
-    return [failure.message for failure in tables.failures]
+    rows = _rows(record, study)
+    write_tables(rows.tables, folder)
+    return [failure.message for failure in rows.failures]
 
 
 def test_a_structure_that_fails_does_not_take_the_record_with_it(tmp_path: Path) -> None:
