@@ -1,6 +1,6 @@
 """The assessor: scenes under a record, each case looked up in a store before it is computed, and timed."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, field, fields, replace
 from functools import cache, partial
@@ -266,9 +266,15 @@ class Assessor:
         if len(components) == 2 and self.settings.ensemble.members:
             grounds = tuple((each.ground or each).accelerogram for each in components)
             pair = Motion(grounds, vertical, support)
+            processing = self.settings.ensemble.processing
             try:
-                with self.clock.stage("directions"):
-                    ground_motions(pair, self.settings.ensemble.processing)
+                # Where every case is kept, its motions are not made: only that they can be is to be known.
+                self._remembered(
+                    int,
+                    sha256_of("directions", pair.fingerprint, processing, self.version),
+                    lambda clock: len(ground_motions(pair, processing).horizontal),
+                    stage="directions",
+                )
                 shaking = replace(shaking, pair=pair)
             except RockingError as error:
                 failures.append((BOTH_COMPONENTS, Failure("directions", str(error))))
@@ -446,8 +452,15 @@ def _lost(scene: Scene, support: Carrier | None, names: Sequence[str], error: Ro
     return StationResult(scene, cases, support=support)
 
 
-def with_histories(result: RecordResult, tolerance: float) -> RecordResult:
-    """Return a record's result whose responses hold their histories, which results that were kept do not."""
+def with_histories(
+    result: RecordResult,
+    tolerance: float,
+    shown: Container[tuple[str, str, float | None]] | None = None,
+) -> RecordResult:
+    """Return a record's result whose responses hold their histories, which results that were kept do not.
+
+    shown: those of these alone, by component, structure and period of its support; None: all.
+    """
     scenes = {}
     for name, scene in result.scenes.items():
         stations = []
@@ -457,6 +470,8 @@ def with_histories(result: RecordResult, tolerance: float) -> RecordResult:
                 component: _with_history(
                     case, cracked(station.scene.structure, case.crack), components[component], tolerance
                 )
+                if shown is None or (component, name, station.support_period_s) in shown
+                else case
                 for component, case in station.cases.items()
             }
             stations.append(replace(station, cases=cases))

@@ -29,6 +29,8 @@ LARGEST = 200_000_000
 _WINGS = ("records", "floors", "structures", "pulses", "sine_pulse", "motion", "contacts", "assessment")
 """The parts of the package on which a result depends."""
 _LIBRARIES = ("numpy", "scipy", "numba")
+_PLAIN = {bool, int, float, str}
+"""What JSON holds as it is, without a look at what else it might be."""
 
 
 @cache
@@ -122,9 +124,11 @@ def _opened(path: Path) -> Mapping[str, Any]:
 
 def encoded(value: object) -> Any:
     """Return what JSON can hold of a result: a dataclass by its fields, an array as a list."""
+    if value is None or type(value) in _PLAIN:
+        return value
     if isinstance(value, Enum):
         return value.value
-    if value is None or isinstance(value, bool | int | float | str):
+    if isinstance(value, bool | int | float | str):
         return value
     if isinstance(value, np.ndarray):
         return value.tolist()
@@ -144,40 +148,60 @@ def decoded(kind: Any, value: Any) -> Any:
 
     Raises ValueError, KeyError or TypeError where it is not.
     """
+    return decoder(kind)(value)
+
+
+# Whole on purpose: the ways in which an annotation tells what a value is.
+@cache
+def decoder(kind: Any) -> Callable[[Any], Any]:
+    """Return what `decoded` does with a value of `kind`: of thousands the annotation is read once."""
     origin = get_origin(kind)
     parts = get_args(kind)
     if origin in (typing.Union, types.UnionType):
-        if value is None:
-            return None
         kinds = [each for each in parts if each is not type(None)]
-        if len(kinds) > 1:  # texts and numbers, which JSON tells apart
+
+        def of_texts_and_numbers(value: Any) -> Any:  # which JSON tells apart
             if type(value) not in kinds:
                 raise ValueError(value)
             return value
-        return decoded(kinds[0], value)
+
+        of_value = decoder(kinds[0]) if len(kinds) == 1 else of_texts_and_numbers
+        return lambda value: None if value is None else of_value(value)
+    if origin is tuple and parts[1:] == (...,):
+        of_each = decoder(parts[0])
+        return lambda value: tuple([of_each(each) for each in value])
     if origin is tuple:
-        if parts[1:] == (...,):
-            return tuple(decoded(parts[0], each) for each in value)
-        return tuple(decoded(part, each) for part, each in zip(parts, value, strict=True))
+        of_places = [decoder(part) for part in parts]
+        return lambda value: tuple(of(each) for of, each in zip(of_places, value, strict=True))
     if origin is not None and issubclass(origin, Mapping):
-        return {decoded(parts[0], key): decoded(parts[1], each) for key, each in value}
+        of_key, of_item = map(decoder, parts)
+        return lambda value: {of_key(key): of_item(each) for key, each in value}
     if origin is typing.Literal:
-        if value not in parts:
-            raise ValueError(value)
-        return value
+
+        def chosen(value: Any) -> Any:
+            if value not in parts:
+                raise ValueError(value)
+            return value
+
+        return chosen
     if kind is np.ndarray:
-        array = np.array(value)
-        array.flags.writeable = False
-        return array
+
+        def array_of(value: Any) -> np.ndarray:
+            array = np.array(value)
+            array.flags.writeable = False
+            return array
+
+        return array_of
     if isinstance(kind, type) and is_dataclass(kind):
-        hints = _hints(kind)
+        of_fields: dict[str, Callable[[Any], Any]] = {}
         made: Callable[..., Any] = kind
-        return made(**{name: decoded(hints[name], each) for name, each in value.items()})
-    if kind is float:
-        return float(value)
-    return kind(value)
 
+        def made_of(value: Any) -> Any:
+            if not of_fields:  # not before, as a case holds others of its own kind
+                hints = get_type_hints(kind)
+                of_fields.update((each.name, decoder(hints[each.name])) for each in fields(kind))
+            return made(**{name: of_fields[name](each) for name, each in value.items()})
 
-@cache
-def _hints(kind: type) -> dict[str, Any]:
-    return get_type_hints(kind)
+        return made_of
+    made_by: Callable[[Any], Any] = kind
+    return made_by

@@ -14,7 +14,9 @@ from typing import Any
 from rocking.assessment.assessor import Assessor, Predictions, Store, with_histories
 from rocking.assessment.case import Failure, RecordResult
 from rocking.assessment.compilation import compile_all
+from rocking.assessment.conclusion import worst_cases
 from rocking.assessment.contacts import expected_seconds
+from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.motions import Component
 from rocking.assessment.one_case import Clock
 from rocking.assessment.rows import HistoryRow, RecordRows, history_rows, rows_of_record
@@ -216,7 +218,7 @@ class Steps:
         settings = self._job.study.settings
         result = self._assessor.compare(result)
         self._store.save()
-        if settings.reports or settings.histories:
+        if settings.histories:
             result = with_histories(result, settings.tolerance)
         _write(result, self._record, self._job)
 
@@ -259,6 +261,7 @@ def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:
             from rocking.reports.design_figure import component_spectra  # matplotlib takes a second to import
             from rocking.reports.explore import record_content
 
+            result = with_histories(result, study.settings.tolerance, _drawn(result, rows))
             write_report(result, rows, study, folder)
             page = record_content(result, rows, study.structures)
             level = study.settings.design_spectrum.spectrum()
@@ -269,6 +272,14 @@ def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:
             write_rows(HistoryRow, histories, folder / HistoryRow.table.file_name)
         write_outcome(outcome_of(job.results, record.id), rows.tables, page, spectra)
     job.tell(f"{record.id}: {record_line(result.scenes.values(), rows.failures)}")
+
+
+def _drawn(result: RecordResult, rows: RecordRows) -> set[tuple[str, str, float | None]]:
+    """The cases of which documents draw the history: of each structure that moves the worst one, at its worst period."""
+    worst = worst_cases(rows.comparison)
+    keys = ((result.record, each.structure, each.support_period_s) for each in result.worst_periods)
+    found = (worst[key] for key in keys if key in worst)
+    return {row.case for row in found if row.integrated_rotation_ratio > NEGLIGIBLE}
 
 
 def write_report(result: RecordResult, rows: RecordRows, study: Study, folder: Path) -> None:

@@ -2,7 +2,7 @@
 
 import json
 import shutil
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_type_hints
 
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, TimingRow, TradeRow
-from rocking.assessment.store import decoded, encoded
+from rocking.assessment.store import decoder, encoded
 from rocking.errors import RockingError
 from rocking.records import CatalogueRecord
 from rocking.study.seals import MADE_FROM
@@ -115,10 +115,11 @@ def outcomes_of(results: Path, records: Iterable[CatalogueRecord]) -> Iterator[O
 
 def encoded_rows(rows: Rows) -> dict[str, list[list[Any]]]:
     """Return what JSON can hold of the rows of tables: by the name of the table the cells of each row."""
-    return {
-        each.table.name: [[encoded(getattr(row, name)) for name in each.table.column_names] for row in of_it]
-        for each, of_it in rows.items()
-    }
+    content = {}
+    for each, of_it in rows.items():
+        names = each.table.column_names
+        content[each.table.name] = [[encoded(getattr(row, name)) for name in names] for row in of_it]
+    return content
 
 
 def decoded_rows(
@@ -127,13 +128,19 @@ def decoded_rows(
     """Return the rows of `tables` that `encoded_rows` gave. Raises ValueError, KeyError or TypeError for others."""
     rows: dict[type[Row], list[Row]] = {}
     for each in tables:
-        hints = get_type_hints(each)
-        kinds = [(name, hints[name]) for name in each.table.column_names]
+        columns = _columns_of(each)
         rows[each] = [
-            each(**{name: decoded(kind, cell) for (name, kind), cell in zip(kinds, cells, strict=True)})
+            each(**{name: of(cell) for (name, of), cell in zip(columns, cells, strict=True)})
             for cells in content[each.table.name]
         ]
     return rows
+
+
+@cache
+def _columns_of(row_class: type[Row]) -> list[tuple[str, Callable[[Any], Any]]]:
+    """The name of each column of a table, and what makes its value of what is kept."""
+    hints = get_type_hints(row_class)
+    return [(name, decoder(hints[name])) for name in row_class.table.column_names]
 
 
 def _lines_of(row_class: type[Row], path: Path, record: str) -> Iterator[bytes]:
