@@ -14,9 +14,9 @@ from rocking.structures.linkage import FRICTION
 class Heading(StrEnum):
     """The headings of config.yaml, in their order; each setting says below which one it stands."""
 
-    ABOUT = "Told on the first page of every report; each may stay blank"
+    ABOUT = "Printed on the first page of every report; each may stay blank"
     RECORDS = "Records and structures"
-    PROCESSING = "Processing, told in every report"
+    PROCESSING = "Processing, stated in every report"
     METHOD = "Method"
     ENSEMBLE = "Ensemble: the uncertain inputs of a case vary within these ranges"
     DESIGN = "Design level and the checks of the Italian code: snakemake checks"
@@ -42,7 +42,9 @@ class EnsembleSettings:
     restitution_range: float = described(
         0.05, "uncertainty of the restitution, ±, where a structure states none", ge=0, le=1
     )
-    polarity: bool = described(True, "whether the sign of the motion varies, for unlike sides")
+    polarity: bool = described(
+        True, "whether the sign of the motion varies, where the two sides of a structure differ"
+    )
     processing: bool = described(True, "whether the processing of a raw record varies")
     risk: float = described(0.05, "largest probability of the outcome opposite to a verdict", gt=0, le=0.45)
     reserve: float = described(
@@ -64,8 +66,8 @@ class PredictingPulse(PulseSettings):
 
     choice: str = described(
         next(iter(PULSE_METHODS)),
-        "pulse that predicts: energy (explains most of the record), demand (of the first five the one that turns the "
-        "structure farthest) or velocity (sine of the velocity pulse)",
+        "pulse that predicts: energy (explains most of the record), demand (of the best five the one that rotates the "
+        "structure most) or velocity (sine of the velocity pulse)",
         one_of=lambda: tuple(PULSE_METHODS),
     )
 
@@ -94,9 +96,9 @@ class AssessmentSettings:
     )
     fidelity: Literal["full", "auto", "contact"] = described(
         "full",
-        "full runs every method, to compare them, and contact dynamics of what cannot be told else (24 runs: at best "
-        "probably stands); auto runs what settles the verdict of a case, where no PDFs are made; contact is full with "
-        "64 runs, which may say stands, and follows held walls that turn far too",
+        "full runs every method, to compare them, and contact dynamics where the verdict cannot be told otherwise "
+        "(24 runs: at best probably stands); auto runs what settles the verdict of a case, where no PDFs are made; "
+        "contact is full with 64 runs, which may say stands, and also follows held walls that rotate far",
     )
     fidelity_risk: float = described(
         0.01, "largest probability of a wrong verdict with which fidelity: auto stops; 0: none", ge=0, le=0.2

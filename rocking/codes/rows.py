@@ -102,23 +102,23 @@ class CodeCheckRow(PlacedRow[MadeCheck]):
         lambda of: of.of_level.demand if of.of_level else math.nan,
     )
     displacement_capacity_m: float = of_check(
-        "Displacement of the limit state; of the dynamic check alone",
+        "Displacement of the limit state; dynamic check only",
         lambda of: of.of_displacement.capacity if of.of_displacement else math.nan,
     )
     displacement_demand_m: float = of_check(
-        "Mean of the largest displacements of the set; of the dynamic check alone",
+        "Mean of the largest displacements of the set; dynamic check only",
         lambda of: of.of_displacement.demand if of.of_displacement else math.nan,
     )
     exceeding_motions: int | None = of_check(
-        "Motions of the set under which d_0 is exceeded; of the dynamic check alone",
+        "Motions of the set under which d_0 is exceeded; dynamic check only",
         lambda of: of.dynamic.exceeding if of.dynamic else None,
     )
     motions: int | None = of_check(
-        "Motions of the set; of the dynamic check alone",
+        "Motions of the set; dynamic check only",
         lambda of: of.dynamic.motions if of.dynamic else None,
     )
     sets: int | None = of_check(
-        "Sets that were drawn; of the dynamic check alone",
+        "Sets that were drawn; dynamic check only",
         lambda of: of.dynamic.sets if of.dynamic else None,
     )
     sets_share: float = of_check(

@@ -42,7 +42,7 @@ class Variant:
 
     @property
     def share_difference(self) -> float:
-        """Its share less that of the first; nan of the first itself."""
+        """Its share minus that of the first; nan of the first itself."""
         return self.share - self.first.share if self.first else math.nan
 
     @property
@@ -67,7 +67,7 @@ class VariantRow(RowOf[Variant]):
 
     structure: str = of_variant("Name of the structure", lambda of: of.structure)
     variant: str = of_variant(
-        "Name of the variant; that of the structure: the first", lambda of: of.variant_name
+        "Name of the variant; that of the structure itself for the first", lambda of: of.variant_name
     )
     record: str = of_variant(
         "Record that is worst for it", lambda of: of.conclusion.verdict.record if of.conclusion else ""
@@ -86,7 +86,7 @@ class VariantRow(RowOf[Variant]):
         "Conclusion at the design level",
         lambda of: str(of.code_conclusion.remark) if of.code_conclusion else "",
     )
-    share_difference: float = of_variant("Its share less that of the first", lambda of: of.share_difference)
+    share_difference: float = of_variant("Its share minus that of the first", lambda of: of.share_difference)
     reserve_ratio: float = of_variant("Its reserve over that of the first", lambda of: of.reserve_ratio)
 
 

@@ -138,7 +138,7 @@ class CurveRow(PlacedRow[D]):
     """A row about the curve of a structure: for which crack, intensity measure and rotation it holds."""
 
     governing: bool = of_curve(
-        "Whether the worst crack that may form counts, not that of statics", lambda of: of.governing
+        "Whether the crack that governs counts, not that of statics", lambda of: of.governing
     )
     intensity_measure: str = of_curve(_MEASURE, lambda of: of.curve.measure)
     threshold: float = of_curve(
@@ -275,7 +275,7 @@ class FragilitySummaryRow(CurveRow[SummarisedCurve]):
         "Largest distance of the lognormal from the empirical curve", lambda of: of.curve.misfit
     )
     reversals: int = of_summary(
-        "Number of records that, scaled up, let the structure stand again",
+        "Number of records under which the structure stands again when they are scaled up further",
         lambda of: int((of.curve.reversals > 0).sum()),
     )
     annual_rate: float = of_summary(
@@ -294,7 +294,7 @@ class FragilitySummaryRow(CurveRow[SummarisedCurve]):
         unit="1/year",
     )
     annual_rate_remainder: float = of_summary(
-        "Most that the rate may lack beyond both curves",
+        "Largest rate that may be missing beyond the ends of both curves",
         lambda of: of.rate.remainder if of.rate else math.nan,
         unit="1/year",
     )
@@ -357,7 +357,7 @@ class IntensityMeasureRow(PlacedRow[ExplainedOverturning]):
         lambda of: stations_for(of.explanation.efficiency),
     )
     figure: str = of_explained(
-        "Figure of the record that may say more: PGV/PGA, magnitude or ln of the distance",
+        "Second quantity of the record that may matter: PGV/PGA, magnitude or ln of the distance",
         lambda of: of.figure,
     )
     records: int = of_explained("Number of records with the measure and the figure", lambda of: of.records)
@@ -367,7 +367,7 @@ class IntensityMeasureRow(PlacedRow[ExplainedOverturning]):
         lambda of: of.explanation.slope,
     )
     p_value: float = of_explained(
-        "p-value of no change; below 0.05 the measure does not suffice", lambda of: of.explanation.p_value
+        "p-value of no change; below 0.05 the measure is not sufficient", lambda of: of.explanation.p_value
     )
     power: float = of_explained(
         "Share of samples of as many stations that would show such a slope at 5 %",

@@ -52,27 +52,31 @@ class StudyDesign:
     )
     f0: float | None = described(None, "amplification F0 of NTC 2018", gt=0, le=10)
     tc_star: float | None = described(None, "period T_C* of NTC 2018", "s", gt=0, le=3)
-    soil: Literal["A", "B", "C", "D", "E"] = described(
-        "A", "soil of NTC 2018, from A (rock) to B, C, D and E"
-    )
+    soil: Literal["A", "B", "C", "D", "E"] = described("A", "ground type of NTC 2018: A (rock) to E")
     topography: float = described(1.0, "topographic factor S_T", ge=1.0, le=1.4)
     points: str | None = described(
-        None, "instead: CSV of the spectrum, period_s and acceleration_m_s2 or acceleration_g"
+        None,
+        "in place of ag_g: CSV file of the spectrum, with columns period_s and acceleration_m_s2 or acceleration_g",
     )
-    damping: float = described(0.05, "damping of the spectrum, share of the critical one", ge=0, le=0.5)
+    damping: float = described(0.05, "damping ratio of the spectrum", ge=0, le=0.5)
     limit_state: Literal["SLV", "SLC"] = described(
         "SLV", "limit state of the checks: SLV (life safety) or SLC (collapse)"
     )
     confidence_factor: float = described(
-        1.35, "FC of the checks; 1.35, that of LC1, unless crushing decides", ge=1, le=2
+        1.35,
+        "confidence factor FC of the checks; 1.35 (LC1) unless a compressive_strength is given",
+        ge=1,
+        le=2,
     )
-    behaviour_factor: float = described(2.0, "q of the linear check", ge=1, le=5)
+    behaviour_factor: float = described(2.0, "behaviour factor q of the linear check", ge=1, le=5)
     stations: int = described(20, "stations of a set", ge=1, le=1000)
     least_factor: float = described(0.25, "least factor on a record of a set", gt=0)
     largest_factor: float = described(4.0, "largest factor on a record of a set", gt=0)
-    shortest_period: float = described(0.15, "from which on the mean spectrum of a set counts", "s", gt=0)
-    longest_period: float = described(2.0, "up to which it counts", "s", gt=0, le=10)
-    seed: int = described(0, "of the draw of the sets", ge=0)
+    shortest_period: float = described(
+        0.15, "shortest period at which the mean spectrum of a set must fit the target", "s", gt=0
+    )
+    longest_period: float = described(2.0, "longest period at which it must fit", "s", gt=0, le=10)
+    seed: int = described(0, "random seed of the sets", ge=0)
     pool: str | None = described(
         None, "catalogue from which sets of records are drawn; null: that of the study"
     )
@@ -163,7 +167,7 @@ class StudyFragility:
         None,
         "CSV of a hazard curve: of OpenQuake, or with the columns intensity and annual_rate, ascending; or null",
     )
-    in_every_run: bool = described(False, "whether every run measures the fragility")
+    in_every_run: bool = described(False, "whether every run computes the fragility")
 
     def __post_init__(self) -> None:
         check_described(ConfigurationError, self)
@@ -230,7 +234,7 @@ class Settings(AssessmentSettings):
     processing: StudyProcessing = StudyProcessing(pre_event=1.0, baseline="linear", taper=0.02, high_pass=0.1)
     scale_to: str | None = described(
         None,
-        "what the larger peak of each record's horizontal components is scaled to, by one factor on all of them, like "
+        "peak to which each record is scaled, by one factor on all its components: the larger horizontal one, as in "
         "pga 0.35 g or pgv 50 cm/s; null: as the catalogue says",
         pattern=r"^\s*[Pp][Gg][AaVv]\s+[0-9.]+([eE][-+]?[0-9]+)?\s*[A-Za-z].*$",
         examples=["pga 0.35 g", "pgv 50 cm/s"],
@@ -252,7 +256,7 @@ class Settings(AssessmentSettings):
     )
     details: bool = described(
         False,
-        "whether the report of each record goes on, behind its two pages, with every figure and table",
+        "whether the report of each record continues after its two pages with every figure and table",
         heading=Heading.OUTPUT,
         changes_numbers=False,
     )
@@ -264,7 +268,7 @@ class Settings(AssessmentSettings):
     )
     figures: Literal["none", "svg", "png", "svg and png"] = described(
         "none",
-        "none; svg, png or svg and png: report_figures.zip beside report.pdf, and so each PDF; png at 200 per inch",
+        "figures of each PDF in an archive beside it (report_figures.zip): none, svg, png (200 dpi) or svg and png",
         heading=Heading.OUTPUT,
         changes_numbers=False,
     )
@@ -282,8 +286,8 @@ class Settings(AssessmentSettings):
     )
     records_per_job: int | None = described(
         None,
-        "number of records per batch where no reports are made; null: 24, of many an eighth, at most 200; with reports "
-        "each record has a job of its own",
+        "number of records per batch where no reports are made; null: 24, or an eighth of many records, at most 200; "
+        "with reports each record is a job of its own",
         ge=1,
         le=100_000,
         heading=Heading.OUTPUT,

@@ -19,9 +19,7 @@ if TYPE_CHECKING:  # else who reads a table would load numba
     from rocking.assessment.motions import Component
 
 STRUCTURE = "Name of the structure in the structure list"
-SUPPORT_PERIOD = (
-    "First period of the support below the structure; 0: its ground, to compare with; empty: it has none"
-)
+SUPPORT_PERIOD = "First period of the support that carries the structure; 0: on the ground, for comparison; empty: no support"
 RECORD = "Identifier of the record in the catalogue"
 COMPONENT = "Component of the ground motion, as the file names it"
 SCALE_FACTOR = "Factor of the catalogue on the accelerations of the file"
@@ -124,7 +122,7 @@ class RecordRow(ComponentRow[ReadComponent]):
         "Scale of the magnitude; empty where nothing states it", lambda read: read.magnitude_type
     )
     event_time: str = of_accelerogram(
-        "Date of the earthquake, and its time as far as the file says it, ISO 8601 in the zone of the file",
+        "Date of the earthquake, and its time as far as the file states it, ISO 8601 in the zone of the file",
         lambda read: read.event_time,
     )
     station: str = of_accelerogram("Recording station", lambda read: read.station)
@@ -254,7 +252,7 @@ class PulseRow(ComponentRow[FoundPulse]):
 
     kind: str = of_pulse(
         "alternative: ranked on the record; sequence: pursued on the residual of the pulses before it; "
-        "predicting: the pulse that predicts, where it is no alternative",
+        "predicting: the pulse that predicts, where it is not an alternative",
         lambda found: found.kind,
     )
     rank: int = of_pulse("Rank among the pulses of its kind, from 1", lambda found: found.rank)
@@ -278,7 +276,7 @@ class PulseRow(ComponentRow[FoundPulse]):
         lambda found: found.evidence.explained_energy,
     )
     same_outcome_share: float = of_pulse(
-        "Share of cases with such pulses that end as the integration does",
+        "Share of cases with such pulses in which closed form and integration end alike",
         lambda found: same_outcome_share(found.evidence.explained_energy),
     )
     effective_length_m: float = of_pulse(
@@ -389,7 +387,7 @@ class StructureRow(StructureNameRow[ListedStructure]):
     )
     geometry: str = of_listed("Sizes of the structure with their units", lambda of: of.geometry)
     crack: str = of_listed(
-        "Hinge or crack, whose place is open; empty where none is", lambda of: of.body.crack_name
+        "Hinge or crack whose position is not given; empty where there is none", lambda of: of.body.crack_name
     )
     frequency_parameter_rad_s: float = of_side(
         FREQUENCY_PARAMETER, lambda side: side.frequency_parameter, equation="Eq. 11"
@@ -399,7 +397,7 @@ class StructureRow(StructureNameRow[ListedStructure]):
         lambda block: block.frequency_parameter,
     )
     critical_rotation_rad: float = of_side(
-        "Critical rotation; empty to a side it cannot overturn to", lambda side: side.critical_rotation
+        "Critical rotation; empty on a side to which it cannot overturn", lambda side: side.critical_rotation
     )
     uplift_multiplier: float = of_listed(
         "Uplift acceleration in g", lambda of: of.body.mechanism().uplift_multiplier, equation="Eq. 7"
@@ -457,7 +455,7 @@ class CapacityRow(StructureNameRow[CapacityPoint]):
     side: str = of_point("Side of the rotation: positive or negative", lambda at: at.side)
     rotation_rad: float = of_point("Rotation", lambda at: float(at.curve.rotation[at.place]))
     multiplier: float = of_point(
-        "Horizontal acceleration in g that holds the balance",
+        "Horizontal acceleration in g that keeps it in balance",
         lambda at: float(at.curve.multiplier[at.place]),
         equation="G/B",
     )

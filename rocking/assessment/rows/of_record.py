@@ -81,7 +81,7 @@ class DecidedRow(CaseRow[C]):
 
     verdict: Verdict = of_structure(f"The verdict: {', '.join(Verdict)}", lambda each: each.station.verdict)
     overturning_share: float = of_structure(
-        "Share of the members that overturn; of a single run 0 or 1; empty where none can be told",
+        "Share of the members that overturn; 0 or 1 of a single run; empty where unknown",
         lambda each: each.station.decision.share,
     )
 
@@ -185,14 +185,15 @@ class ComparisonRow(DecidedRow[ComparedCase]):
         "Time of the largest rotation after the first sample", lambda response: response.peak_time
     )
     fragile: bool | None = of_response(
-        "Whether a change of the ground motion by 1 % decides the outcome, or chaos does",
+        "Whether a change of 1 % in the ground motion, or chaotic motion, decides the outcome",
         lambda response: response.fragile,
     )
     lifting_friction: float = of_check(
         "Friction that a contact needs as the structure lifts", lambda check: check.lifting_friction
     )
     required_friction: float = of_check(
-        "Largest friction that a contact needs; INF without pressure", lambda check: check.required_friction
+        "Largest friction that a contact needs; INF where it carries no pressure",
+        lambda check: check.required_friction,
     )
     slides: bool | None = of_case(
         "Whether a contact slides, so that the model fails",
@@ -257,11 +258,11 @@ class VerdictRow(DecidedRow[OfStructure]):
     )
     why: str = of_decision("Reason for the verdict", lambda decision: decision.why)
     doubts: tuple[Kind, ...] = of_decision(
-        "Kinds of doubt that may make it worse than said",
+        "Kinds of doubt that may make it worse",
         lambda decision: tuple(each.kind for each in decision.doubts),
     )
     tells: tuple[Kind, ...] = of_decision(
-        "Kinds of what would tell more", lambda decision: tuple(each.kind for each in decision.tells)
+        "What would settle it, by kind", lambda decision: tuple(each.kind for each in decision.tells)
     )
     overturning_members: int = of_ensemble(
         "Number of members that overturn", lambda ensemble: ensemble.overturning_members
@@ -301,7 +302,7 @@ class VerdictRow(DecidedRow[OfStructure]):
         lambda of: of.station.rotation_ratio,
     )
     direction: str = of_structure(
-        "Direction of the largest rotation; empty with one", lambda of: of.station.direction
+        "Direction of the largest rotation; empty where there is only one", lambda of: of.station.direction
     )
     polarity: str = of_ensemble(
         "Sign of the motion of the largest rotation: as recorded, reversed; or empty",
@@ -309,18 +310,19 @@ class VerdictRow(DecidedRow[OfStructure]):
     )
     peak_side: int | None = of_structure(PEAK_SIDE, lambda of: of.station.peak_side)
     reserve_low: float = of_reserve(
-        "Factor on the record at which 5 % of the members overturn; empty: none", lambda reserve: reserve.low
+        "Factor on the record at which 5 % of the members overturn; empty: not reached",
+        lambda reserve: reserve.low,
     )
     reserve_median: float = of_reserve(
-        "Factor on the record at which half of the members overturn; empty: none",
+        "Factor on the record at which half of the members overturn; empty: not reached",
         lambda reserve: reserve.median,
     )
     reserve_high: float = of_reserve(
-        "Factor on the record at which 95 % of the members overturn; empty: none",
+        "Factor on the record at which 95 % of the members overturn; empty: not reached",
         lambda reserve: reserve.high,
     )
     reserve_limit: float = of_reserve(
-        "Largest factor on the record that was tried; empty without a reserve (on a support, but at its worst period)",
+        "Largest factor on the record that was tried; empty without a reserve (on a support it is sought on the ground and at the worst period)",
         lambda reserve: reserve.limit,
     )
     reserve_doubts: tuple[Kind, ...] = of_structure(
@@ -332,7 +334,7 @@ class VerdictRow(DecidedRow[OfStructure]):
         lambda of: of.station.decided_by,
     )
     stack_falls: int | None = of_stacks(
-        "Stacks of courses that fall in contact dynamics; empty: not asked", lambda stacks: stacks.falls
+        "Stacks of courses that fall in contact dynamics; empty: not run", lambda stacks: stacks.falls
     )
     stack_runs: int | None = of_stacks(
         "Stacks that were followed, over amplitudes, time steps and directions", lambda stacks: stacks.runs
@@ -526,7 +528,7 @@ class MechanismRow(CaseRow[HeldMechanism]):
         "Whether it governs, so that the numbers of verdicts.csv are its own", lambda of: of.governs
     )
     uplift_multiplier: float = of_candidate(
-        "Acceleration in g at which it starts, ties with the force at which they yield",
+        "Acceleration in g at which it starts, with ties at the force at which they yield",
         lambda candidate: candidate.uplift_multiplier,
     )
     frequency_parameter_rad_s: float = of_side(
@@ -548,8 +550,7 @@ class MechanismRow(CaseRow[HeldMechanism]):
         "Force there as the mechanism starts; empty where ties keep it shut", lambda of: of.at_rest
     )
     largest_hold_force_n_per_m: float = of_mechanism(
-        "Largest force there over the motion as recorded, without the impacts of the wall, with which it is some "
-        "2.8 times that at rest (1.9 to 4.8 in eight of ten walls)",
+        "Largest force there over the motion as recorded, without the impacts of the wall; with them it is about 2.8 times the static force (1.9 to 4.8 in eight of ten walls)",
         lambda of: of.largest,
     )
 

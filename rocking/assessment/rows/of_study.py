@@ -347,10 +347,10 @@ class TradeRow(RowOf[TriedMethod]):
     )
     error_high: float = of_tried("95 % quantile of that error", lambda of: of.error_high)
     wrong_verdicts: int = of_tried(
-        "Cases that rest, rock or overturn otherwise than the reference", lambda of: of.wrong_verdicts
+        "Cases that do not rest, rock or overturn as the reference does", lambda of: of.wrong_verdicts
     )
     unsafe_verdicts: int = of_tried(
-        "Those in which the method says less than the reference", lambda of: of.unsafe_verdicts
+        "Those in which the method predicts less than the reference", lambda of: of.unsafe_verdicts
     )
     cpu_s: float = of_tried(
         "Processor time of one response, median, with all preparations at hand",
