@@ -52,7 +52,7 @@ class StudyDesign:
     )
     f0: float | None = described(None, "amplification F0 of NTC 2018", gt=0, le=10)
     tc_star: float | None = described(None, "period T_C* of NTC 2018", "s", gt=0, le=3)
-    soil: Literal["A", "B", "C", "D", "E"] = described("A", "ground type of NTC 2018: A (rock) to E")
+    soil: Literal["A", "B", "C", "D", "E"] = described("A", "ground type of NTC 2018: A (rock), B, C, D or E")
     topography: float = described(1.0, "topographic factor S_T", ge=1.0, le=1.4)
     points: str | None = described(
         None,

@@ -322,7 +322,8 @@ class VerdictRow(DecidedRow[OfStructure]):
         lambda reserve: reserve.high,
     )
     reserve_limit: float = of_reserve(
-        "Largest factor on the record that was tried; empty without a reserve (on a support it is sought on the ground and at the worst period)",
+        "Largest factor on the record that was tried; empty without a reserve (on a support it is sought on the ground "
+        "and at the worst period)",
         lambda reserve: reserve.limit,
     )
     reserve_doubts: tuple[Kind, ...] = of_structure(
@@ -550,7 +551,8 @@ class MechanismRow(CaseRow[HeldMechanism]):
         "Force there as the mechanism starts; empty where ties keep it shut", lambda of: of.at_rest
     )
     largest_hold_force_n_per_m: float = of_mechanism(
-        "Largest force there over the motion as recorded, without the impacts of the wall; with them it is about 2.8 times the static force (1.9 to 4.8 in eight of ten walls)",
+        "Largest force there over the motion as recorded, without the impacts of the wall; with them it is about 2.8 "
+        "times the static force (1.9 to 4.8 in eight of ten walls)",
         lambda of: of.largest,
     )
 
