@@ -12,8 +12,7 @@ from rocking.quantities import GRAVITY, counted, four_digits
 from rocking.records import Accelerogram
 from rocking.remarks import Remark
 from rocking.structures import Outcome, Structure
-from rocking.structures.linkage import UnknownContacts
-from rocking.structures.structure import largest_so_far
+from rocking.structures.linkage import UnknownContacts, largest_so_far
 
 if TYPE_CHECKING:
     from pandas import DataFrame

@@ -10,7 +10,7 @@ G̃ = G/√(I I(0)) and B̃ = B/√(I I(0)). For a rigid body I is constant and 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from itertools import pairwise
 from weakref import WeakKeyDictionary
 
@@ -41,23 +41,16 @@ which every structure and every stage of a reserve goes through again."""
 class Forcing:
     """The ground motion as the kernel takes it.
 
-    start_time: s, added to every time of the response. vertical: whether it has a vertical component.
+    start_time: s, added to every time of the response. vertical: whether it has a vertical component. weightless:
+    whether g + ü_v falls below zero. excitation: the largest |ü_g|/(g + ü_v), whatever the phase of the two; inf where
+    gravity may vanish.
     """
 
     ground: Ground
     start_time: float
     vertical: bool
-
-    @cached_property
-    def weightless(self) -> bool:
-        """Whether g + ü_v falls below zero."""
-        return self.ground.gravity + float(self.ground.lightest[0]) < 0
-
-    @property
-    def excitation(self) -> float:
-        """The largest |ü_g|/(g + ü_v), whatever the phase of the two; inf where gravity may vanish."""
-        least = self.ground.gravity + self.ground.lightest[0]
-        return float(self.ground.strongest[0] / least) if least > 0 else math.inf
+    weightless: bool
+    excitation: float
 
 
 def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Forcing:
@@ -137,7 +130,14 @@ def _forcing(motion: GroundMotion, vertical: Accelerogram | None) -> Forcing:
         curves=curves,
         stretch=motion.smooth_steps if isinstance(motion, Accelerogram) and curves.size else 1,
     )
-    return Forcing(ground, motion.start_time if isinstance(motion, Pulse) else 0.0, vertical is not None)
+    least = GRAVITY + float(ground.lightest[0])
+    return Forcing(
+        ground,
+        start_time=motion.start_time if isinstance(motion, Pulse) else 0.0,
+        vertical=vertical is not None,
+        weightless=least < 0,
+        excitation=float(ground.strongest[0] / least) if least > 0 else math.inf,
+    )
 
 
 _NEAR = 1 / 64

@@ -197,12 +197,13 @@ def _refined_scale(velocity: np.ndarray, scales: np.ndarray, row: int, column: i
     low = int(scales[max(row - 1, 0)])
     high = int(scales[min(row + 1, len(scales) - 1)])
     stride = math.isqrt(high - low) or 1
-
-    def size(scale: int) -> float:
-        return abs(coefficient_at(velocity, scale, column))
-
-    near = max(range(low, high + 1, stride), key=size)  # the size has one peak there, many strides wide
-    return max(range(max(low, near - stride), min(high, near + stride) + 1), key=size)
+    # The size has one peak there, many strides wide.
+    coarse = range(low, high + 1, stride)
+    sizes = [abs(coefficient_at(velocity, scale, column)) for scale in coarse]
+    near = coarse[int(np.argmax(sizes))]
+    fine = range(max(low, near - stride), min(high, near + stride) + 1)
+    sizes = [abs(coefficient_at(velocity, scale, column)) for scale in fine]
+    return fine[int(np.argmax(sizes))]
 
 
 def _extracted(velocity: np.ndarray, scale: int, column: int) -> tuple[np.ndarray, int]:

@@ -101,7 +101,29 @@ class CatalogueRecord:
     folder: Path = Path()
 
     def __post_init__(self) -> None:
-        if defects := list(_defects(self)):
+        """Turn the cells of numbers into numbers, and tell all that is wrong at once."""
+        defects = []
+        for name, each in described_values(CatalogueRecord).items():
+            if each.kind is str and isinstance(getattr(self, name), str):
+                continue
+            try:
+                object.__setattr__(self, name, each.checked(getattr(self, name)))
+            except ValueError as error:
+                defects.append(f"{each.key} is {error}")
+        checks = (*_checks_of_files(self), *_checks_of_source(self))
+        defects += [sentence for is_right, sentence in checks if not is_right]
+        if self.scale_factor == 0:
+            defects.append("scale_factor is 0, but must not be; leave the row out instead.")
+        if self.scale_factor != 1 and self.scale_to:
+            given = f"scale_factor is {self.scale_factor:g} beside scale_to {shown(self.scale_to)}"
+            defects.append(f"{given}; give one of the two.")
+        for cell, check in ((self.unit, acceleration_factor), (self.scale_to, ScalingTarget.parse)):
+            if cell:
+                try:
+                    check(cell)
+                except RockingError as error:
+                    defects.append(str(error))
+        if defects:
             raise CatalogueError(" ".join(defects))
 
     @property
@@ -134,30 +156,6 @@ COLUMNS = tuple(each.key for each in described_values(CatalogueRecord).values())
 
 def _parts(cell: str) -> tuple[str, ...]:
     return tuple(part.strip() for part in cell.split(";")) if cell.strip(" ;") else ()
-
-
-def _defects(record: CatalogueRecord) -> Iterator[str]:
-    """Yield a sentence for each cell that is wrong, and turn those of numbers into numbers."""
-    for name, each in described_values(CatalogueRecord).items():
-        if each.kind is str and isinstance(getattr(record, name), str):
-            continue
-        try:
-            object.__setattr__(record, name, each.checked(getattr(record, name)))
-        except ValueError as error:
-            yield f"{each.key} is {error}"
-    checks = (*_checks_of_files(record), *_checks_of_source(record))
-    yield from (sentence for is_right, sentence in checks if not is_right)
-    if record.scale_factor == 0:
-        yield "scale_factor is 0, but must not be; leave the row out instead."
-    if record.scale_factor != 1 and record.scale_to:
-        given = f"scale_factor is {record.scale_factor:g} beside scale_to {shown(record.scale_to)}"
-        yield f"{given}; give one of the two."
-    for cell, check in ((record.unit, acceleration_factor), (record.scale_to, ScalingTarget.parse)):
-        if cell:
-            try:
-                check(cell)
-            except RockingError as error:
-                yield str(error)
 
 
 _Check = tuple[object, str]

@@ -136,14 +136,14 @@ class Direction:
 
 def directed(fields: Mapping[str, Any]) -> dict[str, Any]:
     """Return fields of an Accelerogram, `vertical` and `azimuth` by its component's name where they are blank."""
-    stated = fields.get("azimuth")
-    vertical = fields.get("vertical")
     by_name = _of_name(fields.get("component", ""))
+    vertical = fields.get("vertical")
+    azimuth = fields.get("azimuth")
     if vertical is None:
         vertical = by_name.vertical
-    header = Direction(None if vertical else stated, vertical, said_by="header")
-    found = header.refined(replace(by_name, vertical=False))
-    return {**fields, "vertical": found.vertical, "azimuth": found.azimuth}
+    if azimuth is None:
+        azimuth = by_name.azimuth
+    return {**fields, "vertical": vertical, "azimuth": None if vertical else azimuth}
 
 
 @cache

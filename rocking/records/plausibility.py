@@ -176,38 +176,33 @@ def agree_with_velocity(record: Accelerogram, stated: np.ndarray) -> Accelerogra
     The two are compared as a whole, and step by step: a number that is damaged, or two lines that are exchanged, in
     either of them leave velocity and integral apart in one place.
     """
-    if stated.size != record.acceleration.size:
+    size = record.acceleration.size
+    if stated.size != size:
         return record
-    if (at := _stray_step(record, stated)) is not None:
-        return record.warned(Remark.of(Kind.VELOCITY_UNLIKE_THERE, time_s=at * record.time_step))
-    times = np.linspace(-1, 1, stated.size)
+
+    if size >= 100 * _REACH:
+        around = sliding_window_view(record.acceleration, 2 * _REACH)
+        steps = np.diff(stated)[_REACH - 1 :][: len(around)]
+        # Summed by einsum, for a library of matrices would set threads on so small a task.
+        products = np.einsum("ij,ik->jk", around, around)
+        weights = np.linalg.lstsq(products, np.einsum("ij,i->j", around, steps), rcond=None)[0]
+        errors = np.abs(steps - np.einsum("ij,j->i", around, weights))
+        stray = int(errors.argmax())
+        usual = max(float(np.median(errors)) * 1.4826, 1e-12)
+        # A unit of the last digit is the smallest difference between two unlike numbers.
+        apart = np.diff(np.unique(stated))
+        digit = float(apart[apart > 1e-6 * np.ptp(stated)].min(initial=np.ptp(stated)))
+        # Where most of the record is still, the usual error says nothing: what rounding explains is no damage.
+        if errors[stray] > max(_STRAY * usual, _DIGITS_OFF * digit):
+            time = (stray + _REACH) * record.time_step
+            return record.warned(Remark.of(Kind.VELOCITY_UNLIKE_THERE, time_s=time))
+
+    times = np.linspace(-1, 1, size)
     differing = stated - integral(record.acceleration, record.time_step)
     differing = differing - differing.mean() - times * np.sum(times * differing) / np.sum(times * times)
     if differing.std() <= _VELOCITY_OFF * stated.std():
         return record
     return record.warned(Remark(Kind.VELOCITY_UNLIKE))
-
-
-def _stray_step(record: Accelerogram, stated: np.ndarray) -> int | None:
-    """Return the place of a step of the velocity `stated`, m/s, that the acceleration around it does not explain.
-
-    The products are summed by einsum, for a library of matrices would set threads on so small a task.
-    """
-    if stated.size < 100 * _REACH:
-        return None
-    around = sliding_window_view(record.acceleration, 2 * _REACH)
-    steps = np.diff(stated)[_REACH - 1 :][: len(around)]
-    products = np.einsum("ij,ik->jk", around, around)
-    weights = np.linalg.lstsq(products, np.einsum("ij,i->j", around, steps), rcond=None)[0]
-    errors = np.abs(steps - np.einsum("ij,j->i", around, weights))
-    stray = int(errors.argmax())
-    usual = max(float(np.median(errors)) * 1.4826, 1e-12)
-    # A unit of the last digit is the smallest difference between two unlike numbers.
-    apart = np.diff(np.unique(stated))
-    digit = float(apart[apart > 1e-6 * np.ptp(stated)].min(initial=np.ptp(stated)))
-    # Where most of the record is still, the usual error says nothing: what rounding explains is no damage.
-    is_stray = errors[stray] > max(_STRAY * usual, _DIGITS_OFF * digit)
-    return stray + _REACH if is_stray else None
 
 
 _ODDS = 100.0

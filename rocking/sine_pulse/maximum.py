@@ -102,11 +102,6 @@ class _Peak(NamedTuple):
     ratio: float
     impacts: int
 
-    @property
-    def overturns(self) -> bool:
-        """Whether the block does not come back."""
-        return self.ratio == math.inf
-
 
 class _SideRow(NamedTuple):
     """One side of a block as the kernel reads it: p [rad/s], gλ [m/s²], η, velocity scale, end, and if it rocks so."""
@@ -143,7 +138,14 @@ def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
     course = sine_pulse.kernel.course(*sides, *pulse.phases)
     if course.unresolved:
         return Maximum(math.nan, Outcome.FAILED, Regime.UNRESOLVED, course.impacts, 0, math.nan)
-    peaks = _peaks(equivalent_block, pulse, course)
+
+    first_side = 1 if pulse.amplitude < 0 else -1
+    peaks = []
+    for side, x, impacts in zip((first_side, -first_side), course.peaks, course.peak_impacts, strict=True):
+        never_lifts = impacts < 0
+        if not never_lifts:
+            own = equivalent_block.sides[0 if side > 0 else -1]
+            peaks.append(_Peak(side, own.rotation_ratio(x), impacts))
     if not peaks:
         return Maximum(0.0, Outcome.NO_UPLIFT, Regime.NO_UPLIFT)
 
@@ -156,7 +158,7 @@ def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
     is_as_printed = equivalent_block.other_side is None and sides[0].exists and pulse.is_full_sine
     return Maximum(
         rotation_ratio=peak.ratio,
-        outcome=Outcome.OVERTURNS if peak.overturns else Outcome.ROCKS,
+        outcome=Outcome.OVERTURNS if peak.ratio == math.inf else Outcome.ROCKS,
         regime=_regime(peak, course.contacts, is_as_printed),
         impacts=peak.impacts,
         peak_side=peak.side,
@@ -164,23 +166,9 @@ def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
     )
 
 
-def _peaks(block: EquivalentBlock, pulse: Pulse, course: "sine_pulse.kernel.Course") -> list[_Peak]:
-    """The largest rotation to each side that lifts, the side that the pulse's first half lifts first."""
-    first_side = 1 if pulse.amplitude < 0 else -1
-    peaks = []
-    for side, rotation, impacts in zip(
-        (first_side, -first_side), course.peaks, course.peak_impacts, strict=True
-    ):
-        never_lifts = impacts < 0
-        if not never_lifts:
-            own = block.sides[0 if side > 0 else -1]
-            peaks.append(_Peak(side, own.rotation_ratio(rotation), impacts))
-    return peaks
-
-
 def _regime(peak: _Peak, touches_ground_in_pulse: bool, is_as_printed: bool) -> Regime:
     """The regime of a block that lifts. is_as_printed: whether block and pulse are what Eq. 15 is written for."""
-    if peak.overturns:
+    if peak.ratio == math.inf:  # it does not come back
         return Regime.OVERTURNS_AFTER_IMPACTS if peak.impacts else Regime.OVERTURNS_WITHOUT_IMPACT
     if touches_ground_in_pulse:
         return Regime.CONTACT_DURING_PULSE

@@ -28,8 +28,8 @@ from rocking.structures.arch_mechanism import (
 from rocking.structures.arch_ring import EXTRADOS, INTRADOS, PATTERN, Bars, Fill, Piers, Ring
 from rocking.structures.drawing import Path, plane, span, swept
 from rocking.structures.fields import OptionalUnitWeight, Value, count, length, restitution_value
-from rocking.structures.linkage import STILL, Restitution, momentum_balance
-from rocking.structures.structure import PRESSED, Candidate, Crackable
+from rocking.structures.linkage import PRESSED, STILL, Restitution, momentum_balance
+from rocking.structures.structure import Candidate, Crackable
 
 _CRUSHINGS = 60
 _CRUSHED_ALIKE = 1e-14

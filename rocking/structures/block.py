@@ -9,9 +9,9 @@ import numpy as np
 from rocking.errors import SizeError, StructureError
 from rocking.structures.drawing import Path, rectangle, span, swept
 from rocking.structures.fields import OneSided, OptionalUnitWeight, Value, count, length, restitution_value
-from rocking.structures.linkage import STILL, Parts, Restitution, Turning
+from rocking.structures.linkage import PRESSED, STILL, Parts, Restitution, Turning, check_pressed, inset
 from rocking.structures.stack import MOST_COURSES, Course, Stack, counted_courses, courses_between
-from rocking.structures.structure import PRESSED, CrackedAtHeight, Crushable, check_pressed, inset
+from rocking.structures.structure import CrackedAtHeight, Crushable
 
 Balanced = Annotated[Restitution, restitution_value("momentum", "housner")]
 

@@ -52,6 +52,7 @@ class StaticCapacity:
     control_part, control_corner: the point whose displacement counts, a corner of the drawing as this side sees it.
     place: where it is at rest, m. displacement_factor: d*/d_k. participating_mass_ratio: as of StaticCurve, of the
     weights that move sideways at rest; mass_ratio_of_all: of those too that something else holds sideways.
+    rounding: the displacement of the control point at rest, m, which is taken off.
     """
 
     side: Side
@@ -62,6 +63,7 @@ class StaticCapacity:
     displacement_factor: float
     participating_mass_ratio: float
     mass_ratio_of_all: float
+    rounding: float
 
     @classmethod
     def of(
@@ -82,7 +84,8 @@ class StaticCapacity:
         masses = np.where(np.abs(across) < _STILL * np.abs(across).max(), 0.0, linkage.masses)
         first = masses @ across
         second = masses @ across**2
-        speed = float(linkage.point(control_part, control_corner, 0.0).velocity.real)
+        control = linkage.point(control_part, control_corner, 0.0)
+        speed = float(control.velocity.real)
         return cls(
             side=side,
             linkage=linkage,
@@ -92,6 +95,7 @@ class StaticCapacity:
             displacement_factor=float(second / (speed * first)),
             participating_mass_ratio=float(first**2 / (masses.sum() * second)),
             mass_ratio_of_all=float(first**2 / (linkage.masses.sum() * second)),
+            rounding=float(control.moved.real),
         )
 
     def multiplier(self, rotation: ArrayLike) -> np.ndarray:
@@ -116,12 +120,7 @@ class StaticCapacity:
     def displacement(self, rotation: ArrayLike) -> np.ndarray:
         """Return the horizontal displacement of the control point, m."""
         moved = self.linkage.point(self.control_part, self.control_corner, rotation).moved.real
-        return moved - self._rounding
-
-    @cached_property
-    def _rounding(self) -> float:
-        """The displacement at rest, which is rounding."""
-        return float(self.linkage.point(self.control_part, self.control_corner, 0.0).moved.real)
+        return moved - self.rounding
 
     def rotation_at(self, displacement: float) -> float:
         """Return the rotation up to φ_cr at which the control point has moved by `displacement` [m].
@@ -152,7 +151,7 @@ class StaticCapacity:
         """The horizontal displacement of the control point [m] and its derivatives with φ."""
         point = self.linkage.point(self.control_part, self.control_corner, rotation)
         moved, velocity, bend = (float(each.real) for each in point)
-        return moved - self._rounding, velocity, bend
+        return moved - self.rounding, velocity, bend
 
     def curve(self, count: int) -> StaticCurve:
         """Return it at `count` equal steps of rotation, and where ties yield or break and just beyond."""

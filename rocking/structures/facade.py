@@ -17,7 +17,7 @@ from rocking.remarks import Kind, Remark
 from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import Value, restitution_value
 from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
-from rocking.structures.linkage import STILL, Hung, Linkage, Parts, Restitution, Turning
+from rocking.structures.linkage import STILL, Hung, Linkage, Parts, Restitution, Turning, inset
 from rocking.structures.stack import (
     MOST_COURSES,
     Course,
@@ -33,7 +33,6 @@ from rocking.structures.stack import (
     loaded,
     slab,
 )
-from rocking.structures.structure import inset
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity, check_inside
 
 _MOST_STOREYS = 50

@@ -156,23 +156,6 @@ class Field(Described):
         """Return the phrase of the description for the value written `text`."""
         return self.value.phrase.format(name=self.name.replace("_", " "), value=text + self.suffix)
 
-    def remark(self, kind: str, value: object) -> Remark | None:
-        """Return the remark on a value (of the file) beyond the plausible range, None within."""
-        low, high = self.value.usual or (-np.inf, np.inf)
-        values = value if isinstance(value, list | tuple) else [value]
-        beyond = [each for each in values if isinstance(each, int | float) and not low <= each <= high]
-        if not beyond:
-            return None
-        return Remark.of(
-            Kind.SIZE_UNUSUAL,
-            self.key,
-            value=beyond[0],
-            low=float(low),
-            high=float(high),
-            unit=self.suffix,
-            type=article(kind),
-        )
-
 
 @dataclass(frozen=True)
 class Form:
@@ -319,8 +302,15 @@ class Description:
     @property
     def remarks(self) -> tuple[Remark, ...]:
         """A remark on each size beyond its plausible range, and on a body that is broader than it is tall."""
-        remarks = (given.field.remark(self.type_name, given.value) for given in self.values)
-        unusual = [remark for remark in remarks if remark]
+        unusual = []
+        for given in self.values:
+            low, high = given.field.value.usual or (-np.inf, np.inf)
+            values = given.value if isinstance(given.value, list | tuple) else [given.value]
+            beyond = [each for each in values if isinstance(each, int | float) and not low <= each <= high]
+            if beyond:
+                usual = {"value": beyond[0], "low": float(low), "high": float(high)}
+                words = {"unit": given.field.suffix, "type": article(self.form.type_name)}
+                unusual.append(Remark.of(Kind.SIZE_UNUSUAL, given.field.key, **usual, **words))
         sizes = {given.field.name: given for given in self.values}
         heights = [sizes[name] for name in ("height", "column_height") if name in sizes]
         across = [sizes[name] for name in _ROCKS_OVER if name in sizes]
@@ -342,3 +332,20 @@ class Description:
     def entry(self) -> dict[str, object]:
         """The entry of a structure list that describes it, without a name."""
         return {"type": self.type_name, **{given.field.key: given.value for given in self.values}}
+
+
+def remember_as_typed(
+    structure: object,
+    form: Form,
+    values: Mapping[str, object],
+    texts: Mapping[str, str],
+) -> None:
+    """Let a structure describe itself by the `values` of a file, by key, and by their `texts` as they were typed."""
+    object.__setattr__(structure, "_typed", (form, {key: (values[key], texts[key]) for key in values}))
+
+
+def typed_text(value: object, number: str = "{}") -> str:
+    """Return a value as it would be typed, a float by the format `number`: "6", "momentum", "3.5, 3.2"."""
+    if isinstance(value, list | tuple):
+        return ", ".join(typed_text(each, number) for each in value)
+    return number.format(value) if isinstance(value, float) else str(value)

@@ -19,9 +19,10 @@ from rocking.structures.linkage import (
     Restitution,
     Turning,
     UnknownContacts,
+    inset,
     keeps_last,
 )
-from rocking.structures.structure import Crushable, inset
+from rocking.structures.structure import Crushable
 
 Columns = Annotated[int, count("How many columns", 4, 2, 1000)]
 BeamMassRatio = Annotated[

@@ -26,9 +26,9 @@ from rocking.structures.linkage import (
     Turning,
     UnknownContacts,
     cross,
+    inset,
     keeps_last,
 )
-from rocking.structures.structure import inset
 
 _MARGIN = 0.9
 """Share of the reach of either body that the motion may use: where one of them lies flat the linkage locks."""
@@ -313,17 +313,13 @@ class HeldWall:
         aside = inset(pressing, self.strength, outer - inner)
         return inner + aside, outer - aside
 
-    @cached_property
-    def _joints(self) -> dict[float, tuple[float, float, float]]:
-        """M⁺, M⁻ and S of the joints that were asked for."""
-        return {}
-
     def joint(self, height: float) -> tuple[float, float, float]:
         """Return M⁺ and M⁻, the moments of all weights above about the outer and the inner edge, and S of the masses.
 
         height: of the joint, m. Per metre of wall, N.
         """
-        if height not in self._joints:
+        known: dict[float, tuple[float, float, float]] = self.__dict__.setdefault("_joints", {})
+        if height not in known:
             weight = moment = push = 0.0
             for each in self.storeys:
                 foot = max(each.low, height)
@@ -338,8 +334,8 @@ class HeldWall:
                     moment += load.weight * load.x
                     push += load.weight * (load.z - height) * load.rides
             inner, outer = self.faces(height)
-            self._joints[height] = outer * weight - moment, moment - inner * weight, push
-        return self._joints[height]
+            known[height] = outer * weight - moment, moment - inner * weight, push
+        return known[height]
 
     def virtual_work(self, kinks: Sequence[tuple[float, float]]) -> tuple[float, float]:
         """Return G(0) and B(0) of a row of kinks: heights [m] and ω; ties that move outwards at what they yield at."""
@@ -590,19 +586,16 @@ class HeldWall:
             for weight, each in zip(weights, moving, strict=True)
         ]
         parts = Parts(weights, centres, inertias)
-        edges = [self._edge(height, turn) for height, turn in opening.kinks]
-
-        def seen(point: complex) -> complex:
-            return complex(sign * point.real, point.imag)
-
+        points = [self._edge(height, turn) for height, turn in opening.kinks]
+        if opening.hold is not None and not opening.upright:
+            points.append(self._face(opening.hold, opening.outwards))
+        foot, *others = (complex(sign * each.real, each.imag) for each in points)
         if opening.hinge is None:
-            return Turning(seen(edges[0]), parts, hung)
-        held = None
-        if opening.hold is not None:
-            held = seen(edges[2] if opening.upright else self._face(opening.hold, opening.outwards))
+            return Turning(foot, parts, hung)
+        hinge, *held = others
         return Chain(
-            (seen(edges[0]), seen(edges[1])),
-            held,
+            (foot, hinge),
+            held[0] if held else None,
             parts,
             hung,
             bodies=[opening.body_at(each.high) for each in moving],

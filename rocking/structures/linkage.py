@@ -11,7 +11,7 @@ it, so ⟨η v − u, v⟩ = 0 in the mass inner product and η = ⟨u, v⟩ / �
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, wraps
 from typing import Literal, NamedTuple, TypeVar
@@ -49,6 +49,13 @@ class MotionState(NamedTuple):
         """ü_g + i (ü_v + g), what the ground's motion and gravity ask of every mass."""
         result: np.ndarray = self.ground + 1j * (self.vertical + GRAVITY)
         return result
+
+
+def largest_so_far(rotation: np.ndarray) -> np.ndarray:
+    """Return the largest rotation [rad] so far on the side of each of the signed `rotation`, (k,)."""
+    to_positive = np.maximum.accumulate(np.maximum(rotation, 0.0))
+    to_negative = np.maximum.accumulate(np.maximum(-rotation, 0.0))
+    return np.where(rotation < 0, to_negative, to_positive)
 
 
 @dataclass(frozen=True, eq=False)
@@ -232,10 +239,6 @@ class Linkage(ABC):
         result: np.ndarray = 2 * (moving + turning) / self.unit
         return result
 
-    def weight(self, rotation: ArrayLike) -> np.ndarray:
-        """Σ m y', the part of G that is the weight of the masses."""
-        return _sum(self.masses, self.motion(rotation).velocities.imag) / self.unit
-
     def ground(self, rotation: ArrayLike) -> np.ndarray:
         """B = Σ m x'."""
         return _sum(self.masses, self.motion(rotation).velocities.real) / self.unit
@@ -246,13 +249,14 @@ class Linkage(ABC):
         return sum((tie.moment(at, at) for tie in self.ties), self.untied_gravity(at))
 
     def untied_gravity(self, rotation: ArrayLike) -> np.ndarray:
-        """G without the ties."""
+        """G without the ties: Σ m y' of the masses, less the powers of the constant forces."""
         powers = [
             (each.force.conjugate() * self.point(each.part, each.start, rotation).velocity).real
             for each in self.hung
             if each.force
         ]
-        return self.weight(rotation) - sum(powers, np.zeros(())) / self.unit
+        weight = _sum(self.masses, self.motion(rotation).velocities.imag) / self.unit
+        return weight - sum(powers, np.zeros(())) / self.unit
 
     @property
     def untied_zero(self) -> float | None:
@@ -262,18 +266,14 @@ class Linkage(ABC):
     def gravity_slope(self, rotation: ArrayLike) -> np.ndarray:
         """dG/dφ; of a tie between yield and rupture that of the force it keeps."""
         slopes = []
-        for each, point in self._hanging(rotation):
+        for each in self.hung:
+            point = self.point(each.part, each.start, rotation)
             if each.tie:
                 slopes.append(each.tie.slope(*(coordinate.real for coordinate in point)))
             elif each.force:
                 slopes.append(-(each.force.conjugate() * point.acceleration).real)
         weight = _sum(self.masses, self.motion(rotation).accelerations.imag) / self.unit
         return weight + sum(slopes, np.zeros(())) / self.unit
-
-    def _hanging(self, rotation: ArrayLike) -> Iterator[tuple[Hung, PointMotion]]:
-        """The things that hang on it, with the motions of their points."""
-        for each in self.hung:
-            yield each, self.point(each.part, each.start, rotation)
 
     @cached_property
     def ties(self) -> tuple[SideTie, ...]:
@@ -338,7 +338,8 @@ class Linkage(ABC):
         spin = motion.spin_slopes * state.velocity**2 + motion.spins * state.acceleration
         forces = -self.masses[:, None] * (centre + state.pull)
         couples = -self.inertias[:, None] * spin
-        for each, point in self._hanging(state.rotation):
+        for each in self.hung:
+            point = self.carried(each.part, each.start, motion)
             force: np.ndarray = each.force * state.pull.imag
             if each.tie:
                 largest = self.carried(each.part, each.start, furthest).moved
@@ -452,6 +453,35 @@ def momentum_balance(
     v, turn_after = leaving
     shared = masses @ (u * v).real + inertias @ (turn * turn_after)
     return float(shared / (masses @ np.abs(v) ** 2 + inertias @ turn_after**2))
+
+
+PRESSED = 0.85
+"""Share of the compressive strength at which the edge of a joint is pressed all over."""
+
+
+def inset(pressing: float, strength: float | None, breadth: float) -> float:
+    """Return how far in from its edge a hinge lies, m: N/(1.7 f_c), the middle of what is pressed at .85 f_c.
+
+    pressing: N on the joint, N per metre of edge. strength: f_c, Pa; None where nothing crushes. breadth: of the joint,
+    m. Raises DoesNotStandError where all of it is pressed.
+
+    >>> round(inset(62680.0, 1.5e6, 0.35), 6)
+    0.02458
+    """
+    if strength is None:
+        return 0.0
+    depth = pressing / (PRESSED * strength)
+    check_pressed(depth, breadth)
+    return depth / 2
+
+
+def check_pressed(pressed: float, whole: float) -> None:
+    """Refuse a joint of which the part that is pressed at rest is not less than the whole, both in m or in m²."""
+    if not pressed < whole:
+        raise DoesNotStandError(
+            "the structure does not stand: at rest its weight crushes a joint over "
+            f"{pressed / whole:.4g} times its breadth; correct compressive_strength, or the sizes and loads above it."
+        )
 
 
 FRICTION = 0.6

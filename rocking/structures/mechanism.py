@@ -119,15 +119,12 @@ class SideTie:
 
     def rotation(self, stretch: float, end_rotation: float) -> float:
         """Return the rotation [rad] at which u is `stretch`; inf beyond `end_rotation`."""
+        # Yield and rupture are asked for by the mechanism, its capacity and the checks.
+        known: dict[tuple[float, float], float] = self.__dict__.setdefault("_rotations", {})
         asked = stretch, end_rotation
-        if asked not in self._rotations:
-            self._rotations[asked] = self._sought_rotation(stretch, end_rotation)
-        return self._rotations[asked]
-
-    @cached_property
-    def _rotations(self) -> dict[tuple[float, float], float]:
-        """The rotations that were asked for: yield and rupture are, by the mechanism, its capacity and the checks."""
-        return {}
+        if asked not in known:
+            known[asked] = self._sought_rotation(stretch, end_rotation)
+        return known[asked]
 
     def _sought_rotation(self, stretch: float, end_rotation: float) -> float:
         from scipy.optimize import brentq  # slow to import, and needed by ties with a strength only
@@ -390,15 +387,12 @@ class Mechanism(Drawn):
         The same object at every call, as what it computes of itself is kept.
         Raises StructureError for another scale.
         """
-        if scale not in self._blocks:
+        known: dict[str, EquivalentBlock] = self.__dict__.setdefault("_blocks", {})
+        if scale not in known:
             block = self.positive.equivalent_block(scale)
             other = None if self.negative is None else self.negative.equivalent_block(scale)
-            self._blocks[scale] = replace(block, other_side=other, one_sided=self.one_sided)
-        return self._blocks[scale]
-
-    @cached_property
-    def _blocks(self) -> dict[str, EquivalentBlock]:
-        return {}
+            known[scale] = replace(block, other_side=other, one_sided=self.one_sided)
+        return known[scale]
 
     @cached_property
     def block_defects(self) -> BlockDefects:

@@ -317,3 +317,19 @@ def _trapezium(
     up = float(weights @ (width * z)) / area
     squares = weights @ (width * ((middle - across) ** 2 + width**2 / 12 + (z - up) ** 2))
     return area, (across, up), float(squares)
+
+
+def stops_behind(courses: Sequence[Course], restitution: float) -> tuple[Held, ...]:
+    """Return the stops of what `courses` lean on, all along their inner faces.
+
+    Each throws back its part of a course with the `restitution` of the impact on what stands behind, so that no foot
+    need slide; the impacts of the foot come on top.
+    """
+    stops = []
+    for place, each in enumerate(courses):
+        number = max(2, math.ceil(2 * each.height / (each.bottom[1] - each.bottom[0])))
+        stop = Stop.of_mass(each.mass / number, restitution)
+        for share in (np.arange(number) + 0.5) / number:
+            x = each.bottom[0] + share * (each.top[0] - each.bottom[0])
+            stops.append(Held(place, (float(x), float(each.base + share * each.height)), stop=stop))
+    return tuple(stops)

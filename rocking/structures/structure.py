@@ -17,7 +17,15 @@ from rocking.remarks import Kind, Remark
 from rocking.structures.capacity import StaticCapacity
 from rocking.structures.capacity import StaticCurve as StaticCurve
 from rocking.structures.drawing import Dimension, Mark, Path, plane, span
-from rocking.structures.fields import CompressiveStrength, Description, Form, Given, Value, constructor, forms
+from rocking.structures.fields import (
+    CompressiveStrength,
+    Description,
+    Given,
+    Value,
+    constructor,
+    forms,
+    typed_text,
+)
 from rocking.structures.linkage import (
     STILL,
     Contacts,
@@ -28,10 +36,11 @@ from rocking.structures.linkage import (
     Restitution,
     Restraint,
     UnknownContacts,
+    largest_so_far,
     momentum_balance,
 )
 from rocking.structures.mechanism import Mechanism, Side
-from rocking.structures.stack import Course, Held, Stack, Stop
+from rocking.structures.stack import Course, Held, Stack, stops_behind
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -243,17 +252,12 @@ class Structure(ABC):
             raise StructureError(
                 f"side is {side!r}, but must be 1, or -1 where the structure rocks to both sides."
             )
-        if side not in self._capacities:
+        known: dict[int, StaticCapacity] = self.__dict__.setdefault("_capacities", {})
+        if side not in known:
             place = 0 if side > 0 else -1
             moving = [each for each in self._seen(side < 0) if each[0] != STILL]
-            self._capacities[side] = StaticCapacity.of(
-                mechanism.sides[place], self.linkages[place], moving, side < 0
-            )
-        return self._capacities[side]
-
-    @cached_property
-    def _capacities(self) -> dict[int, StaticCapacity]:
-        return {}
+            known[side] = StaticCapacity.of(mechanism.sides[place], self.linkages[place], moving, side < 0)
+        return known[side]
 
     def capacity_curve(self, side: int = 1, count: int = 41) -> StaticCurve:
         """Return the curve of the positive (1) or negative (−1) side at `count` equal steps of rotation.
@@ -340,22 +344,8 @@ class Structure(ABC):
         )
 
     def _behind(self, courses: Sequence[Course]) -> tuple[Held, ...]:
-        """The stops of what its courses lean on, all along their inner faces; none where it is free.
-
-        Each throws back its part of a course with the restitution of the impact on what stands behind, so that no foot
-        need slide; the impacts of the foot come on top.
-        """
-        if not self.one_sided:
-            return ()
-        restitution = self.mechanism().positive.restitution
-        stops = []
-        for place, each in enumerate(courses):
-            number = max(2, math.ceil(2 * each.height / (each.bottom[1] - each.bottom[0])))
-            stop = Stop.of_mass(each.mass / number, restitution)
-            for share in (np.arange(number) + 0.5) / number:
-                x = each.bottom[0] + share * (each.top[0] - each.bottom[0])
-                stops.append(Held(place, (float(x), float(each.base + share * each.height)), stop=stop))
-        return tuple(stops)
+        """The stops of what its courses lean on, all along their inner faces; none where it is free."""
+        return stops_behind(courses, self.mechanism().positive.restitution) if self.one_sided else ()
 
     def dimensions(self) -> tuple[Dimension, ...]:
         """Return the dimension lines of the sizes it was described by, at rest; of a list, one for each value."""
@@ -401,13 +391,10 @@ class Structure(ABC):
         foot may bulge wherever it is cracked: its bulge of least λ counts besides, and comes first where it is weaker.
         The same objects at every call, as they keep what they compute.
         """
-        if count not in self._candidates:
-            self._candidates[count] = self._ranked_candidates(count)
-        return self._candidates[count]
-
-    @cached_property
-    def _candidates(self) -> "dict[int, tuple[Candidate, ...]]":
-        return {}
+        known: dict[int, tuple[Candidate, ...]] = self.__dict__.setdefault("_candidates", {})
+        if count not in known:
+            known[count] = self._ranked_candidates(count)
+        return known[count]
 
     def _ranked_candidates(self, count: int) -> "tuple[Candidate, ...]":
         """The candidates in their order."""
@@ -615,35 +602,6 @@ class Candidate:
         return self.structure.mechanism().sides[-1 if self.sign < 0 else 0]
 
 
-PRESSED = 0.85
-"""Share of the compressive strength at which the edge of a joint is pressed all over."""
-
-
-def inset(pressing: float, strength: float | None, breadth: float) -> float:
-    """Return how far in from its edge a hinge lies, m: N/(1.7 f_c), the middle of what is pressed at .85 f_c.
-
-    pressing: N on the joint, N per metre of edge. strength: f_c, Pa; None where nothing crushes. breadth: of the joint,
-    m. Raises DoesNotStandError where all of it is pressed.
-
-    >>> round(inset(62680.0, 1.5e6, 0.35), 6)
-    0.02458
-    """
-    if strength is None:
-        return 0.0
-    depth = pressing / (PRESSED * strength)
-    check_pressed(depth, breadth)
-    return depth / 2
-
-
-def check_pressed(pressed: float, whole: float) -> None:
-    """Refuse a joint of which the part that is pressed at rest is not less than the whole, both in m or in m²."""
-    if not pressed < whole:
-        raise DoesNotStandError(
-            "the structure does not stand: at rest its weight crushes a joint over "
-            f"{pressed / whole:.4g} times its breadth; correct compressive_strength, or the sizes and loads above it."
-        )
-
-
 @dataclass(frozen=True, repr=False)
 class Crushable(Structure):
     """A structure of masonry whose joints crush at their edges, so that its hinges move in (theory: section 12.8).
@@ -835,34 +793,11 @@ class CrackedAtHeight(Crackable):
 
 def _alike(one: Structure, other: Structure) -> bool:
     """Whether the mechanisms of two structures lift, overturn and lose at impacts alike."""
-
-    def numbers(mechanism: Mechanism) -> tuple[object, ...]:
-        return tuple(
-            (each.uplift_multiplier, each.critical_rotation, each.restitution) for each in mechanism.sides
-        )
-
-    return numbers(one.mechanism()) == numbers(other.mechanism())
-
-
-def remember_as_typed(
-    structure: Structure,
-    form: Form,
-    values: Mapping[str, object],
-    texts: Mapping[str, str],
-) -> None:
-    """Let a structure describe itself by the `values` of a file, by key, and by their `texts` as they were typed."""
-    object.__setattr__(structure, "_typed", (form, {key: (values[key], texts[key]) for key in values}))
-
-
-def typed_text(value: object, number: str = "{}") -> str:
-    """Return a value as it would be typed, a float by the format `number`: "6", "momentum", "3.5, 3.2"."""
-    if isinstance(value, list | tuple):
-        return ", ".join(typed_text(each, number) for each in value)
-    return number.format(value) if isinstance(value, float) else str(value)
-
-
-def largest_so_far(rotation: np.ndarray) -> np.ndarray:
-    """Return the largest rotation [rad] so far on the side of each of the signed `rotation`, (k,)."""
-    to_positive = np.maximum.accumulate(np.maximum(rotation, 0.0))
-    to_negative = np.maximum.accumulate(np.maximum(-rotation, 0.0))
-    return np.where(rotation < 0, to_negative, to_positive)
+    first, second = (
+        [
+            (side.uplift_multiplier, side.critical_rotation, side.restitution)
+            for side in each.mechanism().sides
+        ]
+        for each in (one, other)
+    )
+    return first == second

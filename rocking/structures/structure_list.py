@@ -12,8 +12,8 @@ from typing import Any
 from rocking.errors import ConfigurationError, SizeError
 from rocking.quantities import shown
 from rocking.structures.building_parts import PARTS
-from rocking.structures.fields import Form, article, forms
-from rocking.structures.structure import Structure, remember_as_typed, typed_text
+from rocking.structures.fields import Form, article, forms, remember_as_typed, typed_text
+from rocking.structures.structure import Structure
 
 _CLASSES = (
     "rocking.structures.block.Block",

@@ -14,7 +14,14 @@ import numpy as np
 from rocking.errors import SizeError, StructureError
 from rocking.quantities import GRAVITY, finite
 from rocking.structures.drawing import Mark, Path, rectangle, span
-from rocking.structures.fields import OneSided, OptionalUnitWeight, Value, length, restitution_value
+from rocking.structures.fields import (
+    OneSided,
+    OptionalUnitWeight,
+    Value,
+    length,
+    remember_as_typed,
+    restitution_value,
+)
 from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
 from rocking.structures.linkage import (
     Contacts,
@@ -26,6 +33,7 @@ from rocking.structures.linkage import (
     Restitution,
     Restraint,
     cross,
+    inset,
     keeps_last,
 )
 from rocking.structures.mechanism import Tie
@@ -40,7 +48,7 @@ from rocking.structures.stack import (
     joints_between,
     slab,
 )
-from rocking.structures.structure import HIGHEST_SHARE, CrackedAtHeight, inset, remember_as_typed
+from rocking.structures.structure import HIGHEST_SHARE, CrackedAtHeight
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity
 
 _GRIPS = 1e-3
@@ -224,10 +232,6 @@ class CrackedWall(CrackedAtHeight):
             )
         return hinge, height - hinge, crack
 
-    def _hinged(self, hinge_height: float | None) -> Self:
-        """This wall, hinged where statics puts the hinge unless its height is given."""
-        return self if hinge_height is not None else self.cracked_by_statics()
-
     @property
     def height(self) -> float:
         """h₁ + h₂, m."""
@@ -401,7 +405,7 @@ class Wall(CrackedWall):
             compressive_strength=compressive_strength,
             unit_weight=unit_weight,
         )
-        return wall._hinged(hinge_height)
+        return wall if hinge_height is not None else wall.cracked_by_statics()
 
     @classmethod
     def hinged_at(
@@ -495,7 +499,8 @@ class LoadedWall(CrackedWall, Tied):
     ) -> Self:
         """Return the wall of that height and thickness [m], hinged as `Wall.of_size`; options as for the class."""
         lower, upper, crack = cls._heights(height, hinge_height, crack)
-        return cls(lower, upper, thickness, unit_weight, crack=crack, **options)._hinged(hinge_height)
+        wall = cls(lower, upper, thickness, unit_weight, crack=crack, **options)
+        return wall if hinge_height is not None else wall.cracked_by_statics()
 
     @classmethod
     def hinged_at(
