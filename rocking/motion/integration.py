@@ -186,7 +186,9 @@ def follow(
         return reduced.sides, follow_blocks([reduced], forcing, several, course)
     table = table_of(reduced, forcing.vertical)
     results = np.zeros((lift.size, runs.COLUMNS))
-    kernel = table.kernel_of(forcing)
+    kernel = table.kernel
+    if frequency := forcing.ground.circular_frequency:  # of a sine, which the steps must resolve as well
+        kernel = kernel._replace(longest_step=np.minimum(kernel.longest_step, 1 / frequency))
     eta = np.empty((lift.size, 2))
     own = table.sides[0].restitution, table.sides[-1].restitution
     eta[:] = own if several.restitution is None else several.restitution
@@ -258,7 +260,7 @@ def failure(status: float, impacts: float) -> MotionError:
 def _initial_arc(table: Table, start: Start) -> tuple[float, float]:
     """The initial arc and its rate; raises MotionError beyond the end of the mechanism."""
     rotation, velocity, sign = start
-    side = table.side(sign)
+    side = table.sides[0 if sign > 0 else -1]
     arc = side.arc(rotation)
     if not arc < side.end:
         raise MotionError(f"initial_rotation is {rotation!r} rad, but the mechanism ends before that.")
@@ -332,8 +334,7 @@ def _states(table: Table, log: np.ndarray, begin: float) -> dict[str, Any]:
     rotation = np.empty_like(arcs)
     velocity = np.empty_like(arcs)
     negative = (arcs < 0) | ((arcs == 0) & (speeds < 0))
-    for sign, rows in ((1, ~negative), (-1, negative)):
-        side = table.side(sign)
+    for sign, rows, side in ((1, ~negative, table.sides[0]), (-1, negative, table.sides[-1])):
         within_end = np.minimum(np.abs(arcs[rows]), side.end)
         rotation[rows] = sign * side.rotation(within_end)
         velocity[rows] = speeds[rows] * side.slope(within_end)

@@ -519,17 +519,6 @@ class Table:
     sides: tuple[SideTable, ...]
     kernel: Sides
 
-    def kernel_of(self, forcing: Forcing) -> Sides:
-        """The sides that the kernel takes under `forcing`: its steps resolve a sine as well."""
-        frequency = forcing.ground.circular_frequency
-        if frequency == 0:
-            return self.kernel
-        return self.kernel._replace(longest_step=np.minimum(self.kernel.longest_step, 1 / frequency))
-
-    def side(self, sign: int) -> SideTable:
-        """The table of the side of this sign."""
-        return self.sides[0 if sign > 0 else -1]
-
 
 _REMEMBERED: WeakKeyDictionary[Mechanism, dict[bool, Table]] = WeakKeyDictionary()
 

@@ -157,11 +157,11 @@ class PulseEvidence:
 class PulseAnalysis(Drawn):
     """The pulses of one record; `plot` draws it with the dominant one.
 
-    ranked: maxima of the energy gain on the record, by gain, that do not cover one another; the first is dominant.
+    ranked: maxima of the energy gain on the record, one at least, by gain, that do not cover one another; the first is
+    dominant.
     sequence: the pursuit, each pulse found in what the ones before it left.
     residual: (n,) m/s², the record less the dominant pulse.
     flags: reasons to doubt the dominant pulse. band: lowest and highest frequency that were searched, Hz.
-    Raises PulseError without a pulse.
 
     >>> from rocking import extract_pulses, read
     >>> analysis = extract_pulses(read("records/synthetic_strong_pulse.AT2")[0])
@@ -175,10 +175,6 @@ class PulseAnalysis(Drawn):
     residual: np.ndarray
     flags: tuple[Remark, ...]
     band: tuple[float, float]
-
-    def __post_init__(self) -> None:
-        if not self.ranked:
-            raise PulseError("ranked is empty, but must hold at least the dominant pulse.")
 
     def __repr__(self) -> str:
         share = f"explains {100 * self.explained_energy:.0f} % of the energy"

@@ -239,6 +239,10 @@ class Linkage(ABC):
         result: np.ndarray = 2 * (moving + turning) / self.unit
         return result
 
+    def weight(self, rotation: ArrayLike) -> np.ndarray:
+        """Σ m y', the part of G that is the weight of the masses."""
+        return _sum(self.masses, self.motion(rotation).velocities.imag) / self.unit
+
     def ground(self, rotation: ArrayLike) -> np.ndarray:
         """B = Σ m x'."""
         return _sum(self.masses, self.motion(rotation).velocities.real) / self.unit
@@ -249,14 +253,13 @@ class Linkage(ABC):
         return sum((tie.moment(at, at) for tie in self.ties), self.untied_gravity(at))
 
     def untied_gravity(self, rotation: ArrayLike) -> np.ndarray:
-        """G without the ties: Σ m y' of the masses, less the powers of the constant forces."""
+        """G without the ties."""
         powers = [
             (each.force.conjugate() * self.point(each.part, each.start, rotation).velocity).real
             for each in self.hung
             if each.force
         ]
-        weight = _sum(self.masses, self.motion(rotation).velocities.imag) / self.unit
-        return weight - sum(powers, np.zeros(())) / self.unit
+        return self.weight(rotation) - sum(powers, np.zeros(())) / self.unit
 
     @property
     def untied_zero(self) -> float | None:

@@ -14,8 +14,7 @@ from numpy.typing import ArrayLike
 from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
 from rocking.quantities import GRAVITY, within
 from rocking.remarks import Kind, Remark
-from rocking.structures.capacity import StaticCapacity
-from rocking.structures.capacity import StaticCurve as StaticCurve
+from rocking.structures.capacity import StaticCapacity, StaticCurve
 from rocking.structures.drawing import Dimension, Mark, Path, plane, span
 from rocking.structures.fields import (
     CompressiveStrength,
@@ -361,9 +360,9 @@ class Structure(ABC):
             if not isinstance(path, list):
                 lines.append(Dimension(letter, given.text + unit, *path))
                 continue
-            texts = given.text.split(", ")
             # A drawing may show fewer dimensions than the list has values.
-            for number, (text, own_path) in enumerate(zip(texts, path, strict=False), start=1):
+            shown = zip(given.text.split(", "), path, strict=False)
+            for number, (text, own_path) in enumerate(shown, start=1):
                 numbered = letter + str(number).translate(_SUBSCRIPTS)
                 lines.append(Dimension(numbered, text + unit, *own_path))
         return tuple(lines)
@@ -624,9 +623,8 @@ class Crushable(Structure):
     def crushing(self, strength: float) -> "Structure | None":
         if self.compressive_strength is not None:
             return None
-        values: dict[str, float] = {"compressive_strength": strength}
-        if getattr(self, "unit_weight", None) is None:
-            values["unit_weight"] = _USUAL_WEIGHT
+        weight = getattr(self, "unit_weight", None) or _USUAL_WEIGHT
+        values: dict[str, float] = {"compressive_strength": strength, "unit_weight": weight}
         try:
             return replace(self, **values)
         except StructureError:
@@ -744,8 +742,7 @@ class CrackedAtHeight(Crackable):
         ranked = [cracked[place] for place in order]
 
         least = int(order[0])
-        is_between_two_others = 0 < least < len(cracked) - 1
-        if is_between_two_others:
+        if 0 < least < len(cracked) - 1:  # between two others
             weakest = self._weakest_between(cracked[least - 1].position, cracked[least + 1].position)
             # What is weaker by less than that is the same crack.
             if weakest and weakest.multiplier < (1 - 1e-5) * ranked[0].multiplier:
