@@ -164,7 +164,7 @@ def test_one_odd_file_parts_no_other(tmp_path: Path) -> None:
 def test_where_two_pairs_could_be_meant_none_is(tmp_path: Path) -> None:
     for name, component in (("a", "000"), ("b", "090"), ("c", "090")):
         peer(tmp_path, f"{name}.AT2", component, 4000 - (name == "c"))
-    assert len(rows(tmp_path)) == 3 and "component 90 comes 2 times" in notes(tmp_path).replace("090", "90")
+    assert len(rows(tmp_path)) == 3 and "component 90 occurs 2 times" in notes(tmp_path).replace("090", "90")
 
 
 def test_pairs_whose_unit_is_typed_later_are_one_row_from_the_start(tmp_path: Path) -> None:

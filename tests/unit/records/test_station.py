@@ -62,7 +62,7 @@ def test_files_that_do_not_fit_together_are_refused_in_a_sentence(station):
     (station / "v.asc").write_text((station / "n.asc").read_text().replace("ACCELERATION", "VELOCITY"))
     for other, word in {
         "short": "300 and 200|200 and 300", "late": "no span", "between": "between one another",
-        "again": "component HNE comes 2 times", "half": "time steps", "v": "holds VELOCITY",
+        "again": "component HNE occurs 2 times", "half": "time steps", "v": "holds VELOCITY",
     }.items():  # fmt: skip
         with pytest.raises(RecordError, match=word) as caught:
             open_station(_record(station, f"e.asc;{other}.asc"))
