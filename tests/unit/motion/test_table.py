@@ -53,7 +53,7 @@ def test_table_equals_direct_evaluation(name):
 
 @pytest.mark.parametrize("name", ALL)
 def test_hold_bounds_every_rotation_further_out(name):
-    side, own = ALL[name].positive, table_of(ALL[name]).side(1)
+    side, own = ALL[name].positive, table_of(ALL[name]).sides[0]
     rotation = np.linspace(0, float(own.rotation(np.array(own.end))), 501)
     balance = -side.gravity(rotation) / np.abs(side.ground(rotation))
     grid = table_of(ALL[name]).kernel.grid
