@@ -4,6 +4,7 @@ import math
 import platform
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -39,11 +40,13 @@ def trade(
     *,
     settings: AssessmentSettings | None = None,
     tell: Callable[[str], None] = lambda line: None,
+    within: Callable[[str], AbstractContextManager[None]] = lambda structure: nullcontext(),
 ) -> list[TradeRow]:
     """Return a row for each method and structure, and one for each method over all structures.
 
     Every structure is met by every record with every method, one response at a time. tell: takes a line for each
-    record, and one for each case that cannot be followed. Times are processor times of this machine, in s.
+    record, and one for each case that cannot be followed. within: gives what surrounds the work on a structure, by its
+    name, or on a record ("") and may keep errors from the rest. Times are processor times of this machine, in s.
 
     >>> pier = rocking.Block.of_size(0.8, 6.0, 0.9)
     >>> rows = rocking.trade(rocking.read("records/synthetic_strong_pulse.AT2"), {"pier": pier})
@@ -51,21 +54,23 @@ def trade(
     ['one sine', 'one sine, half the energy', 'five sines']
     """
     chosen = settings or AssessmentSettings()
-    mechanisms = {name: structure.mechanism() for name, structure in structures.items()}
+    mechanisms: dict[str, Mechanism] = {}
+    for name, structure in structures.items():
+        with within(name):
+            mechanisms[name] = structure.mechanism()
     answers: dict[tuple[TradeMethod, str], list[TimedAnswer]] = {}
     for number, record in enumerate(records, start=1):
-        sines, searched_s = _timed(partial(best_sines, record, chosen))
+        sines: tuple[PulseEvidence, ...] | None = None
+        with within(""):
+            sines, searched_s = _timed(partial(best_sines, record, chosen))
+        if sines is None:
+            continue
         for name, mechanism in mechanisms.items():
             try:
-                reference = integrate(mechanism, record, REFERENCE_TOLERANCE).rotation_ratio
-                for method, run in _runs(mechanism, record, sines, chosen).items():
-                    rotation_ratio, cpu_s = _timed(run, 0 if method is TradeMethod.ENSEMBLE else REPEATS)
-                    record_s = searched_s if method in (TradeMethod.ONE_SINE, TradeMethod.SINES) else 0.0
-                    answer = TimedAnswer(rotation_ratio, reference, cpu_s, record_s)
-                    rules = method is TradeMethod.ONE_SINE and sines[0].explained_energy >= RULING
-                    for which in (method, TradeMethod.RULING_SINE) if rules else (method,):
+                with within(name):
+                    for method, answer in list(_answers(mechanism, record, sines, searched_s, chosen)):
                         for whose in ("", name):
-                            answers.setdefault((which, whose), []).append(answer)
+                            answers.setdefault((method, whose), []).append(answer)
             except RockingError as error:
                 tell(f"record {number}, {name}: {error}")
         tell(f"record {number}: {len(mechanisms)} structures")
@@ -76,6 +81,24 @@ def trade(
         for method in TradeMethod
         if (method, structure) in answers
     ]
+
+
+def _answers(
+    mechanism: Mechanism,
+    record: Accelerogram,
+    sines: Sequence[PulseEvidence],
+    searched_s: float,
+    settings: AssessmentSettings,
+) -> Iterator[tuple[TradeMethod, TimedAnswer]]:
+    """Yield the answer of each method to one case. searched_s: processor time of the search for the sines."""
+    reference = integrate(mechanism, record, REFERENCE_TOLERANCE).rotation_ratio
+    for method, run in _runs(mechanism, record, sines, settings).items():
+        rotation_ratio, cpu_s = _timed(run, 0 if method is TradeMethod.ENSEMBLE else REPEATS)
+        record_s = searched_s if method in (TradeMethod.ONE_SINE, TradeMethod.SINES) else 0.0
+        answer = TimedAnswer(rotation_ratio, reference, cpu_s, record_s)
+        yield method, answer
+        if method is TradeMethod.ONE_SINE and sines[0].explained_energy >= RULING:
+            yield TradeMethod.RULING_SINE, answer
 
 
 def _runs(

@@ -22,7 +22,16 @@ from rocking.fragility.rows import (
 )
 from rocking.quantities import counted
 from rocking.reports.panels import Curve, draw_probability
-from rocking.reports.printing import Column, Figures, number, plain, table_of, words, write_document
+from rocking.reports.printing import (
+    Column,
+    Figures,
+    faults_in_words,
+    number,
+    plain,
+    table_of,
+    words,
+    write_document,
+)
 from rocking.reports.style import elided, new_figure, picture, styled, svg
 from rocking.tables import Row, frame, rows_of, write_whole
 
@@ -79,11 +88,16 @@ def write_fragility_report(
     summary = by_place(FragilitySummaryRow, rows)
     measures = frame(IntensityMeasureRow, by_place(IntensityMeasureRow, rows))
     write_whole(image, svg(fragility_figure(curves)).encode())
-    write_document(pdf, "plain.typ", fragility_data(curves, summary, ida_frame(rows), measures), figures)
+    data = fragility_data(curves, summary, ida_frame(rows), measures, faults_in_words(rows))
+    write_document(pdf, "plain.typ", data, figures)
 
 
 def fragility_data(
-    curves: "DataFrame", summary: Sequence[FragilitySummaryRow], ida: "DataFrame", measures: "DataFrame"
+    curves: "DataFrame",
+    summary: Sequence[FragilitySummaryRow],
+    ida: "DataFrame",
+    measures: "DataFrame",
+    faults: Sequence[str] = (),
 ) -> dict[str, object]:
     """Return what the template is given. The tables are fragility, fragility_summary, ida and intensity_measures."""
     stations = max((row.stations for row in summary), default=0)
@@ -96,6 +110,8 @@ def fragility_data(
         "form, and that exceed a rotation (overturns, or a share of the critical rotation φcr) with that of statics."
     )
     parts = [{"text": scaled + few * (stations < FEW_STATIONS)}, fragility_table(summary, ida)]
+    if faults:
+        parts.append({"list": list(faults)})
     if len(measures):
         parts.append(scatter_table(measures))
     names = list(dict.fromkeys(curves["structure"]))

@@ -22,9 +22,10 @@ import typst
 from rocking.assessment.decide import Verdict
 from rocking.assessment.methods import NEGLIGIBLE, Method, rests
 from rocking.assessment.reserve import Reserve
+from rocking.assessment.rows import FailureRow
 from rocking.quantities import GRAVITY, counted
 from rocking.reports.style import COMMON, FONT_FOLDER, glyphs
-from rocking.tables import Row, write_whole
+from rocking.tables import Row, rows_of, write_whole
 
 if TYPE_CHECKING:
     from rocking.assessment.decide import Decision
@@ -90,6 +91,14 @@ class Notice:
     def data(self) -> dict[str, object]:
         """The values that a template receives."""
         return {"strong": self.strong, "text": self.text}
+
+
+def faults_in_words(tables: Mapping[type[Row], Iterable[Row]]) -> list[str]:
+    """Return a sentence for each row of what gave no result, with what it is about."""
+    return [
+        ": ".join(filter(None, (row.record, row.structure, row.message)))
+        for row in rows_of(FailureRow, tables)
+    ]
 
 
 def number(value: float | None, digits: int = 3) -> str:

@@ -1,6 +1,6 @@
 """The report of the trade of error for time, from its rows."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +12,7 @@ from rocking.assessment.trade import break_even, what_follows
 from rocking.reports import printing
 from rocking.reports.printing import Figures, write_document
 from rocking.reports.style import PREDICTED, RECORD, new_figure, picture, plain_logarithmic, styled, svg
-from rocking.tables import write_whole
+from rocking.tables import Row, rows_of, write_whole
 
 _LOOKS = {
     TradeMethod.ONE_SINE: (PREDICTED, "-"),
@@ -29,8 +29,11 @@ _MOST_STRUCTURES = 1000
 """Structures a record up to which the cost is drawn."""
 
 
-def write_trade_report(rows: Sequence[TradeRow], pdf: Path, image: Path, figures: Figures = "none") -> None:
-    """Set the table as the files `pdf` and `image` (SVG), and its figure beside them."""
+def write_trade_report(
+    tables: Mapping[type[Row], Sequence[Row]], pdf: Path, image: Path, figures: Figures = "none"
+) -> None:
+    """Set the rows of the trade and of its faults as the files `pdf` and `image` (SVG), and its figure beside them."""
+    rows = rows_of(TradeRow, tables)
     table = printing.table_of(
         rows,
         ("Method", "1.4", "l", lambda row: row.method),
@@ -48,6 +51,8 @@ def write_trade_report(rows: Sequence[TradeRow], pdf: Path, image: Path, figures
         "the search for its sines. The ensemble answers for all alike cases; its error is that of its median."
     )
     parts = [{"list": list(what_follows(rows))}, *trade_picture(rows), {**table, "caption": caption}]
+    if faults := printing.faults_in_words(tables):
+        parts.append({"list": faults})
     machine = rows[0].machine if rows else "no machine"
     subtitle = f"Processor times of {machine}, on the records and structures of the study."
     data = {"title": "What accuracy costs", "subtitle": subtitle, "parts": parts}

@@ -19,7 +19,14 @@ from rocking.assessment.contacts import expected_seconds
 from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.motions import Component
 from rocking.assessment.one_case import Clock
-from rocking.assessment.rows import HistoryRow, RecordRows, history_rows, rows_of_record
+from rocking.assessment.rows import (
+    FailedCase,
+    FailureRow,
+    HistoryRow,
+    RecordRows,
+    history_rows,
+    rows_of_record,
+)
 from rocking.assessment.scene import Scene, on_friction
 from rocking.assessment.settings import AssessmentSettings
 from rocking.assessment.store import RecordStore, computation_version
@@ -37,7 +44,7 @@ from rocking.study.results import case_timings_of, cases_of, outcome_of, write_o
 from rocking.study.seals import Seals
 from rocking.study.settings import Settings, settings_sha256
 from rocking.study.terminal import line_writer, log_error, record_line, tell, tell_error
-from rocking.tables import write_rows, write_tables, written_together
+from rocking.tables import Row, write_rows, write_tables, written_together
 
 WORTH_TELLING = 5.0
 """Processor time of contact dynamics of a record, s, from which on it is told before."""
@@ -245,6 +252,24 @@ def steps_of(record: CatalogueRecord, job: Job) -> Iterator[Steps]:
         return
     durations = dict(steps.clock.durations)
     _write(RecordResult(record=record.id, failures=(("", failure),), durations=durations), record, job)
+
+
+@contextlib.contextmanager
+def costs_no_other(
+    faults: list[Row], log: Path | str, where: str, structure: str = "", record: str = ""
+) -> Iterator[None]:
+    """Add a row to `faults` for what no input may cause within, and go on behind it.
+
+    record, structure: that it is about; "" for all. What is wrong with the input or the machine passes.
+    """
+    try:
+        yield
+    except (RockingError, OSError, MemoryError):
+        raise
+    except Exception as fault:
+        log_error(fault)
+        failure = Failure("fault", fault_in_words(fault, log, where))
+        faults.append(FailureRow.of(FailedCase(record, "", structure, failure)))
 
 
 def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:

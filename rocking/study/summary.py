@@ -2,7 +2,8 @@
 
 import json
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from contextlib import ExitStack
+from contextlib import AbstractContextManager, ExitStack
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +16,7 @@ from rocking.assessment.rows import (
     CapacityRow,
     ComparisonRow,
     ExpectedFallsRow,
+    FailureRow,
     PulseRow,
     StructureRow,
     TimingRow,
@@ -28,14 +30,13 @@ from rocking.assessment.rows import (
     structure_rows,
 )
 from rocking.assessment.scene import variants_of
-from rocking.errors import ConfigurationError, RockingError, fault_in_words
+from rocking.errors import ConfigurationError, RockingError
 from rocking.records import Accelerogram, CatalogueRecord
 from rocking.structures import Mechanism, Structure
-from rocking.study.job import Job, Study
+from rocking.study.job import Job, Study, costs_no_other
 from rocking.study.made_from import versions
 from rocking.study.results import Outcome, kept_of, kept_rows, outcomes_of, remove_others
 from rocking.study.settings import package_sha256, structure_hashes
-from rocking.study.terminal import log_error
 from rocking.tables import (
     Row,
     data_package,
@@ -50,6 +51,8 @@ from rocking.tables.workbook import workbook
 if TYPE_CHECKING:
     from rocking.codes.conclusion import CodeConclusion
     from rocking.fragility.curves import Fragility
+    from rocking.fragility.hazard import Hazard
+    from rocking.reports.printing import Figures
 
 PROVENANCE = "provenance.json"
 """In the folder of the summary: what the results were made from and with."""
@@ -68,7 +71,11 @@ def summarise(job: Job) -> list[Path]:
     files = [target / each.table.file_name for each in SUMMARY_TABLES]
     outcomes = outcomes_of(job.results, job.records)
     instead = [name for name, scene in study.scenes.items() if scene.variant_of]
-    shown, pages, spectra = write_summary(outcomes, study.structures, target, study.settings.reports, instead)
+    beside = _beside(job)
+    faults = beside.pop(FailureRow, [])
+    shown, pages, spectra = write_summary(
+        outcomes, study.structures, target, study.settings.reports, instead, faults
+    )
     paths: dict[type[Row], str | list[str]] = {each: each.table.file_name for each in SUMMARY_TABLES}
     write_whole(target / "datapackage.json", data_package("rocking-study", paths))
     provenance = {
@@ -84,7 +91,6 @@ def summarise(job: Job) -> list[Path]:
     if study.settings.reports:
         from rocking.reports.explore import explore_page  # matplotlib takes half a second to import
 
-        beside = _beside(job)
         sheets = {each: rows for each, rows in shown.items() if each not in _NOT_IN_THE_WORKBOOK}
         checked: list[CodeConclusion] = []
         drawn: list[dict[str, Any]] = []
@@ -119,12 +125,13 @@ def write_summary(
     target: Path,
     reports: bool,
     variants: Collection[str] = (),
+    faults: Collection[Row] = (),
 ) -> tuple[dict[type[Row], list[Row]], list[dict[str, Any]], list[Sequence[float]]]:
     """Write the tables of the summary into `target`, record by record.
 
     reports: whether the rows, and what the page to explore and the spectra show of each record, are returned as well:
     of thousands of records, which have no reports, they would fill the memory. variants: names of structures that
-    stand for another one.
+    stand for another one. faults: of what else stands over all records.
     """
     kept: dict[type[Row], list[Row]] = {each: [] for each in SUMMARY_TABLES}
     pages: list[dict[str, Any]] = []
@@ -147,6 +154,8 @@ def write_summary(
             if reports:
                 pages.append(outcome.page)
                 spectra += outcome.spectra.values()
+        write[FailureRow](faults)
+        kept[FailureRow] += faults if reports else ()
         of_all = falls_over(falls_of_records)
         kept[ExpectedFallsRow] = [*falls_of_records, *([of_all] if of_all else [])]
         kept[StructureRow] = list(structure_rows(structures))
@@ -157,22 +166,25 @@ def write_summary(
 
 
 def _beside(job: Job) -> dict[type[Row], list[Row]]:
-    """The rows of the other products over all records that documents of the summary show, as far as there are any."""
+    """The rows of the other products over all records that the summary shows, as far as there are any, and their
+    faults."""
     tables: dict[str, tuple[type[Row], ...]] = {}
-    if job.study.settings.design_spectrum.spectrum() is not None:
+    # The main job runs without the folder of the codes.
+    if job.study.settings.design_spectrum.spectrum() is not None and job.study.settings.reports:
         from rocking.codes.rows import CodeCheckRow
 
         tables["checks"] = (CodeCheckRow,)
     if job.study.settings.trade.in_summary:
-        tables["trade"] = (TradeRow,)
+        tables["trade"] = (TradeRow, FailureRow)
     # One that was measured by hand is shown as well, with the next run.
     if not job.seals.why_again("fragility"):
         from rocking.fragility.rows import FragilitySummaryRow, IdaRow  # a quarter of a second
 
-        tables["fragility"] = (FragilitySummaryRow, IdaRow)
+        tables["fragility"] = (FragilitySummaryRow, IdaRow, FailureRow)
     rows: dict[type[Row], list[Row]] = {}
     for product, wanted in tables.items():
-        rows |= kept_rows(kept_of(job.results, product), wanted)
+        for each, of_it in kept_rows(kept_of(job.results, product), wanted).items():
+            rows.setdefault(each, []).extend(of_it)
     return {each: of_it for each, of_it in rows.items() if of_it}
 
 
@@ -204,95 +216,143 @@ def _report(
     return [*files, figure]
 
 
-# Whole on purpose: one loop fills the tables, of which a structure costs no other.
 def write_fragility(
     records: Iterable[CatalogueRecord],
     study: Study,
     folder: Path,
     tell: Callable[..., None] = lambda *_: None,
+    log: Path | str = "the log",
 ) -> tuple[dict[type[Row], list[Row]], list[str]]:
     """Write the fragility tables of `study` and their description into `folder`, and its curves for OpenQuake.
 
-    Returned are their rows, and what could not be used. No fragility.xml of a measure that OpenQuake lacks.
+    Returned are their rows, with those of faults, and what could not be used. No fragility.xml of a measure that
+    OpenQuake lacks.
 
-    A record that cannot be read, or lacks the intensity measure, costs no other. tell: takes a line for each structure,
-    how many are done, and of how many.
+    A record that cannot be read, or lacks the intensity measure, costs no other, and a fault of a record or a structure
+    neither. tell: takes a line for each structure, how many are done, and of how many. log: where faults are written.
     Raises ConfigurationError, before anything is written, where the records that are left come from fewer than two
     stations, the hazard curve is none, or no structure can overturn; one that cannot is left out, and said.
     """
     # A quarter of a second that a summary has no need of.
     from rocking.fragility import rows
-    from rocking.fragility.curves import fragility
     from rocking.fragility.hazard import Hazard
 
     settings = study.settings.fragility
     hazard = Hazard.read(settings.hazard) if settings.hazard else None
     if hazard:
         hazard.check_measure(settings.intensity_measure)
-    if all(never_lets_go(each.structure) for each in study.scenes.values()):
+    faults: list[Row] = []
+    net = partial(costs_no_other, faults, log)
+    held: dict[str, str] = {}
+    for name, scene in study.scenes.items():
+        with net("its fragility", name):
+            held[name] = never_lets_go(scene.structure)
+    if all(held.values()) and not faults:
         raise ConfigurationError(
             "no structure of the list can overturn, so that none has a fragility; give ties a tie_strength at which "
             "they let go, or leave the fragility out."
         )
-    opened, reasons = _opened(records, study)
+    opened, reasons = _opened(records, study, net)
+    if not (opened or faults):
+        raise ConfigurationError(
+            "no record of the catalogue can be used, but a fragility needs two stations; the log says why."
+        )
     curves: dict[tuple[str, float | None], Fragility] = {}
     tables: dict[type[Row], list[Row]] = {each: [] for each in rows.FRAGILITY_TABLES.values()}
-    for count, (name, scene) in enumerate(study.scenes.items(), start=1):
-        mechanism = scene.structure.mechanism()
-        if never := never_lets_go(scene.structure):
+    for count, (name, never) in enumerate(held.items(), start=1):
+        if never:
             reasons.append(f"{name}: it cannot overturn, and has no fragility: it {never}.")
             continue
-        names, accelerograms, lacking = _measured(opened, settings.intensity_measure, mechanism)
-        reasons += lacking
-        for support in scene.place.axis:
-            period = scene.place.period_of(support)
-            try:
-                curves[name, period] = fragility(
-                    accelerograms,
-                    scene.structure,
-                    intensity_measure=settings.intensity_measure,
-                    largest_factor=settings.largest_factor,
-                    ensemble=study.settings.ensemble if settings.members else None,
-                    tolerance=study.settings.tolerance,
-                    support=support,
-                )
-            # Periods of one structure may be such that few records can tell the measure.
-            except ConfigurationError as error:
-                reasons.append(f"{name}: {error}")
-                break
-            analysis = curves[name, period].analysis
-            assert analysis is not None
-            if hazard and not hazard.is_of(analysis.measure.name):
-                reasons.append(
-                    f"{name}: it has no annual rate, since its levels are of {analysis.measure.name}, but the hazard "
-                    f"curve is of {hazard.measure}."
-                )
-            for each in rows.curve_rows(name, names, analysis, hazard, period):
+        with net("its fragility", name):
+            of_scene, its_rows, its_reasons = _curves_of(name, study, opened, hazard, net)
+            curves |= of_scene
+            reasons += its_reasons
+            for each in its_rows:
                 tables[type(each)].append(each)
-            try:
-                tables[rows.IntensityMeasureRow] += list(
-                    rows.intensity_measure_rows(name, mechanism, accelerograms, analysis, period)
-                )
-            except (
-                Exception
-            ) as fault:  # the curves are finished, and no table beside them may take them along
-                log_error(fault)
-                reasons.append(
-                    f"{name}: {rows.IntensityMeasureRow.table.file_name} has no row of it: "
-                    f"{fault_in_words(fault, 'the log', 'it')}"
-                )
         tell(f"{count} of {len(study.scenes)}: {name}", count, len(study.scenes))
-    if not tables[rows.FragilityRow]:
+    if not (curves or faults):
         raise ConfigurationError(reasons[-1])
     write_tables(tables, folder, "rocking-fragility")
-    reasons += _for_openquake(curves, folder / OPENQUAKE)
-    return tables, list(dict.fromkeys(reasons))
+    with net(OPENQUAKE):
+        reasons += _for_openquake(curves, folder / OPENQUAKE)
+    return {**tables, FailureRow: faults}, list(dict.fromkeys(reasons))
+
+
+def _curves_of(
+    name: str,
+    study: Study,
+    opened: Mapping[str, Sequence[Accelerogram]],
+    hazard: "Hazard | None",
+    net: Callable[..., AbstractContextManager[None]],
+) -> tuple[dict[tuple[str, float | None], "Fragility"], list[Row], list[str]]:
+    """The curves of one structure by the period of its support, their rows, and what could not be used or told."""
+    from rocking.fragility.curves import fragility
+    from rocking.fragility.rows import IntensityMeasureRow, curve_rows, intensity_measure_rows
+
+    settings = study.settings.fragility
+    scene = study.scenes[name]
+    mechanism = scene.structure.mechanism()
+    names, accelerograms, reasons = _measured(opened, settings.intensity_measure, mechanism, net)
+    curves: dict[tuple[str, float | None], Fragility] = {}
+    rows: list[Row] = []
+    for support in scene.place.axis:
+        period = scene.place.period_of(support)
+        try:
+            curves[name, period] = fragility(
+                accelerograms,
+                scene.structure,
+                intensity_measure=settings.intensity_measure,
+                largest_factor=settings.largest_factor,
+                ensemble=study.settings.ensemble if settings.members else None,
+                tolerance=study.settings.tolerance,
+                support=support,
+            )
+        # Periods of one structure may be such that few records can tell the measure.
+        except RockingError as error:
+            reasons.append(f"{name}: {error}")
+            break
+        analysis = curves[name, period].analysis
+        assert analysis is not None
+        if hazard and not hazard.is_of(analysis.measure.name):
+            reasons.append(
+                f"{name}: it has no annual rate, since its levels are of {analysis.measure.name}, but the hazard "
+                f"curve is of {hazard.measure}."
+            )
+        rows += curve_rows(name, names, analysis, hazard, period)
+        # The curves are finished, and no table beside them may take them along.
+        with net(f"its rows of {IntensityMeasureRow.table.file_name}", name):
+            rows += list(intensity_measure_rows(name, mechanism, accelerograms, analysis, period))
+    return curves, rows, reasons
+
+
+def write_beside(
+    write: Callable[[Path, Path, "Figures"], None] | None, pdf: Path, image: Path, job: Job, faults: list[Row]
+) -> None:
+    """Let `write` set a document over all records as the files `pdf` and `image` (SVG).
+
+    None has nothing to show. In both that case and that of a fault, of which `faults` gets a row, the page says why.
+    """
+    from rocking.reports.printing import faults_in_words, write_document  # as above
+    from rocking.reports.style import new_figure, svg
+
+    figures = job.study.settings.figures
+    if write:
+        with costs_no_other(faults, job.log, pdf.name):
+            write(pdf, image, figures)
+            return
+    parts = [{"list": faults_in_words({FailureRow: faults})}]
+    data = {"title": pdf.stem.capitalize(), "subtitle": "It could not be made.", "parts": parts}
+    write_document(pdf, "plain.typ", data, figures)
+    write_whole(image, svg(new_figure(20)).encode())
 
 
 def _for_openquake(curves: Mapping[tuple[str, float | None], "Fragility"], path: Path) -> list[str]:
     """Write the curves, by structure and period of its support, as one model of OpenQuake; or say why it cannot be."""
     from rocking.fragility.exchange import nrml  # as above
 
+    if not curves:
+        path.unlink(missing_ok=True)  # of another run
+        return []
     named = {f"{name} at {period:g} s" if period else name: curve for (name, period), curve in curves.items()}
     try:
         write_whole(path, nrml(named, lognormal=False))
@@ -303,30 +363,25 @@ def _for_openquake(curves: Mapping[tuple[str, float | None], "Fragility"], path:
 
 
 def _opened(
-    records: Iterable[CatalogueRecord], study: Study
+    records: Iterable[CatalogueRecord], study: Study, net: Callable[..., AbstractContextManager[None]]
 ) -> tuple[dict[str, list[Accelerogram]], list[str]]:
-    """The components of the records that can be read, by record; and why others are left out.
-
-    Raises ConfigurationError where none is left.
-    """
+    """The components of the records that can be read, by record; and why others are left out."""
     opened: dict[str, list[Accelerogram]] = {}
     reasons: list[str] = []
     for record in records:
         try:
-            components, _ = study.open(record)
+            with net("the fragility", record=record.id):
+                opened[record.id] = list(study.open(record)[0])
         except RockingError as error:
             reasons.append(f"{record.id}: {error}")
-        else:
-            opened[record.id] = list(components)
-    if not opened:
-        raise ConfigurationError(
-            "no record of the catalogue can be used, but a fragility needs two stations; the log says why."
-        )
     return opened, reasons
 
 
 def _measured(
-    opened: Mapping[str, Sequence[Accelerogram]], measure: str, mechanism: Mechanism
+    opened: Mapping[str, Sequence[Accelerogram]],
+    measure: str,
+    mechanism: Mechanism,
+    net: Callable[..., AbstractContextManager[None]],
 ) -> tuple[list[str], list[Accelerogram], list[str]]:
     """The components of the records that have the intensity measure, with their names; and why others are left out."""
     from rocking.fragility.measures import intensity_measure
@@ -337,11 +392,11 @@ def _measured(
     reasons: list[str] = []
     for record, components in opened.items():
         try:
-            for each in components:
-                of_mechanism.of(each, mechanism)
+            with net(f"its {measure}", record=record):
+                for each in components:
+                    of_mechanism.of(each, mechanism)
+                names += [f"{record} {each.component}".strip() for each in components]
+                accelerograms += components
         except RockingError as error:
             reasons.append(f"{record}: {error}")
-            continue
-        names += [f"{record} {each.component}".strip() for each in components]
-        accelerograms += components
     return names, accelerograms, reasons

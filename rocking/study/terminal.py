@@ -79,7 +79,7 @@ def record_line(scenes: Iterable[SceneResult], failures: Iterable[FailureRow]) -
 def closing_lines(
     verdicts: Sequence[VerdictRow],
     comparison: Iterable[ComparisonRow],
-    failures: Iterable[FailureRow],
+    failures: Sequence[FailureRow],
     expected: Sequence[ExpectedFallsRow] = (),
 ) -> Iterator[str]:
     """Yield the conclusion on all structures, the worst with closed form, block and integration, and the others' words.
@@ -129,7 +129,15 @@ def closing_lines(
             f"{missed.total()} missed{where}, {counted(false, 'false alarm').replace(' ', NO_BREAK)}"
         )
         yield from (line.replace(NO_BREAK, " ") for line in wrap(text, _WIDTH, subsequent_indent=" " * 8))
-    if failed := sorted({failure.record for failure in failures}):
+    yield from _failing_lines(failures)
+
+
+def _failing_lines(failures: Sequence[FailureRow]) -> Iterator[str]:
+    """The records that failed, and the sentences on structures that did over all records."""
+    sentences = dict.fromkeys(f"{each.structure}: {each.message}" for each in failures if not each.record)
+    for sentence in list(sentences)[:_NAMED]:
+        yield from wrap(sentence.removeprefix(": "), _WIDTH, subsequent_indent=" " * 8)
+    if failed := sorted({each.record for each in failures} - {""}):
         text = f"{counted(len(failed), 'record')} failed, wholly or in part: {listed(failed, _NAMED)}"
         yield from wrap(text, _WIDTH, subsequent_indent=" " * 8)
 

@@ -5,9 +5,15 @@ import shutil
 import subprocess
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
+
+from rocking.assessment.rows import FailureRow, TradeRow
+from rocking.fragility.rows import FragilitySummaryRow
+from rocking.study.results import kept_of, kept_rows
+from rocking.tables import read_table
 
 HEAD = "MADE FOR A TEST\nNowhere, 1/1/2000, A, H1\nACCELERATION TIME SERIES IN UNITS OF G\n"
 
@@ -61,6 +67,48 @@ def test_broken_records_change_no_byte_of_the_good_ones(with_broken, finished) -
         expected = finished.rows_of(name)
         assert expected["pulses.csv"] and expected["comparison.csv"]
         assert with_broken.rows_of(name) == expected
+
+
+def test_a_fault_in_the_trade_or_the_fragility_stops_nothing_and_is_kept_as_a_row(start, tmp_path) -> None:
+    """Planted in a copy of the package: under one record in the trade, and of one structure in the fragility."""
+    tree = shutil.copytree(start.tree, tmp_path / "tree")
+    for file, before, planted in (
+        (
+            "assessment/trade.py",
+            "    reference = integrate(",
+            'record.dt_min if "good_1" in record.source.path else 0',
+        ),
+        (
+            "fragility/curves.py",
+            "    check_name(intensity_measure)\n",
+            "structure.hinge_height is None and 1 // 0",
+        ),
+    ):
+        path = tree / "rocking" / file
+        source = path.read_text()
+        assert source.count(before) == 1
+        path.write_text(source.replace(before, f"    {planted}\n{before}"))
+    study = replace(start.copy_to(tmp_path / "study"), tree=tree)
+    study.run("trade", "fragility", "--config", "fragility={members: false}")
+    rows = {
+        name: kept_rows(kept_of(study.results, name), [FailureRow])[FailureRow]
+        for name in ("trade", "fragility")
+    }
+    told = {(name, row.record, row.structure): row.message for name in rows for row in rows[name]}
+    assert set(told) == {
+        ("trade", "good_1", "block"),
+        ("trade", "good_1", "wall"),
+        ("fragility", "", "block"),
+    }
+    for (name, *_), message in told.items():
+        assert message.startswith("a fault of rocking in ") and f"results/summary/logs/{name}.log" in message
+        assert "Traceback" in (study.results / "summary" / "logs" / f"{name}.log").read_text()
+    (trade,) = {
+        row.cases for row in read_table(TradeRow, study.results / "summary") if row.structure == "wall"
+    }
+    assert trade == 2, "records"
+    curves = read_table(FragilitySummaryRow, study.results / "fragility")
+    assert {row.structure for row in curves} == {"wall"}
 
 
 def test_bad_input_is_refused_at_once_before_anything_is_written(start, tmp_path: Path) -> None:

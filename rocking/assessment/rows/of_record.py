@@ -576,7 +576,7 @@ def held_mechanisms(station: "StationResult", identity: Identity) -> Iterator[He
 
 @dataclass(frozen=True)
 class OfCase:
-    """Anything about one structure under one component of one record; component, structure: "" for all."""
+    """Anything about one structure under one component of one record; each of the three is "" for all."""
 
     record: str
     component: str

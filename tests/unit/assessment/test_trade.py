@@ -1,13 +1,18 @@
 """The trade of error for time: what each row says is what the methods themselves say."""
 
+from dataclasses import replace
+from functools import partial
+
 import numpy as np
 import pytest
 
 import rocking
-from rocking.assessment.rows import TradeRow
+from rocking.assessment import trade as trade_module
+from rocking.assessment.rows import FailureRow, TradeRow
 from rocking.assessment.trade import TradeMethod, break_even, what_follows
 from rocking.reports.trade import write_trade_report
-from rocking.study.terminal import trade_lines
+from rocking.study.job import costs_no_other
+from rocking.study.terminal import line_writer, trade_lines
 
 STRUCTURES = {"block": rocking.Block(2.0, 0.15), "stout": rocking.Block(2.0, 0.7)}
 
@@ -64,6 +69,43 @@ def test_times_are_told_with_their_machine_and_the_search_for_sines_apart(rows):
     assert rows[TradeMethod.ENSEMBLE, ""].cpu_s > usual
 
 
+def test_a_fault_of_one_structure_or_record_costs_no_other_and_is_a_row(rows, records, tmp_path, monkeypatch):
+    """Planted in the search of the second record, and in the motion of one structure under the third."""
+    search, follow = trade_module.best_sines, trade_module.integrate
+
+    def sines(record, settings):
+        return search(record, settings) if record is not records[1] else 1 // 0
+
+    def motion(mechanism, record, tolerance):
+        fails = record is records[2] and mechanism == STRUCTURES["stout"].mechanism()
+        return {}["planted"] if fails else follow(mechanism, record, tolerance)
+
+    monkeypatch.setattr(trade_module, "best_sines", sines)
+    monkeypatch.setattr(trade_module, "integrate", motion)
+    with pytest.raises(ZeroDivisionError):
+        rocking.trade(records, STRUCTURES)
+    log = tmp_path / "trade.log"
+    line_writer(log, "trade")
+    faults = []
+    tried = rocking.trade(records, STRUCTURES, within=partial(costs_no_other, faults, log, "the trade"))
+    first, second = faults
+    assert (first.record, first.structure, second.structure) == ("", "", "stout") and first.stage == "fault"
+    asks = f"a fault of rocking in the trade (KeyError: 'planted'); please report it, with {log}."
+    assert second.message == asks
+    assert "ZeroDivisionError" in log.read_text() and "KeyError: 'planted'" in log.read_text()
+    answered = {row.structure: row for row in tried if row.method is TradeMethod.MECHANISM}
+    alone = rocking.trade([records[0], records[2]], {"block": STRUCTURES["block"]})
+    (same,) = [row for row in alone if (row.method, row.structure) == (TradeMethod.MECHANISM, "block")]
+    assert replace(answered["block"], cpu_s=0.0) == replace(same, cpu_s=0.0)
+    assert answered["stout"].cases <= 1
+    documents = []
+    monkeypatch.setattr(
+        "rocking.reports.printing.compile_document", lambda _, data: documents.append(data) or b"%PDF"
+    )
+    write_trade_report({TradeRow: tried, FailureRow: faults}, tmp_path / "trade.pdf", tmp_path / "trade.svg")
+    assert {"list": [first.message, f"stout: {asks}"]} in documents[0]["parts"]
+
+
 def made(method: TradeMethod, **changed) -> TradeRow:
     """A row over all structures."""
     values = {"error": 0.01234, "error_high": 0.3, "cpu_s": 0.002512, "preparation_record_s": 0.0}
@@ -94,7 +136,8 @@ def test_the_report_says_what_the_table_says_in_percent_and_milliseconds(tmp_pat
     monkeypatch.setattr(
         "rocking.reports.printing.compile_document", lambda _, data: documents.append(data) or b"%PDF"
     )
-    write_trade_report([ONE_SINE, MECHANISM], tmp_path / "trade.pdf", tmp_path / "trade.svg")
+    tables = {TradeRow: [ONE_SINE, MECHANISM]}
+    write_trade_report(tables, tmp_path / "trade.pdf", tmp_path / "trade.svg")
     said, picture, table = documents[0]["parts"]
     assert picture["conclusion"] == " ".join(said["list"]) == " ".join(what_follows([ONE_SINE, MECHANISM]))
     assert table["rows"][1] == [TradeMethod.MECHANISM, "all", "200", "1.2", "30", "3", "1", "0.28", "0.0"]

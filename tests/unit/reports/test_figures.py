@@ -58,7 +58,7 @@ def test_the_figures_of_a_document_stand_beside_it(tmp_path, kinds, named):
         )
         for method in TradeMethod
     ]
-    write_trade_report(rows, tmp_path / "trade.pdf", tmp_path / "trade.svg", kinds)
+    write_trade_report({TradeRow: rows}, tmp_path / "trade.pdf", tmp_path / "trade.svg", kinds)
     assert sorted(each.name for each in tmp_path.iterdir()) == sorted(["trade.pdf", "trade.svg", *named])
     assert write_document(tmp_path / "a.pdf", "plain.typ", {"title": "a", "subtitle": "", "parts": []}, kinds)
     for name in named:

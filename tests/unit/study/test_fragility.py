@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from scipy.signal import lsim
 
+from rocking.assessment.rows import FailureRow
 from rocking.assessment.scene import Scene, on_the_ground
 from rocking.errors import ConfigurationError
 from rocking.floors.place import Place
@@ -26,10 +27,11 @@ from rocking.reports.fragility import write_fragility_report
 from rocking.structures import Block, Spire
 from rocking.study.job import Study
 from rocking.study.settings import Settings, StudyFragility
-from rocking.study.summary import write_fragility
+from rocking.study.summary import write_beside, write_fragility
 from rocking.study.terminal import line_writer
 from rocking.tables import read_rows, read_table
 from tests.made_structures import HELD
+from tests.unit.study.made_jobs import made_job
 
 ALONE = HELD.mechanism()
 """It has no joints but its own, and an unbreakable tie holds it for good."""
@@ -72,11 +74,74 @@ def test_a_table_beside_the_curves_fails_alone(tmp_path, monkeypatch):
     monkeypatch.setattr(import_module("rocking.fragility.rows"), "explanation", singular)
     tell = line_writer(tmp_path / "fragility.log", "fragility")
     study = replace(_study(), scenes=on_the_ground({"slender": STRUCTURES["slender"]}))
-    _, (reason,) = write_fragility(_records(tmp_path, 2), study, tmp_path / "out", tell)
-    assert reason.startswith("slender: intensity_measures.csv has no row of it")
+    log = tmp_path / "fragility.log"
+    written, reasons = write_fragility(_records(tmp_path, 2), study, tmp_path / "out", tell, log)
+    (fault,) = written[FailureRow]
+    assert (fault.structure, fault.stage, reasons) == ("slender", "fault", [])
+    said = "a fault of rocking in its rows of intensity_measures.csv (LinAlgError: Singular matrix)"
+    assert fault.message == f"{said}; please report it, with {log}."
     assert "LinAlgError: Singular matrix\n" in (tmp_path / "fragility.log").read_text()
     rows = {name: read_table(each, tmp_path / "out") for name, each in FRAGILITY_TABLES.items()}
     assert {name for name, held in rows.items() if not held} == {"intensity_measures"}
+
+
+def test_a_fault_of_a_record_or_a_structure_costs_no_other_and_is_a_row(tmp_path, monkeypatch):
+    """Planted in the reading of one record of three, and in the curve of one structure of two."""
+    records = _records(tmp_path, 3)
+    study = replace(_study(), scenes=on_the_ground({name: STRUCTURES[name] for name in ("slender", "stout")}))
+    expected = replace(study, scenes=on_the_ground({"slender": STRUCTURES["slender"]}))
+    write_fragility(records[:2], expected, tmp_path / "expected")
+    curves = import_module("rocking.fragility.curves")
+    follow, read = curves.fragility, Study.open
+
+    def faulty(accelerograms, structure, **settings):
+        return (
+            {}["planted"]
+            if structure == STRUCTURES["stout"]
+            else follow(accelerograms, structure, **settings)
+        )
+
+    def opened(study, record, *rest):
+        return 1 // 0 if record.id == "made2" else read(study, record, *rest)
+
+    monkeypatch.setattr(curves, "fragility", faulty)
+    monkeypatch.setattr(Study, "open", opened)
+    log = tmp_path / "fragility.log"
+    written, reasons = write_fragility(records, study, tmp_path / "out", line_writer(log, "fragility"), log)
+    assert [(each.record, each.structure) for each in written[FailureRow]] == [("made2", ""), ("", "stout")]
+    for each, said in zip(written[FailureRow], ("ZeroDivisionError", "KeyError: 'planted'"), strict=True):
+        assert said in each.message and each.message.endswith(f"please report it, with {log}.")
+        assert said in log.read_text()
+    assert reasons == []
+    for each in FRAGILITY_TABLES.values():
+        names = [folder / each.table.file_name for folder in (tmp_path / "out", tmp_path / "expected")]
+        assert names[0].read_bytes() == names[1].read_bytes()
+    told: list[dict] = []
+    monkeypatch.setattr(
+        "rocking.reports.printing.compile_document", lambda _, data: told.append(data) or b"%PDF"
+    )
+    write_fragility_report(written, tmp_path / "curves.pdf", tmp_path / "curves.svg")
+    listed = [part["list"] for part in told[0]["parts"] if "list" in part]
+    assert listed == [
+        [f"made2: {written[FailureRow][0].message}", f"stout: {written[FailureRow][1].message}"]
+    ]
+
+
+def test_where_every_structure_has_a_fault_the_page_says_so(tmp_path, monkeypatch):
+    """And its tables have heads alone, so that what waits for them goes on."""
+    monkeypatch.setattr(import_module("rocking.fragility.curves"), "fragility", lambda *_, **__: 1 // 0)
+    job = made_job(_records(tmp_path, 2), _study(), tmp_path / "results", "fragility")
+    written, _ = write_fragility(job.records, job.study, tmp_path / "out", log=job.log)
+    assert [each.structure for each in written[FailureRow]] == list(STRUCTURES)
+    told: list[dict] = []
+    monkeypatch.setattr(
+        "rocking.reports.printing.compile_document", lambda _, data: told.append(data) or b"%PDF"
+    )
+    pdf, image = tmp_path / "out" / "fragility.pdf", tmp_path / "out" / "fragility.svg"
+    write_beside(None, pdf, image, job, written[FailureRow])
+    assert len(told[0]["parts"][0]["list"]) == 3 and pdf.is_file() and image.is_file()
+    write_beside(lambda *_: {}["page"], pdf, image, job, written[FailureRow])
+    assert "a fault of rocking in fragility.pdf (KeyError: 'page')" in told[1]["parts"][0]["list"][3]
 
 
 @pytest.mark.process
@@ -110,6 +175,7 @@ def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):
     for structure, each in STRUCTURES.items():
         names = {row.intensity_measure for row in rows["intensity_measures"] if row.structure == structure}
         assert names == {measure.name for measure in compared(each.mechanism())}
+    assert written.pop(FailureRow) == []
     assert {each.table.name: of_it for each, of_it in written.items()} == rows
     write_fragility_report(written, tmp_path / "curves.pdf", tmp_path / "curves.svg")
     assert (tmp_path / "curves.pdf").read_bytes().startswith(b"%PDF")

@@ -158,9 +158,12 @@ def test_a_summary_draws_the_trade_where_its_study_measures_it(tmp_path, monkeyp
         error=1e-7,
         cpu_s=1e-3,
     )
-    keep_rows(kept_of(results, "trade"), {TradeRow: [row]})
+    fault = filled(FailureRow, record="", structure="pier", stage="fault", message="a fault.")
+    keep_rows(kept_of(results, "trade"), {TradeRow: [row], FailureRow: [fault]})
     summarise(job)
     assert len(trades[0]) == in_summary
+    told = read_rows(FailureRow, results / "summary" / "failures.csv")
+    assert [(each.structure, each.message) for each in told] == [("pier", "a fault.")] * in_summary
 
 
 def test_the_tables_of_one_record_are_those_that_it_has_alone(of_four, tmp_path: Path) -> None:

@@ -114,6 +114,15 @@ def test_lines_at_the_end_are_no_wider_than_104_letters_whatever_the_names() -> 
     assert max(map(len, lines)) <= 104 and len(lines) < 24
 
 
+def test_a_fault_of_a_structure_under_all_records_is_a_sentence_and_no_record() -> None:
+    faults = [failure("", "pier", f"a fault {number}.", "") for number in range(20)]
+    lines = list(closing_lines([], [], [*faults, failure("", "wall", "a fault.", "c")]))
+    assert lines == [
+        *(f"pier: a fault {number}." for number in range(8)),
+        "1 record failed, wholly or in part: c",
+    ]
+
+
 def test_nothing_overturns() -> None:
     stands = verdicts([station(case("", 0.1, falls=0))])
     assert next(closing_lines(stands, [], [])) == "1 record, 1 structure. pier stands."
