@@ -108,11 +108,6 @@ class StructureAssessment(StationResult, Drawn):
         return self.statics.description if self.statics else ""
 
     @property
-    def falls_to(self) -> int:
-        """Side to which it falls as given, 1 or -1 as `Response.peak_side` counts them; 0 where it does not."""
-        return self.response.peak_side if self.rotation_ratio == inf else 0
-
-    @property
     def response(self) -> Response:
         """The integration of the mechanism as given, with its history; of the worse component."""
         responses = [case.responses[Method.MECHANISM_ON_RECORD] for case in self.cases.values()]

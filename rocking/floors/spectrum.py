@@ -69,11 +69,6 @@ def mode_acceleration(mode: Mode, ground: GroundSpectrum) -> float:
     return ground(mode.period, mode.damping_ratio) * mode_factor(mode)
 
 
-def floor_acceleration(support: Support, ground: GroundSpectrum) -> float:
-    """Return a_Z, m/s², the largest acceleration of the support in all its modes (C7.2.8)."""
-    return math.hypot(*(mode_acceleration(mode, ground) for mode in support.modes))
-
-
 def floor_spectrum(
     support: Support, periods: np.ndarray, damping_ratio: float, ground: GroundSpectrum
 ) -> np.ndarray:

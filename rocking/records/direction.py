@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import Any, Literal, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -15,9 +15,6 @@ from rocking.errors import RecordError
 from rocking.quantities import finite
 from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Kind, Remark
-
-SaidBy = Literal["", "header", "name", "file"]
-"""Who says where a component points: nobody, the header of its record, its own name, or the name of its file."""
 
 _VERTICAL = {
     "UP", "DOWN", "DN", "DWN", "V", "Z", "UD", "U-D", "U", "VER", "VERT", "VERTICAL", "UPDO", "U/D", "UPWARD",
@@ -85,7 +82,7 @@ class Channel(Protocol):
 
 @dataclass(frozen=True)
 class Direction:
-    """Where a component points, and who says so.
+    """Where a component points.
 
     azimuth: degrees clockwise from north in [0, 360), None where it is not known. relative: which of two axes at right
     angles it is where their azimuths are not known: "L", "T", "FN", "1", ...; "" where not even that is said.
@@ -94,7 +91,6 @@ class Direction:
     azimuth: float | None = None
     vertical: bool = False
     relative: str = ""
-    said_by: SaidBy = ""
 
     @classmethod
     def of(cls, name: str) -> "Direction":
@@ -109,10 +105,7 @@ class Direction:
     def of_channel(cls, channel: Channel) -> "Direction":
         """Return the direction of a channel whose facts stand, with the axis that its name says."""
         by_name = _of_name(channel.component)
-        same = (by_name.azimuth, by_name.vertical) == (channel.azimuth, channel.vertical)
-        is_said = channel.vertical or channel.azimuth is not None
-        said_by: SaidBy = "" if not (is_said or by_name.relative) else "name" if same else "header"
-        return cls(channel.azimuth, channel.vertical, by_name.relative, said_by)
+        return cls(channel.azimuth, channel.vertical, by_name.relative)
 
     @property
     def is_known(self) -> bool:
@@ -150,13 +143,13 @@ def directed(fields: Mapping[str, Any]) -> dict[str, Any]:
 def _of_name(name: str) -> Direction:
     word = name.strip().upper().replace("–", "-")
     if _is_vertical(word):
-        return Direction(vertical=True, said_by="name")
+        return Direction(vertical=True)
     along = _azimuth(word)
     bare = word.strip(" .+-")
     axis = _RELATIVE.get(bare) or _RELATIVE.get(bare.rstrip("0123456789"), "")
     if code := _OF_ONE_INSTRUMENT.fullmatch(bare):
         axis = code[2]
-    return Direction(along, relative=axis, said_by="name" if along is not None or axis else "")
+    return Direction(along, relative=axis)
 
 
 def _is_vertical(word: str) -> bool:

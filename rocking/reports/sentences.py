@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any, Literal, get_args
+from typing import Any, Literal
 
 from rocking import quantities
 from rocking.remarks import Remark
@@ -18,7 +18,6 @@ from rocking.reports.printing import unit_of
 from rocking.structures.fields import Given
 
 Language = Literal["en", "it"]
-LANGUAGES: tuple[Language, ...] = get_args(Language)
 
 
 class _Commas(string.Formatter):

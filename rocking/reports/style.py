@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import math
 import re
 from collections.abc import Callable, Sequence
 from functools import cache, wraps
@@ -42,7 +41,6 @@ COMMON = {
 }
 """Code points that the fonts of the figures and of the page surely hold: to ask those takes a tenth of a second."""
 _MILLIMETRES_PER_INCH = 25.4
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 _STYLE = Path(__file__).with_name("rocking.mplstyle")
 
@@ -121,19 +119,6 @@ def plain_logarithmic(panel: Axes, which: str) -> None:
     panel.set(**{f"{which}scale": "log"})
     axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     axis.set_major_formatter(StrMethodFormatter("{x:g}"))
-    axis.set_minor_locator(NullLocator())
-
-
-def powers_of_ten(panel: Axes, which: str) -> None:
-    """Give the x or y axis of `panel`, on which many decades stand, a logarithmic scale with powers as plain text."""
-    from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
-
-    axis = panel.xaxis if which == "x" else panel.yaxis
-    panel.set(**{f"{which}scale": "log"})
-    axis.set_major_locator(LogLocator(numticks=7))
-    axis.set_major_formatter(
-        FuncFormatter(lambda value, _: "10" + str(round(math.log10(value))).translate(_RAISED))
-    )
     axis.set_minor_locator(NullLocator())
 
 

@@ -48,7 +48,7 @@ def test_a_wall_that_may_bulge_below_its_tie_can_overturn():
 def test_a_side_without_ties_still_falls():
     assessed = rocking.assess(record(8.0), FREE_INWARDS)
     assert assessed.verdict is Verdict.OVERTURNS
-    assert assessed.falls_to == -1
+    assert assessed.response.peak_side == -1
 
 
 def test_a_tie_that_may_break_lets_it_fall():

@@ -21,7 +21,7 @@ class Channel:
     "name", ["+V", "-V", "V+", "+UP", "Ver.", "ver", "L Z", "Düşey", "Dikey", "U_D", "V", "U-D", "HNZ", "-Up"]
 )
 def test_verticals(name: str) -> None:
-    assert Direction.of(name) == Direction(vertical=True, said_by="name")
+    assert Direction.of(name) == Direction(vertical=True)
 
 
 @pytest.mark.parametrize(("name", "along"), [
@@ -54,11 +54,10 @@ def test_a_pair_at_right_angles_by_what_its_names_mean(first: str, second: str, 
     assert doubt is None if across else doubt is not None and doubt.kind is Kind.ANGLE_UNKNOWN
 
 
-def test_what_is_said_first_counts_and_who_said_it() -> None:
+def test_what_is_said_first_counts() -> None:
     """The reader's header, then the name of the component, then that of the file, then the row."""
     header = Direction.of_channel(Channel("HNE", azimuth=92.0))
-    assert (header.azimuth, header.said_by) == (92.0, "header")
-    assert Direction.of_channel(Channel("HNE", azimuth=90.0)).said_by == "name"
+    assert header.azimuth == 92.0
     assert header.refined(Direction.of("180")) == header
     unknown = Direction.of_channel(Channel("acc"))
     assert unknown == Direction() and unknown.refined(Direction.of("180")).azimuth == 180.0

@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 from string import Formatter
+from typing import get_args
 
 import pytest
 
@@ -12,7 +13,7 @@ from rocking.assessment.decide import Verdict
 from rocking.assessment.reserve import Reserve
 from rocking.codes.check import Part
 from rocking.remarks import Kind, Remark
-from rocking.reports.sentences import LANGUAGES, Sentences, catalogue
+from rocking.reports.sentences import Language, Sentences, catalogue
 from rocking.reports.structures import CheckedStructure, structures_data
 from rocking.structures.structure_list import TYPES
 from rocking.study.settings import Settings
@@ -120,6 +121,6 @@ def test_an_italian_page_has_no_english_sentence():
 
 
 def test_the_languages_are_those_of_the_setting():
-    assert LANGUAGES == ("en", "it")
-    for each in LANGUAGES:
+    assert get_args(Language) == ("en", "it")
+    for each in get_args(Language):
         assert Settings(language=each).language == each
