@@ -6,7 +6,7 @@ things that its seal holds; where one of them changes, the product is computed a
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -20,7 +20,14 @@ from rocking.records.catalogue import CatalogueRecord, load_catalogue
 from rocking.records.files import with_hashes
 from rocking.study.contents import ContentHashes
 from rocking.study.seals import Seals
-from rocking.study.settings import NUMBERS, Settings, StudyDesign, package_sha256, structure_hashes
+from rocking.study.settings import (
+    NUMBERS,
+    Settings,
+    StudyDesign,
+    StudyFragility,
+    package_sha256,
+    structure_hashes,
+)
 
 Things = Mapping[str, str]
 """What a product is made from: each thing in words, with its hash."""
@@ -49,6 +56,8 @@ PLACES = ("catalogue", "structures", "results", "mirror")
 """The settings that say where something lies: what lies there counts, and every job is handed them."""
 _TOLD = ("study", "client", "project_number", "author", "date", "display_units")
 _LEVEL = tuple(f"design_spectrum.{name}" for name in StudyDesign.LEVEL)
+_CURVES = tuple(f"fragility.{each.name}" for each in fields(StudyFragility) if each.name != "in_every_run")
+"""When the fragility is measured is no part of it."""
 
 
 @dataclass(frozen=True)
@@ -102,8 +111,8 @@ TABLE: Mapping[str, Line] = {
         pool=True,
         terms=True,
     ),
-    "fragility": Line((*NUMBERS, "fragility", "figures"), files=("fragility.hazard",)),
-    "trade": Line((*NUMBERS, "trade", "figures")),
+    "fragility": Line((*NUMBERS, *_CURVES, "figures"), files=("fragility.hazard",)),
+    "trade": Line((*NUMBERS, "figures")),
 }
 """By the kind of product. All are made from the records and their files, the structures in their order, this package
 and the libraries as well; a record and a batch from their own records alone, the others from all in their order."""

@@ -174,6 +174,20 @@ def _structures_as_csv() -> None:
     _write_settings(structures="list.csv")
 
 
+def _cell_of_the_csv() -> None:
+    _structures_as_csv()
+    _finish()
+    _content("list.csv", "3.2", "3.3")()
+
+
+def _station_xml() -> None:
+    """Of both records, which name it."""
+    Path("records/station.xml").write_text("<a/>")
+    _write_catalogue("records", "a", "b", inventory="station.xml")
+    _finish()
+    Path("records/station.xml").write_text("<b/>")
+
+
 def _add_record() -> None:
     shutil.copy("pool/p.AT2", "records")
     _write_catalogue("records", "a", "b", "p")
@@ -197,7 +211,13 @@ EDITS: list[tuple[str, Callable[[], object], str]] = [
     ("catalogue elsewhere", _move_catalogue, NUMBERS),
     ("structures elsewhere", _move_structures, ""),
     ("structures as CSV", _structures_as_csv, ""),
+    ("cell of the structures as CSV", _cell_of_the_csv, NUMBERS),
     ("records_per_job", _setting(records_per_job=5), "S"),
+    # What else is written, and when.
+    ("reports", _setting(reports=False), "a b B S"),
+    ("histories", _setting(histories=True), "a b B S"),
+    ("fragility.in_every_run", _section("fragility", in_every_run=False), "S"),
+    ("trade.in_summary", _section("trade", in_summary=False), "S"),
     # Numbers.
     ("tolerance", _setting(tolerance=1e-7), NUMBERS),
     ("acceleration_scale", _setting(acceleration_scale="uplift"), NUMBERS),
@@ -265,6 +285,8 @@ EDITS: list[tuple[str, Callable[[], object], str]] = [
     ("cell of the catalogue", lambda: _write_catalogue("records", "a", "b", scale_factor="2"), NUMBERS),
     ("blank cells of the catalogue", lambda: _write_catalogue("records", "a", "b", event=""), ""),
     ("records in another order", lambda: _write_catalogue("records", "b", "a"), "B S C F T"),
+    ("record renamed", _content("records/catalogue.csv", "b,b.AT2", "c,b.AT2"), "B S C F T"),
+    ("StationXML of the records", _station_xml, NUMBERS),
     ("record less", lambda: _write_catalogue("records", "a"), "B S C F T"),
     ("record more", _add_record, "B S C F T"),
     # Structures.
@@ -292,16 +314,12 @@ def test_each_edit_makes_again_what_depends_on_it_and_nothing_else(study, edit, 
 
 
 def test_every_setting_stands_in_the_table_of_edits() -> None:
-    """But the places, what switches a product on, and the design level, which has a line of its own."""
+    """But the places, and the design level, which has a line of its own."""
     settings = made_from.Settings()
     others = {
         "catalogue",
         "structures",
         "results",
-        "reports",
-        "histories",
-        "fragility.in_every_run",
-        "trade.in_summary",
     }
     others |= {f"design_spectrum.{name}" for name in StudyDesign.LEVEL}
     edits = [each[0] for each in EDITS]
