@@ -122,13 +122,11 @@ class Assessor:
         """
         measured = self.motion_measures if measured is None else measured
         beside = [None if vertical is None else aligned(vertical, each) for each in horizontal]
-        # Where nothing is kept, nothing is hashed.
-        prints = [Motion((each,)).fingerprint for each in horizontal] if self.store is not None else []
-
+        each_alone = [Motion((each,)) for each in horizontal]
         of_pair = cache(partial(horizontal_motions, horizontal))
         components = []
         for place, (accelerogram, lift) in enumerate(zip(horizontal, beside, strict=True)):
-            fingerprint = sha256_of("pulses", place, prints, self.settings.pulse, measured, self.version)
+            fingerprint = self._fingerprint("pulses", place, *each_alone, self.settings.pulse, measured)
 
             def sought(clock: Clock, place: int = place) -> ComponentPulses:
                 motion = HorizontalMotion()
@@ -271,7 +269,7 @@ class Assessor:
                 # Where every case is kept, its motions are not made: only that they can be is to be known.
                 self._remembered(
                     int,
-                    sha256_of("directions", pair.fingerprint, processing, self.version),
+                    self._fingerprint("directions", pair, processing),
                     lambda clock: len(ground_motions(pair, processing).horizontal),
                     stage="directions",
                 )
@@ -296,7 +294,7 @@ class Assessor:
         pair = shaking.pair
         if pair is not None and any(case.answer is not None for case in cases.values()):
             bounces = any(case.check.bounces for case in cases.values())
-            fingerprint = self._fingerprint(pair, scene.structure, alone=True)
+            fingerprint = self._fingerprint(pair, scene.structure, True)
             case = self._remembered(
                 CaseResult,
                 fingerprint,
@@ -326,7 +324,7 @@ class Assessor:
 
         told = self._remembered(
             CaseResult,
-            sha256_of("governing", case.fingerprint, crack),
+            self._fingerprint("governing", case.fingerprint, crack),
             lambda clock: assess_case(body, component, prediction, self.settings, False, clock),
             lambda case: case.kept,
             stage="responses",
@@ -390,7 +388,7 @@ class Assessor:
         try:
             found = self._remembered(
                 Reserve,
-                sha256_of("reserve", case.fingerprint),
+                self._fingerprint("reserve", case.fingerprint),
                 lambda clock: reserve(
                     governing.mechanism, ground_motions(motion, ensemble.processing), ensemble
                 ),
@@ -428,21 +426,24 @@ class Assessor:
             self.store.keep(fingerprint, kept(result), own.durations)
         return result
 
-    def _fingerprint(self, motion: Motion, structure: Structure, alone: bool) -> str:
-        """The hash of all that the result of a case depends on; "" where nothing keeps it."""
+    def _fingerprint(self, *contents: object) -> str:
+        """The hash of what a result depends on, beside the version of the computation; "" where nothing keeps it.
+
+        A motion stands for its samples, and a structure for its description and for all by which it is followed.
+        """
         if self.store is None:
             return ""
-        own = {each.name: getattr(self.settings, each.name) for each in fields(AssessmentSettings)}
-        return sha256_of(
-            motion.fingerprint,
-            structure.described.entry,
-            getattr(structure, "opening", None),  # one of a wall's mechanisms, which no file gives
-            own,
-            self.crack_heights,
-            self.processing_variants,
-            alone,
-            self.version,
-        )
+        told: list[object] = []
+        for each in contents:
+            if isinstance(each, Motion):
+                told.append(each.fingerprint)
+            elif isinstance(each, Structure):
+                own = {field.name: getattr(self.settings, field.name) for field in fields(AssessmentSettings)}
+                opening = getattr(each, "opening", None)  # one of a wall's mechanisms, which no file gives
+                told += [each.described.entry, opening, own, self.crack_heights, self.processing_variants]
+            else:
+                told.append(each)
+        return sha256_of(*told, self.version)
 
 
 def _lost(scene: Scene, support: Carrier | None, names: Sequence[str], error: RockingError) -> StationResult:

@@ -1,7 +1,7 @@
 """The report of one record: two pages for a client; with details: true every figure and table behind them."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib.metadata import version
@@ -387,32 +387,45 @@ def _head(report: RecordReport) -> dict[str, object]:
 
 def _components(report: RecordReport) -> dict[str, object]:
     """Return the table of the components: peaks, duration, velocity pulse and dominant sine of each."""
-    rows = [(row, report.dominant(row.component)) for row in report.tables.record]
     acceleration = printing.unit_of("m/s²")
     velocity = printing.unit_of("m/s")
-
-    def of_sine(show: Callable[[PulseRow], str]) -> Callable[[tuple[RecordRow, PulseRow | None]], str]:
-        return lambda pair: show(pair[1]) if pair[1] else printing.NOTHING
-
-    return table_of(
-        rows,
-        ("Component", "auto", "l", lambda pair: words(pair[0].component)),
-        ("PGA [g]", "1", "r", lambda pair: number(pair[0].peak_acceleration_m_s2 / GRAVITY)),
-        (f"PGV [{velocity.name}]", "1", "r", lambda pair: number(pair[0].peak_velocity_m_s / velocity.size)),
-        ("D5–95 [s]", "1", "r", lambda pair: number(pair[0].significant_duration_s)),
-        ("T_p [s]", "1", "r", lambda pair: number(pair[0].velocity_pulse_period_s)),
-        ("Pulse-like", "1", "r", lambda pair: _PULSE_LIKE[pair[0].velocity_pulse_like]),
-        (
-            f"Sine: amplitude [{acceleration.name}]",
-            "1.2",
-            "r",
-            of_sine(lambda row: number(abs(row.amplitude_m_s2) / acceleration.size)),
-        ),
-        ("period [s]", "1", "r", of_sine(lambda row: number(row.period_s))),
-        ("onset [s]", "1", "r", of_sine(lambda row: number(row.start_time_s))),
-        ("energy [%]", "1", "r", of_sine(lambda row: percent(row.explained_energy))),
-        ("same outcome [%]", "1.1", "r", of_sine(lambda row: percent(row.same_outcome_share))),
-    )
+    columns = [
+        ("Component", "auto", "l"),
+        ("PGA [g]", "1", "r"),
+        (f"PGV [{velocity.name}]", "1", "r"),
+        ("D5–95 [s]", "1", "r"),
+        ("T_p [s]", "1", "r"),
+        ("Pulse-like", "1", "r"),
+        (f"Sine: amplitude [{acceleration.name}]", "1.2", "r"),
+        ("period [s]", "1", "r"),
+        ("onset [s]", "1", "r"),
+        ("energy [%]", "1", "r"),
+        ("same outcome [%]", "1.1", "r"),
+    ]
+    cells = []
+    for row in report.tables.record:
+        sine = report.dominant(row.component)
+        of_sine = [printing.NOTHING] * 5
+        if sine is not None:
+            of_sine = [
+                number(abs(sine.amplitude_m_s2) / acceleration.size),
+                number(sine.period_s),
+                number(sine.start_time_s),
+                percent(sine.explained_energy),
+                percent(sine.same_outcome_share),
+            ]
+        cells.append(
+            [
+                words(row.component),
+                number(row.peak_acceleration_m_s2 / GRAVITY),
+                number(row.peak_velocity_m_s / velocity.size),
+                number(row.significant_duration_s),
+                number(row.velocity_pulse_period_s),
+                _PULSE_LIKE[row.velocity_pulse_like],
+                *of_sine,
+            ]
+        )
+    return printing.table(columns, cells)
 
 
 _PULSE_LIKE = {None: printing.NOTHING, True: "yes", False: "no"}
