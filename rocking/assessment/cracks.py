@@ -19,10 +19,10 @@ from rocking.assessment.ensemble import CAUSES, Ensemble, Origin, design, drawn,
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.motion.response import lifting_friction
-from rocking.motion.table import forcing_of
+from rocking.motion.table import forcing_of, table_of
 from rocking.remarks import Kind, Remark
 from rocking.structures import Mechanism, Structure
-from rocking.structures.structure import CRACKS, Candidate
+from rocking.structures.structure import CRACKS, WEAK_MASONRY, Candidate
 from rocking.structures.tied import Tied
 
 IN_DOUBT = 0.3
@@ -185,6 +185,28 @@ def is_own(candidate: Candidate, structure: Structure) -> bool:
     one, other = candidate.structure.mechanism(), structure.mechanism()
     alike = math.isclose(one.uplift_multiplier, other.uplift_multiplier, rel_tol=1e-6)
     return alike and math.isclose(one.critical_rotation, other.critical_rotation, rel_tol=1e-3)
+
+
+@lru_cache(maxsize=256)
+def crushing_factor(structure: Structure) -> float | None:
+    """Return the static multiplier over that of weak masonry; None of what states its strength or would not stand."""
+    crushed = structure.crushing(WEAK_MASONRY)
+    return None if crushed is None else structure.static_multiplier / crushed.static_multiplier
+
+
+def prepare_structure(structure: Structure, settings: AssessmentSettings, vertical: bool) -> None:
+    """Let a structure compute what every record needs of it alone: mechanisms, tables, blocks and what crushing does.
+
+    vertical: whether it meets a vertical motion. Raises RockingError as what follows it does.
+    """
+    mechanisms = [structure.mechanism(), *(each.mechanism for each in cracks(structure))]
+    for each in mechanisms:
+        table_of(each, vertical)
+        if each.can_overturn:
+            table_of(each.equivalent_block(settings.acceleration_scale))
+            table_of(each.equivalent_block("uplift"))
+    mechanisms_of(structure)
+    crushing_factor(structure)
 
 
 def counting_cracks(structure: Structure) -> tuple[Crack, ...]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from rocking.assessment.case import RecordResult, StationResult
 from rocking.assessment.conclusion import UNSAID, Conclusion, conclusion_in_words, conclusions, worst_cases
-from rocking.assessment.cracks import cracked
+from rocking.assessment.cracks import cracked, crushing_factor
 from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.methods import NEGLIGIBLE, Agreement, agreement
 from rocking.assessment.rows import (
@@ -53,7 +53,6 @@ from rocking.reports.record_figures import History
 from rocking.reports.style import PULSE, pictures
 from rocking.reports.supports import SupportPanel, floor_sentences, support_panels, supports_figure
 from rocking.structures import Structure
-from rocking.structures.structure import WEAK_MASONRY
 
 if TYPE_CHECKING:
     from rocking.codes.design_spectrum import DesignSpectrum
@@ -486,10 +485,9 @@ def _would_crush(station: StationResult) -> bool:
     # What no factor overturns, no loss of λ does; to crush an arch takes a fifth of a second.
     if reserve is None or math.isnan(reserve.low):
         return False
-    crushed = station.scene.structure.crushing(WEAK_MASONRY)
-    if crushed is None:
+    factor = crushing_factor(station.scene.structure)
+    if factor is None:
         return False
-    factor = station.scene.structure.static_multiplier / crushed.static_multiplier
     share = 0.0 if math.isnan(station.decision.share) else station.decision.share
     reached = [(0.95, reserve.high), (0.5, reserve.median), (0.05, reserve.low)]
     then = next((each for each, at in reached if at <= factor), 0.0)

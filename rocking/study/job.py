@@ -5,6 +5,7 @@ import fcntl
 import gc
 import signal
 import sys
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
@@ -16,6 +17,7 @@ from rocking.assessment.case import Failure, RecordResult
 from rocking.assessment.compilation import compile_all
 from rocking.assessment.conclusion import worst_cases
 from rocking.assessment.contacts import expected_seconds
+from rocking.assessment.cracks import prepare_structure
 from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.motions import Component
 from rocking.assessment.one_case import Clock
@@ -34,15 +36,17 @@ from rocking.errors import ConfigurationError, RockingError, about, fault_in_wor
 from rocking.quantities import counted
 from rocking.records import Accelerogram, CatalogueRecord, aligned, open_station
 from rocking.records.processing import process
+from rocking.records.read import LARGEST_FILE
 from rocking.records.scaling import ScalingTarget, scaled_to
 from rocking.records.station import station_of
 from rocking.structures import Structure
+from rocking.study.contents import ContentHashes
 from rocking.study.folder import locked
 from rocking.study.made_from import TABLE, records_of
-from rocking.study.plan import JOBS, plan_of_job
+from rocking.study.plan import JOBS, plan_of_job, scenes_of
 from rocking.study.results import case_timings_of, cases_of, outcome_of, write_outcome
 from rocking.study.seals import Seals
-from rocking.study.settings import Settings, settings_sha256
+from rocking.study.settings import Settings, read_settings, settings_sha256
 from rocking.study.terminal import line_writer, log_error, record_line, tell, tell_error
 from rocking.tables import Row, write_rows, write_tables, written_together
 
@@ -120,6 +124,22 @@ class Study:
         if which == "always" or (which == "raw" and accelerogram.processed is False):
             return process(accelerogram, self.settings.processing)
         return accelerogram
+
+
+def prepare(config: Mapping[str, Any]) -> Iterator[None]:
+    """Make what depends on each structure of a study alone, for jobs that are forked from this process, one by one.
+
+    Structures keep what they compute, and `plan_of_job` gives a fork those of this process where the list is the same.
+    What is wrong with the study its jobs tell.
+    """
+    with contextlib.suppress(RockingError), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        settings = read_settings(config)
+        study = Study(scenes_of(settings.structures, ContentHashes(None, LARGEST_FILE)), settings)
+        for scene in study.scenes.values():
+            with contextlib.suppress(RockingError):
+                prepare_structure(scene.structure, study.assessment, settings.vertical)
+            yield
 
 
 @dataclass(frozen=True)
@@ -300,7 +320,7 @@ def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:
 
 
 def _drawn(result: RecordResult, rows: RecordRows) -> set[tuple[str, str, float | None]]:
-    """The cases of which documents draw the history: of each structure that moves the worst one, at its worst period."""
+    """The cases whose history documents draw: the worst one of each structure that moves, at its worst period."""
     worst = worst_cases(rows.comparison)
     keys = ((result.record, each.structure, each.support_period_s) for each in result.worst_periods)
     found = (worst[key] for key in keys if key in worst)

@@ -5,7 +5,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -182,7 +182,7 @@ def plan_of_job(config: Mapping[str, Any], product: str) -> Plan:
     settings = read_settings(config)
     records = {record.id: record for record in load_catalogue(settings.catalogue)}
     contents = ContentHashes(None, LARGEST_FILE)
-    plan = Plan(settings, records, load_scenes(settings.structures), contents)
+    plan = Plan(settings, records, scenes_of(settings.structures, contents), contents)
     own = records_of(product, plan)
     if gone := [name for name in own if name not in records]:
         raise ConfigurationError(
@@ -191,6 +191,21 @@ def plan_of_job(config: Mapping[str, Any], product: str) -> Plan:
     return replace(
         plan, records=records | {name: with_hashes(records[name], settings.mirror) for name in own}
     )
+
+
+def scenes_of(path: str | Path, contents: ContentHashes) -> Mapping[str, Scene]:
+    """Return the scenes of a list, those that this process has read where its content is the same.
+
+    What their structures have computed a job need not compute again that is forked from a process which had them.
+    """
+    sha256 = contents.of(Path(path))
+    return _listed(path, sha256) if sha256 else load_scenes(path)
+
+
+@lru_cache(maxsize=1)
+def _listed(path: str | Path, sha256: str) -> Mapping[str, Scene]:
+    """The scenes of a list of this content."""
+    return load_scenes(path)
 
 
 def workflow_folder() -> Path:

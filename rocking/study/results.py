@@ -128,7 +128,8 @@ def decoded_rows(
     """Return the rows of `tables` that `encoded_rows` gave. Raises ValueError, KeyError or TypeError for others."""
     rows: dict[type[Row], list[Row]] = {}
     for each in tables:
-        columns = _columns_of(each)
+        kept: Any = each
+        columns = _columns_of(kept)
         rows[each] = [
             each(**{name: of(cell) for (name, of), cell in zip(columns, cells, strict=True)})
             for cells in content[each.table.name]
@@ -137,7 +138,7 @@ def decoded_rows(
 
 
 @cache
-def _columns_of(row_class: type[Row]) -> list[tuple[str, Callable[[Any], Any]]]:
+def _columns_of(row_class: Any) -> list[tuple[str, Callable[[Any], Any]]]:
     """The name of each column of a table, and what makes its value of what is kept."""
     hints = get_type_hints(row_class)
     return [(name, decoder(hints[name])) for name in row_class.table.column_names]
