@@ -66,12 +66,12 @@ def test_kernels_are_compiled_once_until_their_folder_is_edited(finished) -> Non
         return stamp.stat().st_mtime_ns != before
 
     assert not compiles()
-    source = (folder / "members.py").read_bytes()
+    source = (folder / "response.py").read_bytes()
     try:
-        (folder / "members.py").write_bytes(source + b"# edited\n")
+        (folder / "response.py").write_bytes(source + b"# edited\n")
         assert compiles() and not compiles()
     finally:
-        (folder / "members.py").write_bytes(source)
+        (folder / "response.py").write_bytes(source)
 
 
 def test_what_the_settings_ask_for_is_waited_for(finished) -> None:
