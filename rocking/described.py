@@ -112,7 +112,7 @@ class Described:
         unit = f" {self.unit}" if self.unit and type(value) in (int, float) else ""
         hint = number_hint(value) if "number" in self.must else ""
         if self.must.startswith("a list") and type(value) in (int, float):
-            hint = f"; write [{value:g}]"
+            hint = f"; write [{shown(value)}]"
         return f"{unit}, but must be {self.must}{hint}."
 
 

@@ -245,7 +245,7 @@ def load_scenes(path: str | Path) -> dict[str, Scene]:
                 places[str(name)] = place_from_config(entry)
             else:
                 scene = scenes[str(name)] = _scene(str(name), entry, texts, places, where)
-                if base in scenes and replace(scene, name=base) == scenes[base]:
+                if base and base in scenes and replace(scene, name=base) == scenes[base]:
                     defects.append(
                         f"{where}: it changes nothing; give a key with another value, or remove it."
                     )

@@ -20,13 +20,17 @@ from rocking.study import close_doors
 
 
 class _Escaped(io.TextIOBase):
-    """A stream to a terminal, on which the name of a file or a folder can say nothing to the terminal itself."""
+    """A stream to a terminal, on which the name of a file or a folder can say nothing to the terminal itself.
 
-    def __init__(self, stream: TextIO) -> None:
-        self._stream = stream
+    Letters that its encoding lacks are written as escape sequences. What goes to a stream that is closed is lost.
+    """
+
+    def __init__(self, stream: TextIO | None) -> None:
+        self._stream = io.StringIO() if stream is None else stream
 
     def write(self, text: str) -> int:
-        return self._stream.write(escaped(text))
+        encoding = self._stream.encoding or "utf-8"
+        return self._stream.write(escaped(text).encode(encoding, "backslashreplace").decode(encoding))
 
     def flush(self) -> None:
         self._stream.flush()

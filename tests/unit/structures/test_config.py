@@ -83,6 +83,17 @@ def load(tmp_path):
     return loaded
 
 
+def test_a_list_of_a_number_beyond_all_floats_is_refused(load):
+    with pytest.raises(ConfigurationError, match=r"storey_heights_m is 9{90}.*, but must be a list"):
+        load(f"- {{name: f, type: facade, storey_heights_m: {'9' * 400}, thicknesses_m: [0.5], unit_weight_kN_m3: 18}}")
+
+
+def test_an_entry_without_a_name_is_told_of_that_alone(load):
+    with pytest.raises(ConfigurationError) as caught:
+        load("- {name: '', type: block, breadth_m: 1, height_m: 4}")
+    assert len(str(caught.value).splitlines()) == 1
+
+
 def test_all_defects_of_a_list_stand_in_one_message(load):
     text = (
         "- {name: a, type: block, breadth_m: 1, height_m: 4}\n"

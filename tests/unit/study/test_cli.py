@@ -4,6 +4,7 @@ Refused is also what a study folder may not bring, and a config.yaml that would 
 """
 
 import csv
+import io
 import math
 import os
 import shutil
@@ -115,6 +116,23 @@ def test_a_name_says_nothing_to_the_terminal_itself(tmp_path, capsys):
         assert "my\\x1b]0;title\\x07 study" in text and "\x1b" not in text
     assert main(["run", os.fsdecode(bytes(tmp_path) + b"/\xff\x9b2J")]) == 2
     assert "\\udcff" in capsys.readouterr().err
+
+
+def test_a_terminal_of_few_letters_gets_the_others_escaped(record, blocks, monkeypatch):
+    for encoding, written in (("ascii", b"m/s\\xb2"), ("cp1252", b"m/s\xb2")):
+        received = io.BytesIO()
+        monkeypatch.setattr("sys.stdout", io.TextIOWrapper(received, encoding))
+        assert main(["read", str(record), "--unit", "g"]) == 0
+        assert main(["assess", str(record), str(blocks), "--unit", "g"]) == 0
+        sys.stdout.flush()
+        assert written in received.getvalue()
+
+
+def test_a_closed_terminal_is_no_failure(record, monkeypatch):
+    monkeypatch.setattr("sys.stdout", None)
+    monkeypatch.setattr("sys.stderr", None)
+    assert main(["read", str(record), "--unit", "g"]) == 0
+    assert main(["read", "nowhere"]) == 1
 
 
 def test_of_many_defects_the_first_forty_are_told(study, capsys):
