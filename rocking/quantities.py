@@ -25,6 +25,7 @@ def shown(value: object) -> str:
         text = repr(value)
     except ValueError:
         return "a number of thousands of digits"  # which Python does not write
+    text = re.sub(r"\s*\n\s*", " ", text)  # an array's has lines
     if len(text) <= _LONGEST_VALUE:
         return text
     return f"{text[:_LONGEST_VALUE]}… ({len(text)} characters)"
@@ -34,6 +35,14 @@ def kind_of(value: object) -> str:
     """Return the type of `value` as a sentence says it: "an int"."""
     name = type(value).__name__
     return f"an {name}" if name[0] in "aeiouAEIOU" else f"a {name}"
+
+
+def instance(error: type[RockingError], name: str, value: object, kind: type) -> None:
+    """Refuse a `value` of another type than `kind`, such as the list that `read` returns for its one component."""
+    if not isinstance(value, kind):
+        hint = "; give one of its items" if isinstance(value, list | tuple) else ""
+        article = "an" if kind.__name__[0] in "AEIOU" else "a"
+        raise error(f"{name} is {kind_of(value)}, but must be {article} {kind.__name__}{hint}.")
 
 
 def escaped(text: str) -> str:

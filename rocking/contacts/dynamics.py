@@ -11,7 +11,7 @@ import numpy as np
 
 from rocking.contacts import kernel
 from rocking.errors import MotionError
-from rocking.quantities import GRAVITY, finite
+from rocking.quantities import GRAVITY, finite, instance
 from rocking.records import Accelerogram
 from rocking.structures.stack import Stack
 
@@ -77,6 +77,8 @@ def follow_stack(
     >>> rocking.follow_stack(rocking.Block.of_size(breadth=0.6, height=4.0).stack(), record).falls
     True
     """
+    instance(MotionError, "stack", stack, Stack)
+    instance(MotionError, "motion", motion, Accelerogram)
     step = finite(MotionError, "step", step, "s")
     longest = stack.longest_step
     if not SHORTEST <= step <= longest:

@@ -11,6 +11,7 @@ import numpy as np
 
 from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse, PulseAnalysis, PulseEvidence, PulseSettings
+from rocking.quantities import instance
 from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Kind, Remark
 
@@ -69,6 +70,7 @@ def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None
     >>> extract_pulses(Accelerogram(motion, time_step=0.01)).dominant
     Pulse(3 m/s² = 0.3059 g, period 1.257 s, start 4 s)
     """
+    instance(PulseError, "accelerogram", accelerogram, Accelerogram)
     settings = settings or PulseSettings()
     samples = accelerogram.acceleration
     name = accelerogram.source.path or "The accelerogram"

@@ -253,7 +253,7 @@ def _samples(values: np.ndarray) -> np.ndarray:
         # What owns its samples and cannot be written to needs no copy, and is copied at every change of a name else.
         frozen = array.dtype == np.float64 and array.base is None and not array.flags.writeable
         samples = array if frozen else np.array(array, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise RecordError("the samples are not all real numbers; give a one-dimensional array.") from None
     if samples.ndim != 1 or samples.size < 2:
         raise RecordError(f"the samples have shape {samples.shape}, but must be one row of at least 2.")

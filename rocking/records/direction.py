@@ -12,7 +12,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from rocking.errors import RecordError
-from rocking.quantities import finite
+from rocking.quantities import finite, instance
 from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Kind, Remark
 
@@ -403,6 +403,8 @@ def rotd(first: Accelerogram, second: Accelerogram, step: float = 1.0) -> RotD:
 
 def paired(first: Accelerogram, second: Accelerogram) -> tuple[np.ndarray, np.ndarray]:
     """Return both accelerations, m/s², over the samples they share. Raises RecordError where they do not fit."""
+    instance(RecordError, "the first component", first, Accelerogram)
+    instance(RecordError, "the second component", second, Accelerogram)
     if abs(first.time_step / second.time_step - 1) > 1e-9:
         steps = f"time_step is {first.time_step!r} s and {second.time_step!r} s"
         raise RecordError(f"{steps}, but must be one; resample first.")

@@ -10,7 +10,7 @@ import numpy as np
 
 from rocking.drawn import Drawn
 from rocking.errors import RecordError
-from rocking.quantities import GRAVITY, positive, within
+from rocking.quantities import GRAVITY, instance, positive, within
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.processing import displacement, integral, velocity
 
@@ -45,10 +45,12 @@ class RecordMeasures:
 
 def record_measures(accelerogram: Accelerogram) -> RecordMeasures:
     """Return the measures of one component. Of a record that is zero throughout, nothing is ever spent.
+    Raises RecordError when it is no Accelerogram.
 
     >>> rocking.record_measures(rocking.Accelerogram(np.ones(101), time_step=0.01)).peak_velocity
     1.0
     """
+    instance(RecordError, "accelerogram", accelerogram, Accelerogram)
     spent = integral(np.square(accelerogram.acceleration), accelerogram.time_step)
     husid = spent / spent[-1] if spent[-1] > 0 else np.zeros_like(spent)
     husid.flags.writeable = False
@@ -102,6 +104,7 @@ def response_spectrum(
     >>> rocking.response_spectrum(rocking.Accelerogram(np.ones(101), time_step=0.01)).periods.size
     70
     """
+    instance(RecordError, "accelerogram", accelerogram, Accelerogram)
     periods = np.array(PERIODS if periods is None else periods, dtype=float)
     for period in periods:
         positive(RecordError, "period", period, "s")

@@ -2,8 +2,10 @@
 
 import pickle
 
+import numpy as np
 import pytest
 
+import rocking
 from rocking.errors import RecordError, UndeclaredError, about
 
 
@@ -21,3 +23,33 @@ def test_an_error_keeps_its_places_from_one_process_to_another():
     error.places = ("one", "a.AT2")
     again = pickle.loads(pickle.dumps(error))
     assert (str(again), again.field) == ("one: a.AT2: unit is not declared.", "unit")
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        rocking.extract_pulses,
+        rocking.record_measures,
+        rocking.response_spectrum,
+        lambda motion: rocking.rotd(motion, motion),
+        lambda motion: rocking.follow_stack(rocking.Block(2.0, 0.2).stack(), motion),
+    ],
+)
+def test_the_list_that_read_returns_is_refused_where_one_component_is_asked_for(asked):
+    record = rocking.Accelerogram(np.sin(np.arange(100.0)), time_step=0.01)
+    with pytest.raises(
+        rocking.RockingError, match=r"is a list, but must be an Accelerogram; give one of its items\.$"
+    ):
+        asked([record])
+    asked(record)
+
+
+def test_a_value_of_several_lines_is_repeated_in_one():
+    with pytest.raises(rocking.RockingError) as caught:
+        rocking.Block(np.zeros((3, 2)), 0.2)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_sample_beyond_all_floats_is_refused():
+    with pytest.raises(rocking.RecordError, match="not all real numbers"):
+        rocking.Accelerogram([10**400, 0], time_step=0.01)

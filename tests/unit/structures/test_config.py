@@ -85,7 +85,9 @@ def load(tmp_path):
 
 def test_a_list_of_a_number_beyond_all_floats_is_refused(load):
     with pytest.raises(ConfigurationError, match=r"storey_heights_m is 9{90}.*, but must be a list"):
-        load(f"- {{name: f, type: facade, storey_heights_m: {'9' * 400}, thicknesses_m: [0.5], unit_weight_kN_m3: 18}}")
+        load(
+            f"- {{name: f, type: facade, storey_heights_m: {'9' * 400}, thicknesses_m: [0.5], unit_weight_kN_m3: 18}}"
+        )
 
 
 def test_an_entry_without_a_name_is_told_of_that_alone(load):
