@@ -116,7 +116,7 @@ def stability_trials(
     for kind in KINDS:
         number = min(STRUCTURES_PER_KIND, len(structures))
         for name in draw.choice(list(structures), number, replace=False).tolist():
-            structure = structures[name]
+            structure = structures[name].with_friction(AssessmentSettings().friction_coefficient)
             multiplier = counting_cracks(structure)[0].mechanism.uplift_multiplier
             factor = sites.lifting_factor(first, multiplier, sites.UPLIFTS, draw)
             one, other = first.scaled(factor), second.scaled(factor)

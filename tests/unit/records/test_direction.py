@@ -45,13 +45,18 @@ def test_axes_whose_azimuth_is_not_known(name: str, axis: str) -> None:
 
 @pytest.mark.parametrize(("first", "second", "across"), [
     ("L", "T", True), ("--L", "-T1", True), ("H1", "H2", True), ("HN1", "HN2", True), ("FN", "FP", True),
-    ("L", "N", False), ("L", "L1", False), ("H1", "T", False),
+    ("L", "N", False), ("L", "L1", False), ("H1", "T", False), ("acc", "L", False), ("T", "channel 2", False),
 ])  # fmt: skip
 def test_a_pair_at_right_angles_by_what_its_names_mean(first: str, second: str, across: bool) -> None:
     pair = Channel(first), Channel(second)
     assert all(doubts_of_channel(each) == () for each in pair)
     doubt = pair_doubt(pair)
     assert doubt is None if across else doubt is not None and doubt.kind is Kind.ANGLE_UNKNOWN
+
+
+def test_a_pair_of_columns_without_names_is_not_doubted() -> None:
+    """Neither says anything that could contradict their being a pair; one name beside none does (above)."""
+    assert pair_doubt((Channel("acc"), Channel("channel 2"))) is None
 
 
 def test_what_is_said_first_counts() -> None:

@@ -15,6 +15,7 @@ from rocking.quantities import GRAVITY
 from rocking.structures import Facade, LoadedWall
 from rocking.structures.held_wall import Chain, Opening
 from rocking.structures.linkage import Hung, Parts
+from rocking.structures.structure import Candidate
 
 PER_STOREY = 5
 
@@ -321,6 +322,28 @@ def test_restitution_between_equal_blocks_is_that_of_the_formula():
     s = np.sin(np.arctan2(0.2, 1.6)) ** 2
     assert opened.restitution == pytest.approx((1 - 4.5 * s) / (1 + 3 * s), rel=1e-12)
     assert opened.positive.at("inertia", 0.0) == pytest.approx(float(chain.inertia(0.0)), rel=1e-12)
+
+
+PLAIN = Facade((3.2, 2.8), (0.4, 0.4), 18e3, behind="floors", restitution=0.6)
+
+
+@pytest.mark.filterwarnings("ignore:restitution by momentum balance")
+def test_what_stops_one_side_alone_leaves_the_whole_wall_to_the_other():
+    """A tie pulls and a floor pushes: the other way the wall rocks about its edge as a block does, φ_cr = atan(t/h)."""
+    tied = Facade((3.2,), (0.4,), 18e3, tie_heights=(2.4,), tie_stiffness=2e7, restitution=0.8)
+    inwards = tied.opened(Opening(0.0, 1.2, 2.4)).mechanism().negative
+    assert inwards.critical_rotation == pytest.approx(np.arctan(0.4 / 3.2), rel=1e-12)
+    outwards = PLAIN.opened(Opening(0.0, 1.2, 3.2, upright=True, outwards=False)).mechanism().positive
+    assert outwards.critical_rotation == pytest.approx(np.arctan(0.4 / 6.0), rel=1e-12)
+
+
+def test_critical_rotation_of_a_candidate():
+    """A block's, from its crack upwards; not a number where nothing can be followed."""
+    bodies = named(replace(PLAIN, crack="unknown"))
+    for name, height in (("overturns about its foot", 6.0), ("upper storey alone", 2.8)):
+        assert bodies[name].critical_rotation == pytest.approx(np.arctan(0.4 / height), rel=1e-12)
+    pushed = Candidate("", 0.0, PLAIN.opened(Opening(0.0, 1.2, 3.2, outwards=False)))
+    assert "must be positive" in pushed.refusal and np.isnan(pushed.critical_rotation)
 
 
 def test_floors_and_cross_walls_stop_the_wall_inwards():
