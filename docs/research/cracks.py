@@ -1,7 +1,11 @@
 """Which crack governs: stacks of separate courses by contact dynamics beside one mechanism per joint, real records.
 
 The rule on trial has no number to tune: a member stands where it stands cracked at any of its joints, and overturns
-where it does cracked at the joint of least λ, the choice of statics; between them lie the words of shares.
+where it where it does cracked at the joint of least λ, the choice of statics; between them lie the words of shares.
+
+The contact dynamics is Moreau's, of first order, with steps of 0.2 ms: under a pulse, one block or one hinged wall
+rotates 0.2 to 1.5 % less than its mechanism. With steps of 1 ms, 17 of 252 trials ended differently, 15 of which are
+neither "stands" nor "overturns". LMGC90 took steps of 2 ms.
 """
 
 import json

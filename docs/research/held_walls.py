@@ -6,6 +6,14 @@ motions beside a stack of the whole wall with its ties, what stands behind it an
 and with a finer step than `fidelity: contact` takes. Nothing was chosen on these walls; that a held wall only probably
 stands beyond 0.4 φ_cr was read off others, on stations of FEMA P-695, so that the stations outside of it are a part of
 their own.
+
+The first campaign drew ties of 2 to 30 MN/m² per metre, roofs of 3 to 30 % of the wall's weight on a friction of 0.4
+to 0.7, and stacks on joints of friction 5. Of the walls that stand 5 of 119 fell outside FEMA P-695, 4.2 % (1.1 to
+7.2), on 16 stations that took no part in the choice of 0.4 φ_cr, and 1 of 108 within, 10 of 1 816 runs in all. The
+rule on ties (a damping of 10 % under the motion that stretching ties let through) was read off them: with 5 and 20 %
+40 and 16 of the 149 tied walls only probably stand, with all six that fall, in either half of the sites, and none of
+the others falls. The 78 walls with something else behind of that campaign and the 95 of the second one make 0 of 173,
+below 1.7 %, which is not independent of the rule.
 """
 
 import warnings

@@ -4,6 +4,22 @@ Drawn members meet real motions. The truth of a trial is a stack of as many cour
 followed with a finer step than `fidelity: contact` takes. Sites are parted into halves by their names, and each kind of
 member is judged on the half that nothing about it was chosen on: that a contact opens was looked at on the even half,
 and that tapering members need a stack of many courses on the odd one.
+
+What is neither "stands" nor "overturns" without contact dynamics, with it, and how many it settled correctly, by the
+rule of 23 November 2026, under which it settled a case where none or all of its stacks fell (90 % by site):
+
+    spire                     97 % (95-99)   40 % (35-45)   327 of 327
+    pinnacle                  81 % (75-87)   28 % (25-30)   447 of 448
+    loaded wall, hinge given  33 % (26-40)   17 % (13-21)   34 of 34
+    gable                     52 % (41-61)   14 % (10-19)   66 of 67
+    further gables            43 % (35-51)   14 % (11-18)   100 of 103
+    façade with ties          19 % (12-25)   10 % (6-15)    19 of 19
+    façade tied within        43 % (30-53)   10 % (5-16)    47 of 47
+    all                       70 % (62-77)   26 % (23-29)   940 of 942
+
+A façade opened most between the feet of storeys in 96 of 294 that lifted: 21 of 165 with ties at the top, 13 % (8-17),
+and 75 of 129 tied within, 58 % (50-66). 24 runs of a pair took 0.43 s of CPU in the median of 35 cases and 1.4 s at the
+95th percentile, 64 runs 1.1 and 4.5 s.
 """
 
 import warnings

@@ -4,7 +4,7 @@ import pytest
 from scipy.constants import g
 
 from rocking.errors import RecordError
-from rocking.quantities import GRAVITY, acceleration_factor, percent, percents
+from rocking.quantities import GRAVITY, acceleration_factor, listed, percent, percents
 
 
 def test_gravity_is_the_standard_one():
@@ -46,3 +46,9 @@ def test_a_share_in_percent_has_one_digit_below_ten_and_is_whole_from_there_on(s
 def test_a_range_of_shares_is_one_number_where_all_are_printed_alike():
     assert percents(0.2, 0.6, 0.11) == "11–60\u00a0%"
     assert percents(0.112, 0.114) == percents(0.11) == "11\u00a0%"
+
+
+def test_names_beyond_the_most_are_counted_even_if_it_is_one():
+    assert listed(["a", "b"], most=2) == "a, b"
+    assert listed(["a", "b", "c"], most=2) == "a, b and 1 other"
+    assert listed(["a", "b,", "c", "d"], most=2) == "a; b, and 2 others"

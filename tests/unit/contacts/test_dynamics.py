@@ -149,6 +149,17 @@ def test_courses_lift_together_where_each_joint_would_alone():
         assert (follow_stack(stack, Accelerogram(push, 1e-3), 1e-3).largest_turns.max() > 1e-4) == lifts
 
 
+def test_courses_that_stay_together_are_the_body_between_their_outer_faces():
+    """Three lengths of one trapezium above the foot of a stack beside the trapezium itself, by Gauss's points."""
+    levels = [0.5, 1.0, 2.0, 2.6]
+    faces = [(-0.6 + 0.1 * z, 0.5 - 0.05 * z) for z in levels]
+    body = joined(courses_between(levels, faces, 2e3, [0.8] * 3))
+    (whole,) = courses_between([0.5, 2.6], [faces[0], faces[-1]], 2e3, [0.8])
+    assert (body.bottom, body.top, body.base, body.height) == (whole.bottom, whole.top, 0.5, 2.6 - 0.5)
+    found = (body.mass, *body.centre, body.inertia)
+    assert found == pytest.approx((whole.mass, *whole.centre, whole.inertia), rel=1e-12)
+
+
 def test_a_mirrored_motion_turns_it_the_other_way():
     motion = sampled(Pulse(8.0, 5.0))
     stack = Spire(width=3.0, height=15.0).stack()

@@ -151,3 +151,10 @@ def test_the_largest_coefficient_on_means_is_that_of_every_sample(seed):
     best = max(finer, key=lambda scale: abs(coefficient_at(found, scale, column)))
     assert centre == pytest.approx(column * step)
     assert period == pytest.approx(1.4 * best * step)
+
+
+def test_a_record_as_long_as_the_shortest_pulse_is_searched():
+    """At 50 Hz a wavelet of T_p = 0.25 s is 8 samples a scale, of which its support of 7 scales takes 56."""
+    assert searched_scales(0.02, 56)[0] == 8
+    with pytest.raises(PulseError, match="holds? 55 samples .* needs 56"):
+        searched_scales(0.02, 55)
