@@ -156,5 +156,5 @@ def test_the_largest_coefficient_on_means_is_that_of_every_sample(seed):
 def test_a_record_as_long_as_the_shortest_pulse_is_searched():
     """At 50 Hz a wavelet of T_p = 0.25 s is 8 samples a scale, of which its support of 7 scales takes 56."""
     assert searched_scales(0.02, 56)[0] == 8
-    with pytest.raises(PulseError, match="holds? 55 samples .* needs 56"):
+    with pytest.raises(PulseError, match=r"hold 55 samples .* needs 56"):
         searched_scales(0.02, 55)
