@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 
 from rocking import Block, DesignSpectrum, Facade, check
+from rocking.assessment.cracks import mechanisms_of
 from rocking.assessment.decide import Verdict
 from rocking.assessment.reserve import Reserve
-from rocking.assessment.rows import RecordRow, RecordRows, VerdictRow
+from rocking.assessment.rows import MechanismRow, RecordRow, RecordRows, VerdictRow
 from rocking.assessment.scene import load_scenes, on_the_ground
 from rocking.codes.check import DynamicCheck
 from rocking.codes.conclusion import code_conclusion_in_words, code_conclusions
@@ -103,6 +104,26 @@ def test_every_structure_has_its_checks_and_its_page(study):
         assert each.passed == alone.passed and each.clause == alone.clause
     assert (folder / "structures.pdf").read_bytes().startswith(b"%PDF")
     assert len(told) == 2 and told[0].startswith("parapet: linear")
+
+
+def test_a_page_lists_the_mechanisms_of_its_own_structure(study, monkeypatch):
+    """Two of the same cracks, of which one falls in 16 of 64 members and the other in 48, and in no other place."""
+    settings, folder = study
+    scenes = on_the_ground({"one": STRUCTURES["front"], "other": STRUCTURES["front"]})
+    crack = mechanisms_of(STRUCTURES["front"])[0].description
+    rows = [
+        filled(
+            MechanismRow, record="a", structure=name, crack=crack, support_period_s=period, members=64,
+            overturning_members=falls, hold_height_m=math.nan, largest_hold_force_n_per_m=math.nan,
+        )
+        for name, period, falls in (("one", None, 16), ("other", None, 48), ("one", 0.3, 64))
+    ]  # fmt: skip
+    pages = []
+    monkeypatch.setattr("rocking.study.checks.structures_data", lambda made, *_: pages.extend(made) or {})
+    monkeypatch.setattr("rocking.study.checks.write_document", lambda *_: None)
+    written = Study(scenes, read_settings(settings | {"design_spectrum": DESIGN}))
+    write_checks(written, folder, [], [filled(RecordRow, record="a", station="a")], mechanisms=rows)
+    assert [(page.name, page.mechanisms[0].share) for page in pages] == [("one", 0.25), ("other", 0.75)]
 
 
 @pytest.mark.usefixtures("undrawn")
