@@ -45,7 +45,7 @@ def test_axes_whose_azimuth_is_not_known(name: str, axis: str) -> None:
 
 @pytest.mark.parametrize(("first", "second", "across"), [
     ("L", "T", True), ("--L", "-T1", True), ("H1", "H2", True), ("HN1", "HN2", True), ("FN", "FP", True),
-    ("L", "N", False), ("L", "L1", False), ("H1", "T", False), ("acc", "L", False), ("T", "channel 2", False),
+    ("L", "N", False), ("L", "L1", False), ("H1", "T", False), ("channel 1", "L", False), ("T", "channel 2", False),
 ])  # fmt: skip
 def test_a_pair_at_right_angles_by_what_its_names_mean(first: str, second: str, across: bool) -> None:
     pair = Channel(first), Channel(second)
