@@ -3,6 +3,15 @@
 The rule of the words was chosen on the stations of FEMA P-695, so that those of the other catalogues take part alone.
 Each station is tried as a pair, as one component, on a support and with a vertical motion. Few records of the suites
 have their vertical component, so the other horizontal one at VERTICAL stands in for it.
+
+That more members follow up to 1024 was decided on those stations. The run of 27 November 2026 therefore took others,
+by a rule written down before any word was looked at: every file of real records in the mirror that no catalogue here
+names (its folders `formats_*`), as the package reads it; a station counts if it has two horizontal components with a
+peak of 0.01 g or more each, and is no site of the catalogues. These are Aydin 0921 in the earthquake of Kos (2017),
+Pazarcik 4624 (2023), 23837 in California (2018), Willow Creek 89146 (2012), Lyttelton LPCC (aftershock of
+Canterbury), Uki 9CF in Kumamoto (2016), China Lake CLC and T001230 in Ridgecrest (2019), Alto Hospicio (Iquique 2009)
+and Acapulco ACAC (Puebla 2017), with three structures of each kind. LPCC and T001230 are in g, which their files do
+not say.
 """
 
 import math
