@@ -19,7 +19,10 @@ if TYPE_CHECKING:  # else who reads a table would load numba
     from rocking.assessment.motions import Component
 
 STRUCTURE = "Name of the structure in the structure list"
-SUPPORT_PERIOD = "First period of the support that carries the structure; 0: on the ground, for comparison; empty: no support"
+SUPPORT_PERIOD = (
+    "First period of the support that carries the structure; 0: on the ground, for comparison; "
+    "empty: no support"
+)
 RECORD = "Identifier of the record in the catalogue"
 COMPONENT = "Component of the ground motion, as the file names it"
 SCALE_FACTOR = "Factor of the catalogue on the accelerations of the file"
