@@ -24,6 +24,7 @@ from rocking.quantities import shown
 from rocking.tables.files import regular_file, whole, write_whole
 
 _UNITS = {
+    "n_per_m": "N/m",
     "rad_s": "rad/s",
     "m_s2": "m/s²",
     "m2_s3": "m²/s³",

@@ -70,3 +70,9 @@ def test_largest_force_of_an_elastic_tie_is_its_stretch():
     largest = response.rotation_ratio * wall.mechanism().critical_rotation
     assert largest > 1e-3
     assert turns.largest_hold_force_n_per_m == pytest.approx(3e5 * 2.0 * math.sin(largest), rel=1e-3)
+
+
+def test_forces_of_what_holds_it_are_in_newton_per_metre():
+    """Their names end in _m as lengths do."""
+    units = {each.name: each.unit for each in MechanismRow.table.columns if "force" in each.name}
+    assert units == {"hold_force_at_rest_n_per_m": "N/m", "largest_hold_force_n_per_m": "N/m"}
