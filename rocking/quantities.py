@@ -107,6 +107,16 @@ def acceleration_unit(text: str) -> str | None:
     return name if name in ACCELERATION_UNITS else None
 
 
+VELOCITY_UNITS = {"m/s": 1.0, "cm/s": 0.01, "mm/s": 0.001}
+"""Factor from each unit of velocity to m/s."""
+
+
+def velocity_unit(text: str) -> str | None:
+    """Return the unit that `text` spells ("cm/sec", "cm_s") as VELOCITY_UNITS calls it; None for another."""
+    name = text.strip().lower().replace("sec", "s").replace("_per_", "/").replace("_s", "/s")
+    return name if name in VELOCITY_UNITS else None
+
+
 def acceleration_factor(unit: str) -> float:
     """Return the factor from `unit` to m/s². Raises RecordError when the unit is not known."""
     name = acceleration_unit(unit)

@@ -4,8 +4,16 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from rocking.assessment.decide import Verdict
-from rocking.assessment.rows import ComparisonRow, ExpectedFallsRow, VerdictRow, worst_period_each
+from rocking.assessment.rows import (
+    ComparisonRow,
+    ExpectedFallsRow,
+    VerdictRow,
+    hardly_spread,
+    worst_period_each,
+)
 from rocking.quantities import percents
 from rocking.remarks import Kind, Remark
 
@@ -159,7 +167,9 @@ def conclusion_in_words(words: Mapping[str, Verdict], records: int = 1) -> str:
     # Unsaid, a structure of which half the members fall would be read as one that stands.
     open_ = [f"{uncertain} {verb} uncertain"] if uncertain else []
     open_ += [f"{untold} cannot be told"] if untold else []
-    return f"{of_them} structures {does}{under}" + (f"; {', '.join(open_)}." if open_ else ".")
+    whose = "its" if uncertain + untold == 1 else "their"
+    worst = f"under {whose} worst record " if records > 1 else ""
+    return f"{of_them} structures {does}{under}" + (f"; {worst}{', '.join(open_)}." if open_ else ".")
 
 
 def falls_in_words(falls: Sequence[ExpectedFallsRow]) -> str:
@@ -170,12 +180,21 @@ def falls_in_words(falls: Sequence[ExpectedFallsRow]) -> str:
     of_all = next((row for row in falls if not row.record), None)
     if of_all is None or of_all.structures < CLASS or of_all.without_share == of_all.structures:
         return ""
-    records = len(falls) - 1
+    of_records = np.array([row.expected_falls for row in falls if row.record])
+    records = of_records.size
     expected = f"{of_all.expected_falls:.0f} of {of_all.structures} structures are expected to fall"
     sentence = f"{expected} under the record" if records == 1 else f"{expected} under such a record"
     if not math.isnan(of_all.expected_falls_low):
         interval = f"{of_all.expected_falls_low:.0f}–{of_all.expected_falls_high:.0f}"
-        sentence += f" (90 %: {interval}, by the spread over {records} records)"
-    untold = math.ceil(of_all.without_share)
-    average = " on average" if records > 1 else ""
-    return sentence + (f"; of {untold}{average} it cannot be told." if untold else ".")
+        because = f", by the spread over {records} records"
+        if hardly_spread(of_records, of_all.structures):
+            middle = float(np.median(of_records))
+            falling = "all are" if middle > of_all.structures - 0.5 else "none is"
+            if 0.5 <= middle <= of_all.structures - 0.5:
+                falling = "the same number is"
+            because = f"; wide, as under most of the {records} records {falling} expected to fall"
+        sentence += f" (90 %: {interval}{because})"
+    if not of_all.without_share:
+        return f"{sentence}."
+    untold = f"{of_all.without_share:.{0 if records == 1 else 1}f}"
+    return f"{sentence}; {untold} more cannot be told{' per record on average' if records > 1 else ''}."

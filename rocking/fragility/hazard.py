@@ -11,8 +11,9 @@ import numpy as np
 from scipy.special import stdtrit
 
 from rocking.errors import ConfigurationError
-from rocking.fragility.measures import of_openquake
-from rocking.tables import Row, column, read_rows, read_whole, row
+from rocking.fragility.measures import intensity_measure, of_openquake
+from rocking.quantities import ACCELERATION_UNITS, GRAVITY, VELOCITY_UNITS, acceleration_unit, velocity_unit
+from rocking.tables import read_whole
 
 _STEPS = 400
 """Steps of the integral over the hazard curve, in equal parts of the logarithm of the level."""
@@ -21,15 +22,12 @@ _LARGEST_HAZARD = 1_000_000
 _SAME_PLACE = 1e-4
 """Degrees within which a site is the one that is asked for: ten metres."""
 
+_IN_UNIT = re.compile(
+    r"(?P<stem>.+?)(?:\s*[\[(](?P<bracket>[^][()]+)[])]|[_ ](?P<end>%?g|mg|gal|[cm]?m(?:/|_|_per_)s(?:\^?2|²)?))",
+    re.IGNORECASE,
+)
+"""The head of a column with its unit: "PGA (g)", "SA(0.5) [m/s2]", "level_cm_s"."""
 _FACT = re.compile(r"""(\w+)=('[^']*'|"[^"]*"|[^,'"]+)""")
-
-
-@row("hazard")
-class HazardRow(Row):
-    """One row per level of the intensity measure, ascending."""
-
-    intensity: float = column("Level, in the unit of the intensity measure")
-    annual_rate: float = column("Annual rate of exceedance of the level", unit="1/year")
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +36,7 @@ class Hazard:
 
     levels: (k,) ascending, in our unit of the measure. annual_rates: (k,) 1/year, not rising, above 0. measure: by
     OpenQuake's name; "" where a plain file does not say it. quantiles: rates (k,) by the share of the hazard model's
-    branches that lie below.
+    branches that lie below. unit: "g" or "m/s" of levels whose file says their unit and not their measure.
 
     >>> hazard = rocking.Hazard(np.array([0.1, 1.0]), np.array([1e-2, 1e-4]))
     >>> hazard.annual_rates.tolist()
@@ -49,6 +47,7 @@ class Hazard:
     annual_rates: np.ndarray
     measure: str = ""
     quantiles: Mapping[float, np.ndarray] = field(default_factory=dict)
+    unit: str = ""
 
     def __post_init__(self) -> None:
         for rates in (self.annual_rates, *self.quantiles.values()):
@@ -60,31 +59,23 @@ class Hazard:
     ) -> "Hazard":
         """Return the hazard curve of a CSV of OpenQuake, with its quantiles, or of a plain one.
 
-        A plain file has the columns intensity, in our unit of its measure, and annual_rate. One of OpenQuake says the
-        intensity measure and the time of its probabilities in its first line; its levels of a probability of 0 or 1
-        tell no rate and are left out. quantiles: files of OpenQuake for the same measure, site and levels. site:
-        longitude and latitude, degrees, where a file holds several. Raises ConfigurationError for what is no hazard
-        curve, in one sentence.
+        A plain file has the columns annual_rate and intensity, in our unit of its measure, or one whose head ends in
+        its unit, as "level_m_s2" or "PGA (g)", by which it is converted. One of OpenQuake says the intensity measure
+        and the time of its probabilities in its first line; its levels of a probability of 0 or 1 tell no rate and are
+        left out. quantiles: files of OpenQuake for the same measure, site and levels. site: longitude and latitude,
+        degrees, where a file holds several. Raises ConfigurationError for what is no hazard curve, in one sentence.
         """
         path = Path(path)
         text = read_whole(path, _LARGEST_HAZARD, ConfigurationError).decode("utf-8-sig", errors="replace")
         if not text.startswith("#"):
-            names = [name.strip() for name in text.partition("\n")[0].split(",")]
-            if sorted(names) != ["annual_rate", "intensity"]:
-                raise ConfigurationError(
-                    f"{path} has the columns {', '.join(names)[:80]!r}, but must have intensity, in the unit of its "
-                    "measure here (m/s of pgv, g of pga and SA), and annual_rate; convert the levels and rename them."
-                )
-            points = list(read_rows(HazardRow, path))
-            levels = np.array([point.intensity for point in points])
-            rates = np.array([point.annual_rate for point in points])
+            levels, rates, measure, unit = _plain(path, text)
             _check(str(path), levels, rates)
             if rates[0] >= 1:
                 raise ConfigurationError(
                     f"{path} says {rates[0]:g} a year at {levels[0]:g}, but annual_rate must be below 1 where no time "
                     "is said; divide what is of more years by them, or give the file of OpenQuake."
                 )
-            return cls(levels, rates)
+            return cls(levels, rates, measure, unit=unit)
         mean = _OfOpenQuake.read(path, text, site)
         others = [
             _OfOpenQuake.read(
@@ -115,14 +106,65 @@ class Hazard:
 
     def is_of(self, name: str) -> bool:
         """Return whether it is of the measure `name`, as far as it says."""
-        return not self.measure or of_openquake(name)[0] == self.measure
+        if self.measure:
+            return of_openquake(name)[0] == self.measure
+        return not self.unit or self.unit == _unit_of(name)
 
     def check_measure(self, name: str) -> None:
         """Raise ConfigurationError where the curve says that it is of another measure than `name`."""
         if not self.is_of(name):
             raise ConfigurationError(
-                f"the hazard curve is of {self.measure}, but the intensity measure is {name}; take one for the other."
+                f"the hazard curve is {f'of {self.measure}' if self.measure else f'in {self.unit}'}, but the intensity "
+                f"measure is {name}; take one for the other."
             )
+
+
+def _unit_of(name: str) -> str:
+    """The unit of a measure, whatever its periods, which a structure may give."""
+    return {"AvgSA": "g", "FIV3": "m/s"}.get(name) or intensity_measure(name).unit
+
+
+def _plain(path: Path, text: str) -> tuple[np.ndarray, np.ndarray, str, str]:
+    """Levels and rates of a plain file in our units, and measure and unit, "" where its head does not say them."""
+    first, *lines = csv.reader(text.splitlines() or [""])
+    heads = [head.strip() for head in first]
+    others = [head for head in heads if head != "annual_rate"]
+    head = others[0] if len(heads) == 2 and len(others) == 1 else ""
+    spelt = _IN_UNIT.fullmatch(head)
+    stem, unit = (spelt["stem"], spelt["bracket"] or spelt["end"]) if spelt else ("", "")
+    acceleration, velocity = acceleration_unit(unit), velocity_unit(unit)
+    if head == "intensity":
+        factor, ours = 1.0, ""
+    elif acceleration:
+        factor, ours = ACCELERATION_UNITS[acceleration] / GRAVITY, "g"
+    elif velocity:
+        factor, ours = VELOCITY_UNITS[velocity], "m/s"
+    else:
+        raise ConfigurationError(
+            f"{path} has the columns {', '.join(heads)[:80]!r}, but must have annual_rate and levels with their unit "
+            "in the head, such as level_m_s2 or PGA (g), or intensity in the unit of its measure here (m/s of pgv, g "
+            "of pga and SA); rename them."
+        )
+    points = []
+    for number, cells in enumerate(lines, start=2):
+        try:
+            values = dict(zip(heads, map(float, cells), strict=True))
+        except ValueError:
+            raise ConfigurationError(
+                f"{path}, line {number}, holds {','.join(cells)[:80]!r}, but must hold two numbers."
+            ) from None
+        points.append((factor * values[head], values["annual_rate"]))
+    levels, rates = np.array(points).reshape(-1, 2).T
+    try:
+        measure = of_openquake(stem)[0] if ours else ""
+        is_of_unit = not measure or _unit_of(stem) == ours
+    except ConfigurationError:
+        return levels, rates, "", ours  # a word such as "level"
+    if not is_of_unit:
+        raise ConfigurationError(
+            f"{path} has the column {head!r}, but {stem} is in {_unit_of(stem)}; mend the unit."
+        )
+    return levels, rates, measure, ours
 
 
 def _check(name: str, levels: np.ndarray, rates: np.ndarray) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from rocking.described import number_hint
 from rocking.errors import RecordError
-from rocking.quantities import acceleration_factor, shown
+from rocking.quantities import VELOCITY_UNITS, acceleration_factor, shown
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.text import is_number
 from rocking.records.plausibility import scaled
@@ -20,8 +20,6 @@ FORM = "a measure, pga or pgv, a number and its unit, as in pga 0.35 g or pgv 50
 _SPELLING = re.compile(r"(pga|pgv)\s+([-+.,\d]+(?:e[-+]?\d+)?|nan|inf)\s*([a-z].*)", re.I)
 LARGEST_FACTOR = 10.0
 """Factor up to which a record may be scaled without a word, as for fragility."""
-_SPEEDS = {"m/s": 1.0, "cm/s": 0.01}
-"""Factor from each unit of velocity to m/s."""
 
 
 _MEASURES: dict[str, Callable[[Accelerogram], float]] = {
@@ -56,11 +54,11 @@ class ScalingTarget:
         if not is_number(number) or not 0 < float(number) < math.inf:
             must = f"must be finite and above 0{number_hint(number)}"
             raise RecordError(f"scale_to is {shown(text)}, but its number {must}; give {FORM}.")
-        if measure == "pgv" and unit not in _SPEEDS:
+        if measure == "pgv" and unit not in VELOCITY_UNITS:
             raise RecordError(
-                f"scale_to is {shown(text)}, but a velocity is given in {' or '.join(_SPEEDS)}."
+                f"scale_to is {shown(text)}, but a velocity is given in {' or '.join(VELOCITY_UNITS)}."
             )
-        factor = acceleration_factor(unit) if measure == "pga" else _SPEEDS[unit]
+        factor = acceleration_factor(unit) if measure == "pga" else VELOCITY_UNITS[unit]
         return cls(measure, float(number) * factor, " ".join(text.split()))
 
     def factor(self, horizontal: Sequence[Accelerogram]) -> float:

@@ -165,7 +165,8 @@ class StudyFragility:
     )
     hazard: str | None = described(
         None,
-        "CSV of a hazard curve: of OpenQuake, or with the columns intensity and annual_rate, ascending; or null",
+        "CSV of a hazard curve: of OpenQuake, or with the columns annual_rate and levels with their unit, such as "
+        "level_g, ascending; or null",
     )
     in_every_run: bool = described(False, "whether every run computes the fragility")
 

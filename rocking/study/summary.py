@@ -316,7 +316,7 @@ def _curves_of(
         if hazard and not hazard.is_of(analysis.measure.name):
             reasons.append(
                 f"{name}: it has no annual rate, since its levels are of {analysis.measure.name}, but the hazard "
-                f"curve is of {hazard.measure}."
+                f"curve is {f'of {hazard.measure}' if hazard.measure else f'in {hazard.unit}'}."
             )
         rows += curve_rows(name, names, analysis, hazard, period)
         # The curves are finished, and no table beside them may take them along.

@@ -178,7 +178,8 @@ class ExpectedFallsRow(RowOf[CountedFalls]):
         "Sum of the shares that overturn, of the structures that have one", lambda of: of.expected_falls
     )
     expected_falls_low: float = of_falls(
-        "Low end of the 90 % interval of the mean, by the spread over the records",
+        "Low end of the 90 % interval of the mean over more such records, of some 80 % where few are far stronger than "
+        "all others; where none, or all, are expected to fall under most records it holds for any, and is wide",
         lambda of: of.expected_falls_low,
     )
     expected_falls_high: float = of_falls("High end of that interval", lambda of: of.expected_falls_high)
@@ -202,26 +203,63 @@ def falls_under(
 
 
 def falls_over(records: Sequence[ExpectedFallsRow]) -> ExpectedFallsRow | None:
-    """Return the mean over the records; None without any.
+    """Return the mean over the records, with the interval of `interval_of_mean`; None without any.
 
-    What falls under one record falls together or not at all, so that each record is one observation: the interval is
-    Student's of their mean, on the log odds of the mean part that falls, for that keeps between none and all. Without
-    two records, or where all or none fall, there is none.
+    One record has no interval. What falls under one record falls together or not at all, so that each record is one
+    observation, however many structures there are.
     """
     if not records:
         return None
     structures = max(row.structures for row in records)
     falls = np.array([row.expected_falls for row in records])
-    mean = float(falls.mean())
-    low = high = math.nan
-    if len(records) > 1 and 0 < mean < structures:
-        from scipy.special import expit, logit, stdtrit  # which who reads a table has no need of
-
-        error = falls.std(ddof=1) / math.sqrt(len(records))
-        half = stdtrit(len(records) - 1, 0.95) * error * structures / (mean * (structures - mean))
-        low, high = (structures * expit(logit(mean / structures) + half * np.array([-1, 1]))).tolist()
     untold = float(np.mean([row.without_share for row in records]))
-    return ExpectedFallsRow.of(CountedFalls("", structures, mean, untold, low, high))
+    low = high = math.nan
+    if len(records) > 1:
+        low, high = interval_of_mean(falls, structures)
+    return ExpectedFallsRow.of(CountedFalls("", structures, float(falls.mean()), untold, low, high))
+
+
+def hardly_spread(falls: np.ndarray, structures: int) -> bool:
+    """Whether the numbers that fall (n,) say too little of what further records would do: under most of them fewer
+    than half a structure falls, or stands, or all are equal.
+    """
+    told = (falls >= 0.5) & (falls <= structures - 0.5)
+    return bool(2 * told.sum() < falls.size or np.ptp(falls) == 0)
+
+
+def interval_of_mean(falls: np.ndarray, structures: int) -> tuple[float, float]:
+    """Return the 90 % interval of the mean number that falls, of the numbers (n,) under n records.
+
+    The part of a class that falls is the normal distribution of a quantity that all structures share, which is normal
+    over the records (Vasicek 2002, Risk 15(12), 160-162): that of lognormal fragilities under lognormal shaking. The
+    interval of its mean is the generalised one (Krishnamoorthy & Mathew 2003, J. Stat. Plan. Inference 115, 103-121),
+    joined with Student's of the mean itself on its log odds, which does not need that law. Where the records are
+    `hardly_spread`, neither sees what none of them has shown; the interval is then that of Clopper and Pearson for the
+    sum of the parts, as of records under which all fall or none does, which vary more than any others of that mean.
+    """
+    from scipy.special import betaincinv, chdtri, expit, logit, ndtr, ndtri, stdtrit  # slow to import
+
+    parts = falls / structures
+    n = parts.size
+    mean = float(parts.mean())
+    if hardly_spread(falls, structures):
+        fell = parts.sum()
+        low = float(betaincinv(fell, n - fell + 1, 0.05)) if fell > 0 else 0.0
+        high = float(betaincinv(fell + 1, n - fell, 0.95)) if fell < n else 1.0
+        return structures * low, structures * high
+
+    # Half a member of the 64 of one structure: the least that could have been seen.
+    least = 1 / (128 * structures)
+    shaking = ndtri(np.clip(parts, least, 1 - least))
+    middles = (np.arange(100) + 0.5) / 100
+    deviations = shaking.std(ddof=1) * np.sqrt((n - 1) / chdtri(n - 1, middles))
+    means = shaking.mean() + ndtri(middles)[:, None] * deviations / math.sqrt(n)
+    of_law = np.quantile(ndtr(means / np.sqrt(1 + deviations**2)), [0.05, 0.95])
+
+    half = stdtrit(n - 1, 0.95) * parts.std(ddof=1) / (math.sqrt(n) * mean * (1 - mean))
+    of_mean = expit(logit(mean) + half * np.array([-1, 1]))
+    low, high = min(of_law[0], of_mean[0]), max(of_law[1], of_mean[1])
+    return structures * float(low), structures * float(high)
 
 
 SUMMARY_TABLES: tuple[type[Row], ...] = (

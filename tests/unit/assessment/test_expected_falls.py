@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from scipy.stats import norm
+from scipy.stats import binomtest, norm
 
 from rocking.assessment.conclusion import CLASS, falls_in_words
 from rocking.assessment.rows import CountedFalls, ExpectedFallsRow, falls_over, falls_under
@@ -34,12 +34,30 @@ def test_the_shares_of_those_that_have_one_are_added() -> None:
     assert falls_under([]) is None
 
 
-def test_without_a_spread_there_is_no_interval() -> None:
-    for shares in ([0.3], [0.0, 0.0, 0.0], [1.0, 1.0]):
-        of_all = falls_over(under(shares, 50))
-        assert of_all is not None and of_all.expected_falls == pytest.approx(50 * shares[0])
-        assert math.isnan(of_all.expected_falls_low) and math.isnan(of_all.expected_falls_high)
+def test_one_record_has_no_interval() -> None:
+    of_all = falls_over(under([0.3], 50))
+    assert of_all is not None and of_all.expected_falls == pytest.approx(15)
+    assert math.isnan(of_all.expected_falls_low) and math.isnan(of_all.expected_falls_high)
     assert falls_over([]) is None
+
+
+@pytest.mark.parametrize("records", [3, 10])
+def test_what_no_record_has_shown_is_bounded_by_their_number(records) -> None:
+    """What befalls a part q of all records is met by none of n in (1 - q)^n: 5 % of studies at the end stated.
+
+    Of records that bring down all or none, the ends are those of Clopper and Pearson for k of n.
+    """
+    ends = 50 * (1 - 0.05 ** (1 / records))
+    none, every = falls_over(under([0.0] * records, 50)), falls_over(under([1.0] * records, 50))
+    assert none is not None and every is not None
+    assert (none.expected_falls_low, none.expected_falls_high) == pytest.approx((0, ends))
+    assert (every.expected_falls_low, every.expected_falls_high) == pytest.approx((50 - ends, 50))
+    mixed = falls_over(under([1.0] * 2 + [0.0] * (records - 2), 50))
+    exact = binomtest(2, records).proportion_ci(0.9, "exact")
+    assert mixed is not None
+    assert (mixed.expected_falls_low, mixed.expected_falls_high) == pytest.approx(
+        (50 * exact.low, 50 * exact.high)
+    )
 
 
 def test_structures_that_fall_together_do_not_narrow_the_interval() -> None:
@@ -51,11 +69,12 @@ def test_structures_that_fall_together_do_not_narrow_the_interval() -> None:
         assert getattr(many, name) == pytest.approx(10 * getattr(few, name))
 
 
-@pytest.mark.parametrize(("records", "median", "least"), [(5, 1.0, 0.88), (10, 1.0, 0.88), (20, 0.3, 0.84)])
-def test_the_interval_holds_the_mean_of_records_that_are_drawn(records, median, least) -> None:
-    """Structures of lognormal fragilities under lognormal shaking, which all share; 1 000 studies of each.
+@pytest.mark.parametrize("records", [3, 10])
+@pytest.mark.parametrize("median", [0.15, 0.3, 1.0])
+def test_the_interval_holds_the_mean_of_records_that_are_drawn(records, median) -> None:
+    """Structures of lognormal fragilities under lognormal shaking, which all share; 500 studies of each.
 
-    least: of 90 % asked; where few fall, records are skewed, and the interval is short of it (numbers: expected falls).
+    Asked: 90 %; the error of 500 studies is 2.2 % (90 %). From under 1 % to a half of them fall.
     """
     drawn = np.random.default_rng(7)
     resistance = np.exp(drawn.normal(0, 0.6, 200))
@@ -64,10 +83,10 @@ def test_the_interval_holds_the_mean_of_records_that_are_drawn(records, median, 
         return norm.cdf(np.log(shaking[..., None] / resistance) / 0.4).mean(axis=-1)
 
     truth = 200 * share(median * np.exp(0.6 * norm.ppf((np.arange(2000) + 0.5) / 2000))).mean()
-    studies = share(median * np.exp(0.6 * drawn.standard_normal((1000, records))))
+    studies = share(median * np.exp(0.6 * drawn.standard_normal((500, records))))
     held = [falls_over(under(list(shares), 200)) for shares in studies]
     inside = [row.expected_falls_low <= truth <= row.expected_falls_high for row in held if row]
-    assert len(inside) == 1000 and least < np.mean(inside) < 0.95
+    assert len(inside) == 500 and np.mean(inside) > 0.9 - 0.022
 
 
 def test_a_class_is_told_in_one_sentence() -> None:
@@ -80,8 +99,8 @@ def test_a_class_is_told_in_one_sentence() -> None:
         )
     ]
     assert falls_in_words(rows) == (
-        "41 of 300 structures are expected to fall under such a record (90 %: 33–50, by the spread over 2 records); of "
-        "12 on average it cannot be told."
+        "41 of 300 structures are expected to fall under such a record (90 %: 33–50, by the spread over 2 records); "
+        "11.5 more cannot be told per record on average."
     )
     assert falls_in_words([]) == ""
     assert falls_in_words([row for row in map(falls_over, [under([0.2], CLASS - 1)]) if row]) == ""
@@ -89,3 +108,19 @@ def test_a_class_is_told_in_one_sentence() -> None:
     of_one = falls_over(one)
     assert of_one is not None
     assert falls_in_words([*one, of_one]) == "4 of 20 structures are expected to fall under the record."
+
+
+@pytest.mark.parametrize(
+    ("shares", "because"),
+    [
+        ([0.0, 0.0, 0.3], "none is"),
+        ([1.0, 1.0, 0.3], "all are"),
+        ([0.5, 0.5, 0.5], "the same number is"),
+    ],
+)
+def test_a_wide_interval_says_why(shares, because) -> None:
+    rows = under(shares, 40)
+    of_all = falls_over(rows)
+    assert of_all is not None
+    said = falls_in_words([*rows, of_all])
+    assert f"; wide, as under most of the 3 records {because} expected to fall)" in said

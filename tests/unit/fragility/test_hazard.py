@@ -133,6 +133,75 @@ def test_a_plain_file_that_is_none_is_one_sentence(tmp_path, text, sentence):
         Hazard.read(path)
 
 
+@pytest.mark.parametrize(
+    ("head", "level", "measure", "unit"),
+    [
+        ("level_g", 0.3, "", "g"),
+        ("level_m_s2", 0.3 * 9.80665, "", "g"),
+        ("PGA (g)", 0.3, "PGA", "g"),
+        ("PGA [cm/s²]", 0.3 * 980.665, "PGA", "g"),
+        ("pga_gal", 0.3 * 980.665, "PGA", "g"),
+        ("SA(0.5) (%g)", 30.0, "SA(0.5)", "g"),
+        ("PGV [cm/s]", 30.0, "PGV", "m/s"),
+        ("level_cm_s", 30.0, "", "m/s"),
+        ("pgv_m_s", 0.3, "PGV", "m/s"),
+        ("intensity", 0.3, "", ""),
+    ],
+)
+def test_levels_of_a_plain_file_are_converted_by_the_unit_in_their_head(tmp_path, head, level, measure, unit):
+    """0.3 g or 0.3 m/s each; one standard g is 9.80665 m/s² (ISO 80000-3)."""
+    path = tmp_path / "hazard.csv"
+    for columns in (
+        f"{head},annual_rate\n{level!r},0.01\n{10 * level!r},0.001\n",
+        f"annual_rate,{head}\n0.01,{level!r}\n0.001,{10 * level!r}\n",
+    ):
+        path.write_text(columns)
+        hazard = Hazard.read(path)
+        assert hazard.levels.tolist() == pytest.approx([0.3, 3.0], rel=1e-12)
+        assert hazard.annual_rates.tolist() == [0.01, 0.001]
+        assert (hazard.measure, hazard.unit) == (measure, unit)
+    assert hazard.is_of("pga") == (unit != "m/s" and measure in ("", "PGA"))
+    assert hazard.is_of("pgv") == (unit != "g" and measure in ("", "PGV"))
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        (
+            "level,annual_rate\n0.1,0.01\n0.2,0.002\n",
+            "levels with their unit in the head, such as level_m_s2",
+        ),
+        ("PGA,annual_rate\n0.1,0.01\n0.2,0.002\n", "levels with their unit in the head"),
+        ("SA(0.5),annual_rate\n0.1,0.01\n0.2,0.002\n", "levels with their unit in the head"),
+        ("level_furlong,annual_rate\n0.1,0.01\n", "levels with their unit in the head"),
+        ("intensity;annual_rate\n10;0.01\n", "must have annual_rate and levels"),
+        ("level_g,rate\n0.1,0.01\n", "must have annual_rate and levels"),
+        ("level_g,annual_rate,level_m_s2\n0.1,0.01,1\n", "must have annual_rate and levels"),
+        (
+            "PGA (cm/s),annual_rate\n0.1,0.01\n0.2,0.002\n",
+            r"has the column 'PGA \(cm/s\)', but PGA is in g; mend",
+        ),
+        ("level_g,annual_rate\n0.1,abc\n", "line 2, holds '0.1,abc', but must hold two numbers"),
+        ("level_g,annual_rate\n0.1\n", "line 2, holds '0.1', but must hold two numbers"),
+        ("level_g,annual_rate\n0.1,nan\n0.2,0.01\n", "both must be above 0 and finite"),
+        ("level_g,annual_rate\n", "holds 0 points"),
+        ("", "has the columns ''"),
+    ],
+)
+def test_a_plain_file_without_a_unit_or_numbers_is_one_sentence(tmp_path, text, sentence):
+    path = tmp_path / "hazard.csv"
+    path.write_text(text)
+    with pytest.raises(ConfigurationError, match=sentence):
+        Hazard.read(path)
+
+
+def test_levels_in_g_are_no_levels_of_a_velocity():
+    hazard = Hazard(np.array([0.1, 1.0]), np.array([1e-2, 1e-4]), unit="g")
+    with pytest.raises(ConfigurationError, match=r"is in g, but the intensity measure is pgv"):
+        _lognormal().annual_rate(hazard)
+    assert _lognormal("AvgSA(0.2,2.0)", "g").annual_rate(hazard).value > 0
+
+
 def test_a_hazard_of_another_measure_is_refused():
     hazard = Hazard(np.array([0.1, 1.0]), np.array([1e-2, 1e-4]), "SA(0.5)")
     with pytest.raises(ConfigurationError, match=r"is of SA\(0.5\), but the intensity measure is pgv"):
@@ -189,13 +258,3 @@ def test_the_csv_holds_the_curve(tmp_path):
         ("pgv", "m/s", "inf")
     }
     assert rocking.Hazard is Hazard
-
-
-@pytest.mark.parametrize("head", ["pgv_cm_s,annual_rate", "intensity,poe", "intensity;annual_rate"])
-def test_a_plain_curve_says_its_level_in_one_unit(tmp_path, head):
-    path = tmp_path / "hazard.csv"
-    path.write_text(f"{head}\n10,0.01\n100,0.0001\n")
-    with pytest.raises(
-        ConfigurationError, match=r"must have intensity, in the unit .* \(m/s of pgv.* rename them\."
-    ):
-        Hazard.read(path)

@@ -109,7 +109,7 @@ def test_the_summary_counts_the_verdicts_of_each_structure_and_names_its_worst_r
     assert rows["pier"][4:] == ["one", "31\u00a0%", "overturns", "0.50 – overturns"]
     assert (
         data["conclusion"]
-        == "1 of 3 structures overturns or probably does under some record; 1 is uncertain."
+        == "1 of 3 structures overturns or probably does under some record; under its worst record 1 is uncertain."
     )
     assert data["outcomes-figure"] == [], "three records stand beside each other"
     drawn = re.findall(
