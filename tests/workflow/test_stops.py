@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+import psutil
 import pytest
 
 from rocking.assessment.decide import ORDER
@@ -73,6 +74,32 @@ def test_one_request_to_stop_ends_in_order(start, tmp_path: Path, number: int, e
         assert not study.unfinished() and not (study.results / "summary" / "provenance.json").exists()
         with pytest.raises(ProcessLookupError):
             os.killpg(process.pid, 0)
+
+
+def test_a_second_request_to_stop_is_final(finished, start, tmp_path: Path) -> None:
+    """Also for jobs that cannot end in order: here they stand still."""
+    study = start.copy_to(tmp_path / "study")
+    with _started(
+        study, until=lambda study: any(study.results.glob("summary/logs/batches/*.log"))
+    ) as process:
+        run = psutil.Process(process.pid)
+        jobs = [
+            each for child in run.children() for each in child.children()
+        ]  # forks of the one beside the run
+        assert jobs
+        for each in jobs:
+            each.suspend()
+        os.kill(process.pid, signal.SIGINT)
+        with pytest.raises(subprocess.TimeoutExpired):
+            process.wait(timeout=2)
+        everyone = run.children(recursive=True)
+        os.kill(process.pid, signal.SIGINT)
+        process.communicate(timeout=60)
+        assert process.returncode == 128 + signal.SIGINT
+        _, alive = psutil.wait_procs(everyone, timeout=20)
+        assert not [each for each in alive if each.status() != psutil.STATUS_ZOMBIE], "killed with it"
+    study.rocking("run", str(study.folder))
+    assert study.tables() == finished.tables() and not study.unfinished()
 
 
 def test_after_a_kill_the_same_command_goes_on_to_the_same_bytes(finished, start, tmp_path: Path) -> None:
