@@ -196,7 +196,7 @@ class Kind(StrEnum):
         "The header gives a rate of {rate!r}, which is not a number: the file may be damaged."
     )
     RATE_UNLIKE_STEP = auto(), (
-        "The header gives a rate of {rate_hz:g} Hz, but duration and number of samples give a step of "
+        "The header gives a rate of {rate_hz:g} Hz, but duration and sample count give a step of "
         "{time_step_s:g} s."
     )
     MATCHED_TO_SPECTRUM = auto(), (

@@ -31,7 +31,7 @@ def test_what_needs_a_geometry_is_refused():
     assert as_structure(BLOCK) is BLOCK
     with pytest.raises(UnknownContacts, match="no contacts that are known"):
         alone.contact_forces(0.01, 0.1)
-    with pytest.raises(StructureError, match="not a stack of courses"):
+    with pytest.raises(StructureError, match="a stack of courses"):
         alone.stack()
 
 

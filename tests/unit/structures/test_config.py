@@ -198,7 +198,7 @@ def test_a_list_is_asked_for_in_brackets_and_an_angle_by_its_key(load):
     [
         (
             "type: block, breadth_m: 6, height_m: 1",
-            "breadth_m is 6 m and height_m 1 m: a body this broad",
+            "breadth_m is 6 m and height_m 1 m: a body this",
         ),
         ("type: block, breadth_m: 1, height_m: 1", None),
         ("type: free_wall, thickness_m: 0.3, height_m: 2, breadth_m: 10", None),
