@@ -9,6 +9,7 @@ import atexit
 import contextlib
 import json
 import os
+import pickle
 import runpy
 import secrets
 import select
@@ -17,7 +18,7 @@ import socket
 import struct
 import subprocess
 import sys
-from typing import NoReturn
+from typing import Any, NoReturn
 
 _ADDRESS = "ROCKING_FORK_SERVER"
 """The variable of the environment that names the socket of the server, one without a file."""
@@ -27,8 +28,11 @@ _BLAS_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 """What snakemake sets to the threads of a job, 1; besides, a process with further threads must not be forked."""
 
 
-def start() -> None:
-    """Start the server of this process, unless there is one; it ends with this process, and imports beside it."""
+def start(settings: Any) -> None:
+    """Start the server of this process, unless there is one; it ends with this process, and prepares itself beside it.
+
+    settings: of the study in this folder, whose structures it prepares.
+    """
     try:
         os.close(
             os.pidfd_open(os.getpid())
@@ -47,6 +51,9 @@ def start() -> None:
             pass_fds=[listener.fileno()],
             env=os.environ | dict.fromkeys(_BLAS_THREADS, "1"),
         )
+    with contextlib.suppress(OSError):
+        pickle.dump(settings, server.stdin)  # type: ignore[arg-type]
+        server.stdin.flush()  # type: ignore[union-attr]
     os.environ[_ADDRESS] = name
 
     def end() -> None:
@@ -91,6 +98,9 @@ def serve(listener: socket.socket) -> None:
     """Fork a process for each task that comes to `listener`, until standard input ends, or the one that holds it."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # of a terminal; the scheduler tells whom it concerns
     _import_all()
+    from rocking.study.job import prepare
+
+    prepare(pickle.load(sys.stdin.buffer))
     jobs: dict[int, tuple[int, socket.socket]] = {}
     while 0 not in (ready := select.select([0, listener.fileno(), *jobs], [], [])[0]):
         for ended in jobs.keys() & set(ready):

@@ -46,7 +46,7 @@ from rocking.study.made_from import TABLE, records_of
 from rocking.study.plan import JOBS, plan_of_job, scenes_of
 from rocking.study.results import case_timings_of, cases_of, outcome_of, write_outcome
 from rocking.study.seals import Seals
-from rocking.study.settings import Settings, read_settings, settings_sha256
+from rocking.study.settings import Settings, settings_sha256
 from rocking.study.terminal import line_writer, log_error, record_line, tell, tell_error
 from rocking.tables import Row, write_rows, write_tables, written_together
 
@@ -126,20 +126,18 @@ class Study:
         return accelerogram
 
 
-def prepare(config: Mapping[str, Any]) -> Iterator[None]:
-    """Make what depends on each structure of a study alone, for jobs that are forked from this process, one by one.
+def prepare(settings: Settings) -> None:
+    """Make what depends on each structure of a study alone, for jobs that are forked from this process.
 
     Structures keep what they compute, and `plan_of_job` gives a fork those of this process where the list is the same.
     What is wrong with the study its jobs tell.
     """
     with contextlib.suppress(RockingError), warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        settings = read_settings(config)
         study = Study(scenes_of(settings.structures, ContentHashes(None, LARGEST_FILE)), settings)
         for scene in study.scenes.values():
             with contextlib.suppress(RockingError):
                 prepare_structure(scene.structure, study.assessment, settings.vertical)
-            yield
 
 
 @dataclass(frozen=True)

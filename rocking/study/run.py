@@ -79,7 +79,8 @@ def run(folder: Path, options: Sequence[str]) -> int:
     if any(_ANSWERS.fullmatch(option) for option in options):
         return _snakemake(arguments)
     hold(folder.resolve())
-    start_fork_server()  # beside the imports of snakemake
+    with contextlib.chdir(folder):
+        start_fork_server(plan.settings)  # beside the imports of snakemake
     results = folder / plan.settings.results
     log = results / "summary" / "logs" / "run.log"
     with contextlib.chdir(folder):
@@ -234,7 +235,7 @@ def begin(plan: Plan) -> None:
     """
     hold(Path.cwd())
     os.close(locked(JOBS, fcntl.LOCK_EX))
-    start_fork_server()
+    start_fork_server(plan.settings)
     # Of snakemake: starts no more jobs, and waits for those that work.
     graceful: Any = signal.getsignal(signal.SIGTERM)
 

@@ -13,6 +13,7 @@ import pytest
 pytestmark = pytest.mark.process
 
 ADDRESS = "ROCKING_FORK_SERVER"
+START = "from rocking.study.fork_server import start\nfrom rocking.study.settings import Settings\nstart(Settings())\n"
 HANDED = "from rocking.study.fork_server import hand_over\nhand_over()\n"
 SCRIPTS = {
     "print('one'); print('two', file=sys.stderr)": 0,
@@ -29,10 +30,7 @@ SCRIPTS = {
 @pytest.fixture(scope="module")
 def server():
     """A process that has started a server, as a scheduler does; gives the environment of its jobs."""
-    code = (
-        "import json, os, sys\nfrom rocking.study.fork_server import start\nstart()\n"
-        "print(json.dumps(dict(os.environ)), flush=True)\nsys.stdin.read()"
-    )
+    code = f"{START}import json, os, sys\nprint(json.dumps(dict(os.environ)), flush=True)\nsys.stdin.read()"
     streams = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
     with subprocess.Popen([sys.executable, "-c", code], **streams) as scheduler:
         environment = json.loads(scheduler.stdout.readline())
@@ -103,7 +101,7 @@ def test_without_a_server_a_script_runs_by_itself(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
 def test_the_server_ends_with_its_scheduler(number: int) -> None:
-    code = "import time, os\nfrom rocking.study.fork_server import start\nstart()\nprint(flush=True)\ntime.sleep(60)"
+    code = f"{START}import time\nprint(flush=True)\ntime.sleep(60)"
     with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as scheduler:
         scheduler.stdout.readline()
         children = Path(f"/proc/{scheduler.pid}/task/{scheduler.pid}/children")

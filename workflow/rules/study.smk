@@ -30,11 +30,11 @@ if not workflow.overwrite_configfiles:
     update_config(CONFIG, config)  # what --config says
     config.update(CONFIG)
 PLAN = make_plan(config)
-if not workflow.is_main_process:  # on another machine, or within limits of its own
-    leave_fork_server()
-    start_fork_server()
 SEALS = PLAN.seals
 SETTINGS = PLAN.settings
+if not workflow.is_main_process:  # on another machine, or within limits of its own
+    leave_fork_server()
+    start_fork_server(SETTINGS)
 RESULTS = SETTINGS.results
 SUMMARY = f"{RESULTS}/summary"
 DRAWS = SETTINGS.figures != "none"
