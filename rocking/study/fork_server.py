@@ -9,7 +9,6 @@ import atexit
 import contextlib
 import json
 import os
-import pickle
 import runpy
 import secrets
 import select
@@ -33,26 +32,29 @@ def start(settings: Any) -> None:
 
     settings: of the study in this folder, whose structures it prepares.
     """
-    try:
-        os.close(
-            os.pidfd_open(os.getpid())
-        )  # a way to wait for a process that Linux has, but not each sandbox
+    try:  # Linux alone lets one wait for processes by these, and not each sandbox does
+        os.close(os.pidfd_open(os.getpid()))
     except (AttributeError, OSError):
         return
     if _ADDRESS in os.environ:
         return
+    from rocking.study.settings import (
+        commented_yaml,
+    )  # a script that is handed over imports this module alone
+
     name = f"rocking-{secrets.token_hex(16)}"
     with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as listener:
         listener.bind(f"\0{name}")
         listener.listen(128)  # a job that comes before the server is ready waits here
         server = subprocess.Popen(
             [sys.executable, "-m", __name__, str(listener.fileno())],
+            text=True,
             stdin=subprocess.PIPE,  # its end tells the server that this process has ended
             pass_fds=[listener.fileno()],
             env=os.environ | dict.fromkeys(_BLAS_THREADS, "1"),
         )
     with contextlib.suppress(OSError):
-        pickle.dump(settings, server.stdin)  # type: ignore[arg-type]
+        server.stdin.write(f"{json.dumps(commented_yaml(settings))}\n")  # type: ignore[union-attr]
         server.stdin.flush()  # type: ignore[union-attr]
     os.environ[_ADDRESS] = name
 
@@ -73,17 +75,19 @@ def hand_over() -> None:
     if _ADDRESS not in os.environ:
         return
     connection = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
-    try:
-        connection.connect(f"\0{os.environ[_ADDRESS]}")
-    except OSError:
-        return
-    # Who stops the run tells the fork, or the server before it has forked; either way the connection ends.
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, signal.SIG_IGN)
     task = json.dumps([sys.argv, os.getcwd(), dict(os.environ)]).encode()
     try:
+        connection.connect(f"\0{os.environ[_ADDRESS]}")
         socket.send_fds(connection, [_LENGTH.pack(len(task))], [0, 1, 2])
         connection.sendall(task)
+        if not connection.recv(1):  # of the fork, once there is one
+            return
+    except OSError:
+        return
+    # Who stops the run tells the fork, and its end this process.
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)
+    try:
         (status,) = _STATUS.unpack(connection.recv(_STATUS.size, socket.MSG_WAITALL))
     except (OSError, struct.error):
         sys.exit("The process that jobs are forked from has ended; start the study again.")
@@ -98,9 +102,8 @@ def serve(listener: socket.socket) -> None:
     """Fork a process for each task that comes to `listener`, until standard input ends, or the one that holds it."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # of a terminal; the scheduler tells whom it concerns
     _import_all()
-    from rocking.study.job import prepare
-
-    prepare(pickle.load(sys.stdin.buffer))
+    with contextlib.suppress(Exception):  # which every job tells that meets it
+        _prepare(json.loads(sys.stdin.readline()))
     jobs: dict[int, tuple[int, socket.socket]] = {}
     while 0 not in (ready := select.select([0, listener.fileno(), *jobs], [], [])[0]):
         for ended in jobs.keys() & set(ready):
@@ -141,12 +144,23 @@ def _import_all() -> None:
     load_all()
 
 
+def _prepare(settings: str) -> None:
+    """Compute what the structures of a study with these settings, as YAML, need under every record."""
+    import yaml
+
+    from rocking.study.job import prepare
+    from rocking.study.settings import read_settings
+
+    prepare(read_settings(yaml.safe_load(settings)))
+
+
 def _run(connection: socket.socket) -> NoReturn:
     """Run the script of a task in this process, as the one that handed it over would, and end."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
     length, streams, *_ = socket.recv_fds(connection, _LENGTH.size, 3)
     (size,) = _LENGTH.unpack(length)
     task = connection.recv(size, socket.MSG_WAITALL)
+    connection.sendall(b"\0")
     for number, stream in enumerate(streams):
         os.dup2(stream, number)
         os.close(stream)

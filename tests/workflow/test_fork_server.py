@@ -3,6 +3,7 @@
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -96,6 +97,22 @@ def test_without_a_server_a_script_runs_by_itself(tmp_path: Path) -> None:
         command = subprocess.Popen(
             [sys.executable, script], env=os.environ | address, stdout=subprocess.PIPE, text=True
         )
+        assert int(command.communicate()[0]) == command.pid
+
+
+def test_where_the_server_ends_before_it_forks_a_script_runs_by_itself(tmp_path: Path) -> None:
+    script = tmp_path / "script.py"
+    script.write_text(f"import os\n{HANDED}print(os.getpid())")
+    with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as listener:
+        listener.bind("\0rocking-ends")
+        listener.listen()
+        command = subprocess.Popen(
+            [sys.executable, script],
+            env=os.environ | {ADDRESS: "rocking-ends"},
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        listener.accept()[0].close()
         assert int(command.communicate()[0]) == command.pid
 
 
