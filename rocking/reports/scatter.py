@@ -139,8 +139,8 @@ def _draw_quadrants(axes: Axes) -> None:
     axes.set(
         xlim=(low, _END),
         ylim=(low, _END),
-        xlabel="closed form: rotation over critical rotation [-]",
-        ylabel="integration: rotation over critical rotation [-]",
+        xlabel="closed form (1: critical)",
+        ylabel="integration (1: critical)",
     )
 
 

@@ -81,7 +81,7 @@ def test_the_report_of_a_record_is_well_laid(example, count):
     assert len(assert_well_laid(report.pdf())) == 2
     words = [word[4] for page in assert_well_laid(detailed(report).pdf()) for word in page]
     numbers = {after for word, after in itertools.pairwise(words) if word == "Table" and after.endswith(".")}
-    assert numbers == {f"{number}." for number in range(1, 6)}, "each table has a number of its own"
+    assert numbers == {f"{number}." for number in range(1, 7)}, "each table has a number of its own"
 
 
 @pytest.mark.process

@@ -377,7 +377,7 @@ def test_page_one_tells_what_was_typed_and_what_crushing_would_change_before_pag
         told = report.data()["left-out"]
         assert f"typed: restitution 0.6 typed, {own:.2g} by geometry" in told
         (verdict,) = (row for row in report.tables.verdicts if row.structure == "wall")
-        tells = "wall: crushing at 2 MPa would tell" in told
+        tells = "wall: crushing at 2 MPa would matter" in told
         assert tells == (verdict.reserve_low <= lost)
         assert tells == ("crush at 2 MPa" in " ".join(known(report.data())))
         seen.add(tells)
