@@ -38,9 +38,8 @@ def start(settings: Any) -> None:
         return
     if _ADDRESS in os.environ:
         return
-    from rocking.study.settings import (
-        commented_yaml,
-    )  # a script that is handed over imports this module alone
+    # Not above: a script that is handed over imports this module, and is to begin at once.
+    from rocking.study.settings import commented_yaml
 
     name = f"rocking-{secrets.token_hex(16)}"
     with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as listener:
