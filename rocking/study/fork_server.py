@@ -17,7 +17,10 @@ import socket
 import struct
 import subprocess
 import sys
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, NoReturn
+
+if TYPE_CHECKING:
+    from rocking.study.settings import Settings
 
 _ADDRESS = "ROCKING_FORK_SERVER"
 """The variable of the environment that names the socket of the server, one without a file."""
@@ -27,7 +30,7 @@ _BLAS_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 """What snakemake sets to the threads of a job, 1; besides, a process with further threads must not be forked."""
 
 
-def start(settings: Any) -> None:
+def start(settings: "Settings") -> None:
     """Start the server of this process, unless there is one; it ends with this process, and prepares itself beside it.
 
     settings: of the study in this folder, whose structures it prepares.

@@ -1,10 +1,12 @@
 """The rows of the tables of what goes in: each component of a record with its sine pulses, each structure by itself."""
 
+import contextlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
+from rocking.errors import StructureError
 from rocking.pulses import Pulse, PulseEvidence, VelocityPulse
 from rocking.pulses.pulse import PulseAnalysis, same_outcome_share
 from rocking.records.measures import RecordMeasures, record_measures
@@ -369,16 +371,24 @@ class ListedStructure(Named):
         positive = self.body.mechanism().positive
         return positive if positive.can_overturn else None
 
+    def block(self, scale: Scale) -> EquivalentBlock | None:
+        """Its equivalent block; None where it cannot overturn, or where the block is refused, as each record says."""
+        with contextlib.suppress(StructureError):
+            return self.body.mechanism().equivalent_block(scale) if self.side else None
+        return None
+
 
 of_listed = Columns(ListedStructure)
 of_side = of_listed.optional(lambda of: of.side)
-of_block_defects = of_listed.optional(lambda of: of.body.mechanism().block_defects if of.side else None)
+of_block_defects = of_listed.optional(
+    lambda of: None if of.block("rest") is None else of.body.mechanism().block_defects
+)
 of_crushing = of_listed.optional(lambda of: of.body.crushing(WEAK_MASONRY))
 
 
 def of_block(scale: Scale) -> Columns[EquivalentBlock]:
-    """Return the declaration of columns about an equivalent block, which what cannot overturn has not."""
-    return of_listed.optional(lambda of: of.body.mechanism().equivalent_block(scale) if of.side else None)
+    """Return the declaration of columns about an equivalent block, which not every structure has."""
+    return of_listed.optional(lambda of: of.block(scale))
 
 
 @row("structures")

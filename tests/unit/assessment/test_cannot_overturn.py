@@ -1,5 +1,6 @@
 """What cannot overturn: a verdict of its own, what it says, and what is left out of it, in words."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -10,9 +11,10 @@ from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.rows import structure_rows
 from rocking.errors import StructureError
 from rocking.pulses import Pulse
+from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.remarks import Kind
-from rocking.structures import LoadedWall
+from rocking.structures import Block, LoadedWall, Wall
 from tests.made_structures import HELD
 
 ALONE = HELD.mechanism()
@@ -116,3 +118,12 @@ def test_its_row_has_no_block():
     (row,) = structure_rows({"held": HELD})
     assert np.isnan([row.critical_rotation_rad, row.frequency_parameter_rad_s]).all()
     assert row.uplift_multiplier == pytest.approx(HELD.mechanism().uplift_multiplier)
+
+
+def test_a_structure_without_a_block_has_a_row_beside_the_others():
+    """A wall ten times as broad as high has no block exact at rest; its row leaves that out, and names the others."""
+    flat, block = structure_rows({"flat": Wall.of_size(3.0, 30.0), "block": Block.of_size(1.0, 6.0)})
+    assert math.isnan(flat.frequency_parameter_at_rest_rad_s) and math.isnan(flat.restoring_defect)
+    assert flat.critical_rotation_rad > 0.0
+    own = math.sqrt(3 * GRAVITY / (4 * math.hypot(1.0, 6.0) / 2))  # Housner (1963): p² = 3g/(4R)
+    assert block.frequency_parameter_rad_s == pytest.approx(own, rel=1e-12)
