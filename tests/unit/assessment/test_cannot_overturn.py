@@ -122,7 +122,9 @@ def test_its_row_has_no_block():
 
 def test_a_structure_without_a_block_has_a_row_beside_the_others():
     """A wall ten times as broad as high has no block exact at rest; its row leaves that out, and names the others."""
-    flat, block = structure_rows({"flat": Wall.of_size(3.0, 30.0), "block": Block.of_size(1.0, 6.0)})
+    flat, block = structure_rows(
+        {"flat": Wall.of_size(3.0, 30.0, restitution=0.5), "block": Block.of_size(1.0, 6.0)}
+    )
     assert math.isnan(flat.frequency_parameter_at_rest_rad_s) and math.isnan(flat.restoring_defect)
     assert flat.critical_rotation_rad > 0.0
     own = math.sqrt(3 * GRAVITY / (4 * math.hypot(1.0, 6.0) / 2))  # Housner (1963): p² = 3g/(4R)
