@@ -106,7 +106,7 @@ def run(folder: Path, options: Sequence[str]) -> int:
         print(f"Finished: {options[0]}; what it wrote lies in {results}")
         return 0
     design = plan.settings.design_spectrum
-    return _told_of(results, checked=bool(design.ag or design.points))
+    return _told_of(results, plan.settings.reports, checked=bool(design.ag or design.points))
 
 
 def run_trade(folder: Path) -> int:
@@ -134,8 +134,11 @@ def _why(progress: Progress, folder: Path, log: Path) -> str:
     return "; ".join(dict.fromkeys(_in_a_sentence(each, folder, log) for each in reasons))
 
 
-def _told_of(results: Path, checked: bool) -> int:
-    """Tell what came of a whole study, and return the exit status. checked: whether it has a design level."""
+def _told_of(results: Path, reports: bool, checked: bool) -> int:
+    """Tell what came of a whole study, and return the exit status.
+
+    reports, checked: whether it makes reports, and has a design level.
+    """
     failures = read_table(FailureRow, results / "summary")
     verdicts = read_table(VerdictRow, results / "summary")
     comparison = read_rows(ComparisonRow, results / "summary" / ComparisonRow.table.file_name)
@@ -143,7 +146,7 @@ def _told_of(results: Path, checked: bool) -> int:
     told = [*closing_lines(verdicts, comparison, failures, falls)]
     if checked:
         told += lines_by_code(results / "summary")
-    for line in (*told, *paths_to_read(results, verdicts, checked)):
+    for line in (*told, *paths_to_read(results, verdicts, reports, checked)):
         print(fitting(line, sys.stdout))
     return int(bool(failures))
 

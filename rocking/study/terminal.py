@@ -200,23 +200,27 @@ def check_any_read(summary: Path, records: Collection[str]) -> None:
         raise RecordError(f"none of {number} could be read; the first: {record}: {message}")
 
 
-def paths_to_read(results: Path, verdicts: Iterable[VerdictRow], checked: bool = False) -> Iterator[str]:
+def paths_to_read(
+    results: Path, verdicts: Iterable[VerdictRow], reports: bool, checked: bool
+) -> Iterator[str]:
     """Yield a line for each of the files that come next for a reader, the report of the worst record among them.
 
-    checked: whether there are pages to sign.
+    reports, checked: whether the study makes reports, and pages to sign. A file that lies there of a former run, and
+    that this one does not make, is not named: it would not say what the tables say.
     """
     summary = results / "summary"
     records = worst_first((each.record, each.decision) for each in verdicts)
-    report = summary / "summary.pdf"
-    files = {report if report.is_file() else summary: "all records"}
-    if records and (of_worst := results / records[0] / "report.pdf").is_file():
-        files[of_worst] = "every structure under the worst record"
+    first = summary / "summary.pdf" if reports else summary
+    files = {first: "all records"}
+    if records and reports:
+        files[results / records[0] / "report.pdf"] = "every structure under the worst record"
     if checked:
         files[summary / "structures.pdf"] = "a page of each structure, to sign"
-    files |= dict.fromkeys(sorted(summary.glob("*.html")), "to explore")
+    if reports:
+        files[summary / "study.html"] = "to explore"
     width = max(len(str(path)) for path in files)
     for path, what in files.items():
-        yield f"{'Open' if path in (report, summary) else '':<8}{path!s:<{width}}  {what}"
+        yield f"{'Open' if path == first else '':<8}{path!s:<{width}}  {what}"
 
 
 def bar(things: Iterable[T], what: str, total: int | None = None) -> "tqdm[T]":

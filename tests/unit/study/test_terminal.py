@@ -131,14 +131,28 @@ def test_nothing_overturns() -> None:
     assert list(closing_lines([], [], [])) == []
 
 
-def test_the_paths_are_those_that_exist(tmp_path: Path) -> None:
+def test_the_paths_are_those_that_this_run_makes_whatever_lies_there(tmp_path: Path) -> None:
     summary = tmp_path / "summary"
     summary.mkdir()
-    assert [line.split("  ")[:3:2] for line in paths_to_read(tmp_path, [])] == [["Open", f"{summary}"]]
-    for name in ("summary.pdf", "explore.html"):
-        (summary / name).touch()
-    lines = [line[8:].split("  ")[0] for line in paths_to_read(tmp_path, [])]
-    assert lines == [str(summary / "summary.pdf"), str(summary / "explore.html")]
+    rows = verdicts([station(case("EW", 0.25, "pier", falls=5))])
+    report = tmp_path / rows[0].record / "report.pdf"
+    report.parent.mkdir()
+    of_a_former_run = summary / "summary.pdf", summary / "study.html", summary / "structures.pdf", report
+    for path in of_a_former_run:
+        path.touch()
+
+    def paths(reports: bool, checked: bool) -> list[str]:
+        lines = paths_to_read(tmp_path, rows, reports, checked)
+        return [line[8:].split("  ")[0] for line in lines]
+
+    assert paths(reports=False, checked=False) == [str(summary)]
+    assert paths(reports=False, checked=True) == [str(summary), str(summary / "structures.pdf")]
+    assert paths(reports=True, checked=False) == [
+        str(path) for path in (summary / "summary.pdf", report, summary / "study.html")
+    ]
+    assert len(paths(reports=True, checked=True)) == 4
+    first, *others = paths_to_read(tmp_path, rows, reports=True, checked=True)
+    assert first.startswith("Open") and not any(line.startswith("Open") for line in others)
 
 
 def test_what_is_sent_stands_in_the_log_and_on_the_terminal(tmp_path: Path) -> None:
