@@ -72,7 +72,7 @@ class Tried:
     """One value that was tried.
 
     value: in SI; nan where the structure states none. shares: (n,) of each station, the mean over its components of the
-    members that overturn; what cannot be told counts as 1. governing: what overturns most often, or turns where nothing
+    share of the decision; what cannot be told counts as 1. governing: what overturns most often, or turns where nothing
     does; "" of a structure with one mechanism. untold: components under which it cannot be told.
     """
 
@@ -256,7 +256,7 @@ def strengthen(
 
     15 values between (low, high), in equal ratios, are tried. The one that is returned is the smallest such that at it
     and at all larger ones the upper one-sided 90 % bound (Jeffreys) of the share that overturns is at or below the
-    target. Each station counts once, with the mean over its components of the members that overturn; one that cannot be
+    target. Each station counts once, with the mean over its components of the share that overturns; one that cannot be
     told counts as 1, as does a value with which the structure does not stand at rest.
 
     records: horizontal components, each by itself. key: a length, an angle, a force or a stiffness of the structure, in

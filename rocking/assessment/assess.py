@@ -54,7 +54,7 @@ class StructureAssessment(StationResult, Drawn):
 
     @property
     def overturning_share(self) -> float:
-        """Share of the members that overturn; of a single run 0 or 1, nan where there is none."""
+        """The largest share that overturns, of members and stacks; of a single run 0 or 1, nan where there is none."""
         return self.decision.share
 
     @property

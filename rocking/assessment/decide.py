@@ -263,10 +263,10 @@ class Facts:
 class Decision:
     """The fate of a structure, as every table and report prints it.
 
-    word: the verdict. share: of the members that overturn with the crack that governs; of a single run 0 or 1, nan
-    where none can be said. interval: of the share, from the first crack to the worst, with what failed or is not
-    known; nan where nothing is known. why: the reason, in words. doubts: what may make it worse than said. tells: what
-    would tell more.
+    word: the verdict. share: the largest that overturns, among the members of the cracks and the stacks that make the
+    word; of a single run 0 or 1, nan where none can be said. interval: of the share, from the first crack to the worst,
+    with what failed or is not known; nan where nothing is known. why: the reason, in words. doubts: what may make it
+    worse than said. tells: what would tell more.
 
     >>> decision = rocking.Decision(rocking.Verdict.UNCERTAIN, 0.5, (0.5, 0.5), "32 of 64 members overturn")
     >>> print(decision.word, decision.share)
@@ -286,8 +286,9 @@ class Decision:
         low, high = self.interval
         if math.isnan(low) or self.word is Verdict.CANNOT_OVERTURN:
             return ""
-        if any(each.kind is Kind.ENSEMBLE for each in self.tells):
-            return "one run"
+        one_run = any(each.kind is Kind.ENSEMBLE for each in self.tells)
+        if one_run and low == high and self.word.badness <= Verdict.UNCERTAIN.badness:
+            return "one run"  # but not where stacks add to it, or say worse
         if math.isnan(self.share) and high == 1:
             return f"at least {percents(low)}" if low else ""
         return percents(low, high)
@@ -352,8 +353,11 @@ def decide(facts: Facts) -> Decision:
     11   else                                                              the step
     ===  ================================================================  =============================================
 
-    A further doubt, failure or fall never makes the word safer. Under row 7 the share is empty, and its interval
-    reaches from the members that fall to those that fall or failed; under row 10 from the share at least to 1.
+    A further doubt, failure or fall never makes the word safer, nor the share smaller. The share is the largest among
+    the cracks that count and the stacks, members that failed counted as falling: at it, the members of the crack or the
+    stacks that make the word have a step no safer than the word. Rows 5 and 8b and doubts limit the word, not the
+    share. Under row 7 the share is empty, and its interval reaches from the members that fall to those that fall or
+    failed; under row 10 from the share at least to 1.
     """
     risk = facts.risk
     counting = facts.counting
@@ -404,7 +408,8 @@ def decide(facts: Facts) -> Decision:
         # 6: the worst crack; statics' own keeps a word in it.
         word = _envelope((each, each.step(risk)) for each in followed)
         tells = facts.remarks
-        share = governing.share
+        # Not that of the worst step: by their error fewer members may have the worse word and the smaller share.
+        share = max(each.share for each in followed)
         why = _counted(facts, worse_beside)
         if facts.top is not None:
             why = f"{why}; {facts.top.brief}"
@@ -412,7 +417,7 @@ def decide(facts: Facts) -> Decision:
         first = next((each for each in followed if not each.bulges), governing)
         disagree = not governing.bulges and governing.step(risk) is not first.step(risk)
         ends = {governing, first} if disagree else {governing}
-        interval = min(each.falls / each.members for each in ends), max(each.share for each in ends)
+        interval = min(each.falls / each.members for each in ends), share
         # 7: failed members count as falling, but alone they make nothing fall.
         falls_without = _envelope((each, each.step_of_followed(risk)) for each in followed)
         open_ = word.badness >= Verdict.PROBABLY_OVERTURNS.badness or not all(
@@ -424,6 +429,12 @@ def decide(facts: Facts) -> Decision:
         if any(each.failed for each in followed):
             beside = (*beside, Remark(Kind.MEMBERS_FAILED))
 
+    if facts.stacks is not None:
+        fallen, runs = facts.stacks
+        why = f"{why}; {fallen} of {runs} stacks of courses fall in contact dynamics"
+        share = max(share, fallen / runs)
+        interval = interval[0], share
+
     # 8
     if word is Verdict.OVERTURNS:
         return Decision(word, share, interval, why, beside)
@@ -433,13 +444,11 @@ def decide(facts: Facts) -> Decision:
         beside = (*beside, Remark(facts.beyond))
         tells = (*tells, *contact_dynamics)
     if facts.stacks is not None:
-        fallen, runs = facts.stacks
         of_stacks = step(fallen, runs, risk=risk)
-        why = f"{why}; {fallen} of {runs} stacks of courses fall in contact dynamics"
         if of_stacks.badness > word.badness and runs < UNANIMOUS and not fallen:
             tells = (*tells, Remark(Kind.CONTACT_DYNAMICS))  # more runs of which none falls would say more
         if of_stacks is not word:
-            interval = min(interval[0], fallen / runs), max(interval[1], fallen / runs)
+            interval = min(interval[0], fallen / runs), interval[1]
         word = worse(word, of_stacks)
     # 10: a mechanism that stands says nothing of what it does not follow.
     if (unsettled or missing) and word.badness < Verdict.PROBABLY_OVERTURNS.badness:

@@ -31,7 +31,7 @@ class Variant:
 
     @property
     def share(self) -> float:
-        """Share of the members that overturn; nan where none can be said."""
+        """The share that overturns under its worst record; nan where none can be said."""
         return self.conclusion.verdict.decision.share if self.conclusion else math.nan
 
     @property
@@ -75,7 +75,7 @@ class VariantRow(RowOf[Variant]):
     verdict: Verdict | None = of_variant(
         "Verdict under it", lambda of: of.conclusion.verdict.verdict if of.conclusion else None
     )
-    overturning_share: float = of_variant("Share of the members that overturn under it", lambda of: of.share)
+    overturning_share: float = of_variant("Share that overturns under it", lambda of: of.share)
     reserve_factor: float = of_variant(
         "Factor on that record at which 5 % of the members overturn", lambda of: of.reserve
     )

@@ -286,7 +286,9 @@ def _plot_assessment(assessment: StructureAssessment, axes: Axes) -> None:
     mechanism = assessment.mechanism
     band = (assessment.rotation_ratio_low, assessment.rotation_ratio_high)
     draw_rotation(axes, (times, _over_critical(rotation, mechanism)), band=band)
-    share = f"{assessment.decision.share_in_words} of {assessment.members} members"
+    of_all = [f"{assessment.members} members"] if assessment.members else []
+    of_all += [f"{assessment.stacks.runs} stacks"] if assessment.stacks else []
+    share = " of ".join(filter(None, [assessment.decision.share_in_words, " and ".join(of_all)]))
     axes.set(xlabel=TIME, ylabel="rotation / critical rotation [-]", ylim=(-1.15, 1.15))
     axes.set_title(f"{assessment.decision.word}: overturns in {share}")
     axes.legend()

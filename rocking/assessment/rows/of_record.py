@@ -81,7 +81,8 @@ class DecidedRow(CaseRow[C]):
 
     verdict: Verdict = of_structure(f"The verdict: {', '.join(Verdict)}", lambda each: each.station.verdict)
     overturning_share: float = of_structure(
-        "Share of the members that overturn; 0 or 1 of a single run; empty where unknown",
+        "Largest share that overturns, of the members of each crack and the stacks that make the verdict; 0 or 1 of a "
+        "single run; empty where unknown",
         lambda each: each.station.decision.share,
     )
 

@@ -255,6 +255,50 @@ def test_9_both_shares_are_told():
     assert decision.why.startswith("0 of 64 members overturn")
 
 
+# The share ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("falls", "stacks", "share"),
+    [(0, (20, 24), 20 / 24), (50, (0, 64), 50 / 64), (64, (0, 64), 1.0), (62, (24, 24), 1.0)],
+)
+def test_the_share_is_the_largest_of_members_and_stacks(falls, stacks, share):
+    assert decide(Facts(cracks=(crack(falls),), stacks=stacks)).share == share
+
+
+def test_the_share_takes_the_stacks_of_what_the_members_overturn_already():
+    """One more member brings "overturns" about, and takes nothing from the share of the stacks."""
+    facts = [Facts(cracks=(crack(falls, 256),), stacks=(24, 24)) for falls in (247, 248)]
+    assert [str(decide(each).word) for each in facts] == ["probably overturns", "overturns"]
+    assert [decide(each).share for each in facts] == [1.0, 1.0]
+
+
+def test_a_further_fall_of_a_crack_of_few_members_takes_nothing_from_the_share():
+    """3, then 4 of 16 beside 19 of 64: the few make the word by their error, the many have the larger share."""
+    few = [Facts(cracks=(crack(falls, 16), crack(19, name="upper"))) for falls in (3, 4)]
+    assert [str(decide(each).word) for each in few] == ["probably stands", "uncertain"]
+    assert [decide(each).share for each in few] == [19 / 64, 19 / 64]
+    assert decide(few[1]).interval == (16 / 64, 19 / 64)
+
+
+def test_what_limits_the_word_leaves_the_share():
+    """A held wall whose chains go far, and a single run."""
+    far = decide(Facts(cracks=(crack(0),), held=True, beyond=Kind.HELD_BEYOND))
+    assert (str(far.word), far.share) == ("probably stands", 0.0)
+    alone = decide(Facts(run_ratio=math.inf))
+    assert (str(alone.word), alone.share, alone.share_in_words) == ("uncertain", 1.0, "one run")
+
+
+def test_a_single_run_is_no_share_of_the_stacks_beside_it():
+    beside = decide(Facts(run_ratio=0.1, stacks=(14, 14)))
+    assert (str(beside.word), beside.share, beside.share_in_words) == (
+        "probably overturns",
+        1.0,
+        "0–100\u00a0%",
+    )
+    assert decide(Facts(run_ratio=math.inf, stacks=(14, 14))).share_in_words == "100\u00a0%"
+
+
 def test_10_a_doubt_leaves_only_the_least_share():
     decision = decide(Facts(cracks=(crack(12),), doubts=(OPEN,)))
     assert str(decision.word) == "cannot be told"
@@ -426,6 +470,45 @@ def test_the_decision_is_that_of_the_table():
     assert met == set(SAFEST_FIRST)
 
 
+def share_of_the_table(facts):
+    """The largest share of the cracks that count and of the stacks; None where there is none, as of a single run."""
+    count = [each for each in facts.cracks if each.counts]
+    count = [each for each in count if not each.slides] or count
+    of_each = [Fraction(each.falls + each.failed, each.followed + each.failed) for each in count]
+    if not of_each or facts.rests or (facts.never_lets_go and not facts.doubts):
+        return None
+    return max([*of_each, *([Fraction(*facts.stacks)] if facts.stacks else [])])
+
+
+@pytest.mark.parametrize("draws", [8_000, pytest.param(50_000, marks=pytest.mark.slow)])
+def test_the_share_stands_on_the_word(draws):
+    """At it, those that make the word have a step no safer than the word; but of one run, a held wall and doubts."""
+    chance = numbers(62)
+    by_stacks = met = 0
+    for _ in range(draws):
+        facts = drawn(chance)
+        decision = decide(facts)
+        share = share_of_the_table(facts)
+        if share is None or math.isnan(decision.share):
+            continue
+        assert decision.share == float(share), facts
+        assert decision.interval[0] <= decision.share == decision.interval[1]
+        if facts.held and facts.beyond:
+            continue
+        groups = [
+            (each.falls + each.failed, each.members, math.inf if each.failed else each.farthest)
+            for each in facts.followed
+        ]
+        groups += [(*facts.stacks, math.inf)] if facts.stacks else []
+        makes = max(groups, key=lambda group: (step(*group).badness, -group[1]))
+        falls = math.ceil(share * makes[1])
+        farthest = makes[2] if falls == makes[0] else math.inf
+        assert step(falls, makes[1], farthest).badness >= decision.word.badness, facts
+        met += 1
+        by_stacks += bool(facts.stacks) and share == Fraction(*facts.stacks)
+    assert by_stacks > draws / 50 and met > draws / 3
+
+
 def worsened(facts, chance):
     """The facts with one thing gone worse: a doubt, a component, a member or a stack more."""
     ways = [{"failures": (*facts.failures, "component Y is cut")}, {"beyond": Kind.TIES_GIVE}]
@@ -447,13 +530,16 @@ def worsened(facts, chance):
 
 
 @pytest.mark.parametrize("draws", [8_000, pytest.param(50_000, marks=pytest.mark.slow)])
-def test_a_further_doubt_failure_or_fall_never_makes_a_word_safer(draws):
+def test_a_further_doubt_failure_or_fall_never_makes_a_word_safer_nor_a_share_smaller(draws):
     chance = numbers(8)
-    changed = 0
+    changed = grown = 0
     for _ in range(draws):
         facts = drawn(chance)
         worse = worsened(facts, chance)
         before, after = (SAFEST_FIRST.index(decide(each).word) for each in (facts, worse))
         assert after >= before, (facts, worse)
         changed += after > before
-    assert changed > draws / 50
+        first, then = decide(facts), decide(worse)
+        assert not then.share < first.share, (facts, worse)  # where both are known
+        grown += then.share > first.share
+    assert changed > draws / 50 and grown > draws / 50

@@ -1,0 +1,101 @@
+"""One share of a pinnacle whose stacks fall: in expected falls, strengthening, the page to sign and the summary."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rocking
+from rocking.assessment.decide import Verdict
+from rocking.assessment.rows import ExpectedFallsRow, RecordRow, VerdictRow
+from rocking.records import load_catalogue
+from rocking.strengthening import sizes, strengthen_scene
+from rocking.study.checks import write_checks
+from rocking.study.job import Study
+from rocking.study.plan import make_plan
+from rocking.study.results import outcomes_of
+from rocking.study.summary import write_summary
+from rocking.tables import read_table
+from tests.made_pools import DESIGN
+from tests.unit.study.made_jobs import worked
+
+STEP = 0.005
+PERIODS = (0.45, 0.5, 0.55, 0.6, 0.65, 0.7)
+PINNACLE = "- {name: pinnacle, type: spire, width_m: 0.6, height_m: 3.0, plan: square}\n"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory) -> Path:
+    """Three cycles of a sine at each of six stations, and a pinnacle on the ground."""
+    made = tmp_path_factory.mktemp("pinnacle")
+    with (made / "catalogue.csv").open("w", newline="") as stream:
+        writer = csv.writer(stream)
+        writer.writerow(["id", "file", "unit", "station"])
+        for number, period in enumerate(PERIODS):
+            times = np.arange(0, 3 * period, STEP)
+            motion = np.append((3.9 + 0.1 * number) * np.sin(2 * np.pi * times / period), np.zeros(60))
+            lines = [f"{STEP * place:.3f} {value:.9f}" for place, value in enumerate(motion)]
+            (made / f"r{number}.txt").write_text("\n".join(lines) + "\n")
+            writer.writerow([f"r{number}", f"r{number}.txt", "m/s2", f"s{number}"])
+    (made / "structures.yaml").write_text(PINNACLE)
+    return made
+
+
+@pytest.mark.process
+def test_four_tables_say_one_share_of_a_pinnacle_whose_stacks_fall(folder: Path, monkeypatch) -> None:
+    settings = {
+        "catalogue": str(folder / "catalogue.csv"),
+        "structures": str(folder / "structures.yaml"),
+        "fidelity": "contact",
+        "reports": False,
+        "processing": {"apply": "never"},
+        "design_spectrum": DESIGN,
+    }
+    plan = make_plan(settings)
+    study = Study(plan.scenes, plan.settings)
+    catalogue = load_catalogue(folder / "catalogue.csv")
+    worked(catalogue, study, folder / "results")
+    outcomes = list(outcomes_of(folder / "results", catalogue))
+    write_summary(outcomes, study.structures, folder / "summary", False)
+    verdicts = read_table(VerdictRow, folder / "summary")
+
+    # The summary: of each record the larger of two counts, that of the members and that of the stacks.
+    assert len(verdicts) == len(PERIODS)
+    of_members = np.array([each.overturning_members / max(each.members, 1) for each in verdicts])
+    of_stacks = np.array(
+        [each.stack_falls / each.stack_runs if each.stack_runs else 0.0 for each in verdicts]
+    )
+    shares = np.array([each.overturning_share for each in verdicts])
+    assert shares == pytest.approx(np.maximum(of_members, of_stacks), abs=1e-12)
+    decided = [
+        each
+        for each, stacks, members in zip(verdicts, of_stacks, of_members, strict=True)
+        if stacks > members
+    ]
+    assert len(decided) >= 2, "else nothing is tested"
+    assert any(each.verdict in (Verdict.PROBABLY_OVERTURNS, Verdict.OVERTURNS) for each in decided)
+
+    # The expected falls of one structure under one record are its share.
+    falls = read_table(ExpectedFallsRow, folder / "summary")
+    assert [row.expected_falls for row in falls] == pytest.approx([*shares, shares.mean()])
+
+    # The page to sign: the mean over the stations.
+    pages = []
+    monkeypatch.setattr("rocking.study.checks.structures_data", lambda made, *_: pages.extend(made) or {})
+    monkeypatch.setattr("rocking.study.checks.write_document", lambda *_: None)
+    records = read_table(RecordRow, folder / "summary")
+    write_checks(study, folder, verdicts, records)
+    assert pages[0].stations == len(PERIODS)
+    assert pages[0].overturning_share == pytest.approx(shares.mean())
+
+    # What would hold it, as it is given: the same mean. Two values are tried; the rule needs no more here.
+    monkeypatch.setattr("rocking.strengthening.GRID", 2)
+    scene = study.scenes["pinnacle"]
+    (side,) = (each for each in sizes(scene.structure) if each.name == "width")
+    motions = [rocking.read(folder / f"{each.id}.txt", unit="m/s2")[0] for each in catalogue]
+    found = strengthen_scene(
+        motions, scene, side, (1.5, 2.0), 0.1, [each.id for each in catalogue], study.assessment
+    )
+    assert found.given.untold == 0
+    assert found.given.share == pytest.approx(shares.mean())
