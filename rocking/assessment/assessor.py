@@ -1,9 +1,7 @@
 """The assessor: scenes under a record, each case looked up in a store before it is computed, and timed."""
 
 from collections.abc import Callable, Container, Mapping, Sequence
-from contextlib import nullcontext
-from dataclasses import dataclass, field, fields, replace
-from functools import cache, partial
+from dataclasses import dataclass, field, replace
 from math import isclose, isnan
 from typing import Protocol, TypeVar
 
@@ -15,28 +13,27 @@ from rocking.assessment.case import (
     SceneResult,
     StationResult,
 )
-from rocking.assessment.cracks import cracked, cracks
+from rocking.assessment.cracks import cracked
+from rocking.assessment.inputs import CaseInputs, Inputs, PairInputs, PulseInputs, ReserveInputs
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.motions import (
     Carrier,
     Component,
     ComponentPulses,
-    HorizontalMotion,
     Motion,
+    arrived,
     by_name,
-    ground_motions,
-    horizontal_motions,
-    pulses_of,
 )
 from rocking.assessment.one_case import (
     Clock,
-    assess_case,
-    assess_directions,
-    motion_of,
+    compute_case,
+    compute_pulses,
+    compute_reserve,
+    count_motions,
+    governing_crack,
     predict,
-    with_variations,
 )
-from rocking.assessment.reserve import Reserve, reserve
+from rocking.assessment.reserve import Reserve
 from rocking.assessment.scene import Scene, on_friction
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import RockingError
@@ -44,8 +41,10 @@ from rocking.hashes import sha256_of
 from rocking.motion.integration import integrate
 from rocking.records import Accelerogram, aligned
 from rocking.structures import Structure
+from rocking.structures.structure import CRACKS
 
 T = TypeVar("T")
+I = TypeVar("I", bound=Inputs)
 
 Predictions = Mapping[tuple[str, str], Prediction | None]
 """The closed forms by the names of scene and component; None without a pulse, and of what cannot overturn."""
@@ -122,21 +121,13 @@ class Assessor:
         """
         measured = self.motion_measures if measured is None else measured
         beside = [None if vertical is None else aligned(vertical, each) for each in horizontal]
-        each_alone = [Motion((each,)) for each in horizontal]
-        of_pair = cache(partial(horizontal_motions, horizontal))
+        each_alone = tuple(Motion((component,)) for component in horizontal)
         components = []
         for place, (accelerogram, lift) in enumerate(zip(horizontal, beside, strict=True)):
-            fingerprint = self._fingerprint("pulses", place, *each_alone, self.settings.pulse, measured)
-
-            def sought(clock: Clock, place: int = place) -> ComponentPulses:
-                motion = HorizontalMotion()
-                if measured:
-                    with clock.stage("velocity pulse"):
-                        motion = of_pair()[place]
-                with clock.stage("pulses"):
-                    return pulses_of(horizontal[place], self.settings.pulse, motion)
-
-            pulses = self._remembered(ComponentPulses, fingerprint, sought)
+            inputs = PulseInputs(
+                components=each_alone, place=place, settings=self.settings.pulse, measured=measured
+            )
+            pulses = self._remembered(ComponentPulses, inputs, compute_pulses)
             components.append(pulses.beside(accelerogram, lift))
         return tuple(components)
 
@@ -241,10 +232,7 @@ class Assessor:
     def _on_support(self, support: Carrier, grounds: Sequence[Component]) -> tuple[Component, ...]:
         """The components as they arrive on a support, with the pulses of the motion there."""
         with self.clock.stage("supports"):
-            motions = [
-                ground_motions(Motion((each.accelerogram,), each.vertical, support), processing=False)
-                for each in grounds
-            ]
+            motions = [arrived(Motion((each.accelerogram,), each.vertical, support)) for each in grounds]
         floors = [next(iter(each.horizontal.values())) for each in motions]
         sought = self.pulses(floors, measured=False)
         return tuple(
@@ -264,15 +252,10 @@ class Assessor:
         if len(components) == 2 and self.settings.ensemble.members:
             grounds = tuple((each.ground or each).accelerogram for each in components)
             pair = Motion(grounds, vertical, support)
-            processing = self.settings.ensemble.processing
+            inputs = PairInputs(pair=pair, processing=self.settings.ensemble.processing)
             try:
                 # Where every case is kept, its motions are not made: only that they can be is to be known.
-                self._remembered(
-                    int,
-                    self._fingerprint("directions", pair, processing),
-                    lambda clock: len(ground_motions(pair, processing).horizontal),
-                    stage="directions",
-                )
+                self._remembered(int, inputs, count_motions)
                 shaking = replace(shaking, pair=pair)
             except RockingError as error:
                 failures.append((BOTH_COMPONENTS, Failure("directions", str(error))))
@@ -288,20 +271,16 @@ class Assessor:
         cases = {}
         for name, component in by_name(shaking.components).items():
             prediction = predictions.get((scene.name, name))
-            case = self._case(scene, component, prediction, alone=shaking.pair is None)
+            case = self._of_component(scene, component, prediction, alone=shaking.pair is None)
             cases[name] = replace(case, component=name)
         directions = None
         pair = shaking.pair
         if pair is not None and any(case.answer is not None for case in cases.values()):
             bounces = any(case.check.bounces for case in cases.values())
-            fingerprint = self._fingerprint(pair, scene.structure, True)
-            case = self._remembered(
-                CaseResult,
-                fingerprint,
-                lambda clock: assess_directions(scene.structure, pair, self.settings, bounces),
-                stage="directions",
+            inputs = CaseInputs(
+                motion=pair, structure=scene.structure, settings=self.settings, bounces=bounces
             )
-            directions = replace(case, structure=scene.name, fingerprint=fingerprint)
+            directions = replace(self._case(inputs), structure=scene.name)
         return StationResult(scene, cases, directions, shaking.support)
 
     def _of_governing(self, station: StationResult, case: CaseResult, component: Component) -> CaseResult:
@@ -321,13 +300,14 @@ class Assessor:
             return case
 
         prediction = predict(other, component.candidates, self.settings)
-
-        told = self._remembered(
-            CaseResult,
-            self._fingerprint("governing", case.fingerprint, crack),
-            lambda clock: assess_case(body, component, prediction, self.settings, False, clock),
-            lambda case: case.kept,
-            stage="responses",
+        told = self._case(
+            CaseInputs(
+                motion=component.of_ground,
+                structure=body,
+                settings=self.settings,
+                pulse=prediction.pulse if prediction else None,
+                alone=False,
+            )
         )
         if told.answer is None:
             return replace(case, failures=(*case.failures, *told.failures))
@@ -341,25 +321,27 @@ class Assessor:
             statics=case,
         )
 
-    def _case(
+    def _of_component(
         self, scene: Scene, component: Component, prediction: Prediction | None, alone: bool
     ) -> CaseResult:
         """The case under one component. alone: whether no ensemble over directions speaks for it."""
-        structure = scene.structure
+        # Without members nothing else follows the mechanism that statics chooses.
+        unless_asked = 0 if self.settings.ensemble.members else CRACKS
+        case = self._case(
+            CaseInputs(
+                motion=component.of_ground,
+                structure=scene.structure,
+                settings=self.settings,
+                pulse=prediction.pulse if prediction else None,
+                alone=alone,
+                crack_heights=self.crack_heights or unless_asked,
+                processing_variants=self.processing_variants,
+            )
+        )
+        return replace(case, structure=scene.name, prediction=prediction if case.answer is not None else None)
 
-        def followed(clock: Clock) -> CaseResult:
-            with clock.stage("responses"):
-                case = assess_case(structure, component, prediction, self.settings, alone, clock)
-            with clock.stage("variations"):
-                return with_variations(
-                    case, structure, component, self.settings, self.crack_heights, self.processing_variants
-                )
-
-        fingerprint = self._fingerprint(motion_of(component), structure, alone)
-        case = self._remembered(CaseResult, fingerprint, followed, lambda case: case.kept)
-        # A pulse gives it at once, so that no store keeps it.
-        predicted = prediction if case.answer is not None else None
-        return replace(case, structure=scene.name, fingerprint=fingerprint, prediction=predicted)
+    def _case(self, inputs: CaseInputs) -> CaseResult:
+        return self._remembered(CaseResult, inputs, compute_case, lambda case: case.kept)
 
     def _with_reserve(
         self, station: StationResult, shaking: _Shaking, failures: list[tuple[str, Failure]]
@@ -376,24 +358,17 @@ class Assessor:
         # The factors of a mechanism would say nothing of what slides first, or falls in contact dynamics alone.
         if not isnan(case.slides_at) or station.falls_in_stacks_alone:
             return station
-        several = cracks(station.scene.structure)
+        structure = station.scene.structure
         description = case.ensembles.governing.description
-        governing = next((each for each in several if each.description == description), several[0])
-        if not governing.mechanism.can_overturn:
+        if not governing_crack(structure, description).mechanism.can_overturn:
             return station
         of_pair = case is station.directions and shaking.pair is not None
-        motion = shaking.pair if of_pair else motion_of(by_name(shaking.components)[case.component])
+        motion = shaking.pair if of_pair else by_name(shaking.components)[case.component].of_ground
         assert motion is not None
 
+        inputs = ReserveInputs(motion=motion, structure=structure, crack=description, settings=ensemble)
         try:
-            found = self._remembered(
-                Reserve,
-                self._fingerprint("reserve", case.fingerprint),
-                lambda clock: reserve(
-                    governing.mechanism, ground_motions(motion, ensemble.processing), ensemble
-                ),
-                stage="reserve",
-            )
+            found = self._remembered(Reserve, inputs, compute_reserve)
             return station.with_reserve(found)
         except RockingError as error:
             failures.append((case.component, Failure("reserve", f"{station.structure}: {error}")))
@@ -404,46 +379,23 @@ class Assessor:
     def _remembered(
         self,
         kind: type[T],
-        fingerprint: str,
-        compute: Callable[[Clock], T],
+        inputs: I,
+        compute: Callable[[I, Clock], T],
         kept: Callable[[T], T] = lambda result: result,
-        stage: str = "",
     ) -> T:
-        """What the store holds, else what is computed, of which it then holds the part that is `kept`.
-
-        stage: to which its time is added; "" where it times its stages itself.
-        """
-        if self.store is not None:
-            found = self.store.find(kind, fingerprint)
-            if found is not None:
-                self.clock.add(self.store.durations(fingerprint))
-                return found
-        own = Clock()
-        with own.stage(stage) if stage else nullcontext():
-            result = compute(own)
-        self.clock.add(own.durations)
-        if self.store is not None:
-            self.store.keep(fingerprint, kept(result), own.durations)
-        return result
-
-    def _fingerprint(self, *contents: object) -> str:
-        """The hash of what a result depends on, beside the version of the computation; "" where nothing keeps it.
-
-        A motion stands for its samples, and a structure for its description and for all by which it is followed.
-        """
+        """What the store holds by these inputs, else what is computed, of which it then holds what is `kept`."""
         if self.store is None:
-            return ""
-        told: list[object] = []
-        for each in contents:
-            if isinstance(each, Motion):
-                told.append(each.fingerprint)
-            elif isinstance(each, Structure):
-                own = {field.name: getattr(self.settings, field.name) for field in fields(AssessmentSettings)}
-                opening = getattr(each, "opening", None)  # one of a wall's mechanisms, which no file gives
-                told += [each.described.entry, opening, own, self.crack_heights, self.processing_variants]
-            else:
-                told.append(each)
-        return sha256_of(*told, self.version)
+            return compute(inputs, self.clock)
+        fingerprint = sha256_of(inputs.fingerprint, self.version)
+        found = self.store.find(kind, fingerprint)
+        if found is not None:
+            self.clock.add(self.store.durations(fingerprint))
+            return found
+        own = Clock()
+        result = compute(inputs, own)
+        self.clock.add(own.durations)
+        self.store.keep(fingerprint, kept(result), own.durations)
+        return result
 
 
 def _lost(scene: Scene, support: Carrier | None, names: Sequence[str], error: RockingError) -> StationResult:

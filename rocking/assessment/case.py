@@ -105,8 +105,7 @@ class CaseResult:
     [g] at which its joints slide before they lift, where the motion reaches it; else nan. crack: to which prediction,
     responses, check and answer belong; "" where it is that of the structure. statics: the case of that one, where
     another crack governs. ties_give: whether its ties let so much through that it turns beyond BEYOND; not computed
-    where that changes no word. variations: other cracks, then other processings. fingerprint: of motion, structure,
-    settings and version of the computation.
+    where that changes no word. variations: other cracks, then other processings.
     """
 
     component: str
@@ -126,7 +125,6 @@ class CaseResult:
     contact: ContactShare | None = None
     variations: tuple[Variation, ...] = ()
     failures: tuple[Failure, ...] = ()
-    fingerprint: str = ""
 
     @property
     def kept(self) -> "CaseResult":

@@ -91,7 +91,7 @@ def doubt(
     if bounces:
         return Remark(Kind.CONTACTS_OPEN)
     candidates = [each.structure for each in structure.candidates()]
-    bulges = [each for each in candidates if getattr(each, "opening", None)]
+    bulges = [each for each in candidates if isinstance(each, Tied) and each.opening]
     first = next((each for each in candidates if each not in bulges), candidates[0])
     asked = [] if all(isinstance(each, Turning) for each in first.linkages) else [first]
     for each, sign, motion in product(asked, _signs(structure, settings), _directions(motions)):

@@ -152,7 +152,7 @@ class Motion:
         return sha256_of(*contents, self.support)
 
 
-@lru_cache(maxsize=2)
+@lru_cache(maxsize=4)  # of two components, each as recorded and after every processing
 def ground_motions(motion: Motion, processing: bool) -> GroundMotions:
     """Return the motions that one motion stands for, made once for all structures and for their reserves.
 
@@ -160,6 +160,11 @@ def ground_motions(motion: Motion, processing: bool) -> GroundMotions:
     """
     ground = GroundMotions.of(*motion.components, vertical=motion.vertical, processing=processing)
     return ground.on(motion.support)
+
+
+def arrived(motion: Motion) -> GroundMotions:
+    """Return the motion of one component as recorded, where it arrives: on its support, or on the ground as it is."""
+    return ground_motions(motion, processing=False)
 
 
 @dataclass(frozen=True)
@@ -193,6 +198,12 @@ class Component:
     failure: str = ""
     support: Carrier | None = None
     ground: "Component | None" = None
+
+    @property
+    def of_ground(self) -> Motion:
+        """Its motion as the ground had it, and what takes that to where it acts."""
+        ground = self.ground or self
+        return Motion((ground.accelerogram,), ground.vertical, self.support)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,7 @@
-"""One case: one structure under one motion, predicted, integrated and followed by its ensemble and its contacts."""
+"""One case: one structure under one motion, predicted, integrated and followed by its ensemble and its contacts.
+
+What a store may keep is computed from its inputs (`inputs.py`) and nothing else.
+"""
 
 import math
 from collections import defaultdict
@@ -10,11 +13,23 @@ from time import process_time
 
 from rocking.assessment.case import CaseResult, Failure, Prediction, Variation
 from rocking.assessment.contacts import MOST_RUNS, RUNS, contact_share, doubt, ties_give
-from rocking.assessment.cracks import counting_cracks, cracks, ensemble_over_cracks, slides_first
+from rocking.assessment.cracks import Crack, counting_cracks, cracks, ensemble_over_cracks, slides_first
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
+from rocking.assessment.inputs import CaseInputs, PairInputs, PulseInputs, ReserveInputs
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
-from rocking.assessment.motions import AS_IT_IS, Component, GroundMotions, Motion, ground_motions, processed
+from rocking.assessment.motions import (
+    AS_IT_IS,
+    ComponentPulses,
+    GroundMotions,
+    HorizontalMotion,
+    Motion,
+    ground_motions,
+    horizontal_motions,
+    processed,
+    pulses_of,
+)
+from rocking.assessment.reserve import Reserve, reserve
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import RockingError
 from rocking.motion.integration import Members, integrate, integrate_members, strict
@@ -24,7 +39,6 @@ from rocking.records import Accelerogram
 from rocking.remarks import Kind
 from rocking.sine_pulse import predict_maximum
 from rocking.structures import Mechanism, Structure
-from rocking.structures.structure import CRACKS
 
 
 @dataclass
@@ -70,31 +84,35 @@ def predict(
     )
 
 
-# Whole on purpose: the order in which a case is decided, and where it may end early.
-def assess_case(
-    structure: Structure,
-    component: Component,
-    prediction: Prediction | None = None,
-    settings: AssessmentSettings | None = None,
-    alone: bool = True,
-    clock: Clock | None = None,
-) -> CaseResult:
-    """Return what comes of one structure under one component; where it cannot be followed, why.
+def compute_case(inputs: CaseInputs, clock: Clock | None = None) -> CaseResult:
+    """Return what comes of one structure under one motion, with other cracks and processings beside it where asked for.
 
-    prediction: the closed form, under whose pulse the mechanism is integrated as well; None without one.
-    alone: False where an ensemble over the directions of the record speaks for its components, which then get neither
-    an ensemble nor an estimate of their own. clock: takes the time of each method that is compared.
+    Where it cannot be followed, the case says why. The closed form is not kept in it, as a pulse gives it at once.
+    clock: takes the time of each stage, and of each method that is compared.
     """
-    settings = settings or AssessmentSettings()
-    record = component.accelerogram
-    vertical = component.vertical
+    clock = clock or Clock()
+    if len(inputs.motion.components) == 2:
+        with clock.stage("directions"):
+            return _over_directions(inputs)
+    with clock.stage("responses"):
+        case = _under_component(inputs, clock)
+    with clock.stage("variations"):
+        return _with_variations(case, inputs)
+
+
+# Whole on purpose: the order in which a case is decided, and where it may end early.
+def _under_component(inputs: CaseInputs, clock: Clock) -> CaseResult:
+    """The case under one component."""
+    structure = inputs.structure
+    settings = inputs.settings
+    record = inputs.accelerogram
+    vertical = inputs.vertical
     try:
         mechanism = structure.mechanism()
-        responses = _integrated(mechanism, component, prediction, settings, clock or Clock())
-        members = settings.ensemble.members if alone else 0
-        auto = settings.fidelity == "auto"
-        if auto:
-            answer = _cheapest(structure, component, settings, ensemble_follows=members > 0)
+        responses = _integrated(mechanism, inputs, clock)
+        members = settings.ensemble.members if inputs.alone else 0
+        if settings.fidelity == "auto":
+            answer = _cheapest(inputs, ensemble_follows=members > 0)
             if answer.response is not None:
                 responses[Method.MECHANISM_ON_RECORD] = answer.response
         else:
@@ -103,24 +121,30 @@ def assess_case(
         check = UNKNOWN
         if answer.response is not None:
             check = check_model(structure, answer.response, record, vertical)
-        case = CaseResult(
-            component=record.component,
-            prediction=prediction,
-            responses=responses,
-            check=check,
-            answer=answer,
-        )
-        if not alone:
+        case = CaseResult(component=record.component, responses=responses, check=check, answer=answer)
+        if not inputs.alone:
             return case
-        motions = ground_motions(motion_of(component), settings.ensemble.processing)
+        motions = ground_motions(inputs.motion, settings.ensemble.processing)
         if members and answer.method is Method.MECHANISM_ON_RECORD:
             case = replace(case, ensembles=ensemble_over_cracks(structure, motions, settings))
             return with_contacts(case, structure, motions, settings, check.bounces)
-        if vertical is None and component.support is None:
+        if vertical is None and inputs.motion.support is None:
             case = replace(case, overturning_estimate=estimated(Tier.PEAK_VELOCITY, mechanism, record))
         return with_contacts(case, structure, motions, settings, check.bounces)
     except RockingError as error:
         return CaseResult(component=record.component, failures=(Failure("responses", str(error)),))
+
+
+def _over_directions(inputs: CaseInputs) -> CaseResult:
+    """The case over all directions of a pair."""
+    case = CaseResult(component=BOTH_COMPONENTS)
+    settings = inputs.settings
+    motions = ground_motions(inputs.motion, settings.ensemble.processing)
+    try:
+        case = replace(case, ensembles=ensemble_over_cracks(inputs.structure, motions, settings))
+        return with_contacts(case, inputs.structure, motions, settings, inputs.bounces)
+    except RockingError as error:
+        return replace(case, failures=(Failure("directions", str(error)),))
 
 
 def with_contacts(
@@ -158,20 +182,15 @@ def with_contacts(
     return case
 
 
-def _integrated(
-    mechanism: Mechanism,
-    component: Component,
-    prediction: Prediction | None,
-    settings: AssessmentSettings,
-    clock: Clock,
-) -> dict[Method, Response]:
+def _integrated(mechanism: Mechanism, inputs: CaseInputs, clock: Clock) -> dict[Method, Response]:
     """Every integration beside the closed form; with fidelity: auto none."""
     responses: dict[Method, Response] = {}
+    settings = inputs.settings
     if settings.fidelity == "auto":
         return responses
     block = mechanism.equivalent_block(settings.acceleration_scale)
-    record = component.accelerogram
-    vertical = component.vertical
+    record = inputs.accelerogram
+    vertical = inputs.vertical
     follow_as_given = partial(
         integrate,
         mechanism,
@@ -185,33 +204,27 @@ def _integrated(
     follow_simpler = partial(integrate, tolerance=strict(settings.tolerance))
     if mechanism.can_overturn:
         runs[Method.BLOCK_ON_RECORD] = partial(follow_simpler, block, record, vertical=vertical)
-    if prediction is not None:
-        runs[Method.MECHANISM_ON_PULSE] = partial(follow_simpler, mechanism, prediction.pulse)
+    if inputs.pulse is not None:
+        runs[Method.MECHANISM_ON_PULSE] = partial(follow_simpler, mechanism, inputs.pulse)
     for method, run in runs.items():
         with clock.stage(method):
             responses[method] = run()
     return responses
 
 
-def motion_of(component: Component) -> Motion:
-    """Return the motion of one component, as the ground had it and what carries the structure."""
-    ground = component.ground or component
-    return Motion((ground.accelerogram,), ground.vertical, component.support)
-
-
-def _cheapest(
-    structure: Structure, component: Component, settings: AssessmentSettings, ensemble_follows: bool
-) -> Answer:
+def _cheapest(inputs: CaseInputs, ensemble_follows: bool) -> Answer:
     """Return what settles the verdict with the least work, at the settings' risk of the opposite outcome.
 
     Where other cracks may form, nothing cheaper than the mechanism settles it unless all of them rest, or stand by
     their peak velocities.
     """
-    record = component.accelerogram
-    vertical = component.vertical
+    structure = inputs.structure
+    settings = inputs.settings
+    record = inputs.accelerogram
+    vertical = inputs.vertical
     mechanism = structure.mechanism()
     # Peak velocities were calibrated on the ground, not on supports that ring.
-    risk = settings.fidelity_risk if component.support is None else 0.0
+    risk = settings.fidelity_risk if inputs.motion.support is None else 0.0
     mechanisms = [each.mechanism for each in cracks(structure)]
     of_statics = mechanism if len(mechanisms) == 1 else mechanisms[0]
     if len(mechanisms) > 1:
@@ -307,62 +320,75 @@ def _rotation_ratio(
     return math.nan
 
 
-def with_variations(
-    case: CaseResult,
-    structure: Structure,
-    component: Component,
-    settings: AssessmentSettings,
-    crack_heights: int,
-    processing_variants: bool,
-) -> CaseResult:
+def _with_variations(case: CaseResult, inputs: CaseInputs) -> CaseResult:
     """Return the case with other cracks and other processings of the record beside it.
 
-    For a crack that cannot be followed, the reason is kept as a failure. crack_heights, processing_variants: as the
-    assessor has them; without an ensemble cracks are followed in any case.
+    For a crack that cannot be followed, the reason is kept as a failure.
     """
     if case.answer is None:
         return case
-    pulse = case.prediction.pulse if case.prediction else None
-    record = component.accelerogram
-    # Without members nothing else follows the mechanism that statics chooses.
-    count = crack_heights or (0 if settings.ensemble.members else CRACKS)
+    structure = inputs.structure
+    settings = inputs.settings
+    record = inputs.accelerogram
     try:
-        of_cracks = other_cracks(structure, record, pulse, count, settings, component.vertical)
+        of_cracks = other_cracks(
+            structure, record, inputs.pulse, inputs.crack_heights, settings, inputs.vertical
+        )
         case = replace(case, variations=tuple(of_cracks))
     except RockingError as error:
         case = replace(case, failures=(*case.failures, Failure("variations", str(error))))
-    if not processing_variants:
+    if not inputs.processing_variants:
         return case
-    motions, vertical = _processings(component)
-    of_processings = other_processings(structure, motions, settings, case.integrated_rotation_ratio, vertical)
+    motions = _processings(inputs.motion)
+    of_processings = other_processings(
+        structure,
+        {processing: motion for (_, processing), motion in motions.horizontal.items()},
+        settings,
+        case.integrated_rotation_ratio,
+        motions.vertical,
+    )
     return replace(case, variations=(*case.variations, *of_processings))
 
 
 @lru_cache(maxsize=2)  # the two components of a record
-def _processings(component: Component) -> tuple[Mapping[str, Accelerogram], Accelerogram | None]:
-    """The component after each variant of the processing, which comes before any support, and the vertical one."""
-    if component.support is None or component.ground is None:
-        return processed(component.accelerogram), component.vertical
-    ground = component.ground
-    variants = {("", name): each for name, each in processed(ground.accelerogram).items()}
-    floors = GroundMotions(variants, ground.vertical).on(component.support)
-    return {name: each for (_, name), each in floors.horizontal.items()}, floors.vertical
+def _processings(motion: Motion) -> GroundMotions:
+    """One component after each variant of the processing, which comes before any support, and the vertical one."""
+    (component,) = motion.components
+    variants = {("", name): processing for name, processing in processed(component).items()}
+    return GroundMotions(variants, motion.vertical).on(motion.support)
 
 
-def assess_directions(
-    structure: Structure,
-    pair: Motion,
-    settings: AssessmentSettings,
-    bounces: bool | None = None,
-) -> CaseResult:
-    """Return the ensemble of one structure over all directions of a pair; where it cannot be followed, why.
+def compute_pulses(inputs: PulseInputs, clock: Clock) -> ComponentPulses:
+    """Return the pulses of one component of a record."""
+    components = tuple(component for motion in inputs.components for component in motion.components)
+    motion = HorizontalMotion()
+    if inputs.measured:
+        with clock.stage("velocity pulse"):
+            motion = _horizontal_motions(components)[inputs.place]
+    with clock.stage("pulses"):
+        return pulses_of(components[inputs.place], inputs.settings, motion)
 
-    bounces: whether a contact opens under one of the components as recorded; None where that is not known.
-    """
-    case = CaseResult(component=BOTH_COMPONENTS)
-    motions = ground_motions(pair, settings.ensemble.processing)
-    try:
-        case = replace(case, ensembles=ensemble_over_cracks(structure, motions, settings))
-        return with_contacts(case, structure, motions, settings, bounces)
-    except RockingError as error:
-        return replace(case, failures=(Failure("directions", str(error)),))
+
+@lru_cache(maxsize=1)  # once for both components of a record
+def _horizontal_motions(components: tuple[Accelerogram, ...]) -> list[HorizontalMotion]:
+    return horizontal_motions(components)
+
+
+def count_motions(inputs: PairInputs, clock: Clock) -> int:
+    """Return the number of motions of a pair. Raises RecordError for components that are no pair."""
+    with clock.stage("directions"):
+        return len(ground_motions(inputs.pair, inputs.processing).horizontal)
+
+
+def compute_reserve(inputs: ReserveInputs, clock: Clock) -> Reserve:
+    """Return the reserve of the crack of a structure that governs. Raises RockingError where it cannot be followed."""
+    crack = governing_crack(inputs.structure, inputs.crack)
+    with clock.stage("reserve"):
+        motions = ground_motions(inputs.motion, inputs.settings.processing)
+        return reserve(crack.mechanism, motions, inputs.settings)
+
+
+def governing_crack(structure: Structure, description: str) -> Crack:
+    """Return the crack of this description; the first one where none has it, as where only one may form."""
+    several = cracks(structure)
+    return next((crack for crack in several if crack.description == description), several[0])

@@ -11,9 +11,10 @@ from scipy.constants import g
 
 from rocking.assessment.assessor import Assessor, with_histories
 from rocking.assessment.case import CaseResult, StationResult
+from rocking.assessment.inputs import CaseInputs
 from rocking.assessment.methods import NEGLIGIBLE, Method, agreement, ratio, rests, rocks, within_factor_two
 from rocking.assessment.motions import Component, HorizontalMotion, component_of, horizontal_motions
-from rocking.assessment.one_case import assess_case, predict
+from rocking.assessment.one_case import compute_case, predict
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
     ComparedCase,
@@ -46,7 +47,9 @@ def assessed(record: Accelerogram, settings: AssessmentSettings = SETTINGS, vert
     """The block under one component."""
     component = component_of(record, settings.pulse, vertical)
     prediction = predict(BLOCK.mechanism(), component.candidates, settings)
-    return assess_case(BLOCK, component, prediction, settings)
+    pulse = prediction.pulse if prediction else None
+    inputs = CaseInputs(motion=component.of_ground, structure=BLOCK, settings=settings, pulse=pulse)
+    return replace(compute_case(inputs), prediction=prediction)
 
 
 def compared(case: CaseResult) -> ComparisonRow:

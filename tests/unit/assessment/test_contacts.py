@@ -18,8 +18,9 @@ from rocking.assessment.contacts import (
     stackable,
 )
 from rocking.assessment.decide import Decision, decide, step
-from rocking.assessment.motions import GroundMotions, component_of
-from rocking.assessment.one_case import assess_case
+from rocking.assessment.inputs import CaseInputs
+from rocking.assessment.motions import GroundMotions, Motion
+from rocking.assessment.one_case import compute_case
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.contacts.dynamics import SECONDS_A_STEP, STEP, follow_stack
@@ -154,8 +155,8 @@ def test_contact_dynamics_is_asked_where_it_cannot_be_told_and_of_a_held_wall_th
         Verdict.PROBABLY_OVERTURNS,
     ]
     auto = AssessmentSettings(fidelity="auto")
-    lifts = component_of(sine(1.3 * SPIRE.static_multiplier * GRAVITY, 0.1), auto.pulse)
-    assert assess_case(SPIRE, lifts, settings=auto).contact is None
+    lifts = Motion((sine(1.3 * SPIRE.static_multiplier * GRAVITY, 0.1),))
+    assert compute_case(CaseInputs(motion=lifts, structure=SPIRE, settings=auto)).contact is None
 
 
 @pytest.mark.parametrize("runs", [RUNS, MOST_RUNS])
@@ -172,7 +173,7 @@ def test_those_that_were_followed_say_what_all_would(runs, risk):
 def test_without_an_ensemble_the_single_run_is_doubted_too():
     settings = AssessmentSettings(ensemble=EnsembleSettings(members=0))
     motion = sine(1.3 * SPIRE.static_multiplier * GRAVITY, 0.1)
-    case = assess_case(SPIRE, component_of(motion, settings.pulse), settings=settings)
+    case = compute_case(CaseInputs(motion=Motion((motion,)), structure=SPIRE, settings=settings))
     assert case.doubt == Remark(Kind.COURSES_THROWN)
 
 

@@ -11,8 +11,9 @@ from rocking.assessment.assessor import Assessor
 from rocking.assessment.cracks import cracks, ensemble_over_cracks
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.ensemble import ensemble
-from rocking.assessment.motions import GroundMotions, component_of, processed
-from rocking.assessment.one_case import assess_case, other_cracks, other_processings, predict
+from rocking.assessment.inputs import CaseInputs
+from rocking.assessment.motions import GroundMotions, Motion, component_of, processed
+from rocking.assessment.one_case import compute_case, other_cracks, other_processings, predict
 from rocking.assessment.rows import rows_of_record
 from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
@@ -127,7 +128,7 @@ def test_auto_rests_only_where_every_crack_does():
     rest = "the ground never reaches the uplift acceleration"
     for crack, rests in (("unknown", False), ("given", True)):
         wall = replace(WALL, crack=crack)
-        case = assess_case(wall, component_of(motion, settings.pulse), settings=settings)
+        case = compute_case(CaseInputs(motion=Motion((motion,)), structure=wall, settings=settings))
         assert (case.answer.reason == rest) is rests
 
 

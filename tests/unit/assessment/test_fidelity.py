@@ -18,9 +18,10 @@ from rocking.assessment.fidelity import (
     read_tiers,
     stays_at_rest,
 )
+from rocking.assessment.inputs import CaseInputs
 from rocking.assessment.methods import Method
-from rocking.assessment.motions import GroundMotions, component_of
-from rocking.assessment.one_case import assess_case
+from rocking.assessment.motions import GroundMotions, Motion
+from rocking.assessment.one_case import compute_case
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.motion.integration import integrate
 from rocking.pulses import Pulse
@@ -85,7 +86,7 @@ def test_where_an_ensemble_would_follow_the_block_may_settle_it():
     falls = cheapest_answer(MECHANISM, record(40.0), ensemble_follows=True, risk=0.1)
     assert falls.method is Method.BLOCK_ON_RECORD and falls.outcome is Outcome.OVERTURNS
     settings = AssessmentSettings(fidelity="auto")
-    case = assess_case(BLOCK, component_of(motion, settings.pulse), settings=settings)
+    case = compute_case(CaseInputs(motion=Motion((motion,)), structure=BLOCK, settings=settings))
     assert case.answer.method is Method.BLOCK_ON_RECORD and case.ensembles is None
 
 
@@ -113,7 +114,7 @@ def test_a_block_unlike_its_mechanism_settles_nothing_and_gets_no_estimate():
     answer = cheapest_answer(mechanism, strong, ensemble_follows=True)
     assert answer.method is Method.MECHANISM_ON_RECORD
     settings = AssessmentSettings(fidelity="auto", ensemble=EnsembleSettings(members=0))
-    case = assess_case(tied, component_of(strong, settings.pulse), settings=settings)
+    case = compute_case(CaseInputs(motion=Motion((strong,)), structure=tied, settings=settings))
     assert case.overturning_estimate is None
 
 

@@ -178,6 +178,6 @@ def test_on_a_support_it_is_sought_on_the_ground_and_at_the_worst_period_alone(t
     alone = assessed(worst)
     assert {period: each.reserve for period, each in alone.items()} == sought
 
-    monkeypatch.setattr("rocking.assessment.assessor.reserve", None)
+    monkeypatch.setattr("rocking.assessment.one_case.reserve", None)
     again = assessed([0.15, 0.6], RecordStore(tmp_path / "cases"))
     assert {period: each.reserve for period, each in again.items() if each.reserve is not None} == sought

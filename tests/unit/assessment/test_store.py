@@ -12,8 +12,9 @@ import pytest
 from rocking.assessment import assessor as assessing
 from rocking.assessment import store
 from rocking.assessment.assessor import Assessor, with_histories
-from rocking.assessment.case import RecordResult
-from rocking.assessment.one_case import Clock
+from rocking.assessment.case import CaseResult, RecordResult
+from rocking.assessment.inputs import CaseInputs
+from rocking.assessment.one_case import Clock, compute_case
 from rocking.assessment.rows import TimingRow, rows_of_record
 from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
@@ -63,14 +64,12 @@ def cells(result: RecordResult) -> list[list[str]]:
 def cases(monkeypatch) -> list[str]:
     """The types of the structures whose cases are computed, in their order."""
     names: list[str] = []
-    for function in (assessing.assess_case, assessing.assess_directions):
-        monkeypatch.setattr(
-            assessing,
-            function.__name__,
-            lambda structure, *more, function=function: (
-                names.append(structure.type_name) or function(structure, *more)
-            ),
-        )
+
+    def counted(inputs: CaseInputs, clock: Clock) -> CaseResult:
+        names.append(inputs.structure.type_name)
+        return compute_case(inputs, clock)
+
+    monkeypatch.setattr(assessing, "compute_case", counted)
     return names
 
 
@@ -111,14 +110,18 @@ def test_only_what_changed_is_computed(tmp_path, cases):
     renamed = {f"the {name}": structure for name, structure in changed.items()}
     computed(tmp_path / "made.json", structures=renamed)
     assert cases == [], "a name changes no number"
-    for assessor in (
-        replace(ASSESSOR, crack_heights=3),
-        replace(ASSESSOR, settings=replace(ASSESSOR.settings, tolerance=1e-7)),
-        replace(ASSESSOR, version="other"),
+    for assessor, number in (
+        (replace(ASSESSOR, crack_heights=3), 6),  # which the ensemble over all directions does not ask for
+        (replace(ASSESSOR, processing_variants=False), 6),
+        (replace(ASSESSOR, settings=replace(ASSESSOR.settings, tolerance=1e-7)), 9),
+        (replace(ASSESSOR, version="other"), 9),
     ):
         cases.clear()
-        computed(tmp_path / "made.json", structures=renamed, assessor=assessor)
-        assert len(cases) == 9, "three structures under two components and over all directions"
+        again = computed(tmp_path / "made.json", structures=renamed, assessor=assessor)
+        assert len(cases) == number, "three structures under two components, and over all directions"
+        assert cells(again) == cells(
+            computed(tmp_path / f"{number}.json", structures=renamed, assessor=assessor)
+        )
     cases.clear()
     computed(tmp_path / "made.json", [PAIR[0], PAIR[1].scaled(1 + 1e-12)], renamed, assessor)
     assert sorted(set(cases)) == ["arch", "block", "wall"] and len(cases) == 6, "the first component stays"

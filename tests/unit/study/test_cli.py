@@ -174,7 +174,7 @@ def test_terminal_tables_and_python_say_the_same_of_every_shipped_structure(
 
     The reserve, on which no verdict hangs, is not sought: it takes more time than the rest.
     """
-    monkeypatch.setattr("rocking.assessment.assessor.reserve", lambda *_: None)
+    monkeypatch.setattr("rocking.assessment.one_case.reserve", lambda *_: None)
     shipped = ROOT / "records" / "20161113_110259_WTMC_20.V2A"
     entries = (ROOT / "workflow" / "structures.yaml").read_text(encoding="utf-8").splitlines()
     structures = tmp_path / "structures.yaml"
