@@ -7,12 +7,19 @@ import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Self
+
+from rocking.remarks import Kind, Remark
+
+LOGS: list[Path] = []
+"""The log that this process writes, if any: what holds the traceback of a fault."""
 
 
 class RockingError(Exception):
     """Root of every error this package raises on purpose.
 
     places: the record and the file that it is about, the outer one first, where those who raised it did not know them.
+    remark: the sentence as a remark, which has it in every language; None of one that no page to sign repeats.
 
     >>> try:
     ...     rocking.Block.of_size(breadth=-1, height=3)
@@ -22,6 +29,14 @@ class RockingError(Exception):
     """
 
     places: tuple[str, ...] = ()
+    remark: Remark | None = None
+
+    @classmethod
+    def saying(cls, remark: Remark) -> Self:
+        """Return the error whose sentence is a remark."""
+        error = cls(str(remark))
+        error.remark = remark
+        return error
 
     def __str__(self) -> str:
         return self.beside("")
@@ -29,6 +44,10 @@ class RockingError(Exception):
     def beside(self, place: str) -> str:
         """Return the sentence for where `place`, one of the places, already stands beside it."""
         return ": ".join((*(each for each in self.places if each != place), super().__str__()))
+
+
+class FaultError(RockingError):
+    """A fault of this package, which no input may cause."""
 
 
 class RecordError(RockingError):
@@ -102,6 +121,26 @@ def about(what: str) -> Iterator[None]:
     except RockingError as error:
         error.places = (what, *error.places)
         raise
+
+
+@contextmanager
+def one_structure(name: str) -> Iterator[None]:
+    """Guard what is computed or drawn for one structure: a fault within costs no other structure.
+
+    Whatever no input may cause is written to the log of this process and raised as a FaultError that names the
+    structure, which is handled as any RockingError is. What is wrong with the input or the machine passes.
+    """
+    try:
+        yield
+    except (RockingError, OSError, MemoryError):
+        raise
+    except Exception as fault:
+        for log in LOGS:
+            log_fault(fault, log)
+        said = " ".join(f"{type(fault).__name__}: {fault}".split())
+        where = str(LOGS[0]) if LOGS else "its traceback"
+        remark = Remark.of(Kind.FAULT, name, said=said, log=where)
+        raise FaultError.saying(remark) from fault
 
 
 def fault_in_words(fault: Exception, log: Path | str, where: str = "this file") -> str:

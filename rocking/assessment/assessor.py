@@ -1,6 +1,7 @@
 """The assessor: scenes under a record, each case looked up in a store before it is computed, and timed."""
 
 from collections.abc import Callable, Container, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from math import isclose, isnan
 from typing import Protocol, TypeVar
@@ -36,7 +37,7 @@ from rocking.assessment.one_case import (
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.scene import Scene, on_friction
 from rocking.assessment.settings import AssessmentSettings
-from rocking.errors import RockingError
+from rocking.errors import FaultError, RockingError, one_structure
 from rocking.hashes import sha256_of
 from rocking.motion.integration import integrate
 from rocking.records import Accelerogram, aligned
@@ -46,8 +47,9 @@ from rocking.structures.structure import CRACKS
 T = TypeVar("T")
 I = TypeVar("I", bound=Inputs)
 
-Predictions = Mapping[tuple[str, str], Prediction | None]
-"""The closed forms by the names of scene and component; None without a pulse, and of what cannot overturn."""
+Predictions = Mapping[tuple[str, str], Prediction | Failure | None]
+"""The closed forms by the names of scene and component, or why there is none; None without a pulse, and of what cannot
+overturn."""
 
 
 class Store(Protocol):
@@ -133,14 +135,18 @@ class Assessor:
 
     def predict(self, components: Sequence[Component], scenes: Mapping[str, Scene]) -> Predictions:
         """Return the closed form of each scene's equivalent block under the pulse of each component."""
-        of_all: dict[tuple[str, str], Prediction | None] = {}
+        of_all: dict[tuple[str, str], Prediction | Failure | None] = {}
         for scene in scenes.values():
             try:
-                mechanism = scene.structure.mechanism()
-                mechanism.equivalent_block(self.settings.acceleration_scale)  # no part of what is timed
-                for name, component in by_name(components).items():
-                    with self.clock.stage(Method.CLOSED_FORM):
-                        of_all[scene.name, name] = predict(mechanism, component.candidates, self.settings)
+                with one_structure(scene.name):
+                    mechanism = scene.structure.mechanism()
+                    mechanism.equivalent_block(self.settings.acceleration_scale)  # no part of what is timed
+                    for name, component in by_name(components).items():
+                        with self.clock.stage(Method.CLOSED_FORM):
+                            of_all[scene.name, name] = predict(mechanism, component.candidates, self.settings)
+            except FaultError as error:
+                failure = Failure("prediction", str(error))
+                of_all |= {(scene.name, name): failure for name in by_name(components)}
             except RockingError:
                 continue  # why it cannot be followed, the integration tells
         return of_all
@@ -180,7 +186,11 @@ class Assessor:
             if support is not None:
                 predictions = self.predict(shaking.components, {each.name: each for each in carried})
             for scene in carried:
-                station = self._station(scene, shaking, predictions)
+                try:
+                    with one_structure(scene.name):
+                        station = self._station(scene, shaking, predictions)
+                except RockingError as error:
+                    station = _lost(scene, support, list(by_name(shaking.components)), error)
                 if support is None:
                     station = self._with_reserve(station, shaking, failures)
                 stations[scene.name, support] = station
@@ -219,10 +229,14 @@ class Assessor:
             stations = []
             for station in of_scene.stations:
                 components = result.components_under(station)
-                cases = {
-                    component: self._of_governing(station, case, components[component])
-                    for component, case in station.cases.items()
-                }
+                cases = {}
+                for component, case in station.cases.items():
+                    try:
+                        with one_structure(name):
+                            cases[component] = self._of_governing(station, case, components[component])
+                    except RockingError as error:
+                        failure = Failure("comparison", str(error))
+                        cases[component] = replace(case, failures=(*case.failures, failure))
                 stations.append(replace(station, cases=cases))
             scenes[name] = replace(of_scene, stations=tuple(stations))
         return replace(result, scenes=scenes, durations=dict(self.clock.durations))
@@ -271,8 +285,10 @@ class Assessor:
         cases = {}
         for name, component in by_name(shaking.components).items():
             prediction = predictions.get((scene.name, name))
-            case = self._of_component(scene, component, prediction, alone=shaking.pair is None)
-            cases[name] = replace(case, component=name)
+            told = (prediction,) if isinstance(prediction, Failure) else ()
+            found = None if isinstance(prediction, Failure) else prediction
+            case = self._of_component(scene, component, found, alone=shaking.pair is None)
+            cases[name] = replace(case, component=name, failures=(*told, *case.failures))
         directions = None
         pair = shaking.pair
         if pair is not None and any(case.answer is not None for case in cases.values()):
@@ -351,6 +367,16 @@ class Assessor:
         With fidelity: auto, which needs the verdict alone, no reserve is computed, nor where nothing can overturn the
         structure, nor where it slides first. Why there is none is added to the failures.
         """
+        try:
+            with one_structure(station.structure):
+                return self._reserved(station, shaking)
+        except RockingError as error:
+            component = station.decisive.component if station.decisive else ""
+            failures.append((component, Failure("reserve", f"{station.structure}: {error}")))
+            return station
+
+    def _reserved(self, station: StationResult, shaking: _Shaking) -> StationResult:
+        """The station with its reserve, where it has one. Raises RockingError where it cannot be found."""
         case = station.decisive
         ensemble = self.settings.ensemble
         if case is None or case.ensembles is None or self.settings.fidelity == "auto" or not ensemble.reserve:
@@ -367,12 +393,7 @@ class Assessor:
         assert motion is not None
 
         inputs = ReserveInputs(motion=motion, structure=structure, crack=description, settings=ensemble)
-        try:
-            found = self._remembered(Reserve, inputs, compute_reserve)
-            return station.with_reserve(found)
-        except RockingError as error:
-            failures.append((case.component, Failure("reserve", f"{station.structure}: {error}")))
-            return station
+        return station.with_reserve(self._remembered(Reserve, inputs, compute_reserve))
 
     # What is kept ---------------------------------------------------------------------------------------
 
@@ -419,14 +440,14 @@ def with_histories(
         stations = []
         for station in scene.stations:
             components = result.components_under(station)
-            cases = {
-                component: _with_history(
-                    case, cracked(station.scene.structure, case.crack), components[component], tolerance
-                )
-                if shown is None or (component, name, station.support_period_s) in shown
-                else case
-                for component, case in station.cases.items()
-            }
+            cases = dict(station.cases)
+            for component, case in station.cases.items():
+                if shown is not None and (component, name, station.support_period_s) not in shown:
+                    continue
+                # The case itself has stood this run; without its history it is not drawn.
+                with suppress(FaultError), one_structure(name):
+                    body = cracked(station.scene.structure, case.crack)
+                    cases[component] = _with_history(case, body, components[component], tolerance)
             stations.append(replace(station, cases=cases))
         scenes[name] = replace(scene, stations=tuple(stations))
     return replace(result, scenes=scenes)

@@ -20,6 +20,7 @@ from rocking.errors import ConfigurationError
 from rocking.quantities import positive
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.measures import response_spectrum
+from rocking.remarks import Kind, Remark
 
 STATIONS = 20
 """The stations of a set: with 7 the verdict hangs on the choice for one wall in nine, with 20 for one in thirty-six."""
@@ -301,10 +302,16 @@ def search(
         if number > 2 * sets or (not number and drawn >= _PATIENCE):
             break
     if not number:
-        raise ConfigurationError(
-            f"no set of {count} stations lies within {-100 * below:+.0f} and {100 * above:+.0f} % of the target, of "
-            f"{drawn} drawn; the nearest lies between {100 * extremes[0]:+.0f} and {100 * extremes[1]:+.0f} %; give "
-            "more records, wider factors or a narrower range of periods."
+        raise ConfigurationError.saying(
+            Remark.of(
+                Kind.NO_SET_WITHIN,
+                count=count,
+                drawn=drawn,
+                below_percent=-100 * below,
+                above_percent=100 * above,
+                low_percent=100 * extremes[0],
+                high_percent=100 * extremes[1],
+            )
         )
     all_found = np.concatenate(found)
     chosen = int(np.argmin(np.concatenate(distances)))
@@ -321,10 +328,8 @@ def random_sets(
     """
     names, of_record = np.unique(stations, return_inverse=True)
     if names.size < count:
-        raise ConfigurationError(
-            f"the records come from {names.size} stations, but a set of {count} needs as many; give more records, or "
-            "ask for fewer stations."
-        )
+        remark = Remark.of(Kind.STATIONS_TOO_FEW, stations=int(names.size), count=count)
+        raise ConfigurationError.saying(remark)
     order = np.argsort(of_record, kind="stable")
     sizes = np.bincount(of_record)
     begins = np.concatenate([[0], np.cumsum(sizes)[:-1]])

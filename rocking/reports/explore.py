@@ -5,6 +5,7 @@ import json
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,6 +20,7 @@ from rocking.assessment.decide import Verdict, worse
 from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.rows import ComparisonRow, RecordRows
 from rocking.assessment.scene import placed
+from rocking.errors import FaultError, one_structure
 from rocking.motion.response import Response
 from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram
@@ -63,16 +65,14 @@ def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[s
     components = {row.component for row in worst.values()}
     failure = " ".join(["no result.", *(each.message for each in rows.failures)])
     nothing = {"verdict": Verdict.CANNOT_BE_TOLD, "cell": cell_text(None), "text": failure, "severity": _NONE}
-    cases = {
-        station.structure: _case(
-            station,
-            worst.get((result.record, station.structure, station.support_period_s)),
-            structures[station.structure].mechanism(),
-            result.responses,
-        )
-        for station in result.worst_periods
-        if station.structure in structures
-    }
+    cases: dict[str, Content] = {}
+    for station in result.worst_periods:
+        name = station.structure
+        if name in structures:
+            row = worst.get((result.record, name, station.support_period_s))
+            # One that cannot be shown costs no other: the page says that it has no result.
+            with suppress(FaultError), one_structure(name):
+                cases[name] = _case(station, row, structures[name].mechanism(), result.responses)
     peaks = [(row.peak_acceleration_m_s2 / GRAVITY, row.peak_velocity_m_s) for row in rows.record]
     pga, pgv = np.max(peaks, axis=0) if peaks else (math.nan, math.nan)
     return {
@@ -109,7 +109,7 @@ def explore_page(
             "size": structure.described.size,
             "type": structure.described.type_name,
             "code": by_code.get(name, ""),
-            "frames": drawings(structure),
+            "frames": _frames(name, structure),
         }
         for name, structure in structures.items()
     ]
@@ -234,6 +234,13 @@ def _motion(accelerogram: Accelerogram, rows: RecordRows) -> Content:
 def _trace(times: np.ndarray, values: np.ndarray, begin: float, end: float, bins: int = BINS) -> Content:
     """Return `values` from `begin` to `end` [s], as `extremes` has them."""
     return {"span": [_number(begin), _number(end)]} | packed(extremes(times, values, begin, end, bins))
+
+
+def _frames(name: str, structure: Structure) -> list[Content]:
+    """The drawings of a structure; one without a line where they fail, which costs no other structure its own."""
+    with suppress(FaultError), one_structure(name):
+        return drawings(structure)
+    return [{"rotation": 0.0, "parts": [], "hinges": 0, "marks": [], "points": packed([])}]
 
 
 def drawings(structure: Structure) -> list[Content]:

@@ -4,28 +4,17 @@ The law and the office that takes the pages are Italian; every other document is
 """
 
 import csv
-import string
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any, Literal
+from typing import get_args
 
 from rocking import quantities
-from rocking.remarks import Remark
+from rocking.remarks import Language, Remark, filled
 from rocking.reports import printing
 from rocking.reports.printing import unit_of
 from rocking.structures.fields import Given
-
-Language = Literal["en", "it"]
-
-
-class _Commas(string.Formatter):
-    """Formats numbers with a decimal comma."""
-
-    def format_field(self, value: Any, format_spec: str) -> str:
-        text = str(super().format_field(value, format_spec))
-        return text.replace(".", ",") if isinstance(value, float) else text
 
 
 @dataclass(frozen=True)
@@ -36,7 +25,7 @@ class Sentences:
 
     def __call__(self, key: str, **values: str | int | float) -> str:
         """Return the sentence of a key with its values. Raises KeyError for one that the catalogue does not hold."""
-        return self._formatted(catalogue()[key][self.language], values)
+        return filled(catalogue()[key][self.language], self.language, values)
 
     def counted(self, number: int, what: str) -> str:
         """Return "1 record", "2 records"."""
@@ -45,11 +34,13 @@ class Sentences:
 
     def of(self, remark: Remark) -> str:
         """Return a remark in words."""
-        if self.language == "en":
-            return str(remark)
-        return self._formatted(
-            catalogue()[f"kind {remark.kind}"][self.language], {**dict(remark.values), "about": remark.about}
-        )
+        return str(remark) if self.language == "en" else remark.sentence_in(self.language)
+
+    def reason(self, why: str | Remark) -> str:
+        """Return why something was refused. What is no remark is English, and an Italian page says so."""
+        if isinstance(why, Remark):
+            return self.of(why) if not (why.about and self.language == "en") else why.sentence_in("en")
+        return why if self.language == "en" else self("in english", text=why)
 
     def number(self, value: float | None, digits: int = 3) -> str:
         """Return a number to so many significant digits."""
@@ -78,25 +69,29 @@ class Sentences:
 
     def described(self, given: Given) -> str:
         """Return one value of the description of a structure: "height 6.0 m"."""
+        named = isinstance(given.value, str) and given.value in given.field.options
+        text = self(f"value {given.value}") if named else given.text
         if self.language == "en":
-            phrase: str = given.field.phrased(given.text)
+            phrase: str = given.field.phrased(text)
             return phrase
-        name = catalogue()[f"field {given.field.name}"][self.language]
+        name = self(f"field {given.field.name}")
         if given.value is True:
             return name
-        # Where commas are decimal, others part the numbers of a list.
-        text = "; ".join(map(self.decimal, given.text.split(", ")))
-        if isinstance(given.value, str):
-            text = f"«{given.text}»"
+        if not isinstance(given.value, str):
+            # Where commas are decimal, others part the numbers of a list.
+            text = "; ".join(map(self.decimal, given.text.split(", ")))
         return f"{name} {text}{given.field.suffix}"
-
-    def _formatted(self, sentence: str, values: Mapping[str, Any]) -> str:
-        formatter = string.Formatter() if self.language == "en" else _Commas()
-        return formatter.vformat(sentence, (), values)
 
 
 @cache
 def catalogue() -> Mapping[str, Mapping[str, str]]:
-    """Return the texts by key and language. The English one of a remark or a field stands where that is declared."""
+    """Return the texts by key and language. Raises ValueError for a key that lacks one.
+
+    The words of a remark stand where its kind is declared.
+    """
     with Path(__file__).with_name("sentences.csv").open(encoding="utf-8", newline="") as stream:
-        return {row.pop("key"): row for row in csv.DictReader(stream)}
+        texts = {row.pop("key"): row for row in csv.DictReader(stream)}
+    for key, row in texts.items():
+        if lacking := [language for language in get_args(Language) if not row[language]]:
+            raise ValueError(f"sentences.csv: {key} has no text in {', '.join(lacking)}.")
+    return texts

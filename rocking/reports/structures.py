@@ -17,10 +17,11 @@ from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
 from rocking.codes.rows import KINDS, code_check_rows
 from rocking.codes.selection import SETS, Selection
 from rocking.codes.variants import variants
+from rocking.errors import RockingError, one_structure
 from rocking.floors.place import GROUND, Place
 from rocking.floors.support import Support
 from rocking.quantities import GRAVITY, percent
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Kind, Language, Remark
 from rocking.reports.printing import (
     Cell,
     displaying,
@@ -30,7 +31,7 @@ from rocking.reports.printing import (
     unit_of,
 )
 from rocking.reports.printing import words as or_a_dash
-from rocking.reports.sentences import Language, Sentences
+from rocking.reports.sentences import Sentences
 from rocking.reports.structure_figures import bars_figure, basis_figure, selection_figure
 from rocking.reports.style import picture
 from rocking.reports.variants import strips
@@ -64,7 +65,7 @@ class CheckedStructure:
     checked: StructureCheck | None
     place: Place = GROUND
     support: Support | None = None
-    refusal: str = ""
+    refusal: str | Remark = ""
     untied: StructureCheck | None = None
     variant_of: str = ""
     worst: Conclusion | None = None
@@ -107,7 +108,7 @@ def structures_data(
     spectrum: DesignSpectrum,
     settings: Mapping[str, Any],
     selection: Selection | None = None,
-    without_sets: str = "",
+    without_sets: str | Remark = "",
     unread: Sequence[str] = (),
 ) -> dict[str, object]:
     """Return what the template is given.
@@ -147,7 +148,7 @@ def structures_data(
                     )
                 },
             },
-            "notices": [words("no sets", why=without_sets)] if without_sets else [],
+            "notices": [words("no sets", why=words.reason(without_sets))] if without_sets else [],
             "unread": words("unread", names="; ".join(unread)) if unread else "",
             "spectra": spectra,
             "motions": motions,
@@ -198,21 +199,19 @@ def _pages(
             ),
         )
         head = {"name": name, "level": level, "place": _place(page, words)}
-        if checked is None or conclusion is None:
-            refused = {"headline": words("headline refused"), "met": False}
-            pages.append(
-                head | refused | {"details": [words("could not", why=page.refusal)], "signed": False}
-            )
-            continue
-        pages.append(
-            head
-            | _answer(page, checked, conclusion, spectrum, words)
-            | {
-                "signed": True,
-                "basis": _basis(page, checked, conclusion, everywhere, words),
-                "strips": [strip_of[each] for each in (page.variant_of or name,) if each in strip_of],
-            }
-        )
+        why = page.refusal
+        if checked is not None and conclusion is not None:
+            try:
+                with one_structure(name):
+                    answer = _answer(page, checked, conclusion, spectrum, words)
+                    basis = _basis(page, checked, conclusion, everywhere, words)
+                    beside = [strip_of[each] for each in (page.variant_of or name,) if each in strip_of]
+                    pages.append(head | answer | {"signed": True, "basis": basis, "strips": beside})
+                    continue
+            except RockingError as error:
+                why = error.remark or str(error)
+        refused = {"headline": words("headline refused"), "met": False, "signed": False}
+        pages.append(head | refused | {"details": [words("could not", why=words.reason(why))]})
     return pages
 
 
@@ -647,7 +646,9 @@ def _period_table(
         share = f"{words.decimal(percent(each.overturning_share))}\u00a0%" if each.stations else "–"
         there = concluded.get(each.period)
         if each.checked is None or there is None:
-            lines.append([place, *["–"] * len(kinds), words("could not", why=each.refusal), share])
+            lines.append(
+                [place, *["–"] * len(kinds), words("could not", why=words.reason(each.refusal)), share]
+            )
             continue
         ratios = {KINDS[check.clause]: ratio_words(check, words) for check in each.checked.checks}
         key = "line verified" if there.verified else "line not verified"

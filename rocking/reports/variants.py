@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from html import escape
 from typing import TYPE_CHECKING, Any
 
+from rocking.errors import FaultError, one_structure
 from rocking.reports.drawings import drawn_by_hand, room, sketch
 from rocking.reports.printing import chip, reserve_in_figures
 from rocking.reports.sentences import Sentences
@@ -41,13 +43,20 @@ def _cells(
     row: Sequence[Variant], structures: Mapping[str, Structure], words: Sentences
 ) -> list[dict[str, Any]]:
     turned = {}
+    scales = []
     for each in row:
-        mechanism = structures[each.name].mechanism()
-        side = mechanism.positive
-        rotation = _DRAWN * side.critical_rotation if side.can_overturn else 0.0
-        turned[each.name] = rotation
-    scale = min(room(structures[name], rotation, _WIDTH, _HEIGHT)[0] for name, rotation in turned.items())
-    return [_cell(each, structures[each.name], turned[each.name], scale, words) for each in row]
+        # One that cannot be drawn costs no other; its checks and its reports say why.
+        with suppress(FaultError), one_structure(each.name):
+            structure = structures[each.name]
+            side = structure.mechanism().positive
+            rotation = _DRAWN * side.critical_rotation if side.can_overturn else 0.0
+            scales.append(room(structure, rotation, _WIDTH, _HEIGHT)[0])
+            turned[each.name] = rotation
+    return [
+        _cell(each, structures[each.name], turned[each.name], min(scales), words)
+        for each in row
+        if each.name in turned
+    ]
 
 
 def _cell(

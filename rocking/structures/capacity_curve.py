@@ -109,6 +109,11 @@ class CapacityCurve(Structure):
                 f"the curve ends with a multiplier of {multipliers[-1]!r} at {displacements[-1]!r} m and never reaches "
                 "0, but must, for that is where it overturns; give its points up to there."
             )
+        if not self._reach > 0:
+            raise StructureError(
+                f"the curve begins with a multiplier of {multipliers[0]!r} and comes down to 0 at once, but must bear "
+                "something up to a displacement above 0; give it as it is there."
+            )
 
     @classmethod
     def read(
@@ -175,12 +180,29 @@ class CapacityCurve(Structure):
     @cached_property
     def _reach(self) -> float:
         """d*_u, at which the multiplier comes down to 0 for the first time, m."""
-        place = next(k for k, each in enumerate(self.multipliers) if each <= 0)
+        place = self._vanishes
         (start, end), (high, low) = (
             self.displacements[place - 1 : place + 1],
             self.multipliers[place - 1 : place + 1],
         )
-        return start + (end - start) * high / (high - low)
+        if low == 0:
+            return end  # which the quotient may miss by a rounding
+        return min(start + (end - start) * high / (high - low), end)
+
+    @cached_property
+    def _vanishes(self) -> int:
+        """Place of the first point whose multiplier is 0 or below."""
+        return next(place for place, multiplier in enumerate(self.multipliers) if multiplier <= 0)
+
+    @property
+    def _to_the_end(self) -> tuple[np.ndarray, np.ndarray]:
+        """The displacements [m] and multipliers up to d*_u, where the last one is 0."""
+        inside = self._vanishes
+        # d*_u may round onto a point whose multiplier is next to nothing.
+        while self.displacements[inside - 1] >= self._reach:
+            inside -= 1
+        displacements = np.array([*self.displacements[:inside], self._reach])
+        return displacements, np.array([*self.multipliers[:inside], 0.0])
 
     @property
     def height(self) -> float:
@@ -191,9 +213,8 @@ class CapacityCurve(Structure):
     def _mechanism(self) -> Mechanism:
         """In d* = h φ: I = h, G = α, B = 1."""
         height = self.height
-        inside = [each for each in self.displacements if each < self._reach]
-        points = np.array([*inside, self._reach]) / height
-        gravity = np.array([*self.multipliers[: len(inside)], 0.0])
+        displacements, gravity = self._to_the_end
+        points = displacements / height
         critical = float(points[-1])
         slopes = np.diff(gravity) / np.diff(points)
 
@@ -226,11 +247,10 @@ class CapacityCurve(Structure):
 
     def capacity_curve(self, side: int = 1, count: int = 41) -> StaticCurve:
         """Return the curve itself; `count` is what a structure with a geometry takes."""
-        inside = [each for each in self.displacements if each < self._reach]
-        displacement = np.array([*inside, self._reach])
+        displacement, multiplier = self._to_the_end
         return StaticCurve(
             rotation=displacement / self.height,
-            multiplier=np.array([*self.multipliers[: len(inside)], 0.0]),
+            multiplier=multiplier,
             displacement=displacement,
             effective_displacement=displacement,
             control_point=(0.0, self.height),
@@ -239,10 +259,7 @@ class CapacityCurve(Structure):
 
     def static_capacity(self, side: int = 1) -> StaticCapacity:
         """Raise StructureError: no virtual displacements are known."""
-        raise StructureError(
-            "a capacity curve has no geometry of which a static check could take masses and displacements; check it in "
-            "the program that it comes from."
-        )
+        raise StructureError.saying(Remark(Kind.CURVE_HAS_NO_GEOMETRY))
 
     def _linkage(self, mirrored: bool) -> Turning:
         """The slender body as which it is drawn."""

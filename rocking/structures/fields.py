@@ -115,6 +115,12 @@ class Field(Described):
         return any(each.get("type") == "array" for each in self.schema.get("anyOf", [self.schema]))
 
     @property
+    def options(self) -> tuple[str, ...]:
+        """The words that may be its value, or stand in place of a number."""
+        kinds = (self.kind, *get_args(self.kind))
+        return tuple(word for kind in kinds if get_origin(kind) is Literal for word in get_args(kind))
+
+    @property
     def suffix(self) -> str:
         """The unit as it follows a number."""
         return self.unit if self.unit in ("", "°") else f" {self.unit}"

@@ -295,7 +295,7 @@ class Linkage(ABC):
     def side(self, restitution: float) -> Side:
         """Return the side of rocking. Raises DoesNotStandError where nothing restores at rest."""
         if not self.gravity(0.0) > 0:
-            raise DoesNotStandError("the structure does not stand: what acts on it at rest turns it over.")
+            raise DoesNotStandError.saying(Remark(Kind.FALLS_AT_REST))
         critical = self._first_zero() if self.critical is None else self.critical
         functions = self.inertia, self.inertia_slope, self.gravity, self.gravity_slope, self.ground
         return Side(

@@ -13,22 +13,23 @@ import numpy as np
 from rocking.assessment.conclusion import conclusions, worst_of_each
 from rocking.assessment.cracks import mechanisms_of
 from rocking.assessment.decide import Verdict, worse
-from rocking.assessment.rows import MechanismRow, RecordRow, VerdictRow
+from rocking.assessment.rows import FailureRow, MechanismRow, RecordRow, VerdictRow
 from rocking.assessment.scene import Scene, placed
 from rocking.codes.check import StructureCheck
 from rocking.codes.dynamic_check import check
 from rocking.codes.rows import KINDS, CodeCheckRow, code_check_rows
 from rocking.codes.selection import Selection
-from rocking.errors import ConfigurationError, RockingError, fault_in_words
+from rocking.errors import ConfigurationError, RockingError, one_structure
 from rocking.floors.support import Support
 from rocking.records import load_catalogue
+from rocking.remarks import Remark
 from rocking.reports.printing import write_document
 from rocking.reports.structures import CheckedStructure, ListedMechanism, structures_data
 from rocking.structures.tied import Tied
+from rocking.study.documents import made_or_told
 from rocking.study.job import Study
 from rocking.study.selection import pool_of, select_for
-from rocking.study.terminal import log_error
-from rocking.tables import write_tables
+from rocking.tables import Row, rows_of, write_tables
 
 
 def write_checks(
@@ -81,8 +82,12 @@ def write_checks(
             of_scene = [
                 each for each in mechanisms if (each.structure, each.support_period_s) == (name, period)
             ]
-            if page.checked:
-                page = replace(page, mechanisms=_mechanisms(scene, of_scene, station_of))
+            try:
+                with one_structure(name):
+                    if page.checked:
+                        page = replace(page, mechanisms=_mechanisms(scene, of_scene, station_of))
+            except RockingError as error:
+                page = replace(page, checked=None, refusal=error.remark or str(error))
             pages.append(page)
             tell(f"{placed(name, period)}: {page.refusal or _told(page.checked)}")
     rows = [
@@ -92,8 +97,17 @@ def write_checks(
         for row in code_check_rows(page.name, page.checked, page.place.period_of(page.support))
     ]
     write_tables({CodeCheckRow: rows}, folder, "rocking-code-checks", "code_checks.json")
-    data = structures_data(pages, spectrum, study.settings.mapping(), selection, without_sets, unread)
-    write_document(folder / "structures.pdf", "structures.typ", data, study.settings.figures)
+    pdf = folder / "structures.pdf"
+    figures = study.settings.figures
+
+    def write() -> None:
+        data = structures_data(pages, spectrum, study.settings.mapping(), selection, without_sets, unread)
+        write_document(pdf, "structures.typ", data, figures)
+
+    faults: list[Row] = []
+    made_or_told(pdf, write, faults, "the log", figures)
+    for fault in rows_of(FailureRow, {FailureRow: faults}):
+        tell(fault.message)
     return rows
 
 
@@ -111,7 +125,7 @@ def _checked(
     """
     checked: StructureCheck | None = None
     untied: StructureCheck | None = None
-    refusal = ""
+    refusal: str | Remark = ""
     check_here = partial(
         check_at,
         support=support,
@@ -119,18 +133,14 @@ def _checked(
         support_loss=scene.terms.support_loss,
     )
     try:
-        checked = check_here(scene.structure)
-        if isinstance(scene.structure, Tied) and scene.structure.tie_heights:
-            with suppress(RockingError):  # without its ties it may not stand
-                untied = check_here(scene.structure.without_ties())
+        with one_structure(scene.name):
+            checked = check_here(scene.structure)
+            if isinstance(scene.structure, Tied) and scene.structure.tie_heights:
+                with suppress(RockingError):  # without its ties it may not stand
+                    untied = check_here(scene.structure.without_ties())
     except RockingError as error:
-        refusal = str(error)
-    except (OSError, MemoryError):
-        raise
-    except Exception as fault:  # costs no other structure, and not the summary
-        log_error(fault)
         checked = None
-        refusal = fault_in_words(fault, "the log", "its checks")
+        refusal = error.remark or str(error)
     known = [each for each in verdicts if not math.isnan(each.overturning_share)]
     shares = shares_by_station(known, station_of)
     return CheckedStructure(
@@ -212,10 +222,10 @@ def _told(checked: StructureCheck | None) -> str:
     return f"{words}. {checked.remark}" if checked and checked.remark else words
 
 
-def _sets(study: Study) -> tuple[Selection | None, str, list[str]]:
+def _sets(study: Study) -> tuple[Selection | None, str | Remark, list[str]]:
     """The sets of records for the dynamic check, or why there are none; and the records that could not be read."""
     try:
         selection, reasons = select_for(study, load_catalogue(pool_of(study.settings)))
     except RockingError as error:
-        return None, str(error), []
+        return None, error.remark or str(error), []
     return selection, "", list(reasons)

@@ -1,12 +1,13 @@
 """The results over all records of a study: tables, report, figure and page, from its jobs; and their fragility."""
 
 import json
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from contextlib import AbstractContextManager, ExitStack
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rocking.assessment.case import Failure
 from rocking.assessment.conclusion import conclusions, worst_of_each
 from rocking.assessment.cracks import never_lets_go
 from rocking.assessment.rows import (
@@ -16,6 +17,7 @@ from rocking.assessment.rows import (
     CapacityRow,
     ComparisonRow,
     ExpectedFallsRow,
+    FailedCase,
     FailureRow,
     PulseRow,
     StructureRow,
@@ -30,9 +32,10 @@ from rocking.assessment.rows import (
     structure_rows,
 )
 from rocking.assessment.scene import variants_of
-from rocking.errors import ConfigurationError, RockingError
+from rocking.errors import ConfigurationError, RockingError, one_structure
 from rocking.records import Accelerogram, CatalogueRecord
 from rocking.structures import Mechanism, Structure
+from rocking.study.documents import made_or_told, write_reason
 from rocking.study.job import Job, Study, costs_no_other
 from rocking.study.made_from import versions
 from rocking.study.results import Outcome, kept_of, kept_rows, outcomes_of, remove_others
@@ -56,6 +59,8 @@ if TYPE_CHECKING:
 
 PROVENANCE = "provenance.json"
 """In the folder of the summary: what the results were made from and with."""
+SCATTER = "prediction_against_integration.svg"
+"""The figure of every case of the tables."""
 WORKBOOK = "study.xlsx"
 """The tables of the summary in one file."""
 OPENQUAKE = "fragility.xml"
@@ -89,33 +94,67 @@ def summarise(job: Job) -> list[Path]:
     write_whole(target / PROVENANCE, (text + "\n").encode())
     files += [target / "datapackage.json", target / PROVENANCE]
     if study.settings.reports:
-        from rocking.reports.explore import explore_page  # matplotlib takes half a second to import
-
-        sheets = {each: rows for each, rows in shown.items() if each not in _NOT_IN_THE_WORKBOOK}
-        checked: list[CodeConclusion] = []
-        drawn: list[dict[str, Any]] = []
-        # The main job runs without the folder of the codes.
-        if study.settings.design_spectrum.spectrum() is not None:
-            from rocking.codes.conclusion import code_conclusions
-            from rocking.codes.rows import CodeCheckRow
-
-            checks = rows_of(CodeCheckRow, beside)
-            checked = code_conclusions(checks)
-            sheets |= {CodeCheckRow: beside[CodeCheckRow]} if checks else {}
-        if groups := variants_of(study.scenes):
-            from rocking.codes.variants import VariantRow, variants
-            from rocking.reports.variants import strips
-
-            verdicts = rows_of(VerdictRow, shown)
-            compared = variants(groups, worst_of_each(conclusions(verdicts, [])), checked)
-            drawn = strips(compared, study.structures)
-            sheets[VariantRow] = [VariantRow.of(each) for row in compared.values() for each in row]
-        files += _report(target, study, shown | beside, spectra, drawn)
-        page = explore_page(pages, study.structures, study.settings.study or "", checked, drawn)
-        write_whole(target / "study.html", page)
-        write_whole(target / WORKBOOK, workbook(sheets, study.settings.study or "", opens_on=VerdictRow))
-        files += [target / "study.html", target / WORKBOOK]
+        files += _documents(job, target, shown, beside, pages, spectra)
     remove_others(job.results, [record.id for record in job.records])
+    return files
+
+
+def _documents(
+    job: Job,
+    target: Path,
+    shown: Mapping[type[Row], list[Row]],
+    beside: Mapping[type[Row], list[Row]],
+    pages: Sequence[dict[str, Any]],
+    spectra: Sequence[Sequence[float]],
+) -> list[Path]:
+    """Write report, figure, page to explore and workbook over all records, and return the files.
+
+    shown, beside: the rows of the summary and of the other products. pages: of each record. spectra: of the components.
+    """
+    from rocking.reports.explore import explore_page  # matplotlib takes half a second to import
+
+    study = job.study
+    sheets = {each: rows for each, rows in shown.items() if each not in _NOT_IN_THE_WORKBOOK}
+    checked: list[CodeConclusion] = []
+    drawn: list[dict[str, Any]] = []
+    # The main job runs without the folder of the codes.
+    if study.settings.design_spectrum.spectrum() is not None:
+        from rocking.codes.conclusion import code_conclusions
+        from rocking.codes.rows import CodeCheckRow
+
+        checks = rows_of(CodeCheckRow, beside)
+        checked = code_conclusions(checks)
+        sheets |= {CodeCheckRow: beside[CodeCheckRow]} if checks else {}
+    if groups := variants_of(study.scenes):
+        from rocking.codes.variants import VariantRow, variants
+        from rocking.reports.variants import strips
+
+        verdicts = rows_of(VerdictRow, shown)
+        compared = variants(groups, worst_of_each(conclusions(verdicts, [])), checked)
+        drawn = strips(compared, study.structures)
+        sheets[VariantRow] = [VariantRow.of(each) for row in compared.values() for each in row]
+    title = study.settings.study or ""
+    untold: list[Row] = []
+    figures = study.settings.figures
+    pdf, scatter = target / "summary.pdf", target / SCATTER
+    parts = {**shown, **beside}
+    made_or_told(pdf, lambda: _report(pdf, study, parts, spectra, drawn), untold, job.log, figures)
+    made_or_told(scatter, lambda: _scatter(scatter, parts), untold, job.log)
+    page, book = target / "study.html", target / WORKBOOK
+    made_or_told(
+        page,
+        lambda: write_whole(page, explore_page(pages, study.structures, title, checked, drawn)),
+        untold,
+        job.log,
+    )
+    made_or_told(
+        book, lambda: write_whole(book, workbook(sheets, title, opens_on=VerdictRow)), untold, job.log
+    )
+    files = [pdf, scatter, page, book]
+    if figures != "none":
+        files.append(target / "summary_figures.zip")
+    if untold:
+        write_tables({FailureRow: [*parts.get(FailureRow, []), *untold]}, target)
     return files
 
 
@@ -154,15 +193,28 @@ def write_summary(
             if reports:
                 pages.append(outcome.page)
                 spectra += outcome.spectra.values()
-        write[FailureRow](faults)
-        kept[FailureRow] += faults if reports else ()
+        told = [*faults]
+        for name, structure in structures.items():
+            for each, make in ((StructureRow, structure_rows), (CapacityRow, capacity_rows)):
+                with told_of_structure(told, name):
+                    kept[each] += list(make({name: structure}))
+        write[FailureRow](told)
+        kept[FailureRow] += told if reports else ()
         of_all = falls_over(falls_of_records)
         kept[ExpectedFallsRow] = [*falls_of_records, *([of_all] if of_all else [])]
-        kept[StructureRow] = list(structure_rows(structures))
-        kept[CapacityRow] = list(capacity_rows(structures))
         kept[AgreementRow] = list(agreement_rows(rows_of(ComparisonRow, kept)))
         write_tables({each: rows for each, rows in kept.items() if each not in write}, target)
     return kept, pages, spectra
+
+
+@contextmanager
+def told_of_structure(faults: list[Row], name: str) -> Iterator[None]:
+    """Add a row to `faults` for what goes wrong within with one structure, and go on behind it."""
+    try:
+        with one_structure(name):
+            yield
+    except RockingError as error:
+        faults.append(FailureRow.of(FailedCase("", "", name, Failure("summary", str(error)))))
 
 
 def _beside(job: Job) -> dict[type[Row], list[Row]]:
@@ -189,19 +241,17 @@ def _beside(job: Job) -> dict[type[Row], list[Row]]:
 
 
 def _report(
-    folder: Path,
+    pdf: Path,
     study: Study,
     rows: Mapping[type[Row], Sequence[Row]],
     spectra: Sequence[Sequence[float]],
     strips: Sequence[Mapping[str, Any]],
-) -> list[Path]:
-    """Write summary.pdf and its figures beside the summary tables in `folder`, and return the files.
+) -> None:
+    """Write summary.pdf and, where asked for, its figures beside it.
 
     spectra: of the components, where there is a design level. strips: of the variants.
     """
     from rocking.reports.printing import write_document  # as above
-    from rocking.reports.scatter import prediction_scatter
-    from rocking.reports.style import svg
     from rocking.reports.summary import summary_data
     from rocking.reports.trade import trade_picture
 
@@ -209,11 +259,16 @@ def _report(
     level = study.settings.design_spectrum.spectrum()
     design = (level, spectra) if level is not None and spectra else None
     data = summary_data(rows, study.settings.mapping(), pictures, design, strips)
-    files = write_document(folder / "summary.pdf", "summary.typ", data, study.settings.figures)
+    write_document(pdf, "summary.typ", data, study.settings.figures)
+
+
+def _scatter(path: Path, rows: Mapping[type[Row], Sequence[Row]]) -> None:
+    """Write the figure of every case of the tables."""
+    from rocking.reports.scatter import prediction_scatter  # as above
+    from rocking.reports.style import svg
+
     scatter = prediction_scatter(rows_of(ComparisonRow, rows), rows_of(PulseRow, rows))
-    figure = folder / "prediction_against_integration.svg"
-    write_whole(figure, svg(scatter).encode())
-    return [*files, figure]
+    write_whole(path, svg(scatter).encode())
 
 
 def write_fragility(
@@ -332,7 +387,7 @@ def write_beside(
 
     None has nothing to show. In both that case and that of a fault, of which `faults` gets a row, the page says why.
     """
-    from rocking.reports.printing import faults_in_words, write_document  # as above
+    from rocking.reports.printing import faults_in_words  # as above
     from rocking.reports.style import new_figure, svg
 
     figures = job.study.settings.figures
@@ -340,9 +395,7 @@ def write_beside(
         with costs_no_other(faults, job.log, pdf.name):
             write(pdf, image, figures)
             return
-    parts = [{"list": faults_in_words({FailureRow: faults})}]
-    data = {"title": pdf.stem.capitalize(), "subtitle": "It could not be made.", "parts": parts}
-    write_document(pdf, "plain.typ", data, figures)
+    write_reason(pdf, faults_in_words({FailureRow: faults}), figures)
     write_whole(image, svg(new_figure(20)).encode())
 
 

@@ -20,7 +20,7 @@ from rocking.assessment.conclusion import conclusion_in_words, conclusions, fall
 from rocking.assessment.decide import ORDER, Verdict, worst_first
 from rocking.assessment.methods import rocks
 from rocking.assessment.rows import ComparisonRow, ExpectedFallsRow, FailureRow, TradeRow, VerdictRow
-from rocking.errors import RecordError, RockingError, log_fault
+from rocking.errors import LOGS, RecordError, RockingError, log_fault
 from rocking.quantities import counted, escaped, listed
 from rocking.study.folder import new_log
 from rocking.tables import read_table
@@ -39,7 +39,6 @@ _WIDTH = 104
 """Characters of a line at the end."""
 _PIPE = "ROCKING_PROGRESS"
 """The variable of the environment that names the pipe from the jobs to the one who waits."""
-_LOGS: list[Path] = []
 """The log that this process has begun, to which the error that ends it is added."""
 _LONGEST = 1000
 """Characters of a line: what the system writes to a pipe at once, by whatever process, is at least 4096 bytes."""
@@ -340,7 +339,7 @@ def tell(job: str, line: str, done: int = 0, total: int = 0) -> None:
 def line_writer(log: Path, rule: str) -> Callable[..., None]:
     """Return what adds a line to a new `log`, and tells it as one of a job of this `rule`, with what it counts."""
     new_log(log).close()
-    _LOGS[:] = [log]
+    LOGS[:] = [log]
 
     def add(line: str, done: int = 0, total: int = 0) -> None:
         with log.open("a", encoding="utf-8") as stream:
@@ -367,7 +366,7 @@ def tell_error(kind: type[BaseException], error: BaseException, trace: Traceback
 
 def log_error(error: BaseException) -> None:
     """Add the traceback of an error to the log that this process has begun, if any."""
-    for log in _LOGS:
+    for log in LOGS:
         log_fault(error, log)
 
 

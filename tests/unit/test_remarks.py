@@ -4,12 +4,13 @@ import ast
 import inspect
 import re
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
 import rocking
 from rocking.assessment.store import decoded, encoded
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Kind, Language, Remark, Sentence
 
 PACKAGE = Path(inspect.getfile(rocking)).parent
 TESTS = Path(__file__).parents[1]
@@ -22,6 +23,30 @@ def test_every_sentence_is_filled_by_its_values_alone(kind):
     assert Kind(kind.value) is kind
     assert "{" not in str(remark)
     assert all(remark[name] == 1.5 for name in numbers)
+    said = {remark.sentence_in(language) for language in get_args(Language)}
+    assert all(text and "{" not in text for text in said)
+    # What another program says is repeated as it says it.
+    assert len(said) == len(get_args(Language)) or kind is Kind.TOLD_BY_OBSPY
+
+
+def test_a_sentence_without_one_of_the_languages_cannot_be_made():
+    with pytest.raises(TypeError, match="it"):
+        Sentence("the joint opens")
+    with pytest.raises(ValueError, match="language it"):
+        Sentence("the joint opens", "")
+    with pytest.raises(ValueError, match="forza"):
+        Sentence("it needs {force:g} kN", "richiede {forza:g} kN")
+
+
+@pytest.mark.parametrize("said", [("the joint opens",), ()])
+def test_a_kind_that_lacks_a_language_cannot_be_declared(said):
+    with pytest.raises(ValueError, match="in every language"):
+        Kind._new_member_(Kind, "opens", *said)
+
+
+def test_numbers_have_the_mark_of_the_language():
+    bears = Remark.of(Kind.LIMIT_SHARE, share=0.4)
+    assert (bears.sentence_in("en"), bears.sentence_in("it")) == ("0.4 d₀", "0,4 d₀")
 
 
 def test_no_two_kinds_say_the_same():

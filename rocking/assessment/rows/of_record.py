@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
@@ -29,6 +30,7 @@ from rocking.assessment.rows.of_inputs import (
     RecordRow,
     pulses_found,
 )
+from rocking.errors import RockingError, one_structure
 from rocking.floors.place import FloorMeasures
 from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Regime
@@ -718,6 +720,23 @@ RECORD_TABLES: tuple[type[Row], ...] = tuple(RecordRows().tables)
 """The rows of every table of one record."""
 
 
+@contextmanager
+def _told(failures: list[FailedCase], identity: Identity, station: "StationResult") -> Iterator[None]:
+    """Add why the rows of one structure that are made within could not be, to `failures`."""
+    try:
+        with one_structure(station.structure):
+            yield
+    except RockingError as error:
+        from rocking.assessment.case import Failure  # as above
+
+        failure = Failure("rows", str(error))
+        period = station.support_period_s
+        of_case = FailedCase(
+            identity.record, identity.component, station.structure, failure, support_period=period
+        )
+        failures.append(of_case)
+
+
 # Whole on purpose: the tables of a record, one after another.
 def rows_of_record(
     result: "RecordResult", settings_sha256: str = "", licence: str = "", friction_coefficient: float = 0.6
@@ -738,10 +757,13 @@ def rows_of_record(
         by_component[BOTH_COMPONENTS] = replace(identities[0], component=BOTH_COMPONENTS)
     for component, identity in by_component.items():
         for station, case in result.cases(component):
-            if case.answer is not None:
-                compared = ComparedCase(identity, station, case, friction_coefficient)
-                comparison.append(ComparisonRow.of(compared))
-            variations += [VariationRow.of(VariedCase(identity, station, each)) for each in case.variations]
+            with _told(failures, identity, station):
+                if case.answer is not None:
+                    compared = ComparedCase(identity, station, case, friction_coefficient)
+                    comparison.append(ComparisonRow.of(compared))
+                variations += [
+                    VariationRow.of(VariedCase(identity, station, each)) for each in case.variations
+                ]
             failures += [
                 FailedCase(
                     record,
@@ -756,9 +778,11 @@ def rows_of_record(
     mechanisms: list[MechanismRow] = []
     for station in result.stations:
         identity = by_component[station.worst.component] if station.worst else identities[0]
-        identity = replace(identity, component=station.component)
-        verdicts.append(VerdictRow.of(OfStructure(identity, station)))
-        mechanisms += [MechanismRow.of(each) for each in held_mechanisms(station, identity)]
+        with _told(failures, identity, station):
+            identity = replace(identity, component=station.component)
+            verdicts.append(VerdictRow.of(OfStructure(identity, station)))
+        with _told(failures, identity, station):
+            mechanisms += [MechanismRow.of(each) for each in held_mechanisms(station, identity)]
     components = list(zip(identities, result.components, strict=True))
     return RecordRows(
         record=[RecordRow.of(ReadComponent(*each, licence)) for each in components],

@@ -5,23 +5,24 @@ from pathlib import Path
 from string import Formatter
 from typing import get_args
 
+import numpy as np
 import pytest
 
 import rocking
-from rocking import Block, DesignSpectrum, Facade, check
+from rocking import Block, CapacityCurve, DesignSpectrum, Facade, check
 from rocking.assessment.decide import Verdict
 from rocking.assessment.reserve import Reserve
 from rocking.codes.check import Part
-from rocking.remarks import Kind, Remark
-from rocking.reports.sentences import Language, Sentences, catalogue
+from rocking.codes.selection import random_sets, search
+from rocking.errors import RockingError
+from rocking.remarks import Kind, Language, Remark
+from rocking.reports.sentences import Sentences, catalogue
 from rocking.reports.structures import CheckedStructure, structures_data
 from rocking.structures.structure_list import TYPES
 from rocking.study.settings import Settings
 
 ITALIAN = Sentences("it")
 SPECTRUM = DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35, soil="C")
-DECLARED_ELSEWHERE = ("kind", "field")
-"""Whose English text stands where it is declared."""
 
 
 def named(text):
@@ -31,22 +32,54 @@ def named(text):
 @pytest.mark.parametrize("key", catalogue())
 def test_both_languages_name_the_same_values(key):
     texts = catalogue()[key]
-    english = texts["en"]
-    if key.startswith("kind "):
-        english = Kind(key.removeprefix("kind ")).sentence
-        assert set(named(texts["it"])) <= {*named(english), "about"}
-    elif not key.startswith("field "):
-        assert named(texts["it"]) == named(english)
-    assert texts["it"]
+    assert named(texts["it"]) == named(texts["en"])
+    assert all(texts[language] for language in get_args(Language))
+
+
+def test_a_sentence_that_lacks_a_language_is_refused(monkeypatch, tmp_path):
+    (tmp_path / "sentences.csv").write_text("key,en,it\ntitle,Checks,\n")
+    monkeypatch.setattr("rocking.reports.sentences.__file__", str(tmp_path / "sentences.py"))
+    with pytest.raises(ValueError, match="title has no text in it"):
+        catalogue.__wrapped__()
+
+
+FIELDS = [field for form in TYPES.values() for each in form for field in each.fields]
 
 
 def test_every_word_that_code_looks_up_stands_in_the_catalogue():
     keys = [
         *(f"{place} {word}" for word in Verdict for place in ("predicate", "verdict")),
         *(f"part {part}" for part in Part),
-        *(f"field {field.name}" for form in TYPES.values() for each in form for field in each.fields),
+        *(f"field {field.name}" for field in FIELDS),
+        *(f"value {option}" for field in FIELDS for option in field.options),
     ]
     assert set(keys) <= set(catalogue())
+    looked_up = {key for key in keys if key.startswith(("field ", "value "))}
+    assert looked_up == {key for key in catalogue() if key.startswith(("field ", "value "))}
+
+
+def test_a_page_says_what_stands_behind_in_the_words_of_its_language():
+    front = Facade((3.0,), (0.5,), unit_weight=20e3, behind="cross_walls", restitution=0.6)
+    given = next(each for each in front.described.values if each.field.name == "behind")
+    assert ITALIAN.described(given) == "elemento a tergo muri trasversali"
+    assert "cross walls" in Sentences().described(given)
+
+
+@pytest.mark.parametrize(
+    "refuse",
+    [
+        lambda: next(random_sets(np.array(["a", "b", "c"]), 7, 10, np.random.default_rng(1))),
+        lambda: search(np.full((3, 4), 5.0), [np.array([[0, 1, 2]])], 0.1, 0.3),
+        lambda: CapacityCurve((0.0, 0.1), (0.1, 0.0), weight=1e3, restitution=0.9).static_capacity(),
+    ],
+)
+def test_what_is_refused_on_a_page_is_told_in_its_language(refuse):
+    with pytest.raises(RockingError) as caught:
+        refuse()
+    remark = caught.value.remark
+    assert str(caught.value) == str(remark)
+    assert ITALIAN.reason(remark) == remark.sentence_in("it") != str(remark)
+    assert ITALIAN.reason("a file is missing.").startswith("(in inglese)")
 
 
 def test_every_sentence_of_the_catalogue_is_looked_up():

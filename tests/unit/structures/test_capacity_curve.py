@@ -95,6 +95,42 @@ def test_kinks_in_line_change_nothing():
         assert curve.rotation_ratio == pytest.approx(exact.rotation_ratio, rel=1e-8)
 
 
+def test_any_curve_has_a_mechanism_that_overturns_where_it_comes_down_to_zero():
+    """300 curves drawn at random, half of them in round numbers as a table has them, against their own segments."""
+    rng = np.random.default_rng(65)
+    for number in range(300):
+        points = int(rng.integers(2, 9))
+        displacements = [0.0, *np.cumsum(rng.uniform(1e-3, 0.4, points - 1))]
+        multipliers = [*rng.uniform(0.01, 0.5, points - 1), rng.choice([0.0, -rng.uniform(0, 0.1)])]
+        if number % 2:
+            displacements = [round(each, 2) + 0.01 * place for place, each in enumerate(displacements)]
+            multipliers = [round(each, 2) for each in multipliers]
+            multipliers[0] = max(multipliers[0], 0.01)
+        curve = CapacityCurve(tuple(displacements), tuple(multipliers), weight=50e3, restitution=0.9)
+        side = curve.mechanism().positive
+        reach = curve.height * side.critical_rotation
+        place = next(k for k, each in enumerate(multipliers) if each <= 0)
+        start, end = displacements[place - 1 : place + 1]
+        slope = (multipliers[place] - multipliers[place - 1]) / (end - start)
+        assert start < reach <= end * (1 + 1e-15)
+        assert multipliers[place - 1] + slope * (reach - start) == pytest.approx(0, abs=1e-12)
+        # p² = −g G'/I of the segment that ends at zero
+        assert side.frequency_parameter == pytest.approx(np.sqrt(-GRAVITY * slope), rel=1e-9)
+        assert side.uplift_multiplier == multipliers[0]
+        assert integrate(curve.mechanism(), Pulse(1.0, 6.0)).rotation_ratio >= 0
+
+
+def test_the_curve_that_ended_every_record_of_its_study_is_followed():
+    """Its last point is missed by a rounding where the quotient is taken."""
+    curve = CapacityCurve((0.0, 0.1, 0.3), (0.12, 0.08, 0.0), weight=50e3, restitution=0.9)
+    assert curve.mechanism().positive.frequency_parameter == pytest.approx(np.sqrt(GRAVITY * 0.4))
+
+
+def test_a_curve_that_bears_nothing_up_to_any_displacement_is_refused():
+    with pytest.raises(StructureError, match="comes down to 0 at once"):
+        CapacityCurve((0.0, 0.1), (5e-324, -100.0), weight=1e3, restitution=0.9)
+
+
 def test_a_curve_goes_on_from_where_its_multiplier_first_vanishes():
     curve = _curve()
     assert curve.mechanism().critical_rotation * curve.height == pytest.approx(0.2 + 0.3 * 0.08 / 0.1)

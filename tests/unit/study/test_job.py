@@ -196,7 +196,7 @@ def test_a_job_that_breaks_off_leaves_nothing(tmp_path: Path) -> None:
 
 
 def test_a_fault_of_this_package_costs_no_other_record_and_asks_to_be_reported(tmp_path: Path) -> None:
-    """Whatever is raised becomes a row of its record, and the traceback stands in the log that the row names."""
+    """Whatever is raised becomes a row of its structure, and the traceback stands in the log that the row names."""
     results = tmp_path / "results"
     records = [_record(tmp_path, "first"), _record(tmp_path, "second")]
     line_writer(results / "made.log", "batches")
@@ -204,11 +204,10 @@ def test_a_fault_of_this_package_costs_no_other_record_and_asks_to_be_reported(t
     take_steps(records[0], job)
     take_steps(records[1], replace(job, study=replace(job.study, scenes=_study().scenes)))
     first, second = (outcome.rows for outcome in outcomes_of(results, records))
-    (failure,) = first[FailureRow]
-    assert failure.stage == "fault"
-    assert failure.message == (
-        f"a fault of rocking in this file (ZeroDivisionError: of the machine); please report it, with {job.log}."
-    )
+    assert {each.structure for each in first[FailureRow]} == {"faulty"}
+    for failure in first[FailureRow]:
+        assert "faulty (ZeroDivisionError: of the machine)" in failure.message
+        assert str(job.log) in failure.message
     assert "ZeroDivisionError: of the machine" in job.log.read_text() and "Traceback" in job.log.read_text()
     assert not second[FailureRow] and second[ComparisonRow]
 

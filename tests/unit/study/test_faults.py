@@ -1,0 +1,107 @@
+"""A fault of the package in one structure, wherever it strikes: it is named, and costs nothing else anything."""
+
+from dataclasses import replace
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+from rocking.assessment.rows import (
+    CapacityRow,
+    ComparisonRow,
+    FailureRow,
+    StructureRow,
+    VerdictRow,
+    rows_of_record,
+)
+from rocking.structures import Block
+from rocking.study.results import outcomes_of
+from rocking.study.summary import summarise, write_summary
+from rocking.tables import csv_lines, read_rows
+from tests.unit.study.made_jobs import worked
+from tests.unit.study.test_job import _record, _study
+
+FUNCTIONS = {
+    "rocking.assessment.assessor": ("predict", "governing_crack", "cracked"),
+    "rocking.assessment.one_case": ("check_model", "ensemble_over_cracks", "other_cracks"),
+    rows_of_record.__module__: ("held_mechanisms",),
+}
+METHODS = ("mechanism", "candidates", "contact_forces", "capacity_curve", "crushing")
+PLACES = [
+    *((module, name) for module, names in FUNCTIONS.items() for name in names),
+    *(("Block", name) for name in METHODS),
+]
+PIER = Block.of_size(0.7, 2.0)
+BLOCK = Block.of_size(0.5, 3.0)
+
+
+def _is_of_pier(argument: object) -> bool:
+    if isinstance(argument, Block):
+        return argument.breadth == PIER.breadth
+    if hasattr(argument, "critical_rotation"):
+        return bool(argument.critical_rotation == PIER.mechanism().critical_rotation)
+    inner = getattr(argument, "structure", "")
+    return inner == "pier" or (isinstance(inner, Block) and _is_of_pier(inner))
+
+
+@pytest.mark.parametrize(("module", "name"), PLACES)
+def test_a_fault_in_one_structure_is_named_and_costs_no_other(
+    module: str, name: str, tmp_path: Path, monkeypatch
+) -> None:
+    """Predict, integrate, variations, reserve, rows and tables of the summary: the rows of the others are the same."""
+    record = _record(tmp_path)
+    alone = worked([record], _study(block=BLOCK), tmp_path / "alone")
+    (expected,) = outcomes_of(alone.results, [record])
+    assert PIER.mechanism()
+
+    owner = Block if module == "Block" else import_module(module)
+    kept = getattr(owner, name)
+
+    def fails(*arguments, **values):
+        if any(map(_is_of_pier, arguments[:2])):
+            raise ZeroDivisionError("division by zero")
+        return kept(*arguments, **values)
+
+    monkeypatch.setattr(owner, name, fails)
+    both = worked([record], _study(block=BLOCK, pier=PIER), tmp_path / "both")
+    outcomes = list(outcomes_of(both.results, [record]))
+    write_summary(outcomes, both.study.structures, both.results / "summary", False)
+
+    for each in (ComparisonRow, VerdictRow):
+        of_block = [row for row in outcomes[0].rows[each] if row.structure == "block"]
+        assert list(csv_lines(each, of_block)) == list(csv_lines(each, expected.rows[each]))
+    tables = {
+        each: list(read_rows(each, both.results / "summary" / each.table.file_name))
+        for each in (StructureRow, CapacityRow, FailureRow)
+    }
+    assert all(any(row.structure == "block" for row in tables[each]) for each in (StructureRow, CapacityRow))
+    told = [row for row in tables[FailureRow] if "ZeroDivisionError" in row.message]
+    assert told and {row.structure for row in told} <= {"pier", ""}
+    assert all("pier" in row.message for row in told)
+
+
+@pytest.mark.parametrize(
+    ("place", "file"),
+    [
+        ("rocking.reports.summary.summary_data", "summary.pdf"),
+        ("rocking.reports.explore.explore_page", "study.html"),
+        ("rocking.study.summary.workbook", "study.xlsx"),
+        ("rocking.reports.scatter.prediction_scatter", "prediction_against_integration.svg"),
+    ],
+)
+def test_a_page_never_costs_a_summary(place, file, tmp_path: Path, monkeypatch) -> None:
+    results = tmp_path / "results"
+    study = _study(block=BLOCK)
+    study = replace(study, settings=replace(study.settings, reports=True))
+    job = worked([_record(tmp_path)], study, results)
+
+    def fails(*_arguments, **_values):
+        raise KeyError("kind that_has_no_sentence")
+
+    monkeypatch.setattr(place, fails)
+    files = summarise(job)
+    assert {path.name for path in files} >= {"summary.pdf", "study.html", "study.xlsx", "verdicts.csv", file}
+    assert all(path.stat().st_size > 0 for path in files)
+    (fault,) = read_rows(FailureRow, results / "summary" / "failures.csv")
+    assert fault.message.startswith(f"a fault of rocking in {file} (KeyError")
+    assert list(read_rows(VerdictRow, results / "summary" / "verdicts.csv"))
