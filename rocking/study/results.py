@@ -9,13 +9,13 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_type_hints
 
-from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, TimingRow, TradeRow
+from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, TimingRow, TradeRow, VerdictRow
 from rocking.assessment.store import decoder, encoded
 from rocking.errors import RockingError
 from rocking.records import CatalogueRecord
 from rocking.study.seals import MADE_FROM
 from rocking.tables import Row, frame, read_whole, write_whole, written_together
-from rocking.tables.rows import check_columns, readable
+from rocking.tables.rows import check_columns, readable, rows_of
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -113,11 +113,22 @@ def outcomes_of(results: Path, records: Iterable[CatalogueRecord]) -> Iterator[O
         yield read_outcome(outcome_of(results, record.id))
 
 
+def verdicts_of(results: Path, records: Iterable[CatalogueRecord]) -> list[VerdictRow]:
+    """Return what became of every structure under the records, from their outcomes: a table is print."""
+    verdicts: list[VerdictRow] = []
+    for record in records:
+        path = outcome_of(results, record.id)
+        with _undamaged(path):
+            content = json.loads(read_whole(path, _LARGEST, RockingError))
+            verdicts += rows_of(VerdictRow, decoded_rows(content["rows"], [VerdictRow]))
+    return verdicts
+
+
 def encoded_rows(rows: Rows) -> dict[str, list[list[Any]]]:
-    """Return what JSON can hold of the rows of tables: by the name of the table the cells of each row."""
+    """Return what JSON can hold of the rows of tables: by the name of the table what each row carries."""
     content = {}
     for each, of_it in rows.items():
-        names = each.table.column_names
+        names = _carried(each)
         content[each.table.name] = [[encoded(getattr(row, name)) for name in names] for row in of_it]
     return content
 
@@ -139,9 +150,14 @@ def decoded_rows(
 
 @cache
 def _columns_of(row_class: Any) -> list[tuple[str, Callable[[Any], Any]]]:
-    """The name of each column of a table, and what makes its value of what is kept."""
+    """The name of each field of a row, and what makes its value of what is kept."""
     hints = get_type_hints(row_class)
-    return [(name, decoder(hints[name])) for name in row_class.table.column_names]
+    return [(name, decoder(hints[name])) for name in _carried(row_class)]
+
+
+def _carried(row_class: type[Row]) -> tuple[str, ...]:
+    """The names of what a row carries: its columns, and what is kept beside them."""
+    return *row_class.table.column_names, *row_class.table.kept
 
 
 def _lines_of(row_class: type[Row], path: Path, record: str) -> Iterator[bytes]:

@@ -7,20 +7,22 @@ import re
 import signal
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 from threading import Thread
 from typing import Any, TextIO
 
-from rocking.assessment.rows import ComparisonRow, ExpectedFallsRow, FailureRow, TradeRow, VerdictRow
+from rocking.assessment.rows import ComparisonRow, ExpectedFallsRow, FailureRow, TradeRow
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted, shown
+from rocking.records import CatalogueRecord
 from rocking.study import close_doors
 from rocking.study.folder import REMEMBERED, locked, new_log
 from rocking.study.fork_server import start as start_fork_server
 from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_plan, workflow_folder
+from rocking.study.results import verdicts_of
 from rocking.study.terminal import (
     Progress,
     closing_lines,
@@ -106,7 +108,9 @@ def run(folder: Path, options: Sequence[str]) -> int:
         print(f"Finished: {options[0]}; what it wrote lies in {results}")
         return 0
     design = plan.settings.design_spectrum
-    return _told_of(results, plan.settings.reports, checked=bool(design.ag or design.points))
+    return _told_of(
+        results, plan.records.values(), plan.settings.reports, checked=bool(design.ag or design.points)
+    )
 
 
 def run_trade(folder: Path) -> int:
@@ -134,13 +138,13 @@ def _why(progress: Progress, folder: Path, log: Path) -> str:
     return "; ".join(dict.fromkeys(_in_a_sentence(each, folder, log) for each in reasons))
 
 
-def _told_of(results: Path, reports: bool, checked: bool) -> int:
+def _told_of(results: Path, records: Iterable[CatalogueRecord], reports: bool, checked: bool) -> int:
     """Tell what came of a whole study, and return the exit status.
 
     reports, checked: whether it makes reports, and has a design level.
     """
     failures = read_table(FailureRow, results / "summary")
-    verdicts = read_table(VerdictRow, results / "summary")
+    verdicts = verdicts_of(results, records)
     comparison = read_rows(ComparisonRow, results / "summary" / ComparisonRow.table.file_name)
     falls = read_table(ExpectedFallsRow, results / "summary")
     told = [*closing_lines(verdicts, comparison, failures, falls)]

@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from copy import copy
-from dataclasses import MISSING, dataclass, replace
+from dataclasses import MISSING, dataclass, field, fields, replace
 from enum import Enum, StrEnum
 from io import TextIOWrapper
 from itertools import islice
@@ -40,11 +40,15 @@ _UNITS = {
 
 @dataclass(frozen=True)
 class Table:
-    """A CSV table: its file name without folder, what a row is, and its columns in order."""
+    """A CSV table: its file name without folder, what a row is, and its columns in order.
+
+    kept: the fields of its rows that no column prints, with what reads them of the subject one after another.
+    """
 
     name: str
     description: str
     columns: tuple[Described, ...]
+    kept: Mapping[str, tuple[Callable[[Any], Any], ...]] = field(default_factory=dict)
 
     @property
     def file_name(self) -> str:
@@ -83,14 +87,20 @@ class RowOf(Row, Generic[S]):
     def of(cls, subject: S) -> Self:
         """Return the row about `subject`; a column of a part that it lacks is empty."""
         made: Any = cls
-        values = {}
+        values = {name: _read_by(reads, subject) for name, reads in cls.table.kept.items()}
         for each in cls.table.columns:
-            value: Any = subject
-            for read in each.more["reads"]:
-                value = None if value is None else read(value)
+            value = _read_by(each.more["reads"], subject)
             values[each.name] = empty(each) if value is None else value
         row: Self = made(**values)
         return row
+
+
+def _read_by(reads: Iterable[Callable[[Any], Any]], subject: object) -> Any:
+    """What the functions read of a subject one after another; None from where one of them gives None."""
+    value: Any = subject
+    for read in reads:
+        value = None if value is None else read(value)
+    return value
 
 
 class Columns(Generic[S]):
@@ -121,6 +131,12 @@ class Columns(Generic[S]):
         }
         value: T = described(MISSING, meaning, unit, equation=equation, last=last, **more)
         return value
+
+    def kept(self, of: Callable[[S], T]) -> T:
+        """Declare a field that the row carries and no column prints; rows are then not read back from CSV."""
+        value: Any = field(metadata={"kept": (*self._reads, of)})
+        declared: T = value
+        return declared
 
     def part(self, read: Callable[[S], T]) -> "Columns[T]":
         """Return the declaration of columns about a part of the subject.
@@ -168,7 +184,8 @@ def row(name: str = "", description: str = "", first: Sequence[str] = ()) -> Cal
             ends = (unit for end, unit in _UNITS.items() if each.name.endswith(f"_{end}"))
             columns.append(replace(each, unit=each.unit or next(ends, "")))
         summary = description or (cls.__doc__ or "").partition("\n")[0].rstrip(".")
-        row_class.table = Table(name, summary, tuple(columns))
+        kept = {each.name: each.metadata["kept"] for each in fields(row_class) if "kept" in each.metadata}
+        row_class.table = Table(name, summary, tuple(columns), kept)
         _check_subjects(row_class)
         result: type[R] = row_class
         return result
@@ -294,8 +311,13 @@ def csv_lines(row_class: type[R], rows: Iterable[R]) -> Iterator[str]:
 def read_rows(row_class: type[R], path: Path) -> Iterator[R]:
     """Yield the rows of a CSV file that `write_rows` wrote, one at a time.
 
-    Raises RockingError naming file, line and column where a column is missing or unknown or a cell cannot be read.
+    Raises RockingError naming file, line and column where a column is missing or unknown or a cell cannot be read, and
+    TypeError for rows that carry more than their columns.
     """
+    if row_class.table.kept:
+        raise TypeError(
+            f"{row_class.__name__} carries {', '.join(row_class.table.kept)}, which no CSV file holds."
+        )
     names = row_class.table.column_names
     for values in _read_values(row_class, path, names):
         yield row_class(**dict(zip(names, values, strict=True)))

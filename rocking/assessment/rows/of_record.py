@@ -32,7 +32,7 @@ from rocking.assessment.rows.of_inputs import (
 )
 from rocking.errors import RockingError, one_structure
 from rocking.floors.place import FloorMeasures
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Kind
 from rocking.sine_pulse import Regime
 from rocking.structures.linkage import Reaction
 from rocking.structures.structure import Candidate
@@ -249,9 +249,12 @@ of_stacks = of_structure.optional(lambda of: of.station.stacks)
 class VerdictRow(DecidedRow[OfStructure]):
     """One row per record and structure: the decision over all components, and the numbers of the crack that governs.
 
-    The component is that of the governing case.
+    The component is that of the governing case. decision, reserve: what the row prints; the reserve is None where it
+    was not computed.
     """
 
+    decision: Decision = of_structure.kept(lambda of: of.station.decision)
+    reserve: Reserve | None = of_structure.kept(lambda of: of.station.reserve)
     share_low: float = of_decision(
         "Least share that overturns, over the cracks and what failed or is not known",
         lambda decision: decision.share_low,
@@ -345,29 +348,10 @@ class VerdictRow(DecidedRow[OfStructure]):
     )
 
     @property
-    def decision(self) -> Decision:
-        """The decision that was written."""
-        return Decision(
-            word=self.verdict,
-            share=self.overturning_share,
-            interval=(self.share_low, self.share_high),
-            why=self.why,
-            doubts=tuple(map(Remark, self.doubts)),
-            tells=tuple(map(Remark, self.tells)),
-        )
-
-    @property
     def severity(self) -> tuple[float, ...]:
         """Key by which the worst of several comes last, as that of the result."""
         rotation = -1.0 if math.isnan(self.rotation_ratio) else self.rotation_ratio
         return *self.decision.severity, rotation
-
-    @property
-    def reserve(self) -> Reserve | None:
-        """The reserve, whose factors are nan where they were not reached; None where it was not sought."""
-        if math.isnan(self.reserve_limit):
-            return None
-        return Reserve(self.reserve_low, self.reserve_median, self.reserve_high, self.reserve_limit)
 
 
 def worst_period_each(verdicts: Iterable[VerdictRow]) -> list[VerdictRow]:

@@ -13,9 +13,11 @@ import numpy as np
 
 from rocking.assessment.case import CaseResult, Failure, StationResult
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
+from rocking.assessment.decide import Decision
 from rocking.assessment.ensemble import Ensemble
 from rocking.assessment.fidelity import Answer
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
+from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import (
     ComparisonRow,
     FailedCase,
@@ -102,6 +104,12 @@ def station(*cases: CaseResult, falls_in_directions: int | None = None) -> Stati
         )
     by_component = {each.component: each for each in cases}
     return StationResult(Scene(cases[0].structure, Block(2.0, 0.2)), by_component, directions)
+
+
+def decided(decision: Decision, reserve: Reserve | None = None, **values: Any) -> VerdictRow:
+    """The row of a structure of which so much was decided."""
+    own = {"record": "a", "structure": "pier", "verdict": decision.word, "overturning_share": decision.share}
+    return filled(VerdictRow, decision=decision, reserve=reserve, **own | values)
 
 
 def verdicts(stations: Sequence[StationResult], record: str = "a") -> list[VerdictRow]:

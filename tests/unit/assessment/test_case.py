@@ -121,18 +121,6 @@ def test_cracks_that_disagree_have_a_range_in_every_table():
     assert cell_text(row.decision) == "≈ 0–100\u00a0%"
 
 
-@pytest.mark.parametrize("falls", [None, 0, 12, 64])
-def test_a_row_gives_back_the_decision_that_it_holds(falls):
-    doubtful = replace(case("EW", 0.3, falls=falls), doubt=Remark(Kind.CONTACTS_OPEN))
-    for result in (station(doubtful), station(case("EW", 0.3, falls=falls)), station(broken("EW"))):
-        (row,) = verdicts([result])
-        kept = [repr(getattr(each.decision, name)) for each in (row, result) for name in DECISION]
-        assert kept[: len(DECISION)] == kept[len(DECISION) :]
-
-
-DECISION = ("word", "share", "interval", "why", "doubts", "tells")
-
-
 def test_a_structure_that_failed_under_every_component_cannot_be_told_and_says_why():
     arch = station(broken("EW", "arch"), broken("NS", "arch"))
     assert (arch.structure, arch.verdict, arch.decision.why) == ("arch", "cannot be told", "No.")

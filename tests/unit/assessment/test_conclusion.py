@@ -1,22 +1,30 @@
 """The conclusion on a structure: its order, its remark, and the sentence on all of them."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import pytest
 
 from rocking.assessment.conclusion import Conclusion, conclusion_in_words, conclusions
-from rocking.assessment.decide import Verdict
+from rocking.assessment.decide import Decision, Verdict
 from rocking.assessment.reserve import Reserve
-from rocking.assessment.rows import VerdictRow
-from rocking.remarks import Kind
-from tests.unit.assessment.made_rows import compared, filled
+from rocking.remarks import Kind, Remark
+from tests.unit.assessment.made_rows import compared, decided
 
 
-def of(word: Verdict, integrated: float = 0.5, **changed) -> Conclusion:
+def of(
+    word: Verdict,
+    integrated: float = 0.5,
+    *,
+    doubts: Sequence[Kind] = (),
+    tells: Sequence[Kind] = (),
+    interval: tuple[float, float] = (math.nan, math.nan),
+    **changed,
+) -> Conclusion:
     """The conclusion on a structure of that word that rotates so far as recorded."""
-    verdict = filled(VerdictRow, record="a", structure="pier", verdict=word, **changed)
-    return Conclusion(verdict, compared("EW", integrated))
+    decision = Decision(word, math.nan, interval, "", tuple(map(Remark, doubts)), tuple(map(Remark, tells)))
+    return Conclusion(decided(decision, **changed), compared("EW", integrated))
 
 
 @pytest.mark.parametrize(
@@ -28,8 +36,7 @@ def of(word: Verdict, integrated: float = 0.5, **changed) -> Conclusion:
             of(
                 Verdict.UNCERTAIN,
                 tells=(Kind.CRACK,),
-                share_low=0.0,
-                share_high=0.5,
+                interval=(0.0, 0.5),
                 stack_falls=12,
                 stack_runs=24,
             ),
@@ -39,8 +46,7 @@ def of(word: Verdict, integrated: float = 0.5, **changed) -> Conclusion:
             of(
                 Verdict.UNCERTAIN,
                 tells=(Kind.CRACK,),
-                share_low=0.0,
-                share_high=0.6,
+                interval=(0.0, 0.6),
                 stack_falls=12,
                 stack_runs=24,
             ),
@@ -71,16 +77,7 @@ def test_the_worst_period_stands_for_a_support_and_the_others_are_its_remark():
     """The ground below it stands for comparison only."""
     shares = {0.0: 1.0, 0.2: 0.25, 0.3: 0.75, 0.4: 0.5}
     rows = [
-        filled(
-            VerdictRow,
-            record="a",
-            structure="pier",
-            support_period_s=period,
-            overturning_share=share,
-            share_low=share,
-            share_high=share,
-            verdict=Verdict.UNCERTAIN,
-        )
+        decided(Decision(Verdict.UNCERTAIN, share, (share, share), ""), support_period_s=period)
         for period, share in shares.items()
     ]
     (conclusion,) = conclusions(rows, [])
@@ -90,18 +87,10 @@ def test_the_worst_period_stands_for_a_support_and_the_others_are_its_remark():
 
 def test_of_equal_shares_the_one_of_less_reserve_is_worse():
     rows = [
-        filled(
-            VerdictRow,
-            record="a",
+        decided(
+            Decision(Verdict.STANDS, 0.0, (0.0, 0.0), ""),
+            Reserve(low, math.nan, math.nan, 3.0),
             structure=name,
-            verdict=Verdict.STANDS,
-            overturning_share=0.0,
-            share_low=0.0,
-            share_high=0.0,
-            reserve_low=low,
-            reserve_median=math.nan,
-            reserve_high=math.nan,
-            reserve_limit=3.0,
         )
         for name, low in (("none", math.nan), ("more", 2.0), ("less", 1.5))
     ]

@@ -27,7 +27,7 @@ from rocking.study.checks import _checked
 from rocking.study.job import Study, assess_catalogued, rows_of
 from rocking.study.terminal import record_line
 from rocking.study.workspace import _told
-from rocking.tables import read_table, write_rows
+from rocking.tables import frame, write_rows
 from rocking.tables.workbook import workbook
 from tests.unit.assessment.made_rows import members
 from tests.unit.reports.conftest import SETTINGS, detailed, summarised
@@ -94,8 +94,8 @@ def test_the_example_has_five_words_a_range_and_a_doubt(decisions):
 
 def test_the_tables_hold_it(report, decisions, tmp_path):
     write_rows(VerdictRow, report.tables.verdicts, tmp_path / "verdicts.csv")
-    for row in read_table(VerdictRow, tmp_path):
-        assert repr(row.decision) == repr(decisions[row.structure])
+    for row in frame(VerdictRow, tmp_path / "verdicts.csv").itertuples():
+        assert printed(row) == in_print(decisions[row.structure])
     assert report.tables.comparison
     for row in report.tables.comparison:
         decision = decisions[row.structure]
@@ -197,13 +197,10 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
     assert {name for name, _ in decided} == set(study.structures)
 
     write_rows(VerdictRow, tables.verdicts, tmp_path / "verdicts.csv")
-    written = {
-        (row.structure, row.support_period_s): row.decision for row in read_table(VerdictRow, tmp_path)
-    }
-    assert {name: repr(each) for name, each in written.items()} == {
-        name: repr(replace(each, doubts=_kinds(each.doubts), tells=_kinds(each.tells)))
-        for name, each in decided.items()
-    }
+    written = list(frame(VerdictRow, tmp_path / "verdicts.csv").itertuples())
+    periods = [None if math.isnan(row.support_period_s) else row.support_period_s for row in written]
+    of_rows = {(row.structure, period): printed(row) for row, period in zip(written, periods, strict=True)}
+    assert of_rows == {name: in_print(each) for name, each in decided.items()}
     for row in (*tables.comparison, *tables.supports):
         decision = decided[row.structure, row.support_period_s]
         assert row.verdict is decision.word
@@ -233,7 +230,7 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
         page = _checked(station.scene, station.support, partial(check, spectrum=SPECTRUM), there, stations)
         (signed,) = structures_data([page], SPECTRUM, SETTINGS)["pages"]
         assert f"{decision.word.predicate} under 1 station" in signed["basis"]["share"]
-        assert all(str(doubt) in signed["basis"]["share"] for doubt in _kinds(decision.doubts))
+        assert all(str(Remark(doubt.kind)) in signed["basis"]["share"] for doubt in decision.doubts)
 
     worst = {each.structure: each for each in result.worst_periods}
     content = record_content(result, tables, study.structures)
@@ -258,9 +255,17 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
             assert f"{name} ({decision.share_in_words})" in line
 
 
-def _kinds(remarks):
-    """As a table holds them: their kinds alone."""
-    return tuple(Remark(each.kind) for each in remarks)
+def in_print(decision):
+    """What a table holds of a decision: of its doubts, and of what would tell more, the kinds alone."""
+    kinds = ("; ".join(remark.kind for remark in remarks) for remarks in (decision.doubts, decision.tells))
+    shares = (decision.share, *decision.interval)
+    return repr((str(decision.word), *map(float, shares), decision.why, *kinds))
+
+
+def printed(row):
+    """The same of a row of verdicts.csv."""
+    shares = (row.overturning_share, row.share_low, row.share_high)
+    return repr((str(row.verdict), *shares, row.why, row.doubts, row.tells))
 
 
 def workbook_lines(tables):

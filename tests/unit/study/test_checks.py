@@ -12,9 +12,9 @@ import pytest
 
 from rocking import Block, DesignSpectrum, Facade, check
 from rocking.assessment.cracks import mechanisms_of
-from rocking.assessment.decide import Verdict
+from rocking.assessment.decide import Decision, Verdict
 from rocking.assessment.reserve import Reserve
-from rocking.assessment.rows import MechanismRow, RecordRow, RecordRows, VerdictRow
+from rocking.assessment.rows import MechanismRow, RecordRow, RecordRows
 from rocking.assessment.scene import load_scenes, on_the_ground
 from rocking.codes.check import DynamicCheck
 from rocking.codes.conclusion import code_conclusion_in_words, code_conclusions
@@ -544,12 +544,10 @@ def test_each_page_tells_the_share_of_its_own_structure(study, monkeypatch):
     settings, folder = study
     shares = {"parapet": 1.0, "front": 0.0}
     verdicts = [
-        filled(
-            VerdictRow,
+        made_rows.decided(
+            Decision(Verdict.OVERTURNS if share else Verdict.STANDS, share, (share, share), ""),
             structure=structure,
             record=record,
-            overturning_share=share,
-            verdict=Verdict.OVERTURNS if share else Verdict.STANDS,
         )
         for structure, share in shares.items()
         for record in ("a", "b", "c")

@@ -79,7 +79,7 @@ def test_a_record_that_fails_has_all_its_tables_and_says_why(tmp_path: Path) -> 
     (sentence,) = _assessed(record, _study(), tmp_path / "out")
     assert "made.AT2" in sentence
     for each in RECORD_TABLES:
-        rows = list(read_rows(each, tmp_path / "out" / each.table.file_name))
+        rows = frame(each, tmp_path / "out" / each.table.file_name)
         assert len(rows) == (1 if each.table.name in ("failures", "timings") else 0), each.table.name
 
 

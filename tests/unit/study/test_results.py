@@ -1,15 +1,29 @@
 """Results: every table of a study as a data frame."""
 
+import math
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 import rocking
-from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, StructureRow, TimedStage, TimingRow
+from rocking.assessment.decide import Decision, Verdict
+from rocking.assessment.reserve import Reserve
+from rocking.assessment.rows import (
+    RECORD_TABLES,
+    SUMMARY_TABLES,
+    StructureRow,
+    TimedStage,
+    TimingRow,
+    VerdictRow,
+)
 from rocking.errors import RockingError
+from rocking.records import CatalogueRecord
+from rocking.remarks import Kind, Remark
 from rocking.study.cli import main
-from rocking.study.results import cases_of, outcome_of, remove_others
+from rocking.study.results import cases_of, outcome_of, remove_others, verdicts_of, write_outcome
 from rocking.tables import read_rows, write_rows
+from tests.unit.assessment.made_rows import case, station, verdicts
 
 
 def _timing(record: str) -> TimingRow:
@@ -28,6 +42,31 @@ def test_a_table_of_the_summary_is_an_attribute(folder: Path) -> None:
     results = rocking.open_results(folder)
     assert tuple(results.structures) == StructureRow.table.column_names
     assert {"comparison", "variations", "trade"} <= set(dir(results))
+
+
+@pytest.mark.parametrize("reserve", [None, Reserve(1.2, math.nan, math.nan, 3.0)], ids=["none", "sought"])
+def test_an_outcome_keeps_the_decision_with_the_values_of_its_remarks(tmp_path: Path, reserve) -> None:
+    """Of every kind in the catalogue; a row read back from its print raised ValueError for each that has values."""
+    remarks = tuple(
+        Remark.of(kind, "pier", **{name: 0.1 * place for place, name in enumerate(kind.value_names, start=1)})
+        for kind in Kind
+    )
+    assert sum(bool(remark.values) for remark in remarks) > 20
+    decision = Decision(Verdict.UNCERTAIN, 1 / 3, (0.0, 2 / 3), "32 of 64 members overturn", remarks, remarks)
+    (of_station,) = verdicts([station(case("EW", 0.3, falls=32))])
+    row = replace(of_station, decision=decision, reserve=reserve)
+    path = outcome_of(tmp_path, "a")
+    write_outcome(path, {each: [] for each in RECORD_TABLES} | {VerdictRow: [row]}, {}, {})
+    (kept,) = verdicts_of(tmp_path, [CatalogueRecord("a", "a.AT2")])
+    assert kept.decision == decision
+    assert repr(kept.reserve) == repr(reserve)
+    assert repr(kept) == repr(row)
+
+
+def test_what_a_row_carries_beside_its_columns_is_not_read_from_its_print(tmp_path: Path) -> None:
+    write_rows(VerdictRow, [], tmp_path / "verdicts.csv")
+    with pytest.raises(TypeError):
+        list(read_rows(VerdictRow, tmp_path / "verdicts.csv"))
 
 
 def test_what_is_not_there_is_said(folder: Path) -> None:
