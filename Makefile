@@ -18,7 +18,7 @@ ENGINE := openquake-engine==3.26.2
 # Tests start many processes, and each would compile the whole package again to bytecode.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all run setup slurm openquake test test-runs test-all bench check schema paper documentation wheel release lock clean
+.PHONY: all run setup slurm openquake test test-runs test-all bench trace check schema paper documentation wheel release lock clean
 
 all: run
 
@@ -65,6 +65,10 @@ test-all: $(TOOLS) openquake
 
 bench: $(TOOLS)
 	for script in tests/benchmarks/bench_*.py; do $(BIN)/python $$script || exit 1; done
+
+# Which files and functions the job of one record enters, in their order.
+trace: $(TOOLS)
+	$(BIN)/python tests/benchmarks/trace_record.py
 
 check: $(TOOLS)
 	$(BIN)/ruff check .

@@ -310,7 +310,6 @@ def sizes(structure: Structure) -> list[Field]:
     ]
 
 
-# Whole on purpose: half of it is what the arguments must not be.
 def strengthen_scene(
     records: Sequence[Accelerogram],
     scene: Scene,

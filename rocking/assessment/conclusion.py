@@ -53,7 +53,6 @@ class Conclusion:
         rotation = -1.0 if math.isnan(integrated) else integrated
         return *self.verdict.decision.severity, -factor, rotation
 
-    # Whole on purpose: what comes first, one line after another.
     @property
     def remark(self) -> Remark:
         """What to do about it; where there is nothing to do, what explains the word."""

@@ -319,7 +319,6 @@ def worst_first(decisions: Iterable[tuple[str, Decision]]) -> list[str]:
     return sorted(shares, key=shares.__getitem__, reverse=True)
 
 
-# Whole on purpose: the rows of the table, one after another.
 def decide(facts: Facts) -> Decision:
     """Return the decision on `facts`.
 

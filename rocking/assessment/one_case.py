@@ -100,7 +100,7 @@ def compute_case(inputs: CaseInputs, clock: Clock | None = None) -> CaseResult:
         return _with_variations(case, inputs)
 
 
-# Whole on purpose: the order in which a case is decided, and where it may end early.
+# The order in which a case is decided, and where it may end early.
 def _under_component(inputs: CaseInputs, clock: Clock) -> CaseResult:
     """The case under one component."""
     structure = inputs.structure

@@ -151,7 +151,6 @@ def decoded(kind: Any, value: Any) -> Any:
     return decoder(kind)(value)
 
 
-# Whole on purpose: the ways in which an annotation tells what a value is.
 @cache
 def decoder(kind: Any) -> Callable[[Any], Any]:
     """Return what `decoded` does with a value of `kind`: of thousands the annotation is read once."""

@@ -37,7 +37,6 @@ BOOTSTRAPS = 50
 INTERVAL = 0.05, 0.95
 
 
-# Whole on purpose: half of it are the arguments of a public name and what it hands on.
 def check(
     structure: Structure,
     spectrum: DesignSpectrum,

@@ -153,7 +153,6 @@ class Selection(ScaledPool, Drawn):
         )
 
 
-# Whole on purpose: half of it are the arguments of a public name and its result.
 def select(
     records: Mapping[str, Sequence[Accelerogram]],
     spectrum: DesignSpectrum,
@@ -268,7 +267,7 @@ def _begin_alike(one: Sequence[str], other: Sequence[str]) -> bool:
     return all(first == second for first, second in zip(one, other, strict=False))
 
 
-# Whole on purpose: one loop draws, judges and remembers, and a reader has to see all it carries from draw to draw.
+# One loop draws, judges and remembers: a reader has to see all it carries from draw to draw.
 def search(
     ratios: np.ndarray, draws: Iterable[np.ndarray], below: float, above: float, sets: int = SETS
 ) -> tuple[np.ndarray, np.ndarray, int]:

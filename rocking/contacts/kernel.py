@@ -455,7 +455,7 @@ def _holds(bodies, joints, joint, k, count):
     return joints.touches[joint] >> k & 1 == 1
 
 
-# Whole on purpose: one elimination over three equations a joint, compiled; cut, its matrix would be handed on.
+# One elimination over three equations a joint, compiled; cut, its matrix would be handed on.
 @compiled
 def _impulses(bodies, joints, velocity, step, state):
     """Solve for the impulses of all joints: three equations each, coupled to those of its neighbours (Thomas)."""

@@ -365,7 +365,6 @@ class IncrementalDynamicAnalysis:
         return replace(curve, measure=name, unit=unit, threshold=threshold, analysis=self)
 
 
-# Whole on purpose: half of it are the arguments of a public name and what they must not be.
 def fragility(
     records: Sequence[Accelerogram],
     structure: Rocking,

@@ -110,7 +110,6 @@ class RecordReport:
         """Return the document."""
         return compile_document("record.typ", self.data())
 
-    # Whole on purpose: what the template asks for, one thing after another.
     def data(self) -> dict[str, object]:
         """Return what the template is given: texts, tables and figures."""
         groups = variants_of({name: each.scene for name, each in self.result.scenes.items()})
@@ -430,7 +429,6 @@ def _components(report: RecordReport) -> dict[str, object]:
 _PULSE_LIKE = {None: printing.NOTHING, True: "yes", False: "no"}
 
 
-# Whole on purpose: the topics of the second page, from the record to the file.
 def _known(report: RecordReport) -> list[dict[str, object]]:
     """Return by topic what a reader has to know beside the verdicts, and the warnings, each once."""
     depends = []
@@ -604,7 +602,6 @@ _BLAME: dict[tuple[bool, ...], str] = {
 # Pictures and tables ---------------------------------------------------------------------------------------
 
 
-# Whole on purpose: the figures and tables of the details by the names of their template, and what each leaves out.
 def _details(report: RecordReport) -> dict[str, object]:
     """Return the pictures of the worst cases with the sentences that say where the others stand, and the tables."""
     motions = report.motions

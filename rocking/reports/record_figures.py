@@ -118,7 +118,6 @@ def pulses_figure(motions: Sequence[Trace]) -> Figure:
 # The structures --------------------------------------------------------------------------------------------
 
 
-# Whole on purpose: one panel, bar by bar, and its axis.
 @styled
 def reserve_figure(stations: Sequence[StationResult], labels: Mapping[str, str]) -> Figure:
     """Draw for each structure the factors on the record at which 5, 50 and 95 % of its members overturn, worst first.

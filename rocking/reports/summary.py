@@ -99,7 +99,6 @@ def summary_data(
         return _data(rows, settings, trade, design) | {"strips": list(strips)}
 
 
-# Whole on purpose: the parts of the summary by the names of its template.
 def _data(
     rows: Mapping[type[Row], Sequence[Row]],
     settings: Mapping[str, Any],

@@ -84,7 +84,6 @@ def _show(message: Warning | str, *_: object, **__: object) -> None:
     print(f"rocking: {message}", file=sys.stderr)
 
 
-# Whole on purpose: a list, the verbs in the order in which a user comes to them, each with its arguments.
 def _parser() -> argparse.ArgumentParser:
     declarations = argparse.ArgumentParser(add_help=False)
     declarations.add_argument(

@@ -57,7 +57,6 @@ _STOPS: list[int] = []
 """The signals by which somebody asked this process to stop."""
 
 
-# Whole on purpose: the course of a run, from what is refused to what is told at its end.
 def run(folder: Path, options: Sequence[str]) -> int:
     """Run the workflow on the study in `folder`, with further options for snakemake, and return the exit status.
 

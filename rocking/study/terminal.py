@@ -74,7 +74,6 @@ def record_line(scenes: Iterable[SceneResult], failures: Iterable[FailureRow]) -
     return "; ".join([*lines, *carried])
 
 
-# Whole on purpose: the lines of a screen, from the first to the last.
 def closing_lines(
     verdicts: Sequence[VerdictRow],
     comparison: Iterable[ComparisonRow],

@@ -721,7 +721,6 @@ def _told(failures: list[FailedCase], identity: Identity, station: "StationResul
         failures.append(of_case)
 
 
-# Whole on purpose: the tables of a record, one after another.
 def rows_of_record(
     result: "RecordResult", settings_sha256: str = "", licence: str = "", friction_coefficient: float = 0.6
 ) -> RecordRows:

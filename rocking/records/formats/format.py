@@ -248,7 +248,6 @@ class Layout:
         values, warnings = whole(fields(rows, self.width, self.margin), self.count(head), self.per_line)
         return [self.channel(head, values, options, warnings=warnings, **facts)]
 
-    # Whole on purpose: the checks of a header, in the order in which each needs the one before.
     def channel(
         self,
         head: str,

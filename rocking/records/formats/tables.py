@@ -262,7 +262,6 @@ def signature_of(content: bytes, folder: str) -> Signature | None:
     return None if table is None else table.signature(folder)
 
 
-# Whole on purpose: what is seen, what is answered, and what is read by it, each from the one before.
 def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     pointed = dialect.plain(content)
     if pointed is None:

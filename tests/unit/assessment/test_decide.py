@@ -397,7 +397,7 @@ def numbers(seed):
     return itertools.chain.from_iterable(random.random(10_000).tolist() for _ in itertools.count()).__next__
 
 
-# Whole on purpose: the table of the specification once more, in its own words and in fractions.
+# The table of the specification once more, in its own words and in fractions.
 def oracle(facts):
     """The word of the table, by somebody who has not seen the code."""
 
