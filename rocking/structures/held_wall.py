@@ -16,6 +16,7 @@ import numpy as np
 
 from rocking.structures.drawing import rectangle
 from rocking.structures.linkage import (
+    HIGHEST_SHARE,
     STILL,
     Contacts,
     Hung,
@@ -479,7 +480,7 @@ class HeldWall:
         return kinds[0] if kinds else "top" if height == self.height else "joint"
 
     @cached_property
-    def _stops(self) -> tuple[float, ...]:
+    def stops(self) -> tuple[float, ...]:
         """The heights at which something changes: the ground, feet of storeys and holds, m."""
         heights = {storey.low for storey in self.storeys} | {hold.height for hold in self.holds}
         return tuple(sorted(heights - {self.height}))
@@ -492,7 +493,7 @@ class HeldWall:
         and, unless nothing to that side is weaker, what has its foot at no foot of a storey and at no hold, or bulges
         below something that only pushes it on.
         """
-        stops = self._stops
+        stops = self.stops
         heights = feet = sorted({*stops, *joints})
         if not len(joints):
             # In 500 directions of 250 walls drawn no bulge that stood elsewhere was the weakest to its side.
@@ -525,14 +526,21 @@ class HeldWall:
     def _sharpened(
         self, opening: Opening, multiplier: float, heights: Sequence[float]
     ) -> tuple[Opening, float]:
-        """The opening with its hinge where λ is least between the joints on either side of it."""
+        """The opening with its hinge where λ is least between the joints on either side of it.
+
+        Beyond the last joint it goes to HIGHEST_SHARE of the span, as the hinge of a wall between supports does.
+        """
         from scipy.optimize import minimize_scalar  # slow to import, and needed here only
 
-        if opening.hinge is None or opening.hold is None:
+        if opening.hinge is None:
             return opening, multiplier
         place = heights.index(opening.hinge)
-        low, high = heights[place - 1], (*heights, self.height)[place + 1]
-        if low <= opening.foot or high >= opening.hold:
+        top = self.height if opening.hold is None else opening.hold
+        margin = (1 - HIGHEST_SHARE) * (top - opening.foot)
+        below, above = heights[place - 1], (*heights, self.height)[place + 1]
+        low = below if below > opening.foot else opening.foot + margin
+        high = above if above < top else top - margin
+        if not low < high:
             return opening, multiplier
 
         def moved(hinge: float) -> Opening:

@@ -123,6 +123,10 @@ _FOLLOWED = 0.99
 STILL = -1
 """The number of a part that does not move."""
 
+HIGHEST_SHARE = 0.95
+"""Share of the height, or of the span between two supports, up to which a crack or a hinge is moved; a hinge also stays
+that far above the lower support."""
+
 
 class Hung(NamedTuple):
     """A thing that hangs on a part at a point: a constant force, a tie, or a mass that moves along.

@@ -26,6 +26,7 @@ from rocking.structures.fields import (
     typed_text,
 )
 from rocking.structures.linkage import (
+    HIGHEST_SHARE,
     STILL,
     Contacts,
     Linkage,
@@ -57,8 +58,6 @@ WEAK_MASONRY = 2e6
 """Compressive strength of weak masonry, Pa, of which reports say what it would change."""
 TYPED_ABOVE = 0.02
 """Difference by which a typed restitution may lie above that of the geometry, as more than rounding, unremarked."""
-HIGHEST_SHARE = 0.95
-"""Share of the height up to which a hinge or a crack is moved; a wall's hinge also stays that far above its base."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -729,7 +728,8 @@ class CrackedAtHeight(Crackable):
     def _may_form(self, count: int) -> tuple[Candidate, ...]:
         """Each has its own momentum balance where no restitution is given.
 
-        Where λ has its least value between two of the heights, the height of that is one more. A crack at which what
+        Where λ has its least value between two of the heights, the height of that is one more. Where ties hold it, λ is
+        that of limit analysis. A crack at which what
         holds the structure leaves no mechanism is left out, and one with which it cannot overturn where with another
         one it can. Raises DoesNotStandError where it falls at rest with one of them.
         """
@@ -737,16 +737,17 @@ class CrackedAtHeight(Crackable):
         formed = [each for each in map(self._candidate, heights) if each]
         cracked = [each for each in formed if each.structure.mechanism().can_overturn] or formed
         # Of multipliers that are equal but for rounding, as all along a solid spire, the lowest crack comes first.
-        rounded = [float(f"{each.multiplier:.9g}") for each in cracked]
+        rounded = [float(f"{each.uplift_multiplier:.9g}") for each in cracked]
         order = np.argsort(rounded, kind="stable")
         ranked = [cracked[place] for place in order]
 
         least = int(order[0])
-        if 0 < least < len(cracked) - 1:  # between two others
-            weakest = self._weakest_between(cracked[least - 1].position, cracked[least + 1].position)
-            # What is weaker by less than that is the same crack.
-            if weakest and weakest.multiplier < (1 - 1e-5) * ranked[0].multiplier:
-                ranked.insert(0, weakest)
+        low = cracked[max(least - 1, 0)].position
+        high = cracked[min(least + 1, len(cracked) - 1)].position
+        weakest = self._weakest_between(low, high) if low < high else None
+        # What is weaker by less than that is the same crack.
+        if weakest and weakest.uplift_multiplier < (1 - 1e-5) * ranked[0].uplift_multiplier:
+            ranked.insert(0, weakest)
         return tuple(ranked)
 
     def _weakest_between(self, low: float, high: float) -> Candidate | None:
@@ -755,7 +756,7 @@ class CrackedAtHeight(Crackable):
 
         def multiplier(height: float) -> float:
             candidate = self._candidate(height)
-            return candidate.multiplier if candidate else np.inf
+            return candidate.uplift_multiplier if candidate else np.inf
 
         accuracy = {"xatol": 1e-3 * (high - low)}
         with np.errstate(invalid="ignore"):  # λ is infinite where a crack leaves no mechanism

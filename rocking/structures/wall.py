@@ -24,6 +24,7 @@ from rocking.structures.fields import (
 )
 from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
 from rocking.structures.linkage import (
+    HIGHEST_SHARE,
     Contacts,
     Hung,
     Linkage,
@@ -48,7 +49,7 @@ from rocking.structures.stack import (
     joints_between,
     slab,
 )
-from rocking.structures.structure import HIGHEST_SHARE, CrackedAtHeight
+from rocking.structures.structure import CrackedAtHeight
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity
 
 _GRIPS = 1e-3
