@@ -21,6 +21,7 @@ from rocking.quantities import GRAVITY, kind_of, positive
 from rocking.remarks import Kind, Remark
 from rocking.structures import Structure
 from rocking.structures.linkage import FRICTION
+from rocking.structures.structure import Candidate
 from rocking.structures.tied import Tied
 
 _SAME = 1e-9
@@ -142,34 +143,32 @@ def _local_mechanisms(structure: Structure, terms: CodeTerms) -> tuple[LocalMech
 def _opening(structure: Structure) -> Iterator[tuple[str, int, Structure]]:
     """The mechanisms that may open: crack and side of the fall, sign of that side, and the structure with the crack.
 
-    Of hinges between supports those that limit analysis finds, of other cracks all that may open; of a wall that is
-    held at several heights its bulges, too. What ties without a strength keep shut is left out where the crack is not
-    given: statics finds what opens instead.
+    Those of `Structure.mechanisms` whose motion can be followed; of hinges between supports that which limit analysis
+    finds, of other cracks all. What ties keep shut to one side opens to the other alone.
     """
     if not isinstance(structure, Structure):
         raise StructureError(
             f"the structure is {kind_of(structure)}, which has no capacity curve; give a structure with a "
             "geometry, as rocking.Block or rocking.Facade."
         )
-    candidates = tuple(
-        each for each in structure.candidates() if getattr(each.structure, "opening", None) is None
-    )
+    cracked = [each for each in structure.candidates() if not _bulges(each)]
     if structure.statics_chooses:
-        candidates = candidates[:1]
-    bulges: tuple[Tied, ...] = ()
-    if isinstance(structure, Tied):
-        bulges = _bulges(structure)
-    for candidate in candidates:
+        cracked = cracked[:1]
+    bulges = [each for each in structure.mechanisms() if _bulges(each) and not each.refusal]
+    for candidate in cracked:
         body = candidate.structure
-        if bulges and not structure.crack_is_given and isinstance(body, Tied) and not body.lets_go:
-            continue
         opens = "" if candidate.description == "as given" else f"{candidate.description}, "
+        opens_elsewhere = bulges and not structure.crack_is_given
+        shut = opens_elsewhere and isinstance(body, Tied) and not body.lets_go
         for sign, side in _sides(body):
+            if shut and sign > 0:
+                continue
             falls = "" if body.symmetric else side
             yield f"{opens}{falls}".removesuffix(", ") or "as given", sign, body
-    for wall in bulges:
-        for sign, _ in _sides(wall):
-            yield wall.way_in_words(sign), sign, wall
+    for candidate in bulges:
+        wall = candidate.structure
+        assert isinstance(wall, Tied)
+        yield wall.way_in_words(candidate.sign), candidate.sign, wall
 
 
 def _sides(body: Structure) -> Iterator[tuple[int, str]]:
@@ -178,29 +177,9 @@ def _sides(body: Structure) -> Iterator[tuple[int, str]]:
     yield from zip(signs, body.side_names, strict=False)
 
 
-def _bulges(structure: Tied) -> tuple[Tied, ...]:
-    """The wall as it bulges between heights at which it is held; none that cannot be followed.
-
-    One that bulges inwards alone comes last, where the same joints do not open outwards. Where statics chooses between
-    two supports and no tie is between them, its candidate is the only bulge, beside which the top may slip.
-    """
-    held = structure.held_wall
-    of_statics = structure.statics_chooses and not structure.tie_heights
-    if of_statics and not held.top_may_slip:
-        return ()
-    bulges: list[Tied] = []
-    spans = set()
-    for each in sorted(structure.mechanisms(), key=lambda each: -each.sign):
-        wall = each.structure
-        if not isinstance(wall, Tied) or wall.opening is None or each.refusal:
-            continue
-        if of_statics and not held.slip(wall.opening):
-            continue
-        span = wall.opening.foot, wall.opening.hold
-        if each.sign > 0 or span not in spans:
-            spans.add(span)
-            bulges.append(wall)
-    return tuple(bulges)
+def _bulges(candidate: Candidate) -> bool:
+    """Whether a wall that something holds bulges, or slips below its top."""
+    return getattr(candidate.structure, "opening", None) is not None
 
 
 def _lowest(levels: np.ndarray, then: np.ndarray | None = None) -> int:

@@ -36,8 +36,6 @@ from rocking.structures.stack import (
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity, check_inside
 
 _MOST_STOREYS = 50
-_SAME = 1e-6
-"""Share of the height within which a joint is the foot of a storey."""
 _SIZES = {"ge": 1e-4, "le": 1000}
 
 
@@ -438,14 +436,6 @@ class Facade(Tied):
             faces = [(-thickness, 0.0)] * (number + 1)
             made += courses_between(levels, faces, self.unit_weight / GRAVITY, [1.0] * number)
         return tuple(made)
-
-    def _places(self, count: int) -> list[float]:
-        """Joints over the height, and the foot of every storey, where its thickness may change."""
-        feet = self.levels[:-1]
-        within = [
-            place for place in super()._places(count) if np.abs(feet - place).min() > _SAME * self.height
-        ]
-        return [*within, *feet.tolist()]
 
     def cracked_at(self, height: float) -> "Facade":
         """Return this façade cracked at `height` [m] above the ground."""

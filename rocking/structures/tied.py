@@ -34,6 +34,8 @@ TopSlab = Annotated[
 ]
 
 
+_SAME = 1e-6
+"""Share of the height within which a joint is one at which something changes."""
 _LEAST_STIFFNESS = 1e-12
 """The least stiffness of a tie, N/m²: below it the rotation at which it yields is no number any more."""
 
@@ -136,14 +138,21 @@ class Tied(CrackedAtHeight):
         """Return this wall where it opens so and nowhere else."""
 
     def mechanisms(self) -> tuple[Candidate, ...]:
-        """Return the family of mechanisms in which it may fall, by their λ of limit analysis (theory: section 12).
+        """Return every mechanism in which it may fall, by their λ of limit analysis (theory: section 12).
 
-        Where the crack is known: the structure as given, and its bulges. The same objects at every call.
+        The cracks of `candidates`, and of the family beside them one by each name. Where the crack is known: the
+        structure as given, and its bulges. The same objects at every call.
         """
-        if self.crack != "known":
-            return self._family
-        own, *_ = (each for each in self.candidates() if each.structure is self)
-        return tuple(sorted((own, *self._bulges), key=lambda each: each.uplift_multiplier))
+        return self._mechanisms
+
+    @cached_property
+    def _mechanisms(self) -> tuple[Candidate, ...]:
+        cracked = self.candidates()
+        others = self._bulges if self.crack == "known" else self._family
+        if self.symmetric:
+            others = tuple(each for each in others if each.sign >= 0)
+        beside = [each for each in others if not any(_is_that(own, each) for own in cracked)]
+        return tuple(sorted((*cracked, *beside), key=lambda each: each.uplift_multiplier))
 
     @cached_property
     def _bulges(self) -> tuple[Candidate, ...]:
@@ -167,21 +176,33 @@ class Tied(CrackedAtHeight):
                 bulges.append(each)
         return tuple(bulges)
 
+    def _places(self, count: int) -> list[float]:
+        """Joints over the height, and those at which something changes: feet of storeys, and what holds it."""
+        stops = np.array(
+            [each for each in self.held_wall.stops if each >= self.lowest_crack * self.total_height]
+        )
+        near = _SAME * self.total_height
+        within = [place for place in super()._places(count) if not (np.abs(stops - place) < near).any()]
+        return [*within, *stops.tolist()]
+
+    def _candidate(self, height: float) -> Candidate | None:
+        candidate = super()._candidate(height)
+        return candidate and self._limited(candidate)
+
     def _ranked_candidates(self, count: int) -> tuple[Candidate, ...]:
         """The cracks, the bulge of least λ whose motion can be followed, and what falls as its top slips (theory:
         section 12.6).
 
         Either comes first where limit analysis, in which ties pull with the force at which they yield, finds it weaker
-        than every crack. Unless it is given, a crack that ties keep shut for good is left out then, and one below a top
-        that slips before: what would hold it there does not.
+        than every crack. Unless it is given, a crack that ties keep shut for good is left out, as far as something else
+        is left, and one below a top that slips before: what would hold it there does not.
         """
-        cracked = super()._ranked_candidates(count)
+        cracked = tuple(self._limited(each) for each in super()._ranked_candidates(count))
         followed = [each for each in self._bulges if not each.refusal]
         slipping = [each for each in followed if self._slips(each)][:1]
         bulging = [each for each in followed if not self._slips(each)][:1]
         if not followed:
             return cracked
-        cracked = tuple(self._limited(each) for each in cracked)
         counting = [each for each in cracked if each.counts]
         if self.crack_is_given:
             counting = [
@@ -205,10 +226,8 @@ class Tied(CrackedAtHeight):
 
     @cached_property
     def static_multiplier(self) -> float:
-        """The least λ of its candidates by limit analysis, g; ties pull with the force at which they yield."""
-        if not self._bulges:
-            return super().static_multiplier
-        return min(each.uplift_multiplier for each in self.candidates())
+        """The least λ of its mechanisms by limit analysis, g; ties pull with the force at which they yield."""
+        return self.mechanisms()[0].uplift_multiplier
 
     def _limited(self, candidate: Candidate) -> Candidate:
         """A crack with its λ by limit analysis, in which each tie pulls with the force at which it yields."""
@@ -507,3 +526,9 @@ class Tied(CrackedAtHeight):
                 repr(pretension),
                 ", but must be 0 unless the wall is one_sided: moving inwards, a tightened tie goes slack.",
             )
+
+
+def _is_that(own: Candidate, listed: Candidate) -> bool:
+    """Whether a candidate is a mechanism of the family, which that places where λ is least, or a weaker one."""
+    alike = own.name == listed.name and own.uplift_multiplier <= (1 + 1e-6) * listed.uplift_multiplier
+    return alike or own.structure is listed.structure
