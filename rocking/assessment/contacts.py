@@ -92,8 +92,8 @@ def doubt(
         return Remark(Kind.CONTACTS_OPEN)
     candidates = [each.structure for each in structure.candidates()]
     bulges = [each for each in candidates if isinstance(each, Tied) and each.opening]
-    first = next((each for each in candidates if each not in bulges), candidates[0])
-    asked = [] if all(isinstance(each, Turning) for each in first.linkages) else [first]
+    first = [each for each in candidates if each not in bulges][:1]
+    asked = [each for each in first if not all(isinstance(part, Turning) for part in each.linkages)]
     for each, sign, motion in product(asked, _signs(structure, settings), _directions(motions)):
         strongest = motion.scaled(sign * (1 + settings.ensemble.amplitude_range))
         if _opens(each, strongest, motions.vertical, strict(settings.tolerance)):

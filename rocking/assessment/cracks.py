@@ -246,11 +246,8 @@ def ensemble_over_cracks(
     Raises MotionError as `integrate` does.
     """
     several = cracks(structure)
-    sliding = [each for each in several if slides_first(each, motions, settings)]
     counting = [each for each in several if each.counts]
-    if any(each not in sliding for each in counting):
-        # A bulge whose joints slide instead is no safer for it.
-        sliding = [each for each in sliding if not each.bulges]
+    sliding = sliding_first(several, motions, settings)
     lifting = [each for each in counting if each not in sliding] or counting
     first, *others = *lifting, *(each for each in several if not each.counts)
     of_statics = ensemble(
@@ -260,7 +257,7 @@ def ensemble_over_cracks(
         tolerance=settings.tolerance,
         verdict_only=settings.fidelity == "auto",
     )
-    name = first.description if len(several) > 1 else ""
+    name = first.description if len(several) > 1 or first.bulges else ""
     statics = FollowedCrack(name, first.position, of_statics, first in sliding, bulges=first.bulges)
     if not others or statics.facts.step(settings.ensemble.risk) is Verdict.OVERTURNS:
         return CrackEnsembles((statics,))
@@ -296,6 +293,21 @@ def ensemble_over_cracks(
             ensembles, followed=tuple(grew if each is governing else each for each in ensembles.followed)
         )
     return ensembles
+
+
+def sliding_first(
+    several: Sequence[Crack], motions: GroundMotions, settings: AssessmentSettings
+) -> list[Crack]:
+    """Return those of the mechanisms that may form that slide before they lift, under motions that reach so far.
+
+    A bulge whose joints slide instead is no safer for it: it is none of them where anything that counts lifts, or
+    nothing but bulges may form.
+    """
+    sliding = [each for each in several if slides_first(each, motions, settings)]
+    counting = [each for each in several if each.counts]
+    if all(each.bulges for each in counting) or any(each not in sliding for each in counting):
+        return [each for each in sliding if not each.bulges]
+    return sliding
 
 
 def slides_first(crack: Crack, motions: GroundMotions, settings: AssessmentSettings) -> bool:

@@ -13,7 +13,14 @@ from time import process_time
 
 from rocking.assessment.case import CaseResult, Failure, Prediction, Variation
 from rocking.assessment.contacts import MOST_RUNS, RUNS, contact_share, doubt, ties_give
-from rocking.assessment.cracks import Crack, counting_cracks, cracks, ensemble_over_cracks, slides_first
+from rocking.assessment.cracks import (
+    Crack,
+    counting_cracks,
+    cracks,
+    ensemble_over_cracks,
+    is_own,
+    sliding_first,
+)
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
 from rocking.assessment.inputs import CaseInputs, PairInputs, PulseInputs, ReserveInputs
@@ -162,7 +169,8 @@ def with_contacts(
     contact opens in a run as recorded; None where that is not known.
     """
     counting = counting_cracks(structure)
-    if all(slides_first(each, motions, settings) for each in counting):
+    sliding = sliding_first(cracks(structure), motions, settings)
+    if all(each in sliding for each in counting):
         return replace(case, slides_at=counting[0].slides_at(settings.friction_coefficient))
     if decide(case.facts(structure)).word.badness < Verdict.PROBABLY_OVERTURNS.badness:
         reason = doubt(structure, motions, case.largest_rotation_ratio, settings, bounces)
@@ -225,9 +233,11 @@ def _cheapest(inputs: CaseInputs, ensemble_follows: bool) -> Answer:
     mechanism = structure.mechanism()
     # Peak velocities were calibrated on the ground, not on supports that ring.
     risk = settings.fidelity_risk if inputs.motion.support is None else 0.0
-    mechanisms = [each.mechanism for each in cracks(structure)]
-    of_statics = mechanism if len(mechanisms) == 1 else mechanisms[0]
-    if len(mechanisms) > 1:
+    several = cracks(structure)
+    mechanisms = [each.mechanism for each in several]
+    alone = len(several) == 1 and not several[0].bulges
+    of_statics = mechanism if alone else mechanisms[0]
+    if not alone:
         estimates = (estimated(Tier.PEAK_VELOCITY, each, record) for each in mechanisms)
         if not all(each is not None and each.high <= risk for each in estimates):
             risk = 0.0
@@ -261,12 +271,12 @@ def other_cracks(
     settings: AssessmentSettings,
     vertical: Accelerogram | None = None,
 ) -> list[Variation]:
-    """Return `count` candidates of a structure, the lowest crack first; [] where there is one mechanism.
+    """Return `count` candidates of a structure, the lowest crack first; [] where its own is the only one.
 
     vertical: acts with the accelerogram. Raises RockingError where one of them cannot be followed.
     """
     others = sorted(structure.candidates(count) if count else (), key=lambda each: each.position)
-    if len(others) < 2:
+    if len(others) < 2 and all(is_own(each, structure) for each in others):
         return []
     variations = []
     for each in others:

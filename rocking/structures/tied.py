@@ -197,13 +197,17 @@ class Tied(CrackedAtHeight):
         than every crack. Unless it is given, a crack that ties keep shut for good is left out, as far as something else
         is left, and one below a top that slips before: what would hold it there does not.
         """
-        cracked = tuple(self._limited(each) for each in super()._ranked_candidates(count))
+        cracked = [self._limited(each) for each in super()._ranked_candidates(count)]
         followed = [each for each in self._bulges if not each.refusal]
         slipping = [each for each in followed if self._slips(each)][:1]
         bulging = [each for each in followed if not self._slips(each)][:1]
-        if not followed:
-            return cracked
         counting = [each for each in cracked if each.counts]
+        beside = [each for each in cracked if not each.counts and math.isfinite(each.uplift_multiplier)]
+        if not self.crack_is_given:
+            opens = [each for each in counting if math.isfinite(each.uplift_multiplier)]
+            counting = opens if opens or followed else counting
+        if not followed:
+            return (*counting, *beside)
         if self.crack_is_given:
             counting = [
                 replace(each, description=self.crack_in_words, position=self.crack_position)
@@ -217,7 +221,7 @@ class Tied(CrackedAtHeight):
         for bulge in (*bulging, *slipping):
             is_weakest = all(bulge.uplift_multiplier < each.uplift_multiplier for each in counting)
             counting.insert(0 if is_weakest else len(counting), bulge)
-        return (*counting, *(each for each in cracked if not each.counts))
+        return (*counting, *beside)
 
     def _slips(self, candidate: Candidate) -> bool:
         """Whether it is its top that slips."""
