@@ -118,6 +118,11 @@ class Kind(StrEnum):
         "alcune simulazioni non sono giunte al termine",
         brief="some members failed",
     )
+    SLIDES_FIRST = auto(), Sentence(
+        "a crack that slides before it lifts is left out",
+        "è esclusa una lesione che scorre prima di aprirsi",
+        brief="a crack slides first",
+    )
     NO_STACK = auto(), Sentence(
         "contact dynamics cannot follow it, because it is not a stack of courses",
         "la dinamica dei contatti non può seguirla: non è una pila di corsi",

@@ -197,7 +197,7 @@ class CaseResult:
             run_ratio=max((each for each in runs if not math.isnan(each)), default=math.nan),
             settled=settled,
             never_lets_go=never_lets_go(body),
-            slides_at=self.slides_at,
+            slides_at=own.slides_at if math.isnan(self.slides_at) else self.slides_at,
             doubts=(self.doubt,) if self.doubt else (),
             held=isinstance(body, Tied) and bool(body.held_wall.holds),
             beyond=beyond,

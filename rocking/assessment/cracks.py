@@ -89,10 +89,12 @@ class CrackEnsembles:
 
     The crack that governs gives every number of the case: the worst of those that count (`decide.Facts`). A crack that
     is given in the description of the structure is meant: other cracks are reported beside it, and only the bulge of a
-    held wall counts as it does.
+    held wall counts as it does. slides_at: the least acceleration [g] at which one that counts slides before it lifts
+    and is left out; nan where none is.
     """
 
     followed: tuple[FollowedCrack, ...]
+    slides_at: float = math.nan
 
     def __repr__(self) -> str:
         return f"<CrackEnsembles: {len(self.followed)} followed, {self.governing.ensemble!r}>"
@@ -101,7 +103,8 @@ class CrackEnsembles:
     def facts(self) -> Facts:
         """The facts of the cracks alone from which the decision follows."""
         risk = self.followed[0].ensemble.settings.risk
-        return Facts(cracks=tuple(each.facts for each in self.followed), risk=risk)
+        of_each = tuple(each.facts for each in self.followed)
+        return Facts(cracks=of_each, slides_at=self.slides_at, risk=risk)
 
     @cached_property
     def governing(self) -> FollowedCrack:
@@ -249,6 +252,8 @@ def ensemble_over_cracks(
     counting = [each for each in several if each.counts]
     sliding = sliding_first(several, motions, settings)
     lifting = [each for each in counting if each not in sliding] or counting
+    left_out = [each.slides_at(settings.friction_coefficient) for each in counting if each not in lifting]
+    slides_at = min(left_out, default=math.nan)
     first, *others = *lifting, *(each for each in several if not each.counts)
     of_statics = ensemble(
         first.mechanism,
@@ -260,7 +265,7 @@ def ensemble_over_cracks(
     name = first.description if len(several) > 1 or first.bulges else ""
     statics = FollowedCrack(name, first.position, of_statics, first in sliding, bulges=first.bulges)
     if not others or statics.facts.step(settings.ensemble.risk) is Verdict.OVERTURNS:
-        return CrackEnsembles((statics,))
+        return CrackEnsembles((statics,), slides_at)
     doubtful = others
     if not exhaustive:
         always = [each for each in others if each.bulges]
@@ -278,7 +283,7 @@ def ensemble_over_cracks(
         ): each.mechanism
         for each in doubtful
     }
-    ensembles = CrackEnsembles((statics, *mechanisms))
+    ensembles = CrackEnsembles((statics, *mechanisms), slides_at)
     while (governing := ensembles.governing) in mechanisms:
         # Another crack may govern once this one has its members; each grows once.
         more = grown(

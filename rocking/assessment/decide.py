@@ -206,8 +206,9 @@ class Facts:
     cracks: those that were followed, first the one that is given or that statics chooses. rests: whether nothing can
     lift. run_ratio: largest rotation ratio of single runs, where no members were followed; nan without one. settled:
     the word of a cheaper method that settled it. never_lets_go: why no motion can overturn it with a crack that counts;
-    "" where one can. slides_at: acceleration [g] at which its joints slide, where the motion reaches it; else nan.
-    doubts: what one degree of freedom does not follow. held: whether it is a wall that is held above its foot, and
+    "" where one can. slides_at: the least acceleration [g] at which the joints of a crack that counts slide before it
+    lifts, where the motion reaches it; else nan. doubts: what one degree of freedom does not follow. held: whether it
+    is a wall that is held above its foot, and
     beyond: HELD_BEYOND where some chain of it goes beyond BEYOND of its critical rotation in any member, TIES_GIVE
     where only one that its ties hold does, under the motion that these let through. top: what its top needs
     and does not get, so that it slips; None where it holds, or there is none. stacks: stacks of courses that fall in
@@ -352,6 +353,7 @@ def decide(facts: Facts) -> Decision:
     11   else                                                              the step
     ===  ================================================================  =============================================
 
+    A crack that slides first and is left out is told as a doubt beside every word better than probably overturns.
     A further doubt, failure or fall never makes the word safer, nor the share smaller. The share is the largest among
     the cracks that count and the stacks, members that failed counted as falling: at it, the members of the crack or the
     stacks that make the word have a step no safer than the word. Rows 5 and 8b and doubts limit the word, not the
@@ -366,6 +368,7 @@ def decide(facts: Facts) -> Decision:
     missing = (Remark(Kind.COMPONENT_MISSING),) if facts.failures else ()
     worse_beside = _worse_than_given(facts)
     beside = (*unsettled, *missing, *([Remark(Kind.OTHER_CRACK_WORSE)] if worse_beside else []))
+    left_out = () if math.isnan(facts.slides_at) else (Remark(Kind.SLIDES_FIRST),)
     asks_for_stacks = facts.stackable and facts.stacks is None
     contact_dynamics = (Remark(Kind.CONTACT_DYNAMICS),) if asks_for_stacks else ()
     if unsettled and not facts.stackable:
@@ -375,10 +378,12 @@ def decide(facts: Facts) -> Decision:
     # 1, 2, 3: what no member needs to tell.
     if facts.never_lets_go and not facts.doubts:
         tells = (Remark(Kind.TIE_STRENGTH),)
-        return Decision(Verdict.CANNOT_OVERTURN, 0.0, (0.0, 0.0), facts.never_lets_go, beside, tells)
+        return Decision(
+            Verdict.CANNOT_OVERTURN, 0.0, (0.0, 0.0), facts.never_lets_go, (*beside, *left_out), tells
+        )
     if facts.rests:
         why = "the ground never reaches the uplift acceleration"
-        return Decision(Verdict.STANDS, 0.0, (0.0, 0.0), why, beside)
+        return Decision(Verdict.STANDS, 0.0, (0.0, 0.0), why, (*beside, *left_out))
     if not math.isnan(facts.slides_at) and all(each.slides for each in counting):
         why = f"slides before it lifts, at {facts.slides_at:.2g} g"
         tells = (Remark(Kind.FRICTION),)
@@ -410,6 +415,8 @@ def decide(facts: Facts) -> Decision:
         # Not that of the worst step: by their error fewer members may have the worse word and the smaller share.
         share = max(each.share for each in followed)
         why = _counted(facts, worse_beside)
+        if left_out:
+            why = f"{why}; another crack slides first, at {facts.slides_at:.2g} g"
         if facts.top is not None:
             why = f"{why}; {facts.top.brief}"
             tells = (*tells, Remark(Kind.TIE_THE_TOP))
@@ -449,6 +456,8 @@ def decide(facts: Facts) -> Decision:
         if of_stacks is not word:
             interval = min(interval[0], fallen / runs), interval[1]
         word = worse(word, of_stacks)
+    if word.badness < Verdict.PROBABLY_OVERTURNS.badness:
+        beside = (*beside, *left_out)
     # 10: a mechanism that stands says nothing of what it does not follow.
     if (unsettled or missing) and word.badness < Verdict.PROBABLY_OVERTURNS.badness:
         reasons = [*map(str, unsettled), *facts.failures]

@@ -103,6 +103,13 @@ def test_3_what_slides_first_cannot_be_told():
 def test_3_a_crack_that_slides_first_is_left_out_where_another_is_left():
     cracks = (crack(0, name="base"), crack(64, name="upper", slides=True))
     assert word(cracks=cracks, slides_at=0.6) == "stands"
+    for falls, doubted in ((0, True), (20, True), (50, False), (64, False)):
+        left = Facts(cracks=(crack(falls, name="base"),), slides_at=0.6)
+        assert (Kind.SLIDES_FIRST in kinds(decide(left).doubts)) is doubted
+        assert "slides first, at 0.6 g" in decide(left).why
+        assert Kind.SLIDES_FIRST not in kinds(decide(replace(left, slides_at=math.nan)).doubts)
+    at_rest = decide(Facts(cracks=(crack(0),), rests=True, slides_at=0.6))
+    assert kinds(at_rest.doubts) == [Kind.SLIDES_FIRST]
     beside = crack(64, name="upper", counts=False)
     assert word(cracks=(crack(0, slides=True), beside), slides_at=0.6) == "cannot be told"
 
