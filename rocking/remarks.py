@@ -254,6 +254,12 @@ class Kind(StrEnum):
         "L'accelerazione massima è {peak_g:.3g} g, oltre 3 g: quasi nessun moto registrato del suolo è così "
         "forte; controllare unità e file.",
     )
+    VELOCITY_RARE = auto(), Sentence(
+        "The peak velocity is {velocity_m_s:.3g} m/s, above {rare_m_s:g} m/s: hardly any recorded ground motion is so "
+        "fast; check unit and file.",
+        "La velocità massima è {velocity_m_s:.3g} m/s, oltre {rare_m_s:g} m/s: quasi nessun moto registrato del suolo "
+        "è così veloce; controllare unità e file.",
+    )
     PEAK_RARE_BY_FACTOR = auto(), Sentence(
         "Multiplied by {factor:g} the peak acceleration is {peak_g:.3g} g, above 3 g: hardly any recorded "
         "ground motion is so strong; check the factor.",
@@ -695,6 +701,10 @@ class Kind(StrEnum):
         "È letto come {answer!r}, come dice layouts.csv, ma ha un altro aspetto ({holds}): controllare che "
         "sia come gli altri file della sua cartella.",
     )
+    TAIL_PASSED_OVER = auto(), Sentence(
+        "Text below the numbers is passed over: {text!r}.",
+        "Il testo sotto i numeri è tralasciato: {text!r}.",
+    )
     ROW_FILLED_UP = auto(), Sentence(
         "The last row is filled up with NaN, which are left out.",
         "L'ultima riga è completata con NaN, che sono tralasciati.",
@@ -862,6 +872,10 @@ class Kind(StrEnum):
     ROWS_TO_JOIN = auto(), Sentence(
         "{files} are components of one station: name them all in the row {rows} to join them.",
         "{files} sono componenti di una stessa stazione: nominarle tutte nella riga {rows} per unirle.",
+    )
+    ANSWER_IDLE = auto(), Sentence(
+        "{about}, line {line}: the answer {answer!r} fits no file that lies here; remove the line.",
+        "{about}, riga {line}: la risposta {answer!r} non vale per alcun file presente; togliere la riga.",
     )
     READINGS_UNUSABLE = auto(), Sentence(
         "{about}: {why}; every file is read again.",

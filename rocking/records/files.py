@@ -81,7 +81,7 @@ def answers_of(record: CatalogueRecord, mirror: str | Path | None = None) -> dic
             if path := beside_catalogue(record, file.name, mirror):
                 place = PurePosixPath(file.name).parent.as_posix()
                 answers[file.name] = layouts.text_of(
-                    signature_in(bytes_of(path), place if place != "." else "")
+                    signature_in(bytes_of(path), path.name, place if place != "." else "")
                 )
     return {f"{NAME} of {name}": sha256_of_bytes(text.encode()) for name, text in answers.items() if text}
 

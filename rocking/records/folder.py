@@ -88,9 +88,12 @@ def catalogue_of_folder(
     layouts = Layouts(answers or folder)
     readings = Readings(folder, layouts, is_kept=keeps_readings)
     listed = []
+    signatures = []
     for path in watched(list(_files(folder))):
         own = _declared_in(rows_of.get(path.relative_to(folder).as_posix()), declared)
-        listed.append(listed_file(readings.of(path, own), path, folder, own))
+        reading = readings.of(path, own)
+        listed.append(listed_file(reading, path, folder, own))
+        signatures += [reading.signature] if reading.signature else []
     readings.save()
     renamed = tuple(_follow_renamed(rows, rows_of, listed))
     for file in listed:
@@ -109,8 +112,12 @@ def catalogue_of_folder(
         _clear_filled(row, by_answer.get(row["id"], ""))
     new = _new_rows(listed, {row["id"].lower() for row in rows})
     of_store = [readings.remark] if readings.remark else []
+    idle = [
+        Remark.of(Kind.ANSWER_IDLE, NAME, line=each.line, answer=each.text)
+        for each in layouts.idle(signatures)
+    ]
     asked = layouts.text((file.file, file.question) for file in listed if file.question)
-    return FolderCatalogue(listed, rows, new, (*of_store, *renamed, *apart), asked)
+    return FolderCatalogue(listed, rows, new, (*of_store, *renamed, *apart, *idle), asked)
 
 
 def _direction_in(row: Row, file: ListedFile) -> str:

@@ -13,7 +13,7 @@ from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue import few, stays_inside
 from rocking.records.formats import Options
-from rocking.records.formats.layouts import NAME, AskedError, Layouts, Question, Signature
+from rocking.records.formats.layouts import NAME, AskedError, Layouts, Question, Signature, families
 from rocking.records.plausibility import OF_COUNTS
 from rocking.records.processing import process, velocity
 from rocking.records.read import printable, read_raw
@@ -272,12 +272,11 @@ def _sentences(listed: Sequence[ListedFile]) -> Iterator[str]:
         if file.companions:
             joined.setdefault(file.record, []).append(file.file)
     read = [file for file in listed if not file.refusal]
-    # Of tables with one signature the first is told: the others hold other numbers of rows.
-    asked = {file.question.signature: file.question.holds for file in reversed(listed) if file.question}
+    asked = families((file.file, file.question) for file in listed if file.question)
     first = {_family(file): file.refusal for file in reversed(listed) if file.refusal}
     sections = {
         f"Answer once, in {NAME}:": [
-            (file.file, asked[file.question.signature]) for file in listed if file.question
+            (file, family.question.holds) for family in asked for file in family.files
         ],
         "Fill in, in the catalogue:": [
             (file.file, " and ".join(file.blanks)) for file in read if file.blanks and not file.question

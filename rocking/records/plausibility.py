@@ -8,7 +8,8 @@ real files is accused. Where the instrument stood, and what it measured, names a
 import math
 import re
 from collections.abc import Sequence
-from typing import NamedTuple
+from contextlib import suppress
+from typing import NamedTuple, NoReturn
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -16,13 +17,17 @@ from numpy.lib.stride_tricks import sliding_window_view
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, acceleration_factor
 from rocking.records.accelerogram import LARGEST_PEAK, Accelerogram
-from rocking.records.processing import integral
+from rocking.records.processing import UNPROCESSED_DEFAULT, integral, process, velocity
 from rocking.remarks import Kind, Remark
 
 RARE_PEAK = 3 * GRAVITY
 """m/s²; a handful of records of the world exceed it."""
 SMALLEST_PEAK = 1e-5 * GRAVITY
 """m/s²; below, a record is noise or has a wrong unit."""
+RARE_VELOCITY = 3.0
+"""m/s; no recorded ground has moved much faster."""
+LARGEST_VELOCITY = 4.0
+"""m/s; above, no ground has moved."""
 _FACTORS = {
     980.665: "cm/s² against g",
     9.80665: "m/s² against g",
@@ -104,26 +109,60 @@ def scaled(record: Accelerogram, factor: float) -> Accelerogram:
 
 
 def pass_limits(record: Accelerogram, form: str = "") -> tuple[Remark, ...]:
-    """Return warnings on a peak that is below 1e-5 g or above 3 g; raise RecordError when it is above 5 g.
+    """Return warnings on a peak below 1e-5 g, or above 3 g or 3 m/s; raise RecordError when it is above 5 g or 4 m/s.
 
     form: the name of the format, by which the sentence says what to do.
     """
     peak = record.peak_acceleration / GRAVITY
-    if SMALLEST_PEAK <= record.peak_acceleration <= RARE_PEAK:
+    if record.peak_acceleration > LARGEST_PEAK:
+        _refuse_peak(record, f"peak acceleration is {peak:.6g} g", "the 5 g that no ground has reached", form)
+    fast = _velocity_limit(record, form)
+    if record.peak_acceleration > RARE_PEAK:
+        return (Remark.of(Kind.PEAK_RARE, peak_g=peak), *fast)
+    if record.peak_acceleration >= SMALLEST_PEAK:
+        return fast
+    if fits := _fitting_factors(peak):
+        return (Remark.of(Kind.PEAK_TINY_BY_UNIT, peak_g=peak, factors=fits),)
+    return (Remark.of(Kind.PEAK_TINY, peak_g=peak),)
+
+
+def _velocity_limit(record: Accelerogram, form: str) -> tuple[Remark, ...]:
+    """Return a warning on a peak velocity above 3 m/s; raise RecordError when it is above 4 m/s.
+
+    After the processing of raw records, whatever the file says: without it an offset of the recorder would count.
+    """
+    samples = record.acceleration
+    if (
+        samples.size < _SHORTEST
+        or np.ptp(integral(samples - samples.mean(), record.time_step)) <= _SURELY_SLOW
+    ):
         return ()
-    if RARE_PEAK < record.peak_acceleration <= LARGEST_PEAK:
-        return (Remark.of(Kind.PEAK_RARE, peak_g=peak),)
-    is_small = peak < 1
-    plausible = {f: _PLAUSIBLE[0] < (peak * f if is_small else peak / f) < _PLAUSIBLE[1] for f in _FACTORS}
-    fits = ", ".join(f"by {f:g} ({meaning})" for f, meaning in _FACTORS.items() if plausible[f])
-    if is_small:
-        if fits:
-            return (Remark.of(Kind.PEAK_TINY_BY_UNIT, peak_g=peak, factors=fits),)
-        return (Remark.of(Kind.PEAK_TINY, peak_g=peak),)
-    beyond = (
-        f"peak acceleration is {peak:.6g} g read as {record.source.unit or 'm/s2'}, above the 5 g that no ground has "
-        "reached"
-    )
+    fastest = 0.0
+    with suppress(RecordError):  # a record that is too short to be processed
+        fastest = float(np.abs(velocity(process(record, UNPROCESSED_DEFAULT))).max())
+    if fastest > LARGEST_VELOCITY:
+        found = f"peak velocity is {fastest:.3g} m/s"
+        _refuse_peak(record, found, f"the {LARGEST_VELOCITY:g} m/s that no ground has reached", form)
+    if fastest > RARE_VELOCITY:
+        return (Remark.of(Kind.VELOCITY_RARE, velocity_m_s=fastest, rare_m_s=RARE_VELOCITY),)
+    return ()
+
+
+_SURELY_SLOW = 1.5
+"""m/s; where velocity about its mean ranges so little, no high-pass makes it twice that."""
+
+
+def _fitting_factors(peak: float) -> str:
+    """Return the factors between units by which a peak, in g, would be plausible: those of a tiny one multiply it."""
+    is_tiny = peak < SMALLEST_PEAK / GRAVITY
+    plausible = {f: _PLAUSIBLE[0] < (peak * f if is_tiny else peak / f) < _PLAUSIBLE[1] for f in _FACTORS}
+    return ", ".join(f"by {f:g} ({meaning})" for f, meaning in _FACTORS.items() if plausible[f])
+
+
+def _refuse_peak(record: Accelerogram, found: str, limit: str, form: str) -> NoReturn:
+    """Raise RecordError for what was `found` of a record, beyond a `limit`, and say what to do by its peak."""
+    fits = _fitting_factors(record.peak_acceleration / GRAVITY)
+    beyond = f"{found} read as {record.source.unit or 'm/s2'}, above {limit}"
     if form in OF_COUNTS:
         raise RecordError(
             f"{beyond}: the samples may be counts of the recorder; give the StationXML of the instrument (inventory=) "

@@ -145,15 +145,14 @@ def read_content(
         return records
 
 
-def signature_in(raw: bytes, folder: str) -> Signature | None:
-    """Return the signature of the content of a file, packed or not, as a table of `folder`; None where it is none."""
+def signature_in(raw: bytes, name: str, folder: str) -> Signature | None:
+    """Return the signature of the content of a file called `name`, packed or not, as a table of `folder`.
+
+    None where it is none.
+    """
     with suppress(RecordError):
-        return signature_of(bare_text(unpack(raw, "")[:_HEAD]), folder)
+        return signature_of(bare_text(unpack(raw, "")), name, folder)
     return None
-
-
-_HEAD = 2**17
-"""Bytes in which what stands above a table ends, and its first rows."""
 
 
 def checked_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:

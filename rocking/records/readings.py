@@ -76,7 +76,7 @@ class Readings:
                 log_fault(fault, self._log)
                 return Reading(sha256, refusal=printable(fault_in_words(fault, self._log)))
             if not reading.channels or reading.channels[0].format == COLUMNS.name:
-                signature = signature_in(raw, layouts.place)
+                signature = signature_in(raw, path.name, layouts.place)
                 reading = replace(reading, signature=signature, answer=layouts.text_of(signature))
         self._now[key] = reading
         return reading

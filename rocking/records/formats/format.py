@@ -19,6 +19,7 @@ from rocking.records.accelerogram import LARGEST_PEAK, Accelerogram, Source
 from rocking.records.direction import directed
 from rocking.records.formats.layouts import Layouts
 from rocking.records.formats.text import (
+    NUMBER,
     count,
     even_step,
     fields,
@@ -171,7 +172,6 @@ def without_offset(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
     return values - offset, sentence
 
 
-NUMBER = r"([+-]?(?:\d+\.?\d*|\.\d+)(?:E[+-]?\d+)?)"
 Fact = Literal[
     "component", "station", "event", "event_time", "network", "magnitude", "place", "latitude", "longitude",
     "elevation", "distance", "location", "orientation", "channels", "quantity", "unit", "samples", "step", "rate",
@@ -233,7 +233,7 @@ class Layout:
 
     def number(self, name: Fact, head: str) -> float | None:
         """Return the number that what is said of `name` begins with, None where it begins with none."""
-        return optional_number(rf"^\s*{NUMBER}", self.text(name, head))
+        return optional_number(rf"^\s*({NUMBER})", self.text(name, head))
 
     def required(self, name: Fact, head: str) -> str:
         """Return what `head` says of `name`. Raises RecordError when it says nothing."""

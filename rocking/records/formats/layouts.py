@@ -1,7 +1,7 @@
 """Layouts: what the numbers of tables are, as a person answers it ("t, NS, EW g"), asked once in layouts.csv."""
 
+import math
 import re
-from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
@@ -12,10 +12,14 @@ from typing import Literal, get_args
 from rocking.errors import CatalogueError, RecordError, UndeclaredError
 from rocking.quantities import acceleration_unit, counted
 from rocking.records.formats.text import is_number
+from rocking.records.plausibility import other_quantity
 from rocking.tables import edited_text, read_edited
 
 NAME = "layouts.csv"
-COLUMNS = ("answer", "holds", "file", "names", "numbers_a_line", "text_above", "folder")
+COLUMNS = (
+    "answer", "holds", "file", "names", "numbers_a_line", "text_above", "folder", "ending", "time_step_s", "peaks",
+)  # fmt: skip
+_OF_SIGNATURE = COLUMNS[3:]
 _SHIPPED = Path(__file__).with_name(NAME)
 
 
@@ -25,6 +29,7 @@ Above = Literal["n", "dt", "hz", "-"]
 
 _EXAMPLES = "'t, a g', 'NS, EW, UD g' or 'one series g, 5 a line, skip 2'"
 _TIMES = {"s": 1.0, "ms": 1e-3, "min": 60.0}
+_TIME_WORDS = "t", "time", "times"
 _NAME = re.compile(r"[^\W_][\w+/-]*|[+-]?\w+")
 _PLAIN = {"a", "acc", "acceleration"}
 _FORTRAN = re.compile(r"(?i)(\d+)[FEGI](\d+)(?:\.\d+)?")
@@ -36,8 +41,8 @@ OPEN = "?"
 class Column:
     """What the numbers of one column are.
 
-    name: of a component, "" where the file's own holds. unit: of acceleration, None where the file says it. seconds:
-    the unit of times, s.
+    name: of a component, "" where the file's own holds. unit: of acceleration, None where the file says it; of an open
+    column what the file says. seconds: the unit of times, s.
     """
 
     role: Role
@@ -46,8 +51,10 @@ class Column:
     seconds: float = 1.0
 
     def __str__(self) -> str:
-        if self.role in ("other", "open"):
-            return "-" if self.role == "other" else OPEN
+        if self.role == "other":
+            return "-"
+        if self.role == "open":
+            return f"{OPEN} {self.unit}" if self.unit else OPEN
         unit = next((f" {name}" for name, each in _TIMES.items() if each == self.seconds != 1.0), "")
         if self.role == "time":
             return f"t{unit}"
@@ -96,14 +103,16 @@ class TableLayout:
             layout = replace(layout, columns=tuple(named))
         return layout
 
-    def proposal(self, has_step: bool) -> str:
+    def proposal(self, has_step: bool, told: Sequence[float] = ()) -> str:
         """Return it as an answer that a person completes; has_step: whether something else says the time step.
 
-        Where nothing in it is open, it begins with the sign for what is: to take that away is the answer.
+        told: the steps [s] that the text of the file speaks of, of which the only one is proposed. Where nothing in it
+        is open, it begins with the sign for what is: to take that away is the answer.
         """
         is_timed = any(column.role == "time" for column in self.columns) or {"dt", "hz"} & set(self.above)
         has_step = has_step or bool(self.time_step) or bool(is_timed)
-        answer = str(replace(self, time_step=None)) + ("" if has_step else f", dt {OPEN}")
+        step = f", dt {told[0]:g}" if len(told) == 1 else f", dt {OPEN}"
+        answer = str(replace(self, time_step=None)) + ("" if has_step else step)
         return answer if OPEN in answer else f"{OPEN} {answer}"
 
     def __str__(self) -> str:
@@ -143,10 +152,12 @@ def _with_item(layout: TableLayout, item: str) -> TableLayout:
         raise RecordError(f"{item!r} stands in no answer of one series; answer like {_EXAMPLES}.")
     if item == "-":
         return replace(layout, columns=(*layout.columns, Column("other")))
-    if word == "t":
+    if word in _TIME_WORDS:
         if (rest or "s") not in _TIMES:
             raise RecordError(f"the times are in {rest!r}, but must be in s, ms or min.")
         return replace(layout, columns=(*layout.columns, Column("time", seconds=_TIMES[rest or "s"])))
+    if unit_alone := acceleration_unit(item):
+        return replace(layout, columns=(*layout.columns, Column("acceleration", unit=unit_alone)))
     name, _, unit = item.partition(" ")
     return replace(layout, columns=(*layout.columns, _acceleration(name, unit)))
 
@@ -154,10 +165,15 @@ def _with_item(layout: TableLayout, item: str) -> TableLayout:
 def _acceleration(name: str, unit: str) -> Column:
     if not _NAME.fullmatch(name):
         raise RecordError(f"{name!r} names no component; answer like {_EXAMPLES}.")
+    if quantity := other_quantity(name):
+        raise RecordError(f"{name!r} is {quantity}; write - for a column that is no acceleration.")
     known = acceleration_unit(unit)
     if unit.strip() and known is None:
         raise RecordError(f"{unit.strip()!r} is no unit of acceleration; answer like {_EXAMPLES}.")
     return Column("acceleration", "" if name.lower() in _PLAIN else name, known)
+
+
+_HALF_DECADE = math.sqrt(10)
 
 
 @dataclass(frozen=True)
@@ -166,17 +182,71 @@ class Signature:
 
     names: of the columns. numbers_a_line: their number. text_above: the words above them that mean something. folder:
     of the files, beside the catalogue, where neither names nor words say anything; "" else, or for the folder itself.
+    ending: of the name of a file, and time_step_s: of its times, where neither says anything. peaks: the largest number
+    of a file whose page states no unit, or the range of those of the files that a question was drawn from, "0.35..3.1".
     """
 
     names: str
     numbers_a_line: str
     text_above: str
     folder: str = ""
+    ending: str = ""
+    time_step_s: str = ""
+    peaks: str = ""
 
     @classmethod
     def of_row(cls, row: Mapping[str, str]) -> "Signature":
         """Return the signature that a row of layouts.csv is for."""
-        return cls(*(" ".join((row.get(name) or "").split()) for name in COLUMNS[3:]))
+        cells = {name: " ".join((row.get(name) or "").split()) for name in _OF_SIGNATURE}
+        return cls(**cells | {"time_step_s": cells["time_step_s"].replace(",", ".")})
+
+    @property
+    def cells(self) -> tuple[str, ...]:
+        """It as the cells of a row of layouts.csv."""
+        return tuple(getattr(self, name) for name in _OF_SIGNATURE)
+
+    @property
+    def page(self) -> tuple[str, ...]:
+        """What the page of a table says, and where it lies if it says nothing."""
+        return self.names, self.numbers_a_line, self.text_above, self.folder
+
+    @property
+    def is_bare(self) -> bool:
+        """Whether the page says nothing, neither by names nor by words: then the numbers alone speak."""
+        return not (self.names or self.text_above)
+
+    @property
+    def peak(self) -> float:
+        """The largest number of a file, 0 where it does not count."""
+        return self._range[1]
+
+    @cached_property
+    def _range(self) -> tuple[float, float]:
+        ends = [end.strip().replace(",", ".") for end in self.peaks.split("..")]
+        if not 1 <= len(ends) <= 2 or not all(map(is_number, ends)):
+            return 0.0, 0.0
+        return float(ends[0]), float(ends[-1])
+
+    def distance(self, file: "Signature") -> float | None:
+        """Return how far the numbers of a `file` lie from those that this row was drawn from, None where it is unlike.
+
+        0: among them. Above: the factor by which the peak is off the middle of their peaks, within half a decade. An
+        empty cell of a row holds for every file, but where the page says nothing.
+        """
+        if self.page != file.page:
+            return None
+        pairs = (self.ending, file.ending), (self.time_step_s, file.time_step_s)
+        if any(own != other and (own or self.is_bare) for own, other in pairs):
+            return None
+        if not self.peaks and not (self.is_bare and file.peaks):
+            return 0.0
+        low, high = self._range
+        if self.peaks == file.peaks or (self.peaks and low <= file.peak <= high):
+            return 0.0
+        if not (low > 0 and file.peak > 0):
+            return None
+        off = abs(math.log(file.peak / math.sqrt(low * high)))
+        return math.exp(off) if off <= math.log(_HALF_DECADE) else None
 
 
 @dataclass(frozen=True)
@@ -186,6 +256,65 @@ class Question:
     signature: Signature
     holds: str
     proposal: str
+
+
+@dataclass(frozen=True)
+class Family:
+    """Files for which one answer holds, and the question that they ask together."""
+
+    files: tuple[str, ...]
+    question: Question
+
+
+def families(questions: Iterable[tuple[str, Question]]) -> list[Family]:
+    """Return the files that ask, in families: alike by their pages, and with peaks within a decade.
+
+    questions: with the file that each is drawn from. Each family tells how its files, and the others of one page, peak.
+    """
+    pages: dict[Signature, list[tuple[str, Question]]] = {}
+    for file, question in questions:
+        pages.setdefault(replace(question.signature, peaks=""), []).append((file, question))
+    found = []
+    of_page: dict[tuple[str, ...], list[list[tuple[str, Question]]]] = {}
+    for signature, asking in pages.items():
+        of_page.setdefault(signature.page, []).extend(_decades(asking))
+    for groups in of_page.values():
+        for group in groups:
+            file, first = group[0]
+            peaks = _range_of(group)
+            signature = replace(first.signature, peaks=peaks)
+            told = first.holds + "; " + _counts(group, [each for each in groups if each is not group])
+            found.append(Family(tuple(name for name, _ in group), Question(signature, told, first.proposal)))
+    return found
+
+
+def _decades(asking: Sequence[tuple[str, Question]]) -> list[list[tuple[str, Question]]]:
+    """Return the files of one page, parted so that the peaks of each part lie within a decade of its least one."""
+    parts: list[list[int]] = []
+    lowest = 0.0
+    peaks = [question.signature.peak for _, question in asking]
+    for place in sorted(range(len(asking)), key=peaks.__getitem__):
+        if not parts or peaks[place] > 10 * lowest:
+            parts.append([])
+            lowest = peaks[place]
+        parts[-1].append(place)
+    return [[asking[place] for place in sorted(part)] for part in sorted(map(sorted, parts))]
+
+
+def _range_of(group: Sequence[tuple[str, Question]]) -> str:
+    """Return the peaks of a family as a row of layouts.csv writes them, "" where they do not count."""
+    of = sorted({question.signature.peaks for _, question in group}, key=lambda peak: float(peak or 0))
+    return "..".join(dict.fromkeys((of[0], of[-1])))
+
+
+def _counts(group: Sequence[tuple[str, Question]], others: Sequence[Sequence[tuple[str, Question]]]) -> str:
+    """Return how many files there are of a family, and where their peaks lie beside those of the other families."""
+    count = sum(map(len, others)) + len(group)
+    told = counted(count, "file") if not others else f"{len(group)} of {count} files"
+    if peaks := _range_of(group):
+        told += f" with peaks {peaks.replace('..', '–')}"
+    kept = [f"{len(other)} of {peaks.replace('..', '–')}" for other in others if (peaks := _range_of(other))]
+    return told + (f" (the others: {', '.join(kept)})" if kept else "")
 
 
 class AskedError(UndeclaredError):
@@ -247,61 +376,82 @@ class Layouts:
         _ = self.rows
 
     @cached_property
-    def _answers(self) -> Mapping[Signature, Answer]:
-        return {**_shipped(), **_answers(self.rows, NAME)}
+    def _answers(self) -> Sequence[tuple[Signature, Answer]]:
+        return _answers(self.rows, NAME)
+
+    def _matching(self, signature: Signature) -> list[Answer]:
+        """Return the answers that hold for tables of a signature: those drawn from files that are nearest to it."""
+        for answers in (self._answers, _shipped()):
+            found = [(off, answer) for row, answer in answers if (off := row.distance(signature)) is not None]
+            if found:
+                nearest = min(off for off, _ in found)
+                return [answer for off, answer in found if off == nearest]
+        return []
 
     def answer(self, signature: Signature) -> Answer | None:
-        """Return the answer for tables of a signature, None where there is none yet."""
-        return self._answers.get(signature)
+        """Return the answer for tables of a signature, None where there is none yet.
+
+        Raises RecordError where two lines answer otherwise.
+        """
+        found = {each.text: each for each in self._matching(signature)}
+        if len(found) > 1:
+            first, second = list(found.values())[:2]
+            raise RecordError(
+                f"{first.whose}, lines {first.line} and {second.line}, column answer, hold for this file both, and say "
+                f"{first.text!r} and {second.text!r}; remove one of them."
+            )
+        return next(iter(found.values()), None)
 
     @property
     def are_answered(self) -> bool:
         """Whether layouts.csv answers anything."""
-        return bool(_answers(self.rows, NAME))
+        return bool(self._answers)
 
     def text_of(self, signature: Signature | None) -> str:
         """Return the answer for tables of a signature as it is written, "" where there is none.
 
         It is part of the content of each file that it reads: where it is edited, the file is read again.
         """
-        answer = self.answer(signature) if signature else None
-        return answer.text if answer else ""
+        return "; ".join(answer.text for answer in self._matching(signature)) if signature else ""
+
+    def idle(self, signatures: Iterable[Signature]) -> list[Answer]:
+        """Return the answers in layouts.csv that hold for no table of these signatures."""
+        used = {answer.line for signature in signatures for answer in self._matching(signature)}
+        return [answer for _, answer in self._answers if answer.line not in used]
 
     def text(self, questions: Iterable[tuple[str, Question]]) -> str | None:
         """Return the text of layouts.csv with a row for each question that it does not hold yet; None if none is new.
 
         questions: with the file that each is drawn from.
         """
-        held = {Signature.of_row(row) for _, row in self.rows}
-        files: Counter[Signature] = Counter()
-        first: dict[Signature, tuple[str, Question]] = {}
-        for file, question in questions:
-            if question.signature not in held:
-                files[question.signature] += 1
-                first.setdefault(question.signature, (file, question))
-        if not first:
-            return None
+        held = [Signature.of_row(row) for _, row in self.rows]
         new = [
             {
-                "answer": question.proposal,
-                "holds": f"{question.holds}; {counted(files[signature], 'file')}",
-                "file": file,
-                **dict(zip(COLUMNS[3:], vars(signature).values(), strict=True)),
+                "answer": family.question.proposal,
+                "holds": family.question.holds,
+                "file": family.files[0],
+                **dict(zip(_OF_SIGNATURE, family.question.signature.cells, strict=True)),
             }
-            for signature, (file, question) in first.items()
+            for family in families(
+                (file, question)
+                for file, question in questions
+                if all(row.distance(question.signature) is None for row in held)
+            )
         ]
+        if not new:
+            return None
         return edited_text([*(row for _, row in self.rows), *new], COLUMNS, self._path)
 
 
-def _answers(rows: Iterable[tuple[int, Mapping[str, str]]], whose: str) -> dict[Signature, Answer]:
+def _answers(rows: Iterable[tuple[int, Mapping[str, str]]], whose: str) -> list[tuple[Signature, Answer]]:
     """Return the answers in rows, without what is still open."""
-    return {
-        Signature.of_row(row): Answer(row["answer"].strip(), whose, line, row.get("file") or "")
+    return [
+        (Signature.of_row(row), Answer(row["answer"].strip(), whose, line, row.get("file") or ""))
         for line, row in rows
         if row["answer"].strip() and OPEN not in row["answer"]
-    }
+    ]
 
 
 @cache
-def _shipped() -> Mapping[Signature, Answer]:
+def _shipped() -> list[tuple[Signature, Answer]]:
     return _answers(read_edited(_SHIPPED, CatalogueError, COLUMNS, COLUMNS[:1]), "the layouts of rocking")

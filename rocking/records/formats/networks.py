@@ -11,7 +11,6 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.direction import Direction
 from rocking.records.formats import text
 from rocking.records.formats.format import (
-    NUMBER,
     Format,
     Layout,
     Options,
@@ -26,7 +25,7 @@ from rocking.records.formats.format import (
     typed_magnitude,
     universal,
 )
-from rocking.records.formats.text import iso_date
+from rocking.records.formats.text import NUMBER, iso_date
 from rocking.records.plausibility import agree_with_velocity, refuse_other_quantity
 from rocking.remarks import Kind, Remark
 
@@ -88,7 +87,7 @@ def _read_afad(content: bytes, options: Options) -> list[Accelerogram]:
     table = text.table(rows[1:], len(labels))
     _, notes = text.whole(table[:, 0], _AFAD.count(head), per_line=1)
     line = optional(r"^(.*PGA.*:.*)", head)
-    peaks = [optional_number(rf"\({re.escape(label)}\)\s*{NUMBER}", line) for label in labels]
+    peaks = [optional_number(rf"\({re.escape(label)}\)\s*({NUMBER})", line) for label in labels]
     is_processed = "RAW" not in line
     return _AFAD.channels(head, table, labels, options, peaks=peaks, warnings=notes, processed=is_processed)
 

@@ -7,6 +7,7 @@ from typing import TypeVar
 
 from rocking.quantities import acceleration_unit
 from rocking.records.direction import Direction
+from rocking.records.formats.text import NUMBER
 from rocking.remarks import Kind, Remark
 
 
@@ -15,12 +16,14 @@ class Declarations:
     """Facts that remarks state of the numbers below them, None (the component: "") where none does, or several differ.
 
     unit: of acceleration. time_step: s. component: where the only channel points. samples: their number, as written.
+    told: the steps [s] of every rate that is spoken of, but for those of filters.
     """
 
     unit: str | None = None
     time_step: float | None = None
     component: str = ""
     samples: str = ""
+    told: tuple[float, ...] = ()
 
     @classmethod
     def of(cls, remarks: Sequence[str]) -> "Declarations":
@@ -32,9 +35,13 @@ class Declarations:
         steps = {step for line in of_numbers for step in _steps(line)}
         components = {component.upper(): component for line in of_numbers for component in _components(line)}
         counts = {match[1] or match[2] for line in remarks for match in _SAMPLES.finditer(line)}
+        told = {1 / rate for line in of_numbers for rate in _rates(line)}
+        # A rate beside another one may be the one that the numbers were recorded at, and not theirs.
+        is_sampled_twice = any(_SAMPLED.search(line) for line in of_numbers) and not _are_one(told | steps)
         return cls(
             unit=_the_only(units),
-            time_step=_the_only(steps),
+            time_step=None if is_sampled_twice else _the_only(steps),
+            told=tuple(sorted(told | steps)),
             component=_the_only(components.values()) or "",
             samples=_the_only(counts) or "",
         )
@@ -48,6 +55,19 @@ def _the_only(values: Collection[T]) -> T | None:
     if len(values) != 1:
         return None
     return next(iter(values))
+
+
+_SAME_STEP = 1e-3
+"""Share by which two steps may differ that are one: a header rounds."""
+
+
+def _are_one(steps: Collection[float]) -> bool:
+    return not steps or max(steps) <= min(steps) * (1 + _SAME_STEP)
+
+
+def contradicts(steps: Collection[float], step: float) -> bool:
+    """Whether none of `steps` [s], of which a page speaks, is `step`; False where it speaks of none."""
+    return bool(steps) and not any(_are_one((each, step)) for each in steps)
 
 
 OF_ACCELERATION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|amplitud)")
@@ -71,16 +91,29 @@ _END = r"\s*(?:\.?\s*$|[,;)\]]|\s/\s)"
 _STEP = re.compile(
     r"\b(?:dt|delta|time[ _-]?(?:step|interval|increment)|(?:sampling|sample)[ _-]?(?:interval|period|step)|"
     r"(?:equal )?spacing|intervals|intervalo(?: de muestreo)?)\b"
-    rf"\s*(?:[(\[]\s*{_SECONDS}\s*[)\]])?\s*(?:[:=]|is|of)?\s*(\d*\.?\d+(?:e[-+]?\d+)?)\s*\(?{_SECONDS}?{_END}|"
-    rf"^\s*(?:sampling|muestreo)\s*[:=]\s*(\d*\.?\d+)\s*{_SECONDS}\s*$",
+    rf"\s*(?:[(\[]\s*{_SECONDS}\s*[)\]])?\s*(?:[:=]|is|of)?\s*({NUMBER})\s*\(?{_SECONDS}?{_END}|"
+    rf"^\s*(?:sampling|muestreo)\s*[:=]\s*({NUMBER})\s*{_SECONDS}\s*$",
     re.I,
 )
 _RATE = re.compile(
     r"\b(?:fs|(?:sampling|sample)[ _-]?(?:rate|frequency)|tasa de muestreo|frecuencia de muestreo)\b"
-    rf"\s*(?:[(\[]\s*hz\s*[)\]])?\s*(?:[:=]|is|of)\s*(\d*\.?\d+)\s*(?:hz|sps)?{_END}|"
-    rf"\bsampled at (\d*\.?\d+)\s*(?:hz|sps){_END}",
+    rf"\s*(?:[(\[]\s*hz\s*[)\]])?\s*(?:[:=]|is|of)\s*({NUMBER})\s*(?:hz|sps)?{_END}|"
+    rf"\bsampled at ({NUMBER})\s*(?:hz|sps){_END}",
     re.I,
 )
+_RATE_TOLD = re.compile(
+    rf"(?<![\w.])({NUMBER})\s*(?:hz|sps|samples? ?(?:/|per) ?s(?:ec(?:ond)?)?)(?![a-z])", re.I
+)
+_SAMPLED = re.compile(
+    r"(?i)sampl|decimat|interpol|digiti|muestr|abtast|chantill|campion|rate|frecuencia de m"
+)
+"""Words beside which a second rate leaves open which one the numbers have."""
+_OF_FILTER = re.compile(
+    r"(?i)filt|pass|corner|cut|band|butter|natural|period|reson|dominant|range|nyquist|usable|taper|instrument|\bfn\b"
+)
+"""Words beside which a number of hertz is no rate of samples."""
+_FEWEST_PER_SECOND = 10.0
+"""The lowest rate that a recorder has, Hz: below, a number of hertz is that of a motion."""
 _SAMPLES = re.compile(
     r"(?:^|[\s,;(])(-?\d[\d.e]*)\s+(?:points|samples|values)\b(?!\s+(?:per|across|a|each|in)\b)|"
     r"\b(?:npts|(?:no\.?|number) (?:of )?(?:points|samples|data|values)|"
@@ -155,7 +188,14 @@ def _steps(remark: str) -> set[float]:
     """The time steps [s] that a remark declares, or follow from the rates that it does."""
     steps = {float(match[1] or match[2]) for match in _STEP.finditer(remark)}
     rates = {float(match[1] or match[2]) for match in _RATE.finditer(remark)}
-    return {step for step in steps if step} | {1 / rate for rate in rates if rate}
+    return {step for step in steps if step > 0} | {1 / rate for rate in rates if rate > 0}
+
+
+def _rates(remark: str) -> set[float]:
+    """The rates [Hz] that a remark speaks of, but for those of filters."""
+    if _OF_FILTER.search(remark):
+        return set()
+    return {rate for match in _RATE_TOLD.finditer(remark) if (rate := float(match[1])) >= _FEWEST_PER_SECOND}
 
 
 def _components(remark: str) -> list[str]:

@@ -6,7 +6,8 @@ What closed lists name is read. What is left open is asked once for all tables a
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
+from pathlib import PurePosixPath
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ import numpy as np
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_factor
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.direction import directed, names_acceleration
+from rocking.records.direction import Direction, directed, names_acceleration
 from rocking.records.formats import dialect, text
 from rocking.records.formats.format import Format, Options, plain
 from rocking.records.formats.labels import ColumnLabel
@@ -28,7 +29,13 @@ from rocking.records.formats.layouts import (
     Signature,
     TableLayout,
 )
-from rocking.records.formats.remarks import Declarations, factor_warnings, meaning, speaks_of_factor
+from rocking.records.formats.remarks import (
+    Declarations,
+    contradicts,
+    factor_warnings,
+    meaning,
+    speaks_of_factor,
+)
 from rocking.records.plausibility import refuse_by_name, refuse_other_quantity
 from rocking.remarks import Kind, Remark
 
@@ -69,6 +76,7 @@ class Table:
     labels: of the columns, none where no line names them. width: number of columns. start: lines above the numbers.
     remarks: what lines with a mark say, without it; words: what the other lines above the names say. counts: the line
     that holds nothing but number of samples and step, and which of the two comes first; none where there is no such.
+    tail: lines of text below the numbers.
     """
 
     labels: tuple[ColumnLabel, ...]
@@ -77,6 +85,7 @@ class Table:
     remarks: tuple[str, ...] = ()
     words: tuple[str, ...] = ()
     counts: tuple[int, tuple[Above, ...]] | None = None
+    tail: tuple[str, ...] = ()
 
     @classmethod
     def of(cls, content: bytes) -> "Table | None":
@@ -111,8 +120,8 @@ class Table:
             counts,
         )
 
-    def signature(self, folder: str) -> Signature:
-        """Return what it has in common with tables for which the same answer holds; folder: in which it lies."""
+    def page(self, folder: str) -> Signature:
+        """Return what its page has in common with tables for which the same answer holds; folder: in which it lies."""
         # The long numbers of a name that says nothing are those of a station or an event.
         shapes = (each.text if each.is_known else re.sub(r"\d{3,}", "#", each.text) for each in self.labels)
         above = dict.fromkeys(filter(None, map(meaning, (*self.remarks, *self.words))))
@@ -123,7 +132,7 @@ class Table:
     @cached_property
     def said(self) -> Declarations:
         """What the text above the numbers declares."""
-        return Declarations.of((*self.remarks, *self.words))
+        return Declarations.of((*self.remarks, *self.words, *self.tail))
 
     @property
     def is_understood(self) -> bool:
@@ -254,44 +263,131 @@ def _refuse_others(table: Table, file: str) -> None:
         refuse_by_name(file)
 
 
-def signature_of(content: bytes, folder: str) -> Signature | None:
-    """Return the signature of a table from its first bytes, None of another file; folder: in which it lies."""
+@lru_cache(maxsize=2)
+def _table_of(content: bytes) -> tuple[Table | None, bytes | None]:
+    """Return the table that a content is and its plain numbers, which reading asks for at each question anew.
+
+    None for another content, and for numbers in which a comma may be either of two things.
+    """
     if _OTHER_FORMAT.match(content) or b"\0" in content[:4096]:
-        return None
-    table = Table.of(dialect.plain(content) or content)
-    return None if table is None else table.signature(folder)
+        return None, None
+    pointed = dialect.plain(content)
+    return Table.of(pointed or content), pointed
+
+
+def is_table(content: bytes) -> bool:
+    """Whether a content is a table, by its first lines."""
+    return _table_of(content)[0] is not None
+
+
+def signature_of(content: bytes, file: str, folder: str) -> Signature | None:
+    """Return the signature of the table `content` of a `file` called so in a `folder`, None of another content."""
+    seen = _seen_of(content)
+    return seen.signature(file, folder) if seen else None
+
+
+@dataclass(frozen=True)
+class _Seen:
+    """A table as it looks before anybody answers: its rows as bytes, and what its numbers are as far as they say it.
+
+    notes: on how the rows end. values: (n,), and drawn: their layout, None where the numbers cannot be told apart, as
+    `fault` says.
+    """
+
+    table: Table
+    body: bytes
+    notes: tuple[Remark, ...]
+    values: np.ndarray | None
+    drawn: TableLayout | None
+    fault: RecordError | None = None
+
+    @classmethod
+    def of(cls, table: Table, content: bytes) -> "_Seen":
+        """Return a table as it looks where nothing is declared."""
+        try:
+            _, start = _above(table, None, content)
+        except RecordError as error:
+            return cls(table, b"", (), None, None, error)
+        return cls.below(table, content, None, start, None)
+
+    @classmethod
+    def below(
+        cls, table: Table, content: bytes, layout: TableLayout | None, start: int, declared: float | None
+    ) -> "_Seen":
+        """Return a table as it looks from the line `start` on.
+
+        layout: of its answer, by which its numbers part. declared: the time step that the caller declares, s.
+        """
+        notes: tuple[Remark, ...] = ()
+        body = b""
+        try:
+            table, body, notes = _plain_rows(table, text.after_lines(content, start))
+            values = _values(body, table, layout)
+            drawn = _drawn(table, values, b"," in body or b";" in body, declared)
+        except RecordError as error:
+            return cls(table, body, notes, None, None, error)
+        return cls(table, body, notes, values, drawn)
+
+    def signature(self, file: str, folder: str) -> Signature:
+        """Return what it has in common with tables for which the same answer holds; folder: in which `file` lies."""
+        page = self.table.page(folder)
+        if page.is_bare:
+            page = replace(page, ending=PurePosixPath(file).suffix.lower())
+        if self.drawn is None or self.values is None:
+            return page
+        columns = self.drawn.columns
+        width = 1 if self.drawn.is_series else self.table.width
+        numbers = self.values[len(self.drawn.above) :]
+        rows = numbers[: numbers.size - numbers.size % width].reshape(-1, width)
+        motions = [place for place, column in enumerate(columns) if column.role in ("acceleration", "open")]
+        if motions and not all(columns[place].unit for place in motions):
+            page = replace(page, peaks=f"{np.abs(rows[:, motions]).max(initial=0.0):.3g}")
+        clocks = [rows[:, place] for place, column in enumerate(columns) if column.role == "time"]
+        if page.is_bare and clocks and len(rows) > 1:
+            page = replace(page, time_step_s=f"{np.median(np.diff(clocks[0])):.4g}")
+        return page
+
+
+@lru_cache(maxsize=2)
+def _seen_of(content: bytes) -> _Seen | None:
+    """Return the table that a content is as it looks before anybody answers, None of another content."""
+    table, pointed = _table_of(content)
+    return _Seen.of(table, pointed) if table and pointed is not None else None
 
 
 def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
-    pointed = dialect.plain(content)
-    if pointed is None:
+    table, pointed = _table_of(content)
+    seen = _seen_of(content)
+    if pointed is None or table is None or seen is None:
         raise RecordError("the commas are decimal signs or part columns; write points, or semicolons.")
-    table = Table.of(pointed) or Table((), 1, 0)  # it was recognised by that
     _refuse_others(table, options.file)
 
     layouts = options.layouts or Layouts(options.folder)
-    signature = table.signature(layouts.place)
+    signature = seen.signature(options.file, layouts.place)
     answer = layouts.answer(signature)
     layout = answer.layout if answer else None
     above, start = _above(table, layout, pointed)
-    body, filled = _plain_rows(
-        text.after_lines(pointed, start), may_be_filled=not table.labels and table.width > 2
-    )
-    values = _values(body, table, layout)
+    begins_by_step = options.time_step and seen.drawn and seen.drawn.is_series and not above
+    if begins_by_step or (layout and (layout.skip or layout.above or layout.width)):
+        seen = _Seen.below(table, pointed, layout, start, options.time_step)
+    if seen.values is None or seen.drawn is None:
+        raise seen.fault or RecordError("its numbers cannot be told apart.")
+    table, body, values, drawn = seen.table, seen.body, seen.values, seen.drawn
 
-    drawn = _drawn(table, values, b"," in body or b";" in body, options.time_step)
-    question = Question(
-        signature, _holds(table, drawn, values), drawn.proposal(bool(above) or bool(options.time_step))
+    has_step = bool(above or options.time_step or table.said.time_step)
+    question = Question(signature, _holds(table, drawn, values), drawn.proposal(has_step, table.said.told))
+    notes = (
+        *seen.notes,
+        *factor_warnings((*table.remarks, *table.words, *table.tail)),
+        *_told_of_tail(table),
     )
-    notes = filled + factor_warnings((*table.remarks, *table.words))
     if answer and layout:
-        if (
-            not table.labels and layout.is_series != drawn.is_series
-        ):  # another file of its folder was answered for
+        if not table.labels and layout.is_series != drawn.is_series:
+            # Another file of its folder was answered for.
             notes += (Remark.of(Kind.UNLIKE_ITS_ANSWER, answer=answer.text, holds=question.holds),)
+        layout = _fitted(answer, layout, table, drawn)
         known = (label if label.is_known else ColumnLabel("") for label in table.labels)
         table = replace(table, labels=tuple(known))
-        layout = _fitted(answer, layout, table, drawn)
     else:
         _ask_where_open(table, drawn, options, question, body)
         layout = drawn
@@ -336,27 +432,67 @@ def _above(table: Table, layout: TableLayout | None, content: bytes) -> tuple[di
 
 
 _END = re.compile(
-    rb"(?i)(?:\n[ \t]*(?:(?:[#%$!]|//)[^\n]*|[a-z]\w*[ \t]*\$|end(?:[ \t]+of[ \t]+\w+)?|eof|[}\])]+;?)[ \t]*)+\s*\Z"
+    r"(?i)(?:[#%$!]|//).*|[a-z]\w*[ \t]*\$|[\W_]*(?:end(?:[ \t]+of)?(?:[ \t]+\w+)?|eof)[\W_]*|[}\])]+;?"
 )
-"""Remarks, or a word for the end, below the numbers."""
+"""Remarks, or a word for the end, below the numbers: of these nobody is told."""
+_NO_VALUE = re.compile(r"(?i)[\s,;]*(?:(?:nan|inf|na|null|none|n/a|#n/a)[\s,;]*)+")
+_LONGEST_TAIL = 20
+"""Lines of text that may stand below the numbers."""
+
+
+def _parted(below: bytes, width: int) -> tuple[bytes, tuple[str, ...]]:
+    """Return the rows of `width` numbers, and the lines of text that stand below the last of them.
+
+    A line of text begins with no number, and is no row of missing values: those are damage.
+    """
+    end = below[-_TAIL:]
+    lines = end.decode("latin-1").split("\n")
+    if len(below) > _TAIL:
+        del lines[0]  # cut
+    tail: list[str] = []
+    while lines and len(tail) <= _LONGEST_TAIL and not _is_row(lines[-1], width):
+        tail.insert(0, lines.pop())
+    told = [line.strip() for line in tail if line.strip()]
+    if not told or not lines or len(tail) > _LONGEST_TAIL:
+        return below, ()
+    return below[: len(below) - len("\n".join(tail))], tuple(told)
+
+
+def _is_row(line: str, width: int) -> bool:
+    """Whether a line begins as a row of numbers does, is one of missing values, or one of which a number is damaged."""
+    bare = line.strip()
+    cells = [cell for cell in _SEPARATOR.split(bare) if cell]
+    if not cells or bool(_NO_VALUE.fullmatch(bare)) or bare[0] in ',;"':
+        return bool(bare)
+    if re.match(r"[+-]?\.?\d", bare):
+        return True
+    is_like_one = len(cells) == width and 2 * sum(map(text.is_number, cells)) >= width
+    return is_like_one or (width == 1 == len(cells) and bool(re.search(r"\d", bare)))
+
+
+def _told_of_tail(table: Table) -> tuple[Remark, ...]:
+    """Return a remark on text below the numbers that is more than a word for their end."""
+    told = [line for line in table.tail if not _END.fullmatch(line)]
+    return (Remark.of(Kind.TAIL_PASSED_OVER, text=plain(" / ".join(told))[:80]),) if told else ()
 
 
 _FILLING = re.compile(rb"(?i)(?:[ \t]+nan)+\s*\Z")
 
 
-def _plain_rows(below: bytes, may_be_filled: bool) -> tuple[bytes, tuple[Remark, ...]]:
-    """Return the rows of numbers without what ends them and the empty cells behind them, and what there is to say.
+def _plain_rows(table: Table, below: bytes) -> tuple[Table, bytes, tuple[Remark, ...]]:
+    """Return a table with its tail, its rows of numbers without the empty cells behind them, and what there is to say.
 
-    may_be_filled: whether NaN may fill up the last row of a series. Raises RecordError where a cell is empty.
+    NaN may fill up the last row of a series. Raises RecordError where a cell is empty.
     """
-    body = below[:-_TAIL] + _END.sub(b"\n", below[-_TAIL:])
+    body, tail = _parted(below, table.width)
+    may_be_filled = not table.labels and table.width > 2
     bare = body[:-_TAIL] + _FILLING.sub(b"\n", body[-_TAIL:]) if may_be_filled else body
     notes = (Remark(Kind.ROW_FILLED_UP),) if bare != body else ()
     if _EMPTY_LAST.search(bare):
         bare = _EMPTY_END.sub(b"", bare)
     if _EMPTY_CELL.search(bare):
         raise RecordError("a cell is empty; every column needs a number on every line.")
-    return bare, notes
+    return replace(table, tail=tail), bare, notes
 
 
 def _drawn(table: Table, values: np.ndarray, is_parted: bool, declared: float | None) -> TableLayout:
@@ -379,9 +515,11 @@ def _drawn(table: Table, values: np.ndarray, is_parted: bool, declared: float | 
         if label.text == "T" and sum(times) > 1 and not _is_clock(rows[1:, place]):
             columns[place] = Column("acceleration", unit=said.unit)  # transverse
         if _LETTER.fullmatch(label.text) and any(each.is_plain_acceleration for each in labels):
-            columns[place] = Column("open")  # v and u beside "a" are of velocity and displacement
+            columns[place] = Column(
+                "open", unit=said.unit
+            )  # v and u beside "a" are of velocity and displacement
     if not table.labels and {column.role for column in columns} <= {"time", "other"}:
-        columns[1:] = [Column("open")] * (width - 1)  # a motion that rises evenly
+        columns[1:] = [Column("open", unit=said.unit)] * (width - 1)  # a motion that rises evenly
     return TableLayout(tuple(columns), time_step=said.time_step)
 
 
@@ -394,7 +532,7 @@ def _column(label: ColumnLabel, numbers: np.ndarray, said: Declarations) -> Colu
         return Column("other" if is_count else "time")
     if label.unit or label.is_direction or label.is_plain_acceleration:
         return Column("acceleration", unit=label.unit or said.unit)
-    return Column("open")
+    return Column("open", unit=said.unit)
 
 
 _LETTER = re.compile(r"(?i)[vdux]")
@@ -435,6 +573,8 @@ def _holds(table: Table, drawn: TableLayout, values: np.ndarray) -> str:
     """Return what a table holds as far as it can be seen, for a person who knows the rest."""
     rows = values.size // table.width
     size = f"{rows:,} rows".replace(",", " ")
+    if told := [line for line in table.tail if not _END.fullmatch(line)]:
+        size += f"; below them {plain(' / '.join(told))[:60]!r}"
     if drawn.is_series:
         return f"one series in {drawn.columns[0].unit or '?'}, {table.width} a line; {size}"
     told = []
@@ -445,7 +585,7 @@ def _holds(table: Table, drawn: TableLayout, values: np.ndarray) -> str:
         kinds = {
             "time": f"times of {step:.4g} s",
             "other": "no acceleration",
-            "open": "?",
+            "open": f"? in {column.unit}" if column.unit else "?",
         }
         what = kinds.get(column.role, f"acceleration in {column.unit or '?'}")
         told.append(f"column {place + 1}{name}: {what}")
@@ -482,18 +622,42 @@ _ANSWER_IT = "answer it once in layouts.csv, of which rocking catalogue writes t
 
 
 def _fitted(answer: Answer, layout: TableLayout, table: Table, drawn: TableLayout) -> TableLayout:
-    """Return the layout of an answer for one table. Raises RecordError where the two contradict each other."""
+    """Return the layout of an answer for one table. Raises RecordError where it contradicts the page or the numbers."""
     a_line = layout.per_line or (table.width if layout.is_series else len(layout.columns))
     if a_line != table.width and not layout.width:
         raise answer.wrong(f"it has {a_line} numbers a line, but this file has {table.width}.")
-    if len(drawn.columns) == len(layout.columns):
-        for place, (ours, theirs) in enumerate(zip(layout.columns, drawn.columns, strict=True), 1):
-            both = {acceleration_factor(unit) for unit in (ours.unit, theirs.unit) if unit}
-            if len(both) > 1:
-                raise answer.wrong(f"column {place} of this file is in {theirs.unit!r} by its own words.")
+    said = table.said
+    labels = (
+        table.labels if len(table.labels) == len(layout.columns) else (ColumnLabel(""),) * len(layout.columns)
+    )
+    of_numbers = drawn.columns if len(drawn.columns) == len(layout.columns) else layout.columns
+    for place, (column, label, theirs) in enumerate(zip(layout.columns, labels, of_numbers, strict=True), 1):
+        if column.role != "acceleration":
+            continue
+        if theirs.role == "time" and not layout.is_series:
+            raise answer.wrong(f"column {place} of this file holds times.")
+        if label.other:
+            raise answer.wrong(f"column {place} of this file is {label.other} by its name, {label.text!r}.")
+        unit = label.unit or said.unit
+        if unit and column.unit and acceleration_factor(unit) != acceleration_factor(column.unit):
+            raise answer.wrong(f"column {place} of this file is in {unit!r} by its own words.")
+        component = label.component if label.is_direction else said.component if len(labels) < 3 else ""
+        if _point_apart(component, column.name):
+            raise answer.wrong(f"column {place} of this file is {component!r} by its own words.")
+    if layout.time_step and contradicts(said.told, layout.time_step):
+        steps = " or ".join(f"{step:.6g}" for step in said.told)
+        raise answer.wrong(f"the time step of this file is {steps} s by its own words.")
     if not layout.is_series and layout.per_line == len(layout.columns):
         return replace(layout, per_line=0)
     return layout
+
+
+def _point_apart(first: str, second: str) -> bool:
+    """Whether two names of one component say where it points, and do not say the same."""
+    one, other = Direction.of(first), Direction.of(second)
+    if not (one.is_known and other.is_known):
+        return False
+    return (one.azimuth, one.vertical) != (other.azimuth, other.vertical)
 
 
 def _series(
@@ -668,7 +832,7 @@ COLUMNS = Format(
     "columns of numbers",
     "spreadsheets, OpenSees and scripts",
     "lines that hold numbers only, below names that leave nothing open",
-    lambda content: signature_of(content, "") is not None,
+    is_table,
     _read_columns,
     yields=True,
 )

@@ -13,7 +13,9 @@ from rocking.remarks import Kind, Remark
 _NUMERIC = b"0123456789+-.eE \t\n\r"
 _LARGEST = 1e100
 """The largest plausible number; a larger one (or, in a header, one below its inverse) is damage, and would overflow."""
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+"""A plain finite decimal number, in heads and in rows alike."""
+_NUMBER = re.compile(NUMBER)
 
 
 def lines(content: bytes, limit: int | None = None) -> list[str]:

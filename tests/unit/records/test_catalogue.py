@@ -361,7 +361,10 @@ def test_the_table_of_a_folder_never_wraps_and_refusals_stand_below_it(folder: P
         lines = table.splitlines()
         assert len(lines) == 1 + 3 + 1 + 3 and max(map(len, lines)) <= width and "0.00408" in table
         assert "tale.txt" not in table and refused.startswith("Not read:\n  tale.txt: no reader recognises")
-        assert fill == "Answer once, in layouts.csv:\n  bare.txt: one series in ?, 1 a line; 300 rows"
+        assert (
+            fill
+            == "Answer once, in layouts.csv:\n  bare.txt: one series in ?, 1 a line; 300 rows; 1 file with peaks 0.3"
+        )
         assert doubts.startswith("To know:\n  table.csv: Its content is that of a_name")
 
 

@@ -145,7 +145,8 @@ def test_miniseed_cut_within_a_record_is_refused() -> None:
 def test_miniseed_blocks_that_come_twice_are_told() -> None:
     """The last blocks overwritten by earlier ones: the record is shorter, without a gap."""
     content = by_obspy("MSEED", COUNTS, reclen=512, encoding="STEIM2")
-    assert not read_content(content, "made", IN_MM)[0].warnings
+    whole = read_content(content, "made", IN_MM)[0].warnings
+    assert {each.kind for each in whole} <= {Kind.VELOCITY_RARE}  # of a tone that is made to be loud
     blocks = [content[i : i + 512] for i in range(0, len(content), 512)]
     (record,) = read_content(b"".join(blocks[:-3] + blocks[:3]), "made", IN_MM)
     assert record.acceleration.size < 4000

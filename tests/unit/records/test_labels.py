@@ -17,7 +17,7 @@ from tests.unit.records.test_layouts import answered
 TIMES = np.arange(600) * 0.01
 WAVES = [
     np.sin(4 * TIMES + phase) * np.exp(-((TIMES - 3) ** 2)) * size
-    for phase, size in ((0, 2), (1, 1.5), (2, 0.7))
+    for phase, size in ((0, 0.8), (1, 0.6), (2, 0.28))
 ]
 FIRST = WAVES[0]
 VELOCITY = np.concatenate([[0], np.cumsum((FIRST[1:] + FIRST[:-1]) / 2)]) * 0.01

@@ -259,8 +259,11 @@ def test_many_files_of_two_layouts_cost_two_answers(tmp_path: Path) -> None:
         ("one/S000_N.txt", "one"),
         ("two/000town.csv", ""),
     ]
-    assert rows[0]["holds"] == "one series in ?, 1 a line; 600 rows; 8 files"
-    assert rows[1]["holds"] == "column 1 (Time): times of 0.01 s; column 2 (Q1): ?; 600 rows; 8 files"
+    assert rows[0]["holds"] == "one series in ?, 1 a line; 600 rows; 8 files with peaks 0.114"
+    assert (
+        rows[1]["holds"]
+        == "column 1 (Time): times of 0.01 s; column 2 (Q1): ?; 600 rows; 8 files with peaks 112"
+    )
     assert [row["answer"] for row in rows] == ["one series ?, dt ?", "t, ?"]
     answers = {"one/S000_N.txt": "one series g, dt 0.01", "two/000town.csv": "t, a gal"}
     assert answer_all(tmp_path, answers) == 2
@@ -305,7 +308,7 @@ def test_a_signature_is_not_asked_again_and_another_folder_of_bare_columns_is(tm
     answer_all(tmp_path, {"one/S000_N.txt": "one series g, dt 0.01", "two/000town.csv": "t, a gal"})
     (tmp_path / "three").mkdir()
     (tmp_path / "three" / "x.txt").write_text(table(MOTION))
-    (tmp_path / "three" / "y.csv").write_text("Station 9\nTime,Q1\n" + table(TIMES, MOTION, parted=","))
+    (tmp_path / "three" / "y.csv").write_text("Station 9\nTime,Q1\n" + table(TIMES, 99 * MOTION, parted=","))
     write_catalogue(tmp_path, target, None, None)
     rows = list(csv.DictReader((tmp_path / NAME).read_text(encoding="utf-8").splitlines()))
     assert [row["file"] for row in rows if "?" in row["answer"]] == ["three/x.txt"]
