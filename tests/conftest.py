@@ -162,9 +162,11 @@ def browser(chromium):
 @pytest.fixture
 def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Documents without figures, for a test that asks what they say: to draw takes most of its time."""
-    nothing = {"svg": '<svg xmlns="http://www.w3.org/2000/svg" width="1" height="1"/>', "alt": "none"}
+    from rocking.reports.pages import Picture
+
+    nothing = Picture('<svg xmlns="http://www.w3.org/2000/svg" width="1" height="1"/>', "none")
     for module in ("record", "summary"):
-        monkeypatch.setattr(f"rocking.reports.{module}.pictures", lambda *_: [])
+        monkeypatch.setattr(f"rocking.reports.{module}.pictures", lambda *_: ())
     monkeypatch.setattr("rocking.reports.record.drawn_by_hand", lambda *_: nothing)
     for figure in ("bars_figure", "basis_figure"):
         monkeypatch.setattr(f"rocking.reports.structures.{figure}", lambda *_: None)

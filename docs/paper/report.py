@@ -14,8 +14,9 @@ from docs.paper.figures import arch_response, panels, pulse_map
 from docs.paper.response import example_arch, response_curves
 from rocking.records.accelerogram import Accelerogram
 from rocking.reports import printing
+from rocking.reports.pages import Page, Picture, Table
 from rocking.reports.printing import compile_document
-from rocking.reports.style import plain_logarithmic, svg
+from rocking.reports.style import picture, plain_logarithmic
 from rocking.sine_pulse import pulse_spectrum
 from rocking.structures.mechanism import Scale, Side
 from rocking.tables import Row, column, row
@@ -74,15 +75,32 @@ def equivalence_figures() -> list[PaperFigure]:
 
 def paper_report(figures: Sequence[PaperFigure], equations: Sequence[EquationRow]) -> bytes:
     """Return one PDF with `figures` and the table of equations."""
-    data = {
-        "title": "Towards a unified description of rocking structures: figures and equations recomputed",
-        "figures": [{"svg": svg(f.figure), "caption": f.caption, "name": f.name} for f in figures],
-        "equations": equation_table(equations),
-    }
-    return compile_document(Path(__file__).with_name("paper.typ"), data)
+    page = PaperPage(
+        title="Towards a unified description of rocking structures: figures and equations recomputed",
+        figures=tuple(DrawnFigure(picture(f.figure, f.caption), f.caption, f.name) for f in figures),
+        equations=equation_table(equations),
+    )
+    return compile_document(page, Path(__file__).with_name("paper.typ"))
 
 
-def equation_table(rows: Sequence[EquationRow]) -> dict[str, object]:
+@dataclass(frozen=True)
+class DrawnFigure:
+    """A figure of the paper, its caption, and the name of its table."""
+
+    picture: Picture
+    caption: str
+    name: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class PaperPage(Page):
+    """What paper.typ is given."""
+
+    figures: tuple[DrawnFigure, ...]
+    equations: Table
+
+
+def equation_table(rows: Sequence[EquationRow]) -> Table:
     """Return the equations as the template sets them."""
     columns = [
         ("Eq.", "0.45", "l"), ("Printed", "1.2", "l"), ("Corrected", "1.3", "l"), ("What decides", "1.8", "l"),

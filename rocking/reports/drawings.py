@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rocking.records.measures import record_measures
+from rocking.reports.pages import Picture
 from rocking.structures import Structure
 from rocking.structures.drawing import Mark
 
@@ -57,10 +58,10 @@ _BESIDE_SHAKING = 0.15
 # By hand --------------------------------------------------------------------------------------------------
 
 
-def drawn_by_hand(shapes: Sequence[str], width: float, height: float, alt: str) -> dict[str, str]:
+def drawn_by_hand(shapes: Sequence[str], width: float, height: float, alt: str) -> Picture:
     """Return a picture of shapes of SVG in mm, as the templates take it."""
     head = f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:g}mm" height="{height:g}mm"'
-    return {"svg": f'{head} viewBox="0 0 {width:g} {height:g}">{"".join(shapes)}</svg>', "alt": alt}
+    return Picture(f'{head} viewBox="0 0 {width:g} {height:g}">{"".join(shapes)}</svg>', alt)
 
 
 def svg_path(points: np.ndarray, height: float, look: str, closed: bool = False) -> str:

@@ -26,6 +26,7 @@ from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.processing import displacement
 from rocking.reports.drawings import fallen_rotation
+from rocking.reports.pages import Strip
 from rocking.reports.panels import moving_span, rotation_ratios
 from rocking.reports.printing import LOOKS, band_text, cell_text, ratio
 from rocking.reports.record import warnings_of
@@ -94,7 +95,7 @@ def explore_page(
     structures: Mapping[str, Structure],
     title: str = "",
     checked: "Sequence[CodeConclusion]" = (),
-    strips: Sequence[Mapping[str, Any]] = (),
+    strips: Sequence[Strip] = (),
 ) -> bytes:
     """Return the page as UTF-8 HTML that loads nothing; it stands beside the folders of the records.
 

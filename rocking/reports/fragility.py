@@ -21,6 +21,7 @@ from rocking.fragility.rows import (
     IntensityMeasureRow,
 )
 from rocking.quantities import counted
+from rocking.reports.pages import CaptionedTable, Part, PlainPage
 from rocking.reports.panels import Curve, draw_probability
 from rocking.reports.printing import (
     Column,
@@ -88,8 +89,8 @@ def write_fragility_report(
     summary = by_place(FragilitySummaryRow, rows)
     measures = frame(IntensityMeasureRow, by_place(IntensityMeasureRow, rows))
     write_whole(image, svg(fragility_figure(curves)).encode())
-    data = fragility_data(curves, summary, ida_frame(rows), measures, faults_in_words(rows))
-    write_document(pdf, "plain.typ", data, figures)
+    page = fragility_data(curves, summary, ida_frame(rows), measures, faults_in_words(rows))
+    write_document(pdf, page, figures)
 
 
 def fragility_data(
@@ -98,8 +99,8 @@ def fragility_data(
     ida: "DataFrame",
     measures: "DataFrame",
     faults: Sequence[str] = (),
-) -> dict[str, object]:
-    """Return what the template is given. The tables are fragility, fragility_summary, ida and intensity_measures."""
+) -> PlainPage:
+    """Return the page. The tables are fragility, fragility_summary, ida and intensity_measures."""
     stations = max((row.stations for row in summary), default=0)
     scaled = (
         "Each record of the study is scaled up until the structure overturns; a level counts by its stations."
@@ -109,26 +110,27 @@ def fragility_data(
         "Share of the stations that overturn each structure with the crack that governs, the worst of those that may "
         "form, and that exceed a rotation (overturns, or a share of the critical rotation φcr) with that of statics."
     )
-    parts = [{"text": scaled + few * (stations < FEW_STATIONS)}, fragility_table(summary, ida)]
+    parts = [Part(text=scaled + few * (stations < FEW_STATIONS)), _part(fragility_table(summary, ida))]
     if faults:
-        parts.append({"list": list(faults)})
+        parts.append(Part(sentences=tuple(faults)))
     if len(measures):
-        parts.append(scatter_table(measures))
+        parts.append(_part(scatter_table(measures)))
     names = list(dict.fromkeys(curves["structure"]))
     for first in range(0, len(names), ON_A_PAGE):
         page = names[first : first + ON_A_PAGE]
         figure = fragility_figure(curves[curves["structure"].isin(page)])
         alt = f"Fragility curves of {counted(len(page), 'structure')} with 90 % intervals."
-        parts.append(picture(figure, alt) | {"caption": of_curves})
+        parts.append(Part(pictures=(picture(figure, alt),), caption=of_curves))
     records = f"{counted(ida['record'].nunique(), 'record')} of {counted(stations, 'station')}"
-    return {
-        "title": "Fragility",
-        "subtitle": f"{records}; {counted(len(names), 'structure')}.",
-        "parts": parts,
-    }
+    subtitle = f"{records}; {counted(len(names), 'structure')}."
+    return PlainPage(title="Fragility", subtitle=subtitle, parts=tuple(parts))
 
 
-def fragility_table(summary: Sequence[FragilitySummaryRow], ida: "DataFrame") -> dict[str, object]:
+def _part(captioned: CaptionedTable) -> Part:
+    return Part(table=captioned.table, caption=captioned.caption)
+
+
+def fragility_table(summary: Sequence[FragilitySummaryRow], ida: "DataFrame") -> CaptionedTable:
     """Return one row per structure: its median, that with the worst crack, and what overturns it first."""
     falls = [row for row in summary if row.threshold == math.inf]
     first_rows: dict[str, FragilitySummaryRow] = {}
@@ -161,10 +163,10 @@ def fragility_table(summary: Sequence[FragilitySummaryRow], ida: "DataFrame") ->
         "records under which it overturns first, with the level of each: they govern the lower end of its curve; and "
         f"how many records, scaled up, let it stand again.{_scaled(list(first_rows.values()))}"
     )
-    return table | {"caption": caption}
+    return CaptionedTable(table, caption)
 
 
-def scatter_table(measures: "DataFrame") -> dict[str, object]:
+def scatter_table(measures: "DataFrame") -> CaptionedTable:
     """Return one row per structure: by how much the level that overturns scatters in each intensity measure."""
     # A measure has a row for each figure beside it, but one scatter.
     once = measures.drop_duplicates(["structure", "intensity_measure"]).sort_values(
@@ -194,7 +196,7 @@ def scatter_table(measures: "DataFrame") -> dict[str, object]:
         "root), and the stations that a 90 % interval of ± 20 % about the median needs, in the measure that scatters "
         f"least and in {_FIRST}. A measure chosen for its scatter under these records scatters more under others."
     )
-    return table | {"caption": caption}
+    return CaptionedTable(table, caption)
 
 
 def _scaled(rows: Sequence[FragilitySummaryRow]) -> str:

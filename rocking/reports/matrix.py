@@ -2,12 +2,14 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 from rocking.assessment.conclusion import UNSAID, Conclusion, worst_of_each
 from rocking.assessment.decide import ORDER, Verdict, worst_first
 from rocking.assessment.rows import PulseRow, RecordRow
 from rocking.quantities import GRAVITY, percents
 from rocking.remarks import Kind
+from rocking.reports.pages import Chip, Matrix, MatrixHead, MatrixRow
 from rocking.reports.printing import NOTHING, chip, number
 
 MOST_RECORDS = 12
@@ -24,9 +26,7 @@ _UNSAID = (Kind.STRENGTHEN, *UNSAID)
 """Remarks that the word itself says."""
 
 
-def matrix(
-    made: Sequence[Conclusion], records: Sequence[RecordRow], pulses: Sequence[PulseRow]
-) -> dict[str, object]:
+def matrix(made: Sequence[Conclusion], records: Sequence[RecordRow], pulses: Sequence[PulseRow]) -> Matrix:
     """Return heads and rows: a column for each record, a row for each structure, both the worst first.
 
     Without rows where there are more records than stand beside each other. made: the conclusions on all. The legend is
@@ -38,28 +38,27 @@ def matrix(
     worst = {each.verdict.structure: each for each in worst_of_each(made)}
     names = sorted(shares, key=lambda name: worst[name].verdict.decision.word.badness, reverse=True)
     if not 0 < len(columns) <= MOST_RECORDS:
-        return {"heads": [], "rows": [], "legend": [], "left-out": 0}
+        return Matrix()
     shown = names[:MOST_STRUCTURES]
     has_room = len(columns) <= MOST_WITH_ALL
     in_words = len(columns) <= MOST_IN_WORDS
     present = {by_pair[pair].verdict.decision.word for pair in by_pair if pair[1] in shown}
-    return {
-        "legend": [] if in_words else [chip(word) for word in ORDER if word in present],
-        "upright": not has_room,
-        "heads": [
-            {"name": name, "below": _head(name, records, pulses, in_words) if has_room else ""}
-            for name in columns
-        ],
-        "rows": [
-            {
-                "name": name,
-                "cells": [_cell(by_pair.get((record, name)), len(columns)) for record in columns],
-                "remark": _remark(worst[name]) if has_room else "",
-            }
+    return Matrix(
+        legend=() if in_words else tuple(chip(word) for word in ORDER if word in present),
+        upright=not has_room,
+        heads=tuple(
+            MatrixHead(name, _head(name, records, pulses, in_words) if has_room else "") for name in columns
+        ),
+        rows=tuple(
+            MatrixRow(
+                name,
+                tuple(_cell(by_pair.get((record, name)), len(columns)) for record in columns),
+                _remark(worst[name]) if has_room else "",
+            )
             for name in shown
-        ],
-        "left-out": max(0, len(names) - MOST_STRUCTURES),
-    }
+        ),
+        left_out=max(0, len(names) - MOST_STRUCTURES),
+    )
 
 
 def _head(record: str, records: Sequence[RecordRow], pulses: Sequence[PulseRow], in_words: bool) -> str:
@@ -72,9 +71,9 @@ def _head(record: str, records: Sequence[RecordRow], pulses: Sequence[PulseRow],
     return text
 
 
-def _cell(conclusion: Conclusion | None, records: int) -> dict[str, object]:
+def _cell(conclusion: Conclusion | None, records: int) -> Chip:
     if conclusion is None:
-        return {"word": "", "share": "", "fill": "#ffffff", "ink": "#000000", "hatched": False}
+        return Chip("", "", "#ffffff", "#000000", False)
     decision = conclusion.verdict.decision
     untold = decision.word is Verdict.CANNOT_BE_TOLD
     if records > MOST_IN_WORDS:
@@ -83,7 +82,7 @@ def _cell(conclusion: Conclusion | None, records: int) -> dict[str, object]:
             share = ""
         elif not share and records <= MOST_WITH_ALL:
             share = "?" if untold else NOTHING
-        return chip(decision.word, share) | {"word": ""}
+        return replace(chip(decision.word, share), word="")
     return chip(decision.word, "" if untold else decision.share_in_words)
 
 

@@ -24,14 +24,28 @@ from rocking.assessment.methods import NEGLIGIBLE, Method, rests
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import FailureRow
 from rocking.quantities import GRAVITY, counted
+from rocking.reports.pages import (
+    Cell,
+    Chip,
+    Fact,
+    Footer,
+    Page,
+    PageSettings,
+    PlainPage,
+    RecordPage,
+    StructuresPage,
+    SummaryPage,
+    Table,
+    TableCell,
+    as_data,
+    pictures_in,
+)
 from rocking.reports.style import COMMON, FONT_FOLDER, glyphs
 from rocking.tables import Row, rows_of, write_whole
 
 if TYPE_CHECKING:
     from rocking.assessment.decide import Decision
 
-Cell = str | dict[str, object]
-"""A text; or a text that is strong, with another below it (layout.typ)."""
 Column = tuple[str, str, str, Callable[[Any], Cell]]
 """Heading, width (fractions of what is left, or "auto"), alignment, and what it shows of a row."""
 
@@ -78,19 +92,6 @@ class Banded(Protocol):
     @property
     def rotation_ratio_high(self) -> float:
         """95 % quantile of the rotation ratio of the members."""
-
-
-@dataclass(frozen=True)
-class Notice:
-    """A sentence that stands above everything; strong: it warns, and is set so."""
-
-    text: str
-    strong: bool = True
-
-    @property
-    def data(self) -> dict[str, object]:
-        """The values that a template receives."""
-        return {"strong": self.strong, "text": self.text}
 
 
 def faults_in_words(tables: Mapping[type[Row], Iterable[Row]]) -> list[str]:
@@ -145,11 +146,11 @@ def to_spread(value: float, result: Banded) -> str:
     return number(value, min(max(digits, 1), 3))
 
 
-def chip(verdict: Verdict, share: str = "", text: str = "") -> dict[str, object]:
+def chip(verdict: Verdict, share: str = "", text: str = "") -> Chip:
     """Return a verdict on its colour with a share beside it, as the templates set it. text: in another language."""
     _, fill, ink, hatch = LOOKS[verdict]
     word = f"{'? ' * bool(hatch)}{text or verdict}"
-    return {"word": word, "share": share, "fill": fill, "ink": ink, "hatched": bool(hatch)}
+    return Chip(word, share, fill, ink, bool(hatch))
 
 
 def cell_text(decision: "Decision | None") -> str:
@@ -175,14 +176,14 @@ def reserve_in_figures(reserve: Reserve | None) -> str:
     return low if low == median else f"{low}–{median}"
 
 
-def settings_texts(settings: Mapping[str, Any]) -> dict[str, object]:
-    """Return what both reports print of the settings: who, what and when; tolerance and acceleration scale."""
-    return {
-        "about": dict(settings.get("about", {})),
-        "units": _UNITS_IN_WORDS[_DISPLAYED.get()],
-        "tolerance": plain(float(settings["tolerance"])),
-        "acceleration-scale": str(settings["acceleration_scale"]),
-    }
+def facts_of(settings: PageSettings) -> tuple[Fact, ...]:
+    """Return what the settings say of the study: who, what and when."""
+    return tuple(Fact(label, text) for label, text in settings.about.items())
+
+
+def footer_of(settings: PageSettings) -> Footer:
+    """Return the foot of each page of a document in English."""
+    return Footer(units=_UNITS_IN_WORDS[settings.display_units])
 
 
 def remainder(more: int, noun: str, place: str) -> str:
@@ -200,18 +201,18 @@ def sentence(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
-def strong(text: str, really: bool = True) -> dict[str, object]:
+def strong(text: str, really: bool = True) -> TableCell:
     """Return a table cell whose text is set in bold, where it is `really` meant to be."""
-    return {"text": text, "strong": really}
+    return TableCell(text, really)
 
 
-def table(columns: Sequence[tuple[str, str, str]], rows: Iterable[Sequence[Cell]]) -> dict[str, object]:
+def table(columns: Sequence[tuple[str, str, str]], rows: Iterable[Sequence[Cell]]) -> Table:
     """Return a table as the templates set it; a column is (heading, width, alignment)."""
     heads, widths, alignments = zip(*columns, strict=True)
-    return {"heads": heads, "widths": widths, "alignments": alignments, "rows": [list(row) for row in rows]}
+    return Table(heads, widths, alignments, tuple(map(tuple, rows)))
 
 
-def table_of(rows: Iterable[Any], *columns: Column) -> dict[str, object]:
+def table_of(rows: Iterable[Any], *columns: Column) -> Table:
     """Return a table with a line for each row."""
     return table([column[:3] for column in columns], [[show(row) for *_, show in columns] for row in rows])
 
@@ -291,9 +292,9 @@ def unit_of(si: str) -> Unit:
 
 
 @contextmanager
-def displaying(settings: Mapping[str, Any]) -> Iterator[None]:
-    """Show in the units that "display_units" of the settings of a study names; without it, in SI units."""
-    token = _DISPLAYED.set(settings.get("display_units", SI))
+def displaying(settings: PageSettings) -> Iterator[None]:
+    """Show in the units that the settings of a study name."""
+    token = _DISPLAYED.set(settings.display_units)
     try:
         yield
     finally:
@@ -314,20 +315,29 @@ with (_FOLDER / "measured.csv").open(encoding="utf-8", newline="") as _stream:
 """The figures that campaigns measured and that reports print, of measured.csv, by name."""
 
 
-def compile_document(template: str | Path, data: Mapping[str, object]) -> bytes:
-    """Set `template` with `data` and return the PDF. template: a .typ file of this folder, by its name; or a path
-    anywhere else, whose content then stands as if it were in this folder.
+TEMPLATES: dict[type[Page], str] = {
+    PlainPage: "plain.typ",
+    RecordPage: "record.typ",
+    SummaryPage: "summary.typ",
+    StructuresPage: "structures.typ",
+}
+"""The template of each document of this package, in this folder."""
 
-    Every text in `data` is printed as it is: it reaches the template as JSON and is never parsed as markup. The date
+
+def compile_document(page: Page, template: Path | None = None) -> bytes:
+    """Set a page and return the PDF. template: of a page that is no document of this package; its content then stands
+    as if it were in this folder.
+
+    Every text of the page is printed as it is: it reaches the template as JSON and is never parsed as markup. The date
     of the document is fixed, because PDF/A asks for one and the same input must give the same bytes.
     """
-    text = json.dumps(data, ensure_ascii=False)
+    text = json.dumps(as_data(page), ensure_ascii=False)
     rare = set(map(ord, text)) - COMMON
     foreign = bool(rare) and not glyphs().issuperset(rare)
     carried = document_fonts(False).families()
     families = [each for each in document_fonts(foreign).families() if each not in carried]
     return typst.compile(  # type: ignore[call-overload,no-any-return]  # its stub wants input and root of one type
-        template.read_bytes() if isinstance(template, Path) else _FOLDER / template,
+        template.read_bytes() if template else _FOLDER / TEMPLATES[type(page)],
         root=_FOLDER,
         font_paths=document_fonts(foreign),
         ignore_system_fonts=True,
@@ -354,46 +364,34 @@ _LONGEST_NAME = 60
 """Letters of the name of a file behind its number."""
 
 
-def write_document(pdf: Path, template: str, data: Mapping[str, object], kinds: Figures) -> list[Path]:
-    """Write the document that `template` makes of `data` and, where asked for, its figures; return the files.
+def write_document(pdf: Path, page: Page, kinds: Figures) -> list[Path]:
+    """Write the document of a page and, where asked for, its figures; return the files.
 
     The figures of summary.pdf stand beside it in summary_figures.zip.
     """
-    write_whole(pdf, compile_document(template, data))
+    write_whole(pdf, compile_document(page))
     if kinds == "none":
         return [pdf]
     archive = pdf.with_name(f"{pdf.stem}_figures.zip")
-    write_whole(archive, figures_archive(data, kinds))
+    write_whole(archive, figures_archive(page, kinds))
     return [pdf, archive]
 
 
-def figures_archive(data: object, kinds: Figures) -> bytes:
-    """Return the figures in what a template is given as a ZIP archive, in the order of the report.
+def figures_archive(page: Page, kinds: Figures) -> bytes:
+    """Return the figures of a page as a ZIP archive, in the order of the report.
 
     Each is named by its number and what it shows: "03_scatter-of-the-rotation-ratio.svg".
     """
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
-        for number, figure in enumerate(_figures(data), start=1):
-            words = "-".join(re.findall(r"\w+", figure["alt"].lower()))[:_LONGEST_NAME].strip("-")
+        for number, figure in enumerate(pictures_in(page), start=1):
+            words = "-".join(re.findall(r"\w+", figure.alt.lower()))[:_LONGEST_NAME].strip("-")
             name = f"{number:02d}_{words}"
             if "svg" in kinds:
-                archive.writestr(zipfile.ZipInfo(f"{name}.svg", _MADE), figure["svg"])
+                archive.writestr(zipfile.ZipInfo(f"{name}.svg", _MADE), figure.svg)
             if "png" in kinds:
-                archive.writestr(zipfile.ZipInfo(f"{name}.png", _MADE), _png(figure["svg"]))
+                archive.writestr(zipfile.ZipInfo(f"{name}.png", _MADE), _png(figure.svg))
     return content.getvalue()
-
-
-def _figures(data: Any) -> Iterator[dict[str, str]]:
-    """Every picture within the data, as `picture` gives it."""
-    if isinstance(data, dict):
-        if "svg" in data and "alt" in data:
-            yield data
-        for each in data.values():
-            yield from _figures(each)
-    elif isinstance(data, list | tuple):
-        for each in data:
-            yield from _figures(each)
 
 
 def _png(svg: str) -> bytes:

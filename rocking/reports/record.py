@@ -2,10 +2,11 @@
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -25,6 +26,7 @@ from rocking.assessment.rows import (
     structure_rows,
 )
 from rocking.assessment.scene import variants_of
+from rocking.errors import FaultError, one_structure
 from rocking.quantities import GRAVITY, counted, listed, percent, percents
 from rocking.records.formats.text import day_of
 from rocking.remarks import Kind, Remark
@@ -32,15 +34,36 @@ from rocking.reports import printing
 from rocking.reports import record_figures as figures
 from rocking.reports.design_figure import design_figure
 from rocking.reports.drawings import Trace, drawn_by_hand, sketch, svg_path, thinned
+from rocking.reports.pages import (
+    Assumed,
+    Details,
+    Marks,
+    Notice,
+    Others,
+    PageOne,
+    PageSettings,
+    Part,
+    Peak,
+    Picture,
+    PlainPage,
+    RecordPage,
+    Row,
+    Sine,
+    Strip,
+    Table,
+    TableCell,
+    Topic,
+)
 from rocking.reports.panels import rotation_ratios
 from rocking.reports.printing import (
     MEASURED,
     Column,
-    Notice,
     chip,
     columns_of,
     compile_document,
     displaying,
+    facts_of,
+    footer_of,
     number,
     plain,
     remainder,
@@ -96,64 +119,52 @@ class RecordReport:
     """The report of one record, and what several of its pages ask for.
 
     Every number of a table is a cell of `tables`, the rows of `result`, or of the structures table, rounded.
-    structures: by name. settings: at least tolerance and acceleration_scale; below "about" what is told of the study,
-    where it is given. level: the design level; None where the study has none.
+    structures: by name. level: the design level; None where the study has none.
     """
 
     result: RecordResult
     tables: RecordRows
     structures: Mapping[str, Structure]
-    settings: Mapping[str, Any]
+    settings: PageSettings
     level: "DesignSpectrum | None" = None
 
     def pdf(self) -> bytes:
         """Return the document."""
-        return compile_document("record.typ", self.data())
+        return compile_document(self.page())
 
-    def data(self) -> dict[str, object]:
-        """Return what the template is given: texts, tables and figures."""
+    def page(self) -> RecordPage:
+        """Return the pages: texts, tables and figures."""
         groups = variants_of({name: each.scene for name, each in self.result.scenes.items()})
-        strips: list[dict[str, Any]] = []
-        record = self.tables.record
-        factors = _unique(plain(row.scale_factor) for row in record if row.scale_factor != 1)
+        strips: list[Strip] = []
+        factors = _unique(plain(row.scale_factor) for row in self.tables.record if row.scale_factor != 1)
         scale_note = f" Accelerations ×\u00a0{factors}, declared." if factors else ""
-        motion = self.motion
-        dominant = self.dominant(motion.accelerogram.component) if motion else None
         with displaying(self.settings):
             if groups:
                 from rocking.codes.variants import variants  # which a study without variants has no need of
                 from rocking.reports.variants import strips as strips_of
 
                 strips = strips_of(variants(groups, self.conclusions), self.structures)
-            return {
-                **_head(self),
-                "running": f"{self.result.record}.{scale_note}" if scale_note else self.result.record,
-                "scale-note": scale_note,
-                **printing.settings_texts(self.settings),
-                "notices": [notice.data for notice in _notices(self)],
-                **page_one(self.conclusions, self.structures, motion, dominant),
-                "left-out": "; ".join(
-                    replace(each, about=listed(names, 1)).brief
-                    for each, names in self.left_out.items()
-                    if each.kind in TOLD_FIRST
+            title, subtitle = _title(self)
+            return RecordPage(
+                title=title,
+                about=facts_of(self.settings),
+                footer=footer_of(self.settings),
+                subtitle=subtitle,
+                running=f"{self.result.record}.{scale_note}" if scale_note else self.result.record,
+                conclusion=conclusion_in_words(
+                    {each.verdict.structure: each.verdict.decision.word for each in self.conclusions}
                 ),
-                "strips": strips,
-                "advice": _advice(self),
-                "components": _components(self),
-                "known": _known(self),
-                # What was assumed, and files and versions; the time of the run is left out.
-                "friction": plain(self.settings.get("friction_coefficient")),
-                "vertical": _unique(row.vertical_component for row in record),
-                "arch": any(each.hinges_migrate for each in self.structures.values()),
-                "tapering": any(each.tapers for each in self.structures.values()),
-                "times": _unique(row.start_time for row in record),
-                "files": _unique(f"{words(row.file)}, SHA-256 {row.record_sha256}" for row in record),
-                "settings": _unique(f"{row.settings_sha256[:16]}…" for row in record),
-                "version": version("rocking"),
-                "supported": bool(self.result.carried),
-                "measured": {name: each.figure for name, each in MEASURED.items()},
-                "details": [_details(self)] if self.settings.get("details", False) else [],
-            }
+                at_design_level="At the design level: summary/structures.pdf." if self.level else "",
+                scale_note=scale_note,
+                notices=tuple(_notices(self)),
+                page_one=page_one(self),
+                strips=tuple(strips),
+                advice=tuple(_advice(self)),
+                components=_components(self),
+                known=tuple(_known(self)),
+                assumed=_assumed(self),
+                details=(_details(self),) if self.settings.details else (),
+            )
 
     @cached_property
     def left_out(self) -> dict[Remark, list[str]]:
@@ -236,55 +247,76 @@ def _unique(texts: Iterable[str]) -> str:
     return ", ".join(dict.fromkeys(filter(None, texts)))
 
 
-def failure_data(record: str, message: str) -> dict[str, object]:
-    """Return what the plain template is given for a page that says why `record` gave no result."""
+def failure_page(record: str, message: str) -> PlainPage:
+    """Return the page that says why `record` gave no result."""
     text = (
         "Nothing was computed for this record, so no structure was assessed under it. The other records of the run are "
         "not affected. The sentence above also stands in summary/failures.csv."
     )
-    return {
-        "title": f"Rocking assessment: {record}",
-        "subtitle": "This record gave no result.",
-        "parts": [{"notice": message or "No reason was given."}, {"text": text}],
-    }
+    return PlainPage(
+        title=f"Rocking assessment: {record}",
+        subtitle="This record gave no result.",
+        parts=(Part(notice=message or "No reason was given."), Part(text=text)),
+    )
+
+
+def _assumed(report: RecordReport) -> Assumed:
+    """Return what was assumed, and files and versions; the time of the run is left out."""
+    record = report.tables.record
+    structures = report.structures.values()
+    return Assumed(
+        friction=plain(report.settings.friction_coefficient),
+        vertical=_unique(row.vertical_component for row in record),
+        arch=any(each.hinges_migrate for each in structures),
+        tapering=any(each.tapers for each in structures),
+        supported=bool(report.result.carried),
+        times=_unique(row.start_time for row in record),
+        files=_unique(f"{words(row.file)}, SHA-256 {row.record_sha256}" for row in record),
+        settings=_unique(f"{row.settings_sha256[:16]}…" for row in record),
+        version=version("rocking"),
+        tolerance=plain(report.settings.tolerance),
+        acceleration_scale=report.settings.acceleration_scale,
+        stones_farther=MEASURED["stones_farther"].figure,
+        arch_momentum=MEASURED["arch_momentum"].figure,
+        missed_on_supports=MEASURED["missed_on_supports"].figure,
+    )
 
 
 # Page one ------------------------------------------------------------------------------------------------
 
 
-def page_one(
-    conclusions: Sequence[Conclusion],
-    structures: Mapping[str, Structure],
-    motion: Trace | None,
-    pulse: PulseRow | None,
-) -> dict[str, object]:
-    """Return what the template of page one is given below its title.
-
-    conclusions: of all structures, the worst first. motion: the component that stands for the record, None without one;
-    pulse: its dominant pulse.
-    """
-    drawn, others = conclusions[:MOST_ROWS], conclusions[MOST_ROWS:]
-    words = {each.verdict.decision.word for each in conclusions}
+def page_one(report: RecordReport) -> PageOne:
+    """Return the page to look at, below its title."""
+    motion = report.motion
+    pulse = report.dominant(motion.accelerogram.component) if motion else None
+    drawn, others = report.conclusions[:MOST_ROWS], report.conclusions[MOST_ROWS:]
+    words = {each.verdict.decision.word for each in report.conclusions}
     # Whom to trust where closed form and integration differ.
     clause = "No sine was found: there are no rings."
     if pulse is not None and pulse.explained_energy >= DOMINATES:
         clause = "One sine dominates: rings and dots mostly agree."
     elif pulse is not None:
         clause = "No sine dominates: trust the dots, not the rings."
-    return {
-        "trace": [_trace(motion)] if motion else [],
-        "sine": {"share": percents(pulse.explained_energy) if pulse else "", "clause": clause},
-        "rows": [_row(each, structures.get(each.verdict.structure)) for each in drawn],
-        "others": [
-            {"word": str(word), "names": listed(names, _MOST_NAMED)}
+    return PageOne(
+        trace=(ground_strip(motion),) if motion else (),
+        peaks=_peaks(report),
+        sine=Sine(percents(pulse.explained_energy) if pulse else "", clause),
+        rows=tuple(structure_row(each, report.structures.get(each.verdict.structure)) for each in drawn),
+        others=tuple(
+            Others(str(word), listed(names, _MOST_NAMED))
             for word in ORDER
             if (names := [each.verdict.structure for each in others if each.verdict.decision.word is word])
-        ],
-        "untold": Verdict.CANNOT_BE_TOLD in words,
-    }
+        ),
+        untold=Verdict.CANNOT_BE_TOLD in words,
+        left_out="; ".join(
+            replace(each, about=listed(names, 1)).brief
+            for each, names in report.left_out.items()
+            if each.kind in TOLD_FIRST
+        ),
+    )
 
 
-def _trace(motion: Trace) -> dict[str, str]:
+def ground_strip(motion: Trace) -> Picture:
     """The acceleration of a component while it shakes, and its dominant pulse, without axes."""
     record = motion.accelerogram
     begin, end = motion.span
@@ -306,36 +338,42 @@ def _trace(motion: Trace) -> dict[str, str]:
     return drawn_by_hand(lines, width, height, alt)
 
 
-def _row(conclusion: Conclusion, structure: Structure | None) -> dict[str, object]:
+def structure_row(conclusion: Conclusion, structure: Structure | None) -> Row:
     """The row of a structure: drawn at _DRAWN of its critical rotation and dashed at rest, its word and its marks."""
-    decision = conclusion.verdict.decision
     verdict = conclusion.verdict
-    drawing = []
-    if structure is not None:
-        broken = cracked(structure, verdict.crack)
-        sign = -1 if verdict.peak_side == -1 else 1
-        side = broken.mechanism().sides[0 if sign > 0 else -1]
-        shapes = sketch(broken, sign * _DRAWN * side.critical_rotation, *_ROOM)
-        drawing.append(drawn_by_hand(shapes, *_ROOM, f"{conclusion.verdict.structure}, turned, and at rest."))
+    decision = verdict.decision
+    drawing: tuple[Picture, ...] = ()
+    # One that cannot be drawn keeps its row.
+    with suppress(FaultError), one_structure(verdict.structure):
+        drawing = (_turned(verdict, structure),) if structure is not None else ()
 
     closed_form, block, whole = conclusion.ratios
-    band = [_place(each, "line") for each in (verdict.rotation_ratio_low, verdict.rotation_ratio_high)]
+    low, high = (_place(each, "line") for each in (verdict.rotation_ratio_low, verdict.rotation_ratio_high))
     period = verdict.support_period_s
-    below = "" if period is None else f"T_b {period:.3g} s" if period else "on the ground"
-    return chip(decision.word, decision.share_in_words) | {
-        "drawing": drawing,
-        "name": conclusion.verdict.structure,
-        "below": below,
-        "marks": {
-            "form": _place(closed_form, "form"),
-            "block": _place(block, "block"),
-            "whole": _place(whole, "whole"),
-            "line": band if None not in band else [],
-        },
-        "reserve": reserve_in_figures(verdict.reserve),
-        "alone": bool(verdict.reserve_doubts),
-        "remark": "" if conclusion.remark.kind in UNSAID else conclusion.remark.brief,
-    }
+    return Row(
+        name=verdict.structure,
+        below="" if period is None else f"T_b {period:.3g} s" if period else "on the ground",
+        drawing=drawing,
+        chip=chip(decision.word, decision.share_in_words),
+        marks=Marks(
+            form=_place(closed_form, "form"),
+            block=_place(block, "block"),
+            whole=_place(whole, "whole"),
+            line=() if low is None or high is None else (low, high),
+        ),
+        reserve=reserve_in_figures(verdict.reserve),
+        alone=bool(verdict.reserve_doubts),
+        remark="" if conclusion.remark.kind in UNSAID else conclusion.remark.brief,
+    )
+
+
+def _turned(verdict: VerdictRow, structure: Structure) -> Picture:
+    """A structure with the crack that governs, turned to the side of its largest rotation."""
+    broken = cracked(structure, verdict.crack)
+    sign = -1 if verdict.peak_side == -1 else 1
+    side = broken.mechanism().sides[0 if sign > 0 else -1]
+    shapes = sketch(broken, sign * _DRAWN * side.critical_rotation, *_ROOM)
+    return drawn_by_hand(shapes, *_ROOM, f"{verdict.structure}, turned, and at rest.")
 
 
 def _place(ratio: float, mark: str) -> float | None:
@@ -348,8 +386,8 @@ def _place(ratio: float, mark: str) -> float | None:
 # Sentences -----------------------------------------------------------------------------------------------
 
 
-def _head(report: RecordReport) -> dict[str, object]:
-    """Return title, the answer as a sentence, and the peaks of the component that stands for the record."""
+def _title(report: RecordReport) -> tuple[str, str]:
+    """Return the title, of earthquake and station, and the line below it."""
     rows = report.tables.record
     drawn = report.motion.accelerogram.component if report.motion else ""
     names = [_unique(getattr(row, which) for row in rows) for which in ("event", "station")]
@@ -366,24 +404,22 @@ def _head(report: RecordReport) -> dict[str, object]:
     }
     texts = [text.format(each) for text, many in parts.items() if (each := _unique(many))]
     shown = f"{report.result.record}, {drawn}" if drawn else report.result.record
-    of_drawn = next((row for row in rows if row.component == drawn), None)
-    return {
-        "title": title,
-        "subtitle": " · ".join([*texts, shown]),
-        "conclusion": conclusion_in_words(
-            {each.verdict.structure: each.verdict.decision.word for each in report.conclusions}
-        ),
-        "at-design-level": "At the design level: summary/structures.pdf." if report.level else "",
-        "peaks": []
-        if of_drawn is None
-        else [
-            {"value": f"{number(of_drawn.peak_acceleration_m_s2 / GRAVITY, 2)} g", "name": "PGA"},
-            {"value": printing.quantity(of_drawn.peak_velocity_m_s, "m/s"), "name": "PGV"},
-        ],
-    }
+    return title, " · ".join([*texts, shown])
 
 
-def _components(report: RecordReport) -> dict[str, object]:
+def _peaks(report: RecordReport) -> tuple[Peak, ...]:
+    """Return the peaks of the component that stands for the record."""
+    drawn = report.motion.accelerogram.component if report.motion else ""
+    row = next((row for row in report.tables.record if row.component == drawn), None)
+    if row is None:
+        return ()
+    return (
+        Peak(f"{number(row.peak_acceleration_m_s2 / GRAVITY, 2)} g", "PGA"),
+        Peak(printing.quantity(row.peak_velocity_m_s, "m/s"), "PGV"),
+    )
+
+
+def _components(report: RecordReport) -> Table:
     """Return the table of the components: peaks, duration, velocity pulse and dominant sine of each."""
     acceleration = printing.unit_of("m/s²")
     velocity = printing.unit_of("m/s")
@@ -429,7 +465,7 @@ def _components(report: RecordReport) -> dict[str, object]:
 _PULSE_LIKE = {None: printing.NOTHING, True: "yes", False: "no"}
 
 
-def _known(report: RecordReport) -> list[dict[str, object]]:
+def _known(report: RecordReport) -> list[Topic]:
     """Return by topic what a reader has to know beside the verdicts, and the warnings, each once."""
     depends = []
     for station in report.result.worst_first:
@@ -471,7 +507,7 @@ def _known(report: RecordReport) -> list[dict[str, object]]:
         "Processing": [remark] if depends else [],
         "Warnings": warnings_of(report.tables),
     }
-    return [{"topic": topic, "texts": texts} for topic, texts in topics.items() if texts]
+    return [Topic(topic, tuple(texts)) for topic, texts in topics.items() if texts]
 
 
 def _would_crush(station: StationResult) -> bool:
@@ -514,7 +550,7 @@ def warnings_of(tables: RecordRows) -> list[str]:
 def _notices(report: RecordReport) -> list[Notice]:
     """Return the warnings that stand above everything: nothing moves, scale factor, what failed."""
     tables = report.tables
-    notices = []
+    notices: list[Notice] = []
     if tables.comparison and all(station.rotation_ratio == 0 for station in report.result.worst_first):
         still = "No structure uplifts: the ground acceleration never reaches an uplift acceleration."
         notices.append(Notice(still, strong=False))
@@ -602,7 +638,7 @@ _BLAME: dict[tuple[bool, ...], str] = {
 # Pictures and tables ---------------------------------------------------------------------------------------
 
 
-def _details(report: RecordReport) -> dict[str, object]:
+def _details(report: RecordReport) -> Details:
     """Return the pictures of the worst cases with the sentences that say where the others stand, and the tables."""
     motions = report.motions
     labels = report.labels
@@ -619,31 +655,44 @@ def _details(report: RecordReport) -> dict[str, object]:
     pulses = [motion for motion in motions if motion.pulses]
     verdicts = "the table of verdicts"
     level = report.level
+    tables = report.tables
+    number_of: Column = ("No.", "auto", "r", lambda row: report.numbers[row.structure])
     beside = "Spectra of the components beside the design spectrum."
-    return {
-        "design": pictures(design_figure, motions, beside, level) if level else [],
-        "design-words": level.words if level else "",
-        "reserve": pictures(
+    return Details(
+        design=pictures(design_figure, motions, beside, level) if level else (),
+        design_words=level.words if level else "",
+        reserve=pictures(
             figures.reserve_figure,
             reserves,
             "Factors on the record at which 5, 50 and 95 % of the members overturn, by structure.",
             labels,
         ),
-        "reserve-note": _reserve_note(reserves),
-        "histories": pictures(figures.histories_figure, histories, rotations, labels, motions),
-        "histories-note": remainder(
+        reserve_note=_reserve_note(reserves),
+        histories=pictures(figures.histories_figure, histories, rotations, labels, motions),
+        histories_note=remainder(
             len(report.result.scenes) - len(histories), "structure", f"{verdicts}, at rest or less demanding"
         ),
-        "supports": pictures(
+        supports=pictures(
             supports_figure,
             report.support_panels,
             "Share that overturns against the period of the support, and spectra of ground and support.",
         ),
-        "pulse-figures": pictures(figures.pulses_figure, pulses, "The dominant pulse and its evidence."),
-        "comparison": pictures(figures.comparison_figure, cases, comparison, labels, len(motions) > 1),
-        "comparison-note": remainder(len(rows) - len(cases), "case", "the table of every method"),
-        **_tables(report),
-    }
+        pulse_figures=pictures(figures.pulses_figure, pulses, "The dominant pulse and its evidence."),
+        comparison=pictures(figures.comparison_figure, cases, comparison, labels, len(motions) > 1),
+        comparison_note=remainder(len(rows) - len(cases), "case", "the table of every method"),
+        facts=facts_table(tables.record),
+        verdicts=table_of(report.result.worst_first, number_of, *verdict_columns(bool(tables.supports))),
+        structures=table_of(list(structure_rows(report.structures)), number_of, *STRUCTURE_COLUMNS),
+        pulses=table_of(
+            [row for row in tables.pulses if row.rank <= MOST_PULSES], *columns_of(PulseRow, PULSE_FIELDS)
+        ),
+        methods=table_of(
+            tables.comparison,
+            number_of,
+            *_period_column(bool(tables.supports)),
+            *_method_columns(tables.comparison),
+        ),
+    )
 
 
 def _reserve_note(stations: Sequence[StationResult]) -> str:
@@ -657,26 +706,6 @@ def _reserve_note(stations: Sequence[StationResult]) -> str:
     )
 
 
-def _tables(report: RecordReport) -> dict[str, object]:
-    tables = report.tables
-    record = report.tables.record
-    number_of: Column = ("No.", "auto", "r", lambda row: report.numbers[row.structure])
-    ranked = [row for row in tables.pulses if row.rank <= MOST_PULSES]
-    structures = list(structure_rows(report.structures))
-    return {
-        "facts": facts_table(record),
-        "verdicts": table_of(report.result.worst_first, number_of, *verdict_columns(bool(tables.supports))),
-        "structures": table_of(structures, number_of, *STRUCTURE_COLUMNS),
-        "pulses": table_of(ranked, *columns_of(PulseRow, PULSE_FIELDS)),
-        "methods": table_of(
-            tables.comparison,
-            number_of,
-            *_period_column(bool(tables.supports)),
-            *_method_columns(tables.comparison),
-        ),
-    }
-
-
 FACTS = (
     "event station file format unit licence scale_factor samples time_step_s duration_s high_pass_frequency_hz "
     "processing peak_acceleration_m_s2 rotd50_peak_acceleration_m_s2 rotd100_peak_acceleration_m_s2 peak_velocity_m_s "
@@ -687,7 +716,7 @@ FACTS = (
 """Fields of the record table that a report shows."""
 
 
-def facts_table(rows: Sequence[RecordRow]) -> dict[str, object]:
+def facts_table(rows: Sequence[RecordRow]) -> Table:
     """Return what was read, done and measured: one column per component, or two columns of facts for a single one."""
     facts = [[head, *map(show, rows)] for head, _, _, show in columns_of(RecordRow, FACTS)]
     facts = [texts for texts in facts if set(texts[1:]) != {printing.NOTHING}]
@@ -748,7 +777,7 @@ STRUCTURE_COLUMNS: list[Column] = [
         "Structure, type and geometry",
         "2.5",
         "l",
-        lambda row: strong(row.structure) | {"below": f"{words(row.type)}: {row.geometry}"},
+        lambda row: TableCell(row.structure, True, f"{words(row.type)}: {row.geometry}"),
     ),
     *columns_of(
         StructureRow,

@@ -2,15 +2,22 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 
 from rocking.assessment.conclusion import Conclusion
 from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.reserve import Reserve
-from rocking.codes.check import LEAST_SHARE, Check, DynamicCheck, Part, StructureCheck, says_nothing
+from rocking.codes.check import (
+    LEAST_SHARE,
+    Check,
+    CodeTerms,
+    DynamicCheck,
+    Part,
+    StructureCheck,
+    says_nothing,
+)
 from rocking.codes.conclusion import CodeConclusion, code_conclusions
 from rocking.codes.design_spectrum import DesignSpectrum, NtcSpectrum, PointSpectrum
 from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
@@ -21,15 +28,23 @@ from rocking.errors import RockingError, one_structure
 from rocking.floors.place import GROUND, Place
 from rocking.floors.support import Support
 from rocking.quantities import GRAVITY, percent
-from rocking.remarks import Kind, Language, Remark
-from rocking.reports.printing import (
+from rocking.remarks import Kind, Remark
+from rocking.reports.pages import (
+    Answer,
+    Basis,
     Cell,
-    displaying,
-    settings_texts,
-    strong,
-    table,
-    unit_of,
+    Fact,
+    Footer,
+    PageSettings,
+    SetFigure,
+    Sheet,
+    SignWords,
+    Strip,
+    StructuresPage,
+    Sure,
+    Table,
 )
+from rocking.reports.printing import displaying, strong, table, unit_of
 from rocking.reports.printing import words as or_a_dash
 from rocking.reports.sentences import Sentences
 from rocking.reports.structure_figures import bars_figure, basis_figure, selection_figure
@@ -106,62 +121,52 @@ class ListedMechanism:
 def structures_data(
     structures: Sequence[CheckedStructure],
     spectrum: DesignSpectrum,
-    settings: Mapping[str, Any],
+    settings: PageSettings,
+    terms: CodeTerms | None = None,
     selection: Selection | None = None,
     without_sets: str | Remark = "",
     unread: Sequence[str] = (),
-) -> dict[str, object]:
-    """Return what the template is given.
+) -> StructuresPage:
+    """Return the pages.
 
-    structures: those of one name, at the periods of its support, make one page. settings: as those of the summary, with
-    "language". selection: the sets of the dynamic check, None without; without_sets: why there are none. unread: the
-    records of the pool that could not be read, each with its reason.
+    structures: those of one name, at the periods of its support, make one page. terms: what a structure that could not
+    be checked would have been checked on. selection: the sets of the dynamic check, None without; without_sets: why
+    there are none. unread: the records of the pool that could not be read, each with its reason.
     """
-    language: Language = settings.get("language", "en")
-    words = Sentences(language)
+    words = Sentences(settings.language)
     with displaying(settings):
-        spectra = []
-        motions: dict[str, object] = {"rows": []}
+        spectra: tuple[SetFigure, ...] = ()
+        motions = Table()
         if selection is not None:
             drawn = picture(selection_figure(selection), words("records alt"))
-            spectra = [drawn | {"caption": _selection_words(selection, words)}]
+            spectra = (SetFigure(drawn, _selection_words(selection, words)),)
             motions = _motion_table(selection, words)
-        told = settings_texts(settings)
-        about = dict(settings.get("about", {}))
-        return {
-            "title": words("title"),
-            **told,
-            "language": language,
-            "about": {words(label): text for label, text in about.items()},
-            "units": words(f"units {settings.get('display_units', 'SI')}").rstrip("."),
-            "words": {
-                "made": words("foot"),
-                "page": words("page", page="{page}", pages="{pages}"),
-                "continued": words("continued", page="{page}"),
-                **{
-                    key: words(key.replace("-", " "))
-                    for key in (
-                        *("what-governs", "capacity-over-demand", "how-sure", "assumed", "place-and-date"),
-                        *("signature", "not-to-sign", "next-page", "figure", "table-checks"),
-                        *("table-periods", "records-title", "table-records", "variants-title"),
-                        "table-mechanisms",
-                    )
-                },
-            },
-            "notices": [words("no sets", why=words.reason(without_sets))] if without_sets else [],
-            "unread": words("unread", names="; ".join(unread)) if unread else "",
-            "spectra": spectra,
-            "motions": motions,
-            "pages": _pages(structures, spectrum, settings, words),
-        }
+        said = {each.name: words(each.name.replace("_", " ")) for each in fields(SignWords)}
+        return StructuresPage(
+            title=words("title"),
+            language=settings.language,
+            about=tuple(Fact(words(label), text) for label, text in settings.about.items()),
+            footer=Footer(
+                made=words("foot"),
+                page=words("page", page="{page}", pages="{pages}"),
+                continued=words("continued", page="{page}"),
+                units=words(f"units {settings.display_units}").rstrip("."),
+            ),
+            words=SignWords(**said),
+            notices=(words("no sets", why=words.reason(without_sets)),) if without_sets else (),
+            unread=words("unread", names="; ".join(unread)) if unread else "",
+            spectra=spectra,
+            motions=motions,
+            sheets=_sheets(structures, spectrum, terms or CodeTerms(), words),
+        )
 
 
-def _pages(
+def _sheets(
     structures: Sequence[CheckedStructure],
     spectrum: DesignSpectrum,
-    settings: Mapping[str, Any],
+    terms: CodeTerms,
     words: Sentences,
-) -> list[dict[str, object]]:
+) -> tuple[Sheet, ...]:
     """The page of each structure: at the worst period of its support, with the others as lines."""
     by_name: dict[str, list[CheckedStructure]] = {}
     for each in structures:
@@ -173,7 +178,6 @@ def _pages(
         for row in code_check_rows(each.name, each.checked, each.period)
     )
     concluded = {each.structure: each for each in code_conclusions(rows)}
-    design = settings.get("design_spectrum", {})
     groups: dict[str, list[str]] = {}
     for name, (page, *_) in by_name.items():
         if page.variant_of in by_name:
@@ -181,7 +185,7 @@ def _pages(
     worst = [page.worst for page, *_ in by_name.values() if page.worst]
     compared = variants(groups, worst, concluded.values())
     drawn = {name: page.structure for name, (page, *_) in by_name.items()}
-    strip_of = {each["name"]: each for each in strips(compared, drawn, words)}
+    strip_of = {each.name: each for each in strips(compared, drawn, words)}
     pages = []
     for name, everywhere in by_name.items():
         conclusion = concluded.get(name)
@@ -193,26 +197,50 @@ def _pages(
         level = words(
             "level",
             spectrum=_spectrum_words(spectrum, words),
-            state=checked.limit_state if checked else design.get("limit_state", "SLV"),
-            factor=words.plain(
-                checked.governing.confidence_factor if checked else design.get("confidence_factor", 1.35)
-            ),
+            state=checked.limit_state if checked else terms.limit_state,
+            factor=words.plain(checked.governing.confidence_factor if checked else terms.confidence_factor),
         )
-        head = {"name": name, "level": level, "place": _place(page, words)}
+        place = _place(page, words)
         why = page.refusal
         if checked is not None and conclusion is not None:
             try:
                 with one_structure(name):
-                    answer = _answer(page, checked, conclusion, spectrum, words)
-                    basis = _basis(page, checked, conclusion, everywhere, words)
-                    beside = [strip_of[each] for each in (page.variant_of or name,) if each in strip_of]
-                    pages.append(head | answer | {"signed": True, "basis": basis, "strips": beside})
+                    headline, details = _conclusion(page, checked, conclusion, spectrum, words)
+                    beside = tuple(strip_of[each] for each in (page.variant_of or name,) if each in strip_of)
+                    bars = picture(bars_figure(checked, page.untied, words), words("bars alt", name=name))
+                    answer = Answer(
+                        way=opening_words(checked.governing, words),
+                        bars=(bars,),
+                        sure=_sure(page, checked.dynamic, words),
+                        assumptions=tuple(_assumptions(page, checked.governing, words)),
+                        basis=_basis(page, checked, conclusion, everywhere, beside, words),
+                    )
+                    pages.append(
+                        Sheet(
+                            name=name,
+                            level=level,
+                            place=place,
+                            headline=headline,
+                            met=conclusion.verified,
+                            details=details,
+                            answers=(answer,),
+                        )
+                    )
                     continue
             except RockingError as error:
                 why = error.remark or str(error)
-        refused = {"headline": words("headline refused"), "met": False, "signed": False}
-        pages.append(head | refused | {"details": [words("could not", why=words.reason(why))]})
-    return pages
+        pages.append(
+            Sheet(
+                name=name,
+                level=level,
+                place=place,
+                headline=words("headline refused"),
+                met=False,
+                details=(words("could not", why=words.reason(why)),),
+                answers=(),
+            )
+        )
+    return tuple(pages)
 
 
 def _place(page: CheckedStructure, words: Sentences) -> str:
@@ -223,14 +251,14 @@ def _place(page: CheckedStructure, words: Sentences) -> str:
     return words("at its worst", place=place) if len(page.place.supports) > 1 else f"{place}."
 
 
-def _answer(
+def _conclusion(
     page: CheckedStructure,
     checked: StructureCheck,
     conclusion: CodeConclusion,
     spectrum: DesignSpectrum,
     words: Sentences,
-) -> dict[str, object]:
-    """The page that is signed: the conclusion, what governs, how sure it is, and what was assumed."""
+) -> tuple[str, tuple[str, ...]]:
+    """The conclusion as a headline, and what there is to say beside it."""
     decisive = conclusion.decisive
     also = [each.clause for each in conclusion.checks if each.part == Part.COUNTS_TOO]
     overruled = [words(f"check {each.check}") for each in conclusion.checks if each.part == Part.OVERRULED]
@@ -268,16 +296,7 @@ def _answer(
             )
     if finding := _finding(page, conclusion, spectrum, words):
         details.append(finding)
-    figure = bars_figure(checked, page.untied, words)
-    return {
-        "headline": headline,
-        "met": conclusion.verified,
-        "details": details,
-        "way": opening_words(checked.governing, words),
-        "bars": [picture(figure, words("bars alt", name=page.name))],
-        "sure": _sure(page, dynamic, words),
-        "assumptions": _assumptions(page, checked.governing, words),
-    }
+    return headline, tuple(details)
 
 
 def _refusal(checked: StructureCheck, words: Sentences) -> str:
@@ -323,7 +342,7 @@ def _finding(
     return ""
 
 
-def _sure(page: CheckedStructure, dynamic: DynamicCheck | None, words: Sentences) -> list[dict[str, str]]:
+def _sure(page: CheckedStructure, dynamic: DynamicCheck | None, words: Sentences) -> tuple[Sure, ...]:
     """How sure the conclusion is: figures, each with what it is the figure of."""
     lines: list[tuple[str, str]] = []
     if dynamic is not None:
@@ -342,7 +361,7 @@ def _sure(page: CheckedStructure, dynamic: DynamicCheck | None, words: Sentences
         lines.append((share, words("sure share", low=low, high=high, **of_it)))
     if page.reserves:
         lines.append(_reserve(page, words))
-    return [{"value": value, "text": text} for value, text in lines]
+    return tuple(Sure(*line) for line in lines)
 
 
 def _reserve(page: CheckedStructure, words: Sentences) -> tuple[str, str]:
@@ -400,24 +419,25 @@ def _basis(
     checked: StructureCheck,
     conclusion: CodeConclusion,
     everywhere: Sequence[CheckedStructure],
+    beside: tuple[Strip, ...],
     words: Sentences,
-) -> dict[str, object]:
+) -> Basis:
     """The page behind it: the capacity curve, the checks with their values, the other places, and the study's share."""
     others = [each for each in everywhere if each is not page]
-    return {
-        "title": words("basis", name=page.name),
-        "figure": [
-            picture(basis_figure(page.structure, checked, words), words("figure alt", name=page.name))
-        ],
-        "checks": _check_table(checked, words),
-        "mechanisms": _mechanism_table(page, words) if len(page.mechanisms) > 1 else {"rows": []},
-        "sentences": _sentences(page, checked, words),
-        "periods": _period_table(others, conclusion, words) if others else {"rows": []},
-        "share": _share(page, words),
-    }
+    figure = picture(basis_figure(page.structure, checked, words), words("figure alt", name=page.name))
+    return Basis(
+        title=words("basis", name=page.name),
+        figure=(figure,),
+        checks=_check_table(checked, words),
+        mechanisms=_mechanism_table(page, words) if len(page.mechanisms) > 1 else Table(),
+        sentences=tuple(_sentences(page, checked, words)),
+        periods=_period_table(others, conclusion, words) if others else Table(),
+        share=_share(page, words),
+        strips=beside,
+    )
 
 
-def _check_table(checked: StructureCheck, words: Sentences) -> dict[str, object]:
+def _check_table(checked: StructureCheck, words: Sentences) -> Table:
     heads = [
         (words("head check"), "0.9", "l"),
         (words("head clause"), "auto", "l"),
@@ -445,7 +465,7 @@ def _check_table(checked: StructureCheck, words: Sentences) -> dict[str, object]
     return table(heads, lines)
 
 
-def _mechanism_table(page: CheckedStructure, words: Sentences) -> dict[str, object]:
+def _mechanism_table(page: CheckedStructure, words: Sentences) -> Table:
     """The weakest mechanism of each kind, and those that were followed, with what holds them back."""
     heads = [
         (words("head what falls"), "2.2", "l"),
@@ -632,9 +652,7 @@ def _lowered(checked: StructureCheck, untied: StructureCheck | None, words: Sent
     return [said]
 
 
-def _period_table(
-    others: Sequence[CheckedStructure], conclusion: CodeConclusion, words: Sentences
-) -> dict[str, object]:
+def _period_table(others: Sequence[CheckedStructure], conclusion: CodeConclusion, words: Sentences) -> Table:
     """The lines of the other places of a structure on a support: the ratios, the conclusion, the study's share."""
     kinds = [each.check for each in conclusion.checks]
     heads = [(words("head place"), "1.4", "l"), *((words(kind), "0.8", "r") for kind in kinds)]
@@ -722,7 +740,7 @@ def _selection_words(selection: Selection, words: Sentences) -> str:
     )
 
 
-def _motion_table(selection: Selection, words: Sentences) -> dict[str, object]:
+def _motion_table(selection: Selection, words: Sentences) -> Table:
     """The records of the chosen set, each with its factor and its peak when scaled."""
     peak = unit_of("m/s²")
     heads = [

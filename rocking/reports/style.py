@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 import numpy as np
 
+from rocking.reports.pages import Picture
+
 if TYPE_CHECKING:  # matplotlib takes half a second to import, and page one is drawn without it
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -99,16 +101,14 @@ def svg(figure: Figure) -> str:
     return _SYMBOL.sub(_WITH_INDEX, stream.getvalue())
 
 
-def picture(figure: Figure, alt: str) -> dict[str, str]:
-    """Return a figure as the templates take it: SVG and alternative text."""
-    return {"svg": svg(figure), "alt": alt}
+def picture(figure: Figure, alt: str) -> Picture:
+    """Return a figure as the templates take it."""
+    return Picture(svg(figure), alt)
 
 
-def pictures(
-    draw: Callable[..., Figure], things: Sequence[Any], alt: str, *more: Any
-) -> list[dict[str, str]]:
+def pictures(draw: Callable[..., Figure], things: Sequence[Any], alt: str, *more: Any) -> tuple[Picture, ...]:
     """Return the figure that `draw` makes of `things`, or nothing where there are none."""
-    return [picture(draw(things, *more), alt)] if things else []
+    return (picture(draw(things, *more), alt),) if things else ()
 
 
 def plain_logarithmic(panel: Axes, which: str) -> None:

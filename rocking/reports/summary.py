@@ -3,7 +3,7 @@
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -31,9 +31,22 @@ from rocking.reports import printing
 from rocking.reports.design_figure import design_summary_figure
 from rocking.reports.matrix import MOST_RECORDS as MOST_RECORDS_BESIDE
 from rocking.reports.matrix import MOST_WITH_ALL, matrix
+from rocking.reports.pages import (
+    CaptionedTable,
+    DesignSpectra,
+    MapCell,
+    MapRow,
+    Notice,
+    PageSettings,
+    Scatter,
+    SeverityMap,
+    Strip,
+    SummaryPage,
+    Table,
+    TradePicture,
+)
 from rocking.reports.printing import (
     Column,
-    Notice,
     columns_of,
     displaying,
     number,
@@ -83,28 +96,28 @@ Design = tuple["DesignSpectrum", Sequence[Sequence[float]]]
 
 def summary_data(
     rows: Mapping[type[Row], Sequence[Row]],
-    settings: Mapping[str, Any],
-    trade: Sequence[Mapping[str, str]] = (),
+    settings: PageSettings,
+    trade: Sequence[TradePicture] = (),
     design: Design | None = None,
-    strips: Sequence[Mapping[str, Any]] = (),
-) -> dict[str, object]:
-    """Return what the template of the summary is given: texts, tables and figures.
+    strips: Sequence[Strip] = (),
+) -> SummaryPage:
+    """Return the page of the summary: texts, tables and figures.
 
-    rows: of the tables of the summary, and of checks and fragility where there are any. settings: at least tolerance
-    and acceleration_scale; below "about" what is told of the study, where it is given.
-    trade: figure and conclusion, where it was measured. design: None where the study has no design level. strips:
+    rows: of the tables of the summary, and of checks and fragility where there are any. trade: figure and
+    conclusion, where it was measured. design: None where the study has no design level. strips:
     of the variants of structures.
     """
     with displaying(settings):
-        return _data(rows, settings, trade, design) | {"strips": list(strips)}
+        return _page(rows, settings, trade, design, strips)
 
 
-def _data(
+def _page(
     rows: Mapping[type[Row], Sequence[Row]],
-    settings: Mapping[str, Any],
-    trade: Sequence[Mapping[str, str]],
+    settings: PageSettings,
+    trade: Sequence[TradePicture],
     design: Design | None,
-) -> dict[str, object]:
+    strips: Sequence[Strip],
+) -> SummaryPage:
     verdicts = rows_of(VerdictRow, rows)
     shown = worst_period_each(verdicts)
     comparison = rows_of(ComparisonRow, rows)
@@ -121,66 +134,70 @@ def _data(
     by_code, checks = _checks(rows)
     # Names that stand upright, a second sentence and more rows leave less room below them.
     low = len(judged) > MOST_WITH_ALL or by_code or len(words_of_all) > MOST_HIGH
-    return {
-        "title": "Summary over the records",
-        **printing.settings_texts(settings),
-        "subtitle": f"{counted(len({row.record for row in records}), 'record')}, "
+    return SummaryPage(
+        title="Summary over the records",
+        about=printing.facts_of(settings),
+        footer=printing.footer_of(settings),
+        tolerance=plain(settings.tolerance),
+        acceleration_scale=settings.acceleration_scale,
+        strips=tuple(strips),
+        subtitle=f"{counted(len({row.record for row in records}), 'record')}, "
         f"{counted(len(rows_of(StructureRow, rows)), 'structure')}",
-        "conclusion": conclusion_in_words(words_of_all, len(judged)),
-        "falls": falls_in_words(rows_of(ExpectedFallsRow, rows)),
-        "by-code": by_code,
-        "checks": checks,
-        "matrix": matrix(made, records, pulses),
-        "notices": [notice.data for notice in _notices(records, comparison, len(failures))],
-        "outcomes-figure": pictures(
+        conclusion=conclusion_in_words(words_of_all, len(judged)),
+        falls=falls_in_words(rows_of(ExpectedFallsRow, rows)),
+        by_code=by_code,
+        checks=checks,
+        matrix=matrix(made, records, pulses),
+        notices=tuple(_notices(records, comparison, len(failures))),
+        outcomes=pictures(
             outcomes_figure,
             shown if many else (),
             "Number of records under which each structure has each verdict.",
         ),
-        "map": severity_map(shown if many else (), records, MOST_ON_PAGE_ONE),
-        "whole-map": severity_map(shown if len(judged) > MOST_ON_PAGE_ONE else (), records, MOST_MAPPED),
-        "supports": pictures(
+        map=severity_map(shown if many else (), records, MOST_ON_PAGE_ONE),
+        whole_map=severity_map(shown if len(judged) > MOST_ON_PAGE_ONE else (), records, MOST_MAPPED),
+        supports=pictures(
             shares_by_period_figure,
             rows_of(SupportRow, rows),
             "Mean share of members that overturn against the period of the support, by structure.",
         ),
-        "methods": method_table(comparison),
-        "structures": structure_table(shown),
-        "scatter": _scatter(comparison, pulses, agreed[0], _LOW if low else _HIGH),
-        "agreement": table_of(agreed, *AGREEMENT_COLUMNS),
-        "unsafe": table_of(unsafe[:MOST_LISTED], *UNSAFE_COLUMNS),
-        "unsafe-note": remainder(len(unsafe) - MOST_LISTED, "case", "comparison.csv"),
-        "fragility": _fragility(rows),
-        "failures": table_of(failures[:MOST_LISTED], *FAILURE_COLUMNS),
-        "failures-note": remainder(len(failures) - MOST_LISTED, "failure", "failures.csv"),
-        "records": record_table(records[:MOST_RECORDS], pulses),
-        "records-note": remainder(len(records) - MOST_RECORDS, "component", "record.csv"),
-        "design": _design(design),
-        "trade": list(trade),
-    }
+        methods=method_table(comparison),
+        structures=structure_table(shown),
+        scatter=_scatter(comparison, pulses, agreed[0], _LOW if low else _HIGH),
+        agreement=table_of(agreed, *AGREEMENT_COLUMNS),
+        unsafe=table_of(unsafe[:MOST_LISTED], *UNSAFE_COLUMNS),
+        unsafe_note=remainder(len(unsafe) - MOST_LISTED, "case", "comparison.csv"),
+        fragility=_fragility(rows),
+        failures=table_of(failures[:MOST_LISTED], *FAILURE_COLUMNS),
+        failures_note=remainder(len(failures) - MOST_LISTED, "failure", "failures.csv"),
+        records=record_table(records[:MOST_RECORDS], pulses),
+        records_note=remainder(len(records) - MOST_RECORDS, "component", "record.csv"),
+        design=_design(design),
+        trade=tuple(trade),
+    )
 
 
 def _scatter(
     comparison: Sequence[ComparisonRow], pulses: Sequence[PulseRow], of_all: AgreementRow, height: float
-) -> list[dict[str, str]]:
+) -> tuple[Scatter, ...]:
     """The scatter of all cases, so many mm high, with what the closed form saw of the falls as its heading."""
     if sum(map(lifts, comparison)) < FEWEST_POINTS:
-        return []
+        return ()
     falls = f"{of_all.overturning_hits} of {counted(of_all.overturning, 'fall')}"
     heading = f"The closed form sees {falls}"
     alt = "Scatter of the rotation ratio by closed form against that by integration, in four quadrants."
     figure = prediction_scatter(comparison, pulses, height)
-    return [{**picture(figure, alt), "heading": heading}]
+    return (Scatter(heading, picture(figure, alt)),)
 
 
-def _fragility(rows: Mapping[type[Row], Sequence[Row]]) -> list[dict[str, object]]:
+def _fragility(rows: Mapping[type[Row], Sequence[Row]]) -> tuple[CaptionedTable, ...]:
     """The table of fragility, of a study that measured one."""
     if not _holds(rows, "fragility_summary"):
-        return []
+        return ()
     from rocking.fragility.rows import FragilitySummaryRow  # a quarter of a second
     from rocking.reports.fragility import by_place, fragility_table, ida_frame
 
-    return [fragility_table(by_place(FragilitySummaryRow, rows), ida_frame(rows))]
+    return (fragility_table(by_place(FragilitySummaryRow, rows), ida_frame(rows)),)
 
 
 def _holds(rows: Mapping[type[Row], Sequence[Row]], table: str) -> bool:
@@ -188,10 +205,10 @@ def _holds(rows: Mapping[type[Row], Sequence[Row]], table: str) -> bool:
     return any(each.table.name == table for each in rows)
 
 
-def _checks(rows: Mapping[type[Row], Sequence[Row]]) -> tuple[str, dict[str, object]]:
+def _checks(rows: Mapping[type[Row], Sequence[Row]]) -> tuple[str, Table]:
     """The sentence on the checks at the design level, and their table; both empty without one."""
     if not _holds(rows, "code_checks"):
-        return "", {"rows": []}
+        return "", Table()
     from rocking.codes.conclusion import code_conclusion_in_words, code_conclusions
     from rocking.codes.rows import KINDS, CodeCheckRow
 
@@ -210,21 +227,20 @@ def _checks(rows: Mapping[type[Row], Sequence[Row]]) -> tuple[str, dict[str, obj
     return code_conclusion_in_words(concluded), checks
 
 
-def _design(design: Design | None) -> list[dict[str, object]]:
+def _design(design: Design | None) -> tuple[DesignSpectra, ...]:
     """The figure of the spectra beside the design level, and what that is."""
     if design is None:
-        return []
+        return ()
     level, spectra = design
     alt = "Spectra of all components and their mean beside the design spectrum."
-    drawn: dict[str, object] = {**picture(design_summary_figure(spectra, level), alt), "words": level.words}
-    return [drawn]
+    return (DesignSpectra(picture(design_summary_figure(spectra, level), alt), level.words),)
 
 
 def _notices(
     records: Sequence[RecordRow], comparison: Sequence[ComparisonRow], failures: int
 ) -> list[Notice]:
     """Return the warnings that stand above everything."""
-    notices = []
+    notices: list[Notice] = []
     if not records:
         text = "No record could be read, so there is no result; the failures below say why."
         notices.append(Notice(text))
@@ -293,7 +309,7 @@ def outcomes_figure(verdicts: Sequence[VerdictRow]) -> Figure:
 
 def severity_map(
     verdicts: Sequence[VerdictRow], records: Sequence[RecordRow], most: int = MOST_MAPPED
-) -> dict[str, object]:
+) -> SeverityMap:
     """Return verdict and share by record and structure, both the worst first.
 
     verdicts: the worst first. most: records.
@@ -313,32 +329,32 @@ def severity_map(
         if row.record in peaks:
             accelerations = row.peak_acceleration_m_s2 / GRAVITY
             peaks[row.record].append((accelerations, row.peak_velocity_m_s / velocity.size))
-    return {
-        "peak-heads": ["PGA [g]", f"PGV [{velocity.name}]"],
-        "heads": [elided(name, _HEAD) for name in columns],
-        "rows": [
-            {
-                "record": name,
-                "peaks": [number(max(each), 2) for each in zip(*(peaks[name] or _UNKNOWN), strict=True)],
-                "cells": [_cell(by_pair.get((name, each))) for each in columns],
-            }
+    return SeverityMap(
+        peak_heads=("PGA [g]", f"PGV [{velocity.name}]"),
+        heads=tuple(elided(name, _HEAD) for name in columns),
+        rows=tuple(
+            MapRow(
+                name,
+                tuple(number(max(each), 2) for each in zip(*(peaks[name] or _UNKNOWN), strict=True)),
+                tuple(_cell(by_pair.get((name, each))) for each in columns),
+            )
             for name in rows
-        ],
-        "legend": printing.LEGEND,
-        "note": f" Not shown, but in verdicts.csv: {rest}." if rest else "",
-    }
+        ),
+        legend=printing.LEGEND,
+        note=f" Not shown, but in verdicts.csv: {rest}." if rest else "",
+    )
 
 
-def _cell(verdict_row: VerdictRow | None) -> dict[str, str]:
+def _cell(verdict_row: VerdictRow | None) -> MapCell:
     decision = verdict_row.decision if verdict_row else None
     _, fill, ink, _ = printing.LOOKS[decision.word if decision else Verdict.CANNOT_BE_TOLD]
     text = printing.cell_text(decision)
     if verdict_row and verdict_row.support_period_s:  # of a support the period that is worst
         text += f" at\u00a0{verdict_row.support_period_s:.2g}\u00a0s"
-    return {"text": text, "fill": fill, "ink": ink}
+    return MapCell(text, fill, ink)
 
 
-def structure_table(verdicts: Sequence[VerdictRow]) -> dict[str, object]:
+def structure_table(verdicts: Sequence[VerdictRow]) -> Table:
     """Return one row per structure: under how many records it overturns, and the record that is worst for it."""
     worst = {row.structure: row for row in reversed(verdicts)}
     counts = outcome_counts(verdicts)
@@ -359,7 +375,7 @@ def structure_table(verdicts: Sequence[VerdictRow]) -> dict[str, object]:
 # What the methods are worth --------------------------------------------------------------------------------
 
 
-def method_table(comparison: Sequence[ComparisonRow]) -> dict[str, object]:
+def method_table(comparison: Sequence[ComparisonRow]) -> Table:
     """Return how each method stands to the integration of the mechanism under the record; times stand in a table."""
     every = [_worth(method, comparison) for method in printing.METHODS]
     return table_of(
@@ -427,7 +443,7 @@ UNSAFE_COLUMNS: list[Column] = [
 FAILURE_COLUMNS = columns_of(FailureRow, "record component=auto structure stage=0.6 message=3")
 
 
-def record_table(records: Sequence[RecordRow], pulses: Sequence[PulseRow]) -> dict[str, object]:
+def record_table(records: Sequence[RecordRow], pulses: Sequence[PulseRow]) -> Table:
     """Return the records with their dominant pulses."""
     pulse_of = {(row.record, row.component): row for row in pulses if row.is_dominant}
     of_record = columns_of(

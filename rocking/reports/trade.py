@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from rocking.assessment.rows import TradeMethod, TradeRow
 from rocking.assessment.trade import break_even, what_follows
 from rocking.reports import printing
+from rocking.reports.pages import Part, PlainPage, TradePicture
 from rocking.reports.printing import Figures, write_document
 from rocking.reports.style import PREDICTED, RECORD, new_figure, picture, plain_logarithmic, styled, svg
 from rocking.tables import Row, rows_of, write_whole
@@ -50,29 +51,30 @@ def write_trade_report(
         "Errors: of the largest rotation where both rock. Unsafe: verdicts that say less than the reference. A record: "
         "the search for its sines. The ensemble answers for all alike cases; its error is that of its median."
     )
-    parts = [{"list": list(what_follows(rows))}, *trade_picture(rows), {**table, "caption": caption}]
-    if faults := printing.faults_in_words(tables):
-        parts.append({"list": faults})
     machine = rows[0].machine if rows else "no machine"
+    of_figure = (
+        "Left: processor time of a record against the number of structures that are followed under it. Right: share of "
+        f"the cases in which a method errs, over all structures, with its median error. Measured on {machine}."
+    )
+    drawn = [Part(pictures=(each.picture,), caption=of_figure) for each in trade_picture(rows)]
+    parts = [Part(sentences=tuple(what_follows(rows))), *drawn, Part(table=table, caption=caption)]
+    if faults := printing.faults_in_words(tables):
+        parts.append(Part(sentences=tuple(faults)))
     subtitle = f"Processor times of {machine}, on the records and structures of the study."
-    data = {"title": "What accuracy costs", "subtitle": subtitle, "parts": parts}
-    write_document(pdf, "plain.typ", data, figures)
+    page = PlainPage(title="What accuracy costs", subtitle=subtitle, parts=tuple(parts))
+    write_document(pdf, page, figures)
     write_whole(image, svg(trade_figure(rows)).encode())
 
 
-def trade_picture(of_each: Sequence[TradeRow]) -> list[dict[str, str]]:
-    """Return the figure and its conclusion for another document; nothing where no structure was followed."""
+def trade_picture(of_each: Sequence[TradeRow]) -> list[TradePicture]:
+    """Return the figure and its conclusion, also for another document; nothing where no structure was followed."""
     rows = [row for row in of_each if row.structure == ""]
     if not rows:
         return []
     figure = picture(
         trade_figure(rows), "Processor time of a record against the number of structures, and errors."
     )
-    caption = (
-        "Left: processor time of a record against the number of structures that are followed under it. Right: share of "
-        f"the cases in which a method errs, over all structures, with its median error. Measured on {rows[0].machine}."
-    )
-    return [figure | {"caption": caption, "conclusion": " ".join(what_follows(rows))}]
+    return [TradePicture(figure, " ".join(what_follows(rows)))]
 
 
 @styled

@@ -6,10 +6,11 @@ import math
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from rocking.errors import FaultError, one_structure
 from rocking.reports.drawings import drawn_by_hand, room, sketch
+from rocking.reports.pages import Chip, Strip, VariantCell
 from rocking.reports.printing import chip, reserve_in_figures
 from rocking.reports.sentences import Sentences
 
@@ -27,21 +28,21 @@ def strips(
     made: Mapping[str, Sequence[Variant]],
     structures: Mapping[str, Structure],
     words: Sentences | None = None,
-) -> list[dict[str, Any]]:
-    """Return what the template takes: a strip for each structure that has variants, a cell for each of these.
+) -> list[Strip]:
+    """Return a strip for each structure that has variants, with a cell for each of these.
 
     made: the variants of each. structures: by the names of the scenes. words: the language.
     """
     said = words or Sentences()
     return [
-        {"name": name, "cells": _cells([each for each in row if each.name in structures], structures, said)}
+        Strip(name, _cells([each for each in row if each.name in structures], structures, said))
         for name, row in made.items()
     ]
 
 
 def _cells(
     row: Sequence[Variant], structures: Mapping[str, Structure], words: Sentences
-) -> list[dict[str, Any]]:
+) -> tuple[VariantCell, ...]:
     turned = {}
     scales = []
     for each in row:
@@ -52,43 +53,46 @@ def _cells(
             rotation = _DRAWN * side.critical_rotation if side.can_overturn else 0.0
             scales.append(room(structure, rotation, _WIDTH, _HEIGHT)[0])
             turned[each.name] = rotation
-    return [
+    return tuple(
         _cell(each, structures[each.name], turned[each.name], min(scales), words)
         for each in row
         if each.name in turned
-    ]
+    )
 
 
 def _cell(
     variant: Variant, structure: Structure, rotation: float, scale: float, words: Sentences
-) -> dict[str, Any]:
+) -> VariantCell:
     conclusion = variant.conclusion
     shapes = sketch(structure, rotation, _WIDTH, _HEIGHT, scale)
-    cell = {
-        "drawing": drawn_by_hand(shapes, _WIDTH, _HEIGHT, f"{variant.name}, turned, and at rest."),
-        "name": variant.variant_name,
-        "reserve": "",
-        "checks": [],
-        "conclusion": "",
-        "difference": _difference(variant, words),
-        **{"word": words("not judged"), "share": "", "fill": "#ffffff", "ink": "#000000", "hatched": False},
-    }
+    word = Chip(words("not judged"), "", "#ffffff", "#000000", False)
+    reserve = ""
     if conclusion is not None:
         decision = conclusion.verdict.decision
         share = words.decimal(decision.share_in_words) if not math.isnan(decision.share) else ""
-        cell |= chip(decision.word, share, words(f"verdict {decision.word}"))
+        word = chip(decision.word, share, words(f"verdict {decision.word}"))
         figures = words.decimal(reserve_in_figures(conclusion.verdict.reserve))
         if figures:
             caveat = "strip reserve alone" if conclusion.verdict.reserve_doubts else "strip reserve"
-            cell["reserve"] = words(caveat, reserve=figures)
+            reserve = words(caveat, reserve=figures)
+    checks: tuple[str, ...] = ()
+    concluded = ""
     if variant.code_conclusion:
-        cell["checks"] = [
+        checks = tuple(
             f"{words(kind)} {words('falls') if ratio == 'falls' else words.decimal(ratio)}"
             for kind, ratio in variant.code_conclusion.ratios.items()
-        ]
+        )
         key = "line verified" if variant.code_conclusion.verified else "line not verified"
-        cell["conclusion"] = words(key, clause=variant.code_conclusion.decisive.clause)
-    return cell
+        concluded = words(key, clause=variant.code_conclusion.decisive.clause)
+    return VariantCell(
+        drawing=drawn_by_hand(shapes, _WIDTH, _HEIGHT, f"{variant.name}, turned, and at rest."),
+        name=variant.variant_name,
+        chip=word,
+        reserve=reserve,
+        checks=checks,
+        conclusion=concluded,
+        difference=_difference(variant, words),
+    )
 
 
 def _difference(variant: Variant, words: Sentences) -> str:
@@ -106,18 +110,19 @@ def _difference(variant: Variant, words: Sentences) -> str:
     return ", ".join(texts) or words("no difference")
 
 
-def strips_in_html(made: Sequence[Mapping[str, Any]]) -> str:
+def strips_in_html(made: Sequence[Strip]) -> str:
     """Return the strips as HTML."""
     parts = []
     for strip in made:
-        parts.append(f'<h3>{escape(strip["name"])}</h3><div class="strip">')
-        for cell in strip["cells"]:
-            css = cell["word"].removeprefix("? ").replace(" ", "-")
-            lines = [cell["reserve"], ", ".join(cell["checks"]), cell["conclusion"], cell["difference"]]
+        parts.append(f'<h3>{escape(strip.name)}</h3><div class="strip">')
+        for cell in strip.cells:
+            word = cell.chip.word
+            css = word.removeprefix("? ").replace(" ", "-")
+            lines = [cell.reserve, ", ".join(cell.checks), cell.conclusion, cell.difference]
             texts = "".join(f"<p>{escape(line)}</p>" for line in lines if line)
             parts.append(
-                f"<figure>{cell['drawing']['svg']}<figcaption><strong>{escape(cell['name'])}</strong>"
-                f'<p><span class="cell {css}">{escape(cell["word"])} {escape(cell["share"])}</span></p>{texts}'
+                f"<figure>{cell.drawing.svg}<figcaption><strong>{escape(cell.name)}</strong>"
+                f'<p><span class="cell {css}">{escape(word)} {escape(cell.chip.share)}</span></p>{texts}'
                 "</figcaption></figure>"
             )
         parts.append("</div>")

@@ -15,7 +15,7 @@ from rocking.assessment.cracks import mechanisms_of
 from rocking.assessment.decide import Verdict, worse
 from rocking.assessment.rows import FailureRow, MechanismRow, RecordRow, VerdictRow
 from rocking.assessment.scene import Scene, placed
-from rocking.codes.check import StructureCheck
+from rocking.codes.check import CodeTerms, StructureCheck
 from rocking.codes.dynamic_check import check
 from rocking.codes.rows import KINDS, CodeCheckRow, code_check_rows
 from rocking.codes.selection import Selection
@@ -101,8 +101,10 @@ def write_checks(
     figures = study.settings.figures
 
     def write() -> None:
-        data = structures_data(pages, spectrum, study.settings.mapping(), selection, without_sets, unread)
-        write_document(pdf, "structures.typ", data, figures)
+        terms = CodeTerms(limit_state=design.limit_state, confidence_factor=design.confidence_factor)
+        settings = study.settings.for_pages
+        page = structures_data(pages, spectrum, settings, terms, selection, without_sets, unread)
+        write_document(pdf, page, figures)
 
     faults: list[Row] = []
     made_or_told(pdf, write, faults, "the log", figures)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from rocking.assessment.case import Failure
 from rocking.assessment.rows import FailedCase, FailureRow
 from rocking.errors import fault_in_words
+from rocking.reports.pages import Part, PlainPage
 from rocking.study.terminal import log_error
 from rocking.tables import Row, write_whole
 from rocking.tables.workbook import workbook
@@ -49,6 +50,7 @@ def write_reason(path: Path, sentences: list[str], figures: "Figures" = "none") 
     else:
         from rocking.reports.printing import write_document  # matplotlib takes half a second to import
 
-        parts = [{"list": sentences}]
-        data = {"title": path.stem.capitalize(), "subtitle": "It could not be made.", "parts": parts}
-        write_document(path, "plain.typ", data, figures)
+        parts = (Part(sentences=tuple(sentences)),)
+        title = path.stem.capitalize()
+        page = PlainPage(title=title, subtitle="It could not be made.", parts=parts)
+        write_document(path, page, figures)

@@ -327,16 +327,16 @@ def _drawn(result: RecordResult, rows: RecordRows) -> set[tuple[str, str, float 
 
 def write_report(result: RecordResult, rows: RecordRows, study: Study, folder: Path) -> None:
     """Write report.pdf of one record into `folder`, beside the tables that it names."""
+    from rocking.reports.pages import Page
     from rocking.reports.printing import write_document  # matplotlib takes a second to import
-    from rocking.reports.record import RecordReport, failure_data
+    from rocking.reports.record import RecordReport, failure_page
 
     if rows.comparison:
         level = study.settings.design_spectrum.spectrum()
-        data = RecordReport(result, rows, study.structures, study.settings.mapping(), level).data()
+        page: Page = RecordReport(result, rows, study.structures, study.settings.for_pages, level).page()
     else:
-        data = failure_data(result.record, " ".join(failure.message for failure in rows.failures))
-    template = "record.typ" if rows.comparison else "plain.typ"
-    write_document(folder / "report.pdf", template, data, study.settings.figures)
+        page = failure_page(result.record, " ".join(failure.message for failure in rows.failures))
+    write_document(folder / "report.pdf", page, study.settings.figures)
 
 
 def assess_catalogued(

@@ -27,6 +27,7 @@ from rocking.quantities import GRAVITY
 from rocking.records.processing import Processing
 from rocking.records.scaling import ScalingTarget
 from rocking.remarks import Kind, Remark
+from rocking.reports.pages import PageSettings
 from rocking.structures.structure import CRACKS
 from rocking.tables.yaml_file import scalar_value
 
@@ -354,6 +355,14 @@ class Settings(AssessmentSettings):
         facts = {label: vars(self).get(name) for name, label in labels.items() if label}
         # What was left blank is left out.
         return told | {"about": {label: str(fact) for label, fact in facts.items() if fact}}
+
+    @property
+    def for_pages(self) -> PageSettings:
+        """What documents print of them."""
+        told = self.mapping()
+        return PageSettings(
+            **{each.name: told[each.name] for each in fields(PageSettings) if each.name in told}
+        )
 
 
 class _Restricted(Settings):

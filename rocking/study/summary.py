@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     from rocking.codes.conclusion import CodeConclusion
     from rocking.fragility.curves import Fragility
     from rocking.fragility.hazard import Hazard
+    from rocking.reports.pages import Strip
     from rocking.reports.printing import Figures
 
 PROVENANCE = "provenance.json"
@@ -116,7 +117,7 @@ def _documents(
     study = job.study
     sheets = {each: rows for each, rows in shown.items() if each not in _NOT_IN_THE_WORKBOOK}
     checked: list[CodeConclusion] = []
-    drawn: list[dict[str, Any]] = []
+    drawn: list[Strip] = []
     # The main job runs without the folder of the codes.
     if study.settings.design_spectrum.spectrum() is not None:
         from rocking.codes.conclusion import code_conclusions
@@ -245,7 +246,7 @@ def _report(
     study: Study,
     rows: Mapping[type[Row], Sequence[Row]],
     spectra: Sequence[Sequence[float]],
-    strips: Sequence[Mapping[str, Any]],
+    strips: Sequence["Strip"],
 ) -> None:
     """Write summary.pdf and, where asked for, its figures beside it.
 
@@ -258,8 +259,8 @@ def _report(
     pictures = trade_picture(rows_of(TradeRow, rows))
     level = study.settings.design_spectrum.spectrum()
     design = (level, spectra) if level is not None and spectra else None
-    data = summary_data(rows, study.settings.mapping(), pictures, design, strips)
-    write_document(pdf, "summary.typ", data, study.settings.figures)
+    page = summary_data(rows, study.settings.for_pages, pictures, design, strips)
+    write_document(pdf, page, study.settings.figures)
 
 
 def _scatter(path: Path, rows: Mapping[type[Row], Sequence[Row]]) -> None:

@@ -153,7 +153,7 @@ def stages() -> None:
             result = assess_catalogued(record, study)
             assessed_at = time.process_time()
             rows = rows_of(result, record, study)
-            RecordReport(result, rows, study.structures, study.settings.mapping()).pdf()
+            RecordReport(result, rows, study.structures, study.settings.for_pages).pdf()
             reported_at = time.process_time()
         whole = reported_at - started
         spent = {str(stage): each for stage, each in result.durations.items() if stage not in methods}

@@ -10,6 +10,7 @@ import rocking
 from rocking.assessment import trade as trade_module
 from rocking.assessment.rows import FailureRow, TradeRow
 from rocking.assessment.trade import TradeMethod, break_even, what_follows
+from rocking.reports.pages import Part
 from rocking.reports.trade import write_trade_report
 from rocking.study.job import costs_no_other
 from rocking.study.terminal import line_writer, trade_lines
@@ -100,10 +101,10 @@ def test_a_fault_of_one_structure_or_record_costs_no_other_and_is_a_row(rows, re
     assert answered["stout"].cases <= 1
     documents = []
     monkeypatch.setattr(
-        "rocking.reports.printing.compile_document", lambda _, data: documents.append(data) or b"%PDF"
+        "rocking.reports.printing.compile_document", lambda page: documents.append(page) or b"%PDF"
     )
     write_trade_report({TradeRow: tried, FailureRow: faults}, tmp_path / "trade.pdf", tmp_path / "trade.svg")
-    assert {"list": [first.message, f"stout: {asks}"]} in documents[0]["parts"]
+    assert Part(sentences=(first.message, f"stout: {asks}")) in documents[0].parts
 
 
 def made(method: TradeMethod, **changed) -> TradeRow:
@@ -134,14 +135,14 @@ def test_below_so_many_structures_a_record_the_closed_form_costs_more():
 def test_the_report_says_what_the_table_says_in_percent_and_milliseconds(tmp_path, monkeypatch):
     documents = []
     monkeypatch.setattr(
-        "rocking.reports.printing.compile_document", lambda _, data: documents.append(data) or b"%PDF"
+        "rocking.reports.printing.compile_document", lambda page: documents.append(page) or b"%PDF"
     )
     tables = {TradeRow: [ONE_SINE, MECHANISM]}
     write_trade_report(tables, tmp_path / "trade.pdf", tmp_path / "trade.svg")
-    said, picture, table = documents[0]["parts"]
-    assert picture["conclusion"] == " ".join(said["list"]) == " ".join(what_follows([ONE_SINE, MECHANISM]))
-    assert table["rows"][1] == [TradeMethod.MECHANISM, "all", "200", "1.2", "30", "3", "1", "0.28", "0.0"]
-    assert "Abacus" in documents[0]["subtitle"]
+    said, picture, table = documents[0].parts
+    assert said.sentences == tuple(what_follows([ONE_SINE, MECHANISM])) and len(picture.pictures) == 1
+    assert table.table.rows[1] == (TradeMethod.MECHANISM, "all", "200", "1.2", "30", "3", "1", "0.28", "0.0")
+    assert "Abacus" in documents[0].subtitle
     drawn = (tmp_path / "trade.svg").read_text(encoding="utf-8")
     assert "45 structures" in drawn and "8 of 200, error 1.2 %" in drawn
 

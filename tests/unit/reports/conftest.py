@@ -25,6 +25,7 @@ from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings
 from rocking.pulses import Pulse
 from rocking.records.accelerogram import Accelerogram, Source
+from rocking.reports.pages import PageSettings
 from rocking.reports.printing import compile_document
 from rocking.reports.record import RecordReport
 from rocking.reports.summary import summary_data
@@ -33,7 +34,7 @@ from rocking.tables import Row
 from tests.unit.assessment.made_rows import case, station
 
 ASSESSMENT = AssessmentSettings()
-SETTINGS = {name: getattr(ASSESSMENT, name) for name in ("tolerance", "acceleration_scale")}
+SETTINGS = PageSettings(tolerance=ASSESSMENT.tolerance, acceleration_scale=ASSESSMENT.acceleration_scale)
 HOSTILE = ("$x^$", "#panic(1)", "<b>bold</b>", "W" * 80, "Жёлтый Ω 中文")
 """Names that a template or a figure might take for markup, that no column holds, or that not every font has."""
 
@@ -101,9 +102,9 @@ def of_structures(report: RecordReport, kinds: dict[str, str], record: str = "on
     )
 
 
-def summary_report(tables: dict[type[Row], Sequence[Row]], settings: dict[str, object]) -> bytes:
+def summary_report(tables: dict[type[Row], Sequence[Row]], settings: PageSettings) -> bytes:
     """The summary as a PDF."""
-    return compile_document("summary.typ", summary_data(tables, settings))
+    return compile_document(summary_data(tables, settings))
 
 
 def summarised(tables: RecordRows, structures: dict[str, object]) -> dict[type[Row], Sequence[Row]]:
@@ -129,7 +130,7 @@ def example() -> RecordReport:
 
 def detailed(report: RecordReport) -> RecordReport:
     """The report of a study that asks for the details."""
-    return replace(report, settings={**report.settings, "details": True})
+    return replace(report, settings=replace(report.settings, details=True))
 
 
 @pytest.fixture(scope="package")

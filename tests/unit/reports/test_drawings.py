@@ -16,7 +16,7 @@ from rocking.records import Accelerogram
 from rocking.records.measures import record_measures
 from rocking.reports.drawings import MOST_POINTS, Trace, draw_structure, fallen_rotation, thinned
 from rocking.reports.explore import drawings
-from rocking.reports.record import page_one
+from rocking.reports.record import ground_strip, structure_row
 from rocking.reports.record_figures import (
     History,
     comparison_figure,
@@ -58,8 +58,8 @@ def _lines(svg):
 
 
 def test_the_strip_shows_the_motion_while_it_shakes_and_its_pulse_at_one_scale(example):
-    (strip,) = page_one([], {}, example.motion, None)["trace"]
-    motion, pulse = _lines(strip["svg"])
+    strip = ground_strip(example.motion)
+    motion, pulse = _lines(strip.svg)
     record, (sine, *_) = example.motion.accelerogram, example.motion.pulses
     assert motion[[0, -1], 0] == pytest.approx([0, 118], abs=1)  # a sample or two
     peak = np.abs(motion[:, 1] - 10).max()
@@ -85,8 +85,8 @@ def test_page_one_draws_the_mechanism_at_four_fifths_of_the_critical_rotation_on
     critical = block.mechanism().critical_rotation
     for side in (1, -1):
         turned = replace(conclusion, verdict=replace(conclusion.verdict, peak_side=side))
-        (row,) = page_one([turned], example.structures, None, None)["rows"]
-        drawn, at_rest, *_ = _lines(row["drawing"][0]["svg"])
+        row = structure_row(turned, example.structures[turned.verdict.structure])
+        drawn, at_rest, *_ = _lines(row.drawing[0].svg)
         outlines = [block.outline(rotation)[0] for rotation in (0.8 * side * critical, 0.0)]
         scale = np.ptp(drawn, axis=0) / np.ptp(outlines[0], axis=0)
         assert scale[0] == pytest.approx(scale[1], rel=2e-3)  # rounded to a micrometre

@@ -8,6 +8,7 @@ import pytest
 from PIL import Image
 
 from rocking.assessment.rows import TradeMethod, TradeRow
+from rocking.reports.pages import PlainPage
 from rocking.reports.printing import figures_archive, write_document
 from rocking.reports.trade import write_trade_report
 from tests.unit.assessment.made_rows import filled
@@ -17,7 +18,7 @@ from .conftest import detailed
 
 @pytest.fixture(scope="module")
 def data(example):
-    return detailed(example).data()
+    return detailed(example).page()
 
 
 def opened(content):
@@ -29,8 +30,8 @@ def test_every_figure_of_a_report_is_a_file_of_each_kind(data):
     names = [name.rsplit(".", 1) for name in archive.namelist()]
     vectors = [name for name, kind in names if kind == "svg"]
     assert vectors == [name for name, kind in names if kind == "png"]
-    drawn = str(data).count("'alt': ")
-    assert len(vectors) == drawn > len(data["rows"])
+    drawn = str(data).count("Picture(")
+    assert len(vectors) == drawn > len(data.page_one.rows)
     for name in vectors:
         svg = ElementTree.fromstring(archive.read(f"{name}.svg"))
         width, height = (
@@ -60,13 +61,13 @@ def test_the_figures_of_a_document_stand_beside_it(tmp_path, kinds, named):
     ]
     write_trade_report({TradeRow: rows}, tmp_path / "trade.pdf", tmp_path / "trade.svg", kinds)
     assert sorted(each.name for each in tmp_path.iterdir()) == sorted(["trade.pdf", "trade.svg", *named])
-    assert write_document(tmp_path / "a.pdf", "plain.typ", {"title": "a", "subtitle": "", "parts": []}, kinds)
+    assert write_document(tmp_path / "a.pdf", PlainPage(title="a"), kinds)
     for name in named:
         assert len(opened((tmp_path / name).read_bytes()).namelist()) == 1
 
 
 def test_one_kind_alone_and_the_same_bytes_twice(data):
-    only = opened(figures_archive({"rows": data["rows"][:1]}, "png")).namelist()
+    only = opened(figures_archive(data.page_one.rows[:1], "png")).namelist()
     assert only and all(name.endswith(".png") for name in only)
     assert figures_archive(data, "svg") == figures_archive(data, "svg")
     assert opened(figures_archive({}, "svg")).namelist() == []

@@ -25,7 +25,7 @@ def basis(structure, **values):
         untied=check(structure.without_ties(), SPECTRUM) if structure.tie_heights else None,
         mechanisms=[ListedMechanism(each, **values) for each in mechanisms_of(structure)],
     )
-    return structures_data([page], SPECTRUM, Settings().mapping())["pages"][0]["basis"]
+    return structures_data([page], SPECTRUM, Settings().for_pages).sheets[0].answers[0].basis
 
 
 def texts(rows):
@@ -34,14 +34,14 @@ def texts(rows):
 
 def test_the_table_names_each_kind_of_mechanism_once_with_the_force_that_holds_it():
     """Section 12.7: α₀ = .496 and R = 8.86 kN/m as the storey bulges below its tie."""
-    rows = texts(basis(ONE_STOREY)["mechanisms"]["rows"])
+    rows = texts(basis(ONE_STOREY).mechanisms.rows)
     (bulge,) = [each for each in rows if each.startswith("bulges between foot and tie")]
     assert "0.496" in bulge
     assert "tie at 3.60 m: 8.86 kN/m" in bulge
     # of cracks at eleven heights the weakest one, about the foot, in which the tie pulls with its strength
     (whole,) = [each for each in rows if each.startswith("overturns about its foot")]
     assert "1.49" in whole
-    followed = texts(basis(ONE_STOREY, share=0.25, largest=[12e3])["mechanisms"]["rows"])
+    followed = texts(basis(ONE_STOREY, share=0.25, largest=[12e3]).mechanisms.rows)
     assert len(followed) == len(mechanisms_of(ONE_STOREY))
     assert all("25\u00a0%" in each for each in followed)
     assert any("tie at 3.60 m: 8.86 (12.0) kN/m" in each for each in followed)
@@ -49,7 +49,7 @@ def test_the_table_names_each_kind_of_mechanism_once_with_the_force_that_holds_i
 
 def test_the_page_says_what_holds_the_top_and_what_slips():
     wall = LoadedWall.of_size(3.0, 0.35, 19e3, top_load=2e3, restitution=0.7).with_friction(0.6)
-    told = " ".join(basis(wall)["sentences"])
+    told = " ".join(basis(wall).sentences)
     (top,) = wall.restraints()
     assert str(top.remark) in told
 
@@ -59,10 +59,10 @@ def test_the_page_says_which_mass_ratio_counts_beside_that_of_the_letter():
 
     With the hinge free both bodies still move by the same δ in the mean, so that both figures stay.
     """
-    told = " ".join(basis(ONE_STOREY)["sentences"])
+    told = " ".join(basis(ONE_STOREY).sentences)
     assert "e* would be 0.694 and every capacity in acceleration 1.44 times as large; e* = 1.00" in told
     alone = replace(ONE_STOREY, floor_loads=())
-    assert "e* would be" not in " ".join(basis(alone)["sentences"])
+    assert "e* would be" not in " ".join(basis(alone).sentences)
 
 
 @pytest.mark.parametrize(("top", "lowers"), [(9.0, True), (None, False)])
@@ -76,7 +76,7 @@ def test_a_tie_that_brings_a_weaker_mechanism_is_told_with_both_ratios(top, lowe
         wall = replace(wall, tie_strength=100.0)
     tied, free = check(wall, SPECTRUM), check(wall.without_ties(), SPECTRUM)
     assert (tied.nonlinear.ratio < free.nonlinear.ratio * (1 - 1e-6)) is lowers
-    told = [each for each in basis(wall)["sentences"] if each.startswith("With the tie another")]
+    told = [each for each in basis(wall).sentences if each.startswith("With the tie another")]
     assert len(told) == lowers
     if lowers:
         assert tied.linear.ratio > free.linear.ratio

@@ -19,6 +19,7 @@ from rocking.codes.dynamic_check import check
 from rocking.records import load_catalogue
 from rocking.remarks import Kind, Remark
 from rocking.reports.explore import explore_page, record_content
+from rocking.reports.pages import TableCell
 from rocking.reports.printing import LOOKS, cell_text
 from rocking.reports.record import RecordReport
 from rocking.reports.structures import structures_data
@@ -124,30 +125,28 @@ def test_the_terminal_says_it(report, decisions):
 
 @pytest.mark.usefixtures("undrawn")
 def test_page_one_says_it(report, decisions):
-    data = detailed(report).data()
-    rows = {row["name"]: row for row in data["rows"]}
-    table = {row[1]: row[2:4] for row in data["details"][0]["verdicts"]["rows"]}
+    data = detailed(report).page()
+    rows = {row.name: row for row in data.page_one.rows}
+    table = {row[1]: row[2:4] for row in data.details[0].verdicts.rows}
     for name, decision in decisions.items():
-        assert rows[name]["word"].removeprefix("? ") == decision.word
-        assert rows[name]["share"] == decision.share_in_words
-        assert rows[name]["fill"] == LOOKS[decision.word][1]
-        assert table[name][0]["text"] == decision.word
+        assert rows[name].chip.word.removeprefix("? ") == decision.word
+        assert rows[name].chip.share == decision.share_in_words
+        assert rows[name].chip.fill == LOOKS[decision.word][1]
+        assert table[name][0].text == decision.word
         assert table[name][1] == decision.share_in_words
-    assert rows["arch 20 m"]["hatched"], "whose contacts open, so that it cannot be told"
+    assert rows["arch 20 m"].chip.hatched, "whose contacts open, so that it cannot be told"
 
 
 @pytest.mark.usefixtures("undrawn")
 def test_the_summary_says_it(report, decisions):
     data = summary_data(summarised(report.tables, report.structures), SETTINGS)
-    assert (
-        data["conclusion"] == "2 of 5 structures overturn or probably do; 1 is uncertain, 1 cannot be told."
-    )
-    cells = {row["name"]: row["cells"][0] for row in data["matrix"]["rows"]}
-    table = {line[0]["text"]: line for line in data["structures"]["rows"]}
+    assert data.conclusion == "2 of 5 structures overturn or probably do; 1 is uncertain, 1 cannot be told."
+    cells = {row.name: row.cells[0] for row in data.matrix.rows}
+    table = {line[0].text: line for line in data.structures.rows}
     for name, decision in decisions.items():
-        assert cells[name]["word"].removeprefix("? ") == decision.word
-        assert cells[name]["share"] in ("", decision.share_in_words)
-        assert cells[name]["fill"] == LOOKS[decision.word][1]
+        assert cells[name].word.removeprefix("? ") == decision.word
+        assert cells[name].share in ("", decision.share_in_words)
+        assert cells[name].fill == LOOKS[decision.word][1]
         assert decision.share_in_words in table[name]
 
 
@@ -155,7 +154,7 @@ def test_the_page_to_explore_says_it(report, decisions):
     content = record_content(report.result, report.tables, report.structures)
     sentence = "2 of 5 structures overturn or probably do; 1 is uncertain, 1 cannot be told."
     assert sentence in explore_page([content], report.structures).decode()
-    assert report.data()["conclusion"] == sentence, "as on page one"
+    assert report.page().conclusion == sentence, "as on page one"
     cases = content["cases"]
     for name, decision in decisions.items():
         assert cases[name]["verdict"] == decision.word
@@ -174,11 +173,11 @@ def test_the_page_to_sign_says_it(report, decisions):
         page = _checked(
             report.result.scenes[name].scene, None, partial(check, spectrum=SPECTRUM), own, stations
         )
-        (data,) = structures_data([page], SPECTRUM, SETTINGS)["pages"]
-        share = data["basis"]["share"]
+        (data,) = structures_data([page], SPECTRUM, SETTINGS).sheets
+        share = data.answers[0].basis.share
         assert f"{decision.word.predicate} under 1 station" in share
         if not math.isnan(decision.share):
-            assert f"{100 * decision.share:.0f}{NO_BREAK}%" in [each["value"] for each in data["sure"]]
+            assert f"{100 * decision.share:.0f}{NO_BREAK}%" in [each.value for each in data.answers[0].sure]
         doubts = "; ".join(map(str, decision.doubts))
         assert not doubts or f"({doubts})" in share
 
@@ -206,10 +205,10 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
         assert row.verdict is decision.word
         assert row.overturning_share == pytest.approx(decision.share, nan_ok=True)
 
-    report = detailed(RecordReport(result, tables, study.structures, study.settings.mapping()))
-    data = report.data()
+    report = detailed(RecordReport(result, tables, study.structures, study.settings.for_pages))
+    data = report.page()
     told = [line for each in result.stations for line in _told(each, 1.0)]
-    of_all = zip(report.result.worst_first, data["details"][0]["verdicts"]["rows"], strict=True)
+    of_all = zip(report.result.worst_first, data.details[0].verdicts.rows, strict=True)
     lines = workbook_lines(tables)
     stations = {row.record: row.station for row in tables.record}
     for station, cells in of_all:
@@ -218,7 +217,7 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
         share = decision.share_in_words
         (own,) = (line for line in told if line.startswith(f"{name}: "))
         assert own == f"{name}: {decision.word}{f' ({share})' if share else ''}; {decision.why}"
-        texts = [each["text"] if isinstance(each, dict) else each for each in cells]
+        texts = [each.text if isinstance(each, TableCell) else each for each in cells]
         assert texts[3:5] == [decision.word, share]
         period = [] if station.support_period_s is None else [f"{station.support_period_s:g}"]
         key = "|".join(["", station.structure, *period, decision.word, ""])
@@ -228,24 +227,24 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
         own_rows = [row for row in tables.verdicts if row.structure == station.structure]
         there = [row for row in own_rows if row.support_period_s == station.support_period_s]
         page = _checked(station.scene, station.support, partial(check, spectrum=SPECTRUM), there, stations)
-        (signed,) = structures_data([page], SPECTRUM, SETTINGS)["pages"]
-        assert f"{decision.word.predicate} under 1 station" in signed["basis"]["share"]
-        assert all(str(Remark(doubt.kind)) in signed["basis"]["share"] for doubt in decision.doubts)
+        (signed,) = structures_data([page], SPECTRUM, SETTINGS).sheets
+        assert f"{decision.word.predicate} under 1 station" in signed.answers[0].basis.share
+        assert all(str(Remark(doubt.kind)) in signed.answers[0].basis.share for doubt in decision.doubts)
 
     worst = {each.structure: each for each in result.worst_periods}
     content = record_content(result, tables, study.structures)
     summary = summary_data(summarised(tables, study.structures), SETTINGS)
-    rows = {row["name"]: row for row in data["rows"]}
-    cells = {row["name"]: row["cells"][0] for row in summary["matrix"]["rows"]}
-    table = {line[0]["text"]: line for line in summary["structures"]["rows"]}
+    rows = {row.name: row for row in data.page_one.rows}
+    cells = {row.name: row.cells[0] for row in summary.matrix.rows}
+    table = {line[0].text: line for line in summary.structures.rows}
     line = record_line(result.scenes.values(), [])
     page = explore_page([content], study.structures).decode()
-    assert data["conclusion"] == summary["conclusion"] and data["conclusion"] in page
+    assert data.conclusion == summary.conclusion and data.conclusion in page
     for name, station in worst.items():
         decision = station.decision
-        for row in (rows[name], cells[name]):
-            assert row["word"].removeprefix("? ") == decision.word
-            assert row["share"] in (decision.share_in_words, "" if row is cells[name] else None)
+        for row in (rows[name].chip, cells[name]):
+            assert row.word.removeprefix("? ") == decision.word
+            assert row.share in (decision.share_in_words, "" if row is cells[name] else None)
         assert decision.share_in_words in table[name]
         case = content["cases"][name]
         assert (case["verdict"], case["cell"]) == (decision.word, cell_text(decision))

@@ -14,8 +14,9 @@ from rocking.assessment.scene import Scene
 from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Kind, Remark
 from rocking.reports import printing
+from rocking.reports.pages import RecordPage, Table, TableCell
 from rocking.reports.printing import MEASURED, compile_document
-from rocking.reports.record import RecordReport, failure_data
+from rocking.reports.record import RecordReport, failure_page
 from rocking.structures import Block, Facade, LoadedWall, Spire
 from rocking.tables import cell
 
@@ -25,7 +26,7 @@ NUMBER = re.compile(r"[−-]?\d+(?:\.\d+)?(?:×10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹
 CSV_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 PLAIN = str.maketrans("−⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "--0123456789")
 TABLES = ("verdicts", "facts", "structures", "pulses", "methods")
-PICTURES = ("histories", "pulse-figures", "comparison")
+PICTURES = ("histories", "pulse_figures", "comparison")
 
 
 def printed_numbers(text: str) -> list[tuple[float, float]]:
@@ -48,32 +49,33 @@ def csv_numbers(example: RecordReport) -> np.ndarray:
     return np.concatenate([numbers, 100 * numbers, numbers / 9.80665])
 
 
-def known(data: dict) -> list[str]:
+def known(data: RecordPage) -> list[str]:
     """Every sentence of the second page, whatever its topic."""
-    return [text for each in data["known"] for text in each["texts"]]
+    return [text for each in data.known for text in each.texts]
 
 
-def texts_of(data: dict) -> list[str]:
+def texts_of(data: RecordPage) -> list[str]:
     """Every table cell but the running numbers of the structures, every sentence, and the figures of page one."""
-    texts = [*known(data), *data["advice"], data["sine"]["share"]]
-    texts += [peak["value"] for peak in data["peaks"]]
-    texts += [row[cell] for row in data["rows"] for cell in ("below", "share", "reserve", "remark")]
-    (rest,) = data["details"]
-    for table in (data["components"], *(rest[name] for name in TABLES)):
-        first = 1 if table["heads"][0] == "No." else 0
-        for cells in (row[first:] for row in table["rows"]):
-            texts += [each.get("text", "") if isinstance(each, dict) else each for each in cells]
+    texts = [*known(data), *data.advice, data.page_one.sine.share]
+    texts += [peak.value for peak in data.page_one.peaks]
+    for row in data.page_one.rows:
+        texts += [row.below, row.chip.share, row.reserve, row.remark]
+    (rest,) = data.details
+    for table in (data.components, *(getattr(rest, name) for name in TABLES)):
+        first = 1 if table.heads[0] == "No." else 0
+        for cells in (row[first:] for row in table.rows):
+            texts += [each.text if isinstance(each, TableCell) else each for each in cells]
     return texts
 
 
-def with_tables(example: RecordReport, **changed) -> dict:
+def with_tables(example: RecordReport, **changed) -> RecordPage:
     """The data of the report with other tables."""
-    return replace(example, tables=replace(example.tables, **changed)).data()
+    return replace(example, tables=replace(example.tables, **changed)).page()
 
 
 @pytest.fixture(scope="module")
-def data(example) -> dict:
-    return detailed(example).data()
+def data(example) -> RecordPage:
+    return detailed(example).page()
 
 
 def test_every_number_that_is_printed_stands_in_a_csv(example, data):
@@ -88,15 +90,15 @@ def test_every_number_that_is_printed_stands_in_a_csv(example, data):
 
 def test_page_one_has_a_row_for_each_structure_the_worst_first_as_the_tables_have_it(example, data):
     by_name = {row.structure: row for row in example.tables.verdicts}
-    words = [by_name[row["name"]].verdict for row in data["rows"]]
+    words = [by_name[row.name].verdict for row in data.page_one.rows]
     assert words == sorted(words, key=ORDER.index)
-    assert sorted(by_name) == sorted(row["name"] for row in data["rows"])
-    for row in data["rows"]:
-        verdict = by_name[row["name"]]
-        assert row["word"].removeprefix("? ") == verdict.verdict
-        assert row["share"] == verdict.decision.share_in_words
+    assert sorted(by_name) == sorted(row.name for row in data.page_one.rows)
+    for row in data.page_one.rows:
+        verdict = by_name[row.name]
+        assert row.chip.word.removeprefix("? ") == verdict.verdict
+        assert row.chip.share == verdict.decision.share_in_words
     falls = sum(word in ("overturns", "probably overturns") for word in words)
-    assert data["conclusion"].startswith(f"{falls} of {len(words)} structures overturn")
+    assert data.conclusion.startswith(f"{falls} of {len(words)} structures overturn")
 
 
 def test_a_mark_stands_where_its_rotation_is_on_a_scale_with_a_place_of_its_own_for_what_falls(example, data):
@@ -108,13 +110,13 @@ def test_a_mark_stands_where_its_rotation_is_on_a_scale_with_a_place_of_its_own_
         "whole": "integrated_rotation_ratio",
     }
     places: dict[str, set[float]] = {}
-    for row in data["rows"]:
+    for row in data.page_one.rows:
         for mark, column in of_marks.items():
-            ratio = getattr(cases[row["name"]], column)
+            ratio = getattr(cases[row.name], column)
             if np.isinf(ratio):
-                places.setdefault(mark, set()).add(row["marks"][mark])
+                places.setdefault(mark, set()).add(getattr(row.marks, mark))
             else:
-                assert row["marks"][mark] == pytest.approx(27 * min(ratio, 1.2))
+                assert getattr(row.marks, mark) == pytest.approx(27 * min(ratio, 1.2))
     fallen = [place for (place,) in places.values()]
     assert len(set(fallen)) == len(places) > 1 and min(fallen) > 33.5
 
@@ -131,9 +133,9 @@ def test_a_client_gets_two_pages_the_first_of_at_most_250_words(example, count):
     words = [word[4].strip(",:") for word in first]
     assert f"{count} structures overturn or probably do" in " ".join(words)
     assert {f"{place}" for place in range(count)} <= set(words)
-    data = report.data()
-    named = [(each["word"], name) for each in data["others"] for name in each["names"].split(", ")]
-    named += [(row["word"].removeprefix("? "), row["name"]) for row in data["rows"]]
+    data = report.page()
+    named = [(each.word, name) for each in data.page_one.others for name in each.names.split(", ")]
+    named += [(row.chip.word.removeprefix("? "), row.name) for row in data.page_one.rows]
     assert sorted(named) == sorted((str(each.verdict), each.structure) for each in report.tables.verdicts)
 
 
@@ -143,7 +145,7 @@ def test_whether_one_sine_dominates_is_said(example):
     clauses = {}
     for share in (0.49, 0.5):
         pulses = [replace(row, explained_energy=share) for row in example.tables.pulses]
-        clauses[share] = with_tables(example, pulses=pulses)["sine"]["clause"]
+        clauses[share] = with_tables(example, pulses=pulses).page_one.sine.clause
     assert clauses[0.49].startswith("No sine dominates") and clauses[0.5].startswith("One sine dominates")
 
 
@@ -183,14 +185,14 @@ def test_the_report_is_a_tagged_archive_document_of_at_most_six_pages_and_the_sa
 
 
 def test_every_picture_has_an_alternative_text_and_no_type_under_seven_points(data):
-    (rest,) = data["details"]
-    pictures = [picture for name in PICTURES for picture in rest[name]]
+    (rest,) = data.details
+    pictures = [picture for name in PICTURES for picture in getattr(rest, name)]
     assert len(pictures) == len(PICTURES)
-    on_page_one = [*data["trace"], *(picture for row in data["rows"] for picture in row["drawing"])]
-    assert len(on_page_one) == 1 + len(data["rows"])
-    assert all(len(picture["alt"]) > 20 for picture in (*pictures, *on_page_one))
+    on_page_one = [*data.page_one.trace, *(picture for row in data.page_one.rows for picture in row.drawing)]
+    assert len(on_page_one) == 1 + len(data.page_one.rows)
+    assert all(len(picture.alt) > 20 for picture in (*pictures, *on_page_one))
     for picture in pictures:
-        sizes = [float(size) for size in re.findall(r"font[^;]*?([\d.]+)px", picture["svg"])]
+        sizes = [float(size) for size in re.findall(r"font[^;]*?([\d.]+)px", picture.svg)]
         assert sizes and min(sizes) >= 7
 
 
@@ -207,8 +209,8 @@ def test_hostile_names_are_printed_as_they_are_and_the_factor_wherever_numbers_a
     for name in HOSTILE:
         assert "".join(name.split()) in text, name
     assert text.count("×12.5") >= 10
-    notice = hostile.data()["notices"][0]
-    assert "×\u00a012.5" in notice["text"] and notice["strong"]
+    notice = hostile.page().notices[0]
+    assert "×\u00a012.5" in notice.text and notice.strong
 
 
 def test_nothing_that_lifts_no_structure_and_no_pulse_are_told_first():
@@ -220,28 +222,26 @@ def test_nothing_that_lifts_no_structure_and_no_pulse_are_told_first():
     }
     for notice, (records, structures) in cases.items():
         report = detailed(assessed("one", records, structures))
-        data = report.data()
-        assert (
-            any(notice in each["text"] for each in data["notices"]) and data["details"][0]["histories"] == []
-        )
+        data = report.page()
+        assert any(notice in each.text for each in data.notices) and data.details[0].histories == ()
         assert report.pdf().startswith(b"%PDF")
 
 
 def test_of_a_hundred_structures_all_are_in_the_tables_and_few_are_drawn(example):
     names = [f"block {place}" for place in range(100)]
-    data = detailed(of_structures(example, dict.fromkeys(names, "block 4 m"))).data()
-    (rest,) = data["details"]
-    assert len(rest["verdicts"]["rows"]) == len(rest["methods"]["rows"]) == 100
-    assert len(data["rows"]) == 12
-    assert data["others"][0]["names"].endswith(" and 68 others")
-    assert data["conclusion"] == "All 100 structures overturn or probably do."
-    assert "Another 90 structures" in rest["histories-note"]
+    data = detailed(of_structures(example, dict.fromkeys(names, "block 4 m"))).page()
+    (rest,) = data.details
+    assert len(rest.verdicts.rows) == len(rest.methods.rows) == 100
+    assert len(data.page_one.rows) == 12
+    assert data.page_one.others[0].names.endswith(" and 68 others")
+    assert data.conclusion == "All 100 structures overturn or probably do."
+    assert "Another 90 structures" in rest.histories_note
 
 
 @pytest.mark.process
 @pytest.mark.parametrize("message", ["records/x.at2: #panic(1) $x^$ <b>.", "", "W" * 300])
 def test_a_failure_is_one_page_that_says_why(message):
-    document = compile_document("plain.typ", failure_data("bad #record$", message))
+    document = compile_document(failure_page("bad #record$", message))
     assert re.findall(rb"/Count (\d+)", document) == [b"1"]
     assert "".join(message.split()) in extracted(document)
 
@@ -256,24 +256,24 @@ def test_a_contact_that_fails_is_told(example):
     failing = f"{next(iter(example.structures))} (slides and bounces)"
     assert any(failing in sentence for sentence in known(data))
     slides = Remark.of(Kind.CONTACT_SLIDES, lifting=0.2, largest=0.7).brief
-    assert slides in {row["remark"] for row in data["rows"]}
-    assert data["details"][0]["methods"]["rows"][0][-2:] == ["yes", "yes"]
+    assert slides in {row.remark for row in data.page_one.rows}
+    assert data.details[0].methods.rows[0][-2:] == ("yes", "yes")
 
 
 @pytest.mark.usefixtures("undrawn")
 def test_a_reserve_that_may_be_too_high_is_told_as_such(example):
     """Of a structure whose contacts open the mechanism knows too little; of the others nothing is said."""
     name = next(each.structure for each in example.result.worst_first if each.reserve is not None)
-    assert detailed(example).data()["details"][0]["reserve-note"] == ""
+    assert detailed(example).page().details[0].reserve_note == ""
     scene = example.result.scenes[name]
     station = scene.worst
     cases = {each: replace(case, doubt=Remark(Kind.CONTACTS_OPEN)) for each, case in station.cases.items()}
     in_doubt = replace(scene, stations=(replace(station, cases=cases),))
     result = replace(example.result, scenes={**example.result.scenes, name: in_doubt})
     doubtful = replace(detailed(example), result=result, tables=rows_of_record(result, "cd" * 32, "CC0-1.0"))
-    data = doubtful.data()
-    assert f"may be too high for {name}" in data["details"][0]["reserve-note"]
-    assert [row["name"] for row in data["rows"] if row["alone"]] == [name], "grey on page one"
+    data = doubtful.page()
+    assert f"may be too high for {name}" in data.details[0].reserve_note
+    assert [row.name for row in data.page_one.rows if row.alone] == [name], "grey on page one"
 
 
 def test_the_reserve_of_a_spire_is_always_told_as_the_mechanisms(example):
@@ -296,37 +296,35 @@ def test_a_front_that_is_free_to_rock_through_its_floors_is_told():
         "free": Facade(**sizes),
     }
     report = assessed("one", [shaken()], fronts)
-    told = [each for each in known(report.data()) if str(Remark(Kind.FLOORS_BEHIND)) in each]
+    told = [each for each in known(report.page()) if str(Remark(Kind.FLOORS_BEHIND)) in each]
     assert told == [str(Remark(Kind.FLOORS_BEHIND, "floors"))]
 
 
-def _head_and_value(facts: dict) -> list[tuple[str, list[str]]]:
+def _head_and_value(facts: Table) -> list[tuple[str, list[str]]]:
     """The heads of the facts of one component with their values; two stand beside each other in a line."""
-    return [(row[place], [row[place + 1]]) for row in facts["rows"] for place in (0, 2)]
+    return [(row[place], [row[place + 1]]) for row in facts.rows for place in (0, 2)]
 
 
-def _columns(table: dict) -> list[tuple[str, tuple[str, ...]]]:
+def _columns(table: Table) -> list[tuple[str, tuple[str, ...]]]:
     """The heads of a table, each with what stands below it."""
-    return list(zip(table["heads"], zip(*table["rows"], strict=True), strict=True))
+    return list(zip(table.heads, zip(*table.rows, strict=True), strict=True))
 
 
 @pytest.mark.usefixtures("undrawn")
 def test_a_report_in_g_and_centimetres_prints_the_same_numbers_in_them(example):
     """Every number is that of SI units over the size of its unit: 9.80665 m/s², .01 m/s and .01 m."""
-    settings = {**example.settings, "display_units": "g and cm"}
-    plain, shown = detailed(example).data(), detailed(replace(example, settings=settings)).data()
-    (plain_rest,), (rest,) = plain["details"], shown["details"]
-    assert "m/s²" not in str(rest["facts"]) + str(rest["pulses"]) + str(shown["components"]) + str(
-        shown["known"]
-    )
+    settings = replace(example.settings, display_units="g and cm")
+    plain, shown = detailed(example).page(), detailed(replace(example, settings=settings)).page()
+    (plain_rest,), (rest,) = plain.details, shown.details
+    assert "m/s²" not in str(rest.facts) + str(rest.pulses) + str(shown.components) + str(shown.known)
     sizes = {"[m/s²]": ("[g]", 9.80665), "[m/s]": ("[cm/s]", 0.01), "[m]": ("[cm]", 0.01)}
     (row,) = example.tables.record
     pulse = next(each for each in example.tables.pulses if each.rank == 1)
-    components = dict(_columns(shown["components"]))
+    components = dict(_columns(shown.components))
     assert components["PGV [cm/s]"] == (printing.number(row.peak_velocity_m_s / 0.01),)
     assert components["Sine: amplitude [g]"] == (printing.number(abs(pulse.amplitude_m_s2) / 9.80665),)
-    pairs = [*zip(_head_and_value(plain_rest["facts"]), _head_and_value(rest["facts"]), strict=True)]
-    pairs += zip(_columns(plain_rest["pulses"]), _columns(rest["pulses"]), strict=True)
+    pairs = [*zip(_head_and_value(plain_rest.facts), _head_and_value(rest.facts), strict=True)]
+    pairs += zip(_columns(plain_rest.pulses), _columns(rest.pulses), strict=True)
     for (head, before), (new_head, after) in pairs:
         unit = next((each for each in sizes if each in head), None)
         if unit is None:
@@ -338,7 +336,7 @@ def test_a_report_in_g_and_centimetres_prints_the_same_numbers_in_them(example):
             ((first, half),) = printed_numbers(old)
             ((second, other),) = printed_numbers(new)
             assert abs(second * size - first) <= 1.001 * (half + other * size), (head, old, new)
-    assert detailed(example).data() == plain, "the units are those of one report"
+    assert detailed(example).page() == plain, "the units are those of one report"
 
 
 @pytest.mark.process
@@ -347,21 +345,21 @@ def test_the_report_says_what_to_do_and_by_how_much_the_record_may_be_stronger()
     structures = {"spire": Spire(3.0, 15.0, 0.25, crack_height=5.0), "block": Block.of_size(1.0, 4.0)}
     shaking = [shaken("NS", scale_factor=3.0), shaken("EW", scale_factor=2.0)]
     unasked = assessed("two", shaking, structures, fidelity="auto")
-    data = unasked.data()
-    assert data["advice"] == [f"To learn more of spire: {Remark(Kind.CONTACT_DYNAMICS)}."]
-    remarks = {row["name"]: row["remark"] for row in data["rows"]}
+    data = unasked.page()
+    assert data.advice == [f"To learn more of spire: {Remark(Kind.CONTACT_DYNAMICS)}."]
+    remarks = {row.name: row.remark for row in data.page_one.rows}
     assert remarks["spire"] == Remark(Kind.CONTACT_DYNAMICS).brief
     first = "".join(word[4] for word in pages(unasked.pdf())[0])
     assert Remark(Kind.CONTACT_DYNAMICS).brief.replace(" ", "") in first
 
     report = assessed("two", shaking, structures)
-    data = report.data()
-    assert data["advice"] == [], "contact dynamics was asked"
+    data = report.page()
+    assert data.advice == [], "contact dynamics was asked"
     (block,) = (row for row in report.tables.verdicts if row.structure == "block")
-    reserves = {row["name"]: row["reserve"] for row in data["rows"]}
-    assert reserves["block"].startswith(printing.number(block.reserve_low, 2))
+    reserves = {row.name: row.reserve for row in data.page_one.rows}
+    assert reserves.block.startswith(printing.number(block.reserve_low, 2))
     first = "".join(word[4] for word in pages(report.pdf())[0])
-    assert reserves["block"] in first
+    assert reserves.block in first
 
 
 @pytest.mark.process
@@ -374,12 +372,12 @@ def test_page_one_tells_what_was_typed_and_what_crushing_would_change_before_pag
     seen = set()
     for factor in (2.0, 4.3):
         report = assessed("one", [shaken("NS").scaled(factor)], {"typed": typed, "wall": wall})
-        told = report.data()["left-out"]
+        told = report.page().page_one.left_out
         assert f"typed: restitution 0.6 typed, {own:.2g} by geometry" in told
         (verdict,) = (row for row in report.tables.verdicts if row.structure == "wall")
         tells = "wall: crushing at 2 MPa would matter" in told
         assert tells == (verdict.reserve_low <= lost)
-        assert tells == ("crush at 2 MPa" in " ".join(known(report.data())))
+        assert tells == ("crush at 2 MPa" in " ".join(known(report.page())))
         seen.add(tells)
     assert seen == {False, True}
     first, _ = pages(report.pdf())

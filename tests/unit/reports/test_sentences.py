@@ -1,6 +1,7 @@
 """The catalogue of the pages to sign: whole in both languages, and an Italian page has no English sentence."""
 
 import re
+from dataclasses import fields, is_dataclass
 from pathlib import Path
 from string import Formatter
 from typing import get_args
@@ -16,6 +17,7 @@ from rocking.codes.check import Part
 from rocking.codes.selection import random_sets, search
 from rocking.errors import RockingError
 from rocking.remarks import Kind, Language, Remark
+from rocking.reports.pages import Picture, SignWords
 from rocking.reports.sentences import Sentences, catalogue
 from rocking.reports.structures import CheckedStructure, structures_data
 from rocking.structures.structure_list import TYPES
@@ -93,6 +95,7 @@ def test_every_sentence_of_the_catalogue_is_looked_up():
         each.replace("-", " ") for each in re.findall(r'"([a-z-]+)"', source)
     }
     computed = {"linear", "nonlinear", "dynamic", "met", "not met", "not called met"}  # of a check
+    computed |= {each.name.replace("_", " ") for each in fields(SignWords)}
     computed |= {"study", "client", "project number", "author", "date"}  # what a study is told to be
     unused = [
         key
@@ -112,12 +115,14 @@ def test_numbers_have_the_mark_of_their_language():
     assert ITALIAN.counted(1, "station") == "1 stazione" and ITALIAN.counted(2, "station") == "2 stazioni"
 
 
-def texts_of(data):
-    if isinstance(data, str):
-        return [] if data.startswith("<?xml") else [data]
-    if isinstance(data, dict):
-        return [text for key, each in data.items() if key not in ("svg", "alt") for text in texts_of(each)]
-    return [text for each in data for text in texts_of(each)] if isinstance(data, list | tuple) else []
+def texts_of(page):
+    if isinstance(page, str):
+        return [page]
+    if isinstance(page, list | tuple):
+        return [text for each in page for text in texts_of(each)]
+    if not is_dataclass(page) or isinstance(page, Picture):
+        return []
+    return [text for each in fields(page) for text in texts_of(getattr(page, each.name))]
 
 
 def test_an_italian_page_has_no_english_sentence():
@@ -144,10 +149,12 @@ def test_an_italian_page_has_no_english_sentence():
         r"\b(the|of|and|is|are|not|met|by|under|which|with|its|height|thickness|crack|outwards|inwards|falls)\b"
     )
     for page in pages:
-        data = structures_data([page], SPECTRUM, Settings(language="it").mapping())
+        data = structures_data([page], SPECTRUM, Settings(language="it").for_pages)
         said = [text for text in texts_of(data) if english.search(text)]
         assert said == []
-        drawings = [each["svg"] for each in (*data["pages"][0]["bars"], *data["pages"][0]["basis"]["figure"])]
+        drawings = [
+            each.svg for each in (*data.sheets[0].answers[0].bars, *data.sheets[0].answers[0].basis.figure)
+        ]
         drawn = [text for svg in drawings for text in re.findall(r"<text[^>]*>([^<]*)</text>", svg)]
         assert drawn and not [text for text in drawn if english.search(text)]
         assert not [text for text in drawn if re.search(r"\d\.\d", text) and not text.startswith("C8.")]

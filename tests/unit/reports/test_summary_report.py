@@ -33,6 +33,7 @@ from rocking.reports.design_figure import (
     spectrum_periods,
 )
 from rocking.reports.fragility import fragility_data, fragility_figure, ida_frame
+from rocking.reports.pages import TableCell
 from rocking.reports.scatter import prediction_scatter
 from rocking.reports.style import svg
 from rocking.reports.summary import outcomes_figure, severity_map, summary_data
@@ -73,9 +74,9 @@ def summary_tables(comparison, **tables):
 def test_agreement_counts_all_and_each_structure():
     rows = {row.structure: row for row in agreement_rows(CASES)}
     assert {name: row.cases for name, row in rows.items()} == {"": 5, "pier": 2, "arch": 1, "wall": 2}
-    content = summary_data(summary_tables(CASES), SETTINGS)["agreement"]["rows"]
+    content = summary_data(summary_tables(CASES), SETTINGS).agreement.rows
     # records, cases, both rock, within a factor 2, median ratio; overturning, found, missed, false
-    assert content[0] == ["all", "3", "5", "2", "1", "0.696", "2", "1", "1", "1"]
+    assert list(content[0]) == ["all", "3", "5", "2", "1", "0.696", "2", "1", "1", "1"]
     assert rows[""].median_ratio == (0.5 / 0.4 + 0.1 / 0.7) / 2 and rows["pier"].median_ratio == 1.25
     more = [*CASES, case("pier", 0.8, 0.1, "two")]
     assert next(agreement_rows(more)).median_ratio == 1.25  # of 1/7, 5/4 and 8
@@ -98,20 +99,20 @@ def test_the_summary_counts_the_verdicts_of_each_structure_and_names_its_worst_r
         verdict("three", "wall", 0.7, 12),
     ]
     data = summary_data(summary_tables(CASES, verdicts=judged), SETTINGS)
-    rows = {row[0]["text"]: row[1:] for row in data["structures"]["rows"]}
-    assert list(data["structures"]["heads"][1:5]) == [
+    rows = {row[0].text: row[1:] for row in data.structures.rows}
+    assert list(data.structures.heads[1:5]) == [
         "Overturns",
         "Uncertain",
         "Probably stands",
         "Stands",
     ]
-    assert rows["wall"][:6] == ["1", "0", "1", "0", "two", "100\u00a0%"]
-    assert rows["pier"][4:] == ["one", "31\u00a0%", "overturns", "0.50 – overturns"]
+    assert list(rows["wall"][:6]) == ["1", "0", "1", "0", "two", "100\u00a0%"]
+    assert list(rows["pier"][4:]) == ["one", "31\u00a0%", "overturns", "0.50 – overturns"]
     assert (
-        data["conclusion"]
+        data.conclusion
         == "1 of 3 structures overturns or probably does under some record; under its worst record 1 is uncertain."
     )
-    assert data["outcomes-figure"] == [], "three records stand beside each other"
+    assert data.outcomes == (), "three records stand beside each other"
     drawn = re.findall(
         r">(wall|pier|arch|▲ overturns|≈ uncertain|○ probably stands|● stands)<", svg(outcomes_figure(judged))
     )
@@ -124,9 +125,9 @@ def test_the_map_holds_sign_and_share_with_the_worst_record_and_structure_first(
     alone += verdicts([station(run("EW", 0.8, "arch"))], "two")
     judged = [*alone, verdict("two", "wall", math.inf, 60), verdict("three", "wall", 0.7, 0)]
     content = severity_map(judged, [])
-    assert content["heads"] == ["pier", "wall", "arch"]
-    assert [row["record"] for row in content["rows"]] == ["one", "two", "three"]
-    assert [[cell["text"] for cell in row["cells"]] for row in content["rows"]] == [
+    assert content.heads == ("pier", "wall", "arch")
+    assert [row.record for row in content.rows] == ["one", "two", "three"]
+    assert [[cell.text for cell in row.cells] for row in content.rows] == [
         ["≈ one run", "?", "?"],
         ["?", "△ 94\u00a0%", "≈ one run"],
         ["?", "● 0\u00a0%", "?"],
@@ -142,28 +143,28 @@ def test_the_matrix_holds_a_word_for_each_record_the_worst_structure_first_and_w
         verdict("two", "wall", math.inf, 64),
         verdict("two", "arch", 0.4, 12),
     ]
-    content = summary_data(summary_tables(CASES, verdicts=judged), SETTINGS)["matrix"]
-    assert [head["name"] for head in content["heads"]] == ["two", "one"]
-    words = {row["name"]: [cell["word"] for cell in row["cells"]] for row in content["rows"]}
+    content = summary_data(summary_tables(CASES, verdicts=judged), SETTINGS).matrix
+    assert [head.name for head in content.heads] == ["two", "one"]
+    words = {row.name: [cell.word for cell in row.cells] for row in content.rows}
     assert list(words.items()) == [
         ("wall", ["overturns", "overturns"]),
         ("pier", ["overturns", "stands"]),
         ("arch", ["probably stands", ""]),
     ]
-    assert [row["remark"] for row in content["rows"]] == ["", "", ""], "the words say it"
+    assert [row.remark for row in content.rows] == ["", "", ""], "the words say it"
 
 
 @pytest.mark.usefixtures("undrawn")
 def test_of_many_records_each_has_a_line_of_the_map_and_the_worst_stand_on_the_first_page():
     judged = [verdict(f"record {number}", "pier", math.inf, number) for number in range(40)]
     data = summary_data(summary_tables(CASES, verdicts=judged), SETTINGS)
-    assert data["matrix"]["rows"] == []
-    assert [row["record"] for row in data["map"]["rows"]] == [f"record {39 - number}" for number in range(12)]
-    assert len(data["whole-map"]["rows"]) == 40
+    assert data.matrix.rows == ()
+    assert [row.record for row in data.map.rows] == [f"record {39 - number}" for number in range(12)]
+    assert len(data.whole_map.rows) == 40
     few = summary_data(summary_tables(CASES, verdicts=judged[:10]), SETTINGS)
-    assert few["map"]["rows"] == few["whole-map"]["rows"] == []
-    (row,) = few["matrix"]["rows"]
-    assert few["matrix"]["upright"] and len(few["matrix"]["heads"]) == len(row["cells"]) == 10
+    assert few.map.rows == few.whole_map.rows == ()
+    (row,) = few.matrix.rows
+    assert few.matrix.upright and len(few.matrix.heads) == len(row.cells) == 10
 
 
 def test_each_method_is_held_against_the_integration_and_no_time_is_told(example):
@@ -171,25 +172,25 @@ def test_each_method_is_held_against_the_integration_and_no_time_is_told(example
     tables = summarised(example.tables, example.structures)
     timings = [TimingRow.of(TimedStage("one", "closed form", 0.002))]
     assert summary_report(tables | {TimingRow: timings}, SETTINGS) == summary_report(tables, SETTINGS)
-    table = summary_data(tables, SETTINGS)["methods"]
-    rows = {row[0]: row[1:] for row in table["rows"]}
+    table = summary_data(tables, SETTINGS).methods
+    rows = {row[0]: row[1:] for row in table.rows}
     assert rows["Mechanism, record"][0] == "5" and rows["Mechanism, record"][1] == "5\u00a0of\u00a05"
     missed = [row for row in example.tables.comparison if row.agreement is Agreement.TOO_LOW]
     unsafe = rows["Closed form, block"][2]
-    assert (unsafe["text"] if isinstance(unsafe, dict) else unsafe) == str(len(missed))
+    assert (unsafe.text if isinstance(unsafe, TableCell) else unsafe) == str(len(missed))
 
 
 def test_a_study_without_a_readable_record_says_so_first():
     failure = filled(FailureRow, record="bad", stage="read", message="bad.at2: is empty.")
     tables = summary_tables([], failures=[failure])
-    assert "No record could be read" in summary_data(tables, SETTINGS)["notices"][0]["text"]
+    assert "No record could be read" in summary_data(tables, SETTINGS).notices[0].text
     assert summary_report(tables, SETTINGS).startswith(b"%PDF")
 
 
 def test_the_summary_of_a_record_is_the_same_twice_and_names_its_factor(hostile):
     tables = summarised(hostile.tables, hostile.structures)
     assert summary_report(tables, SETTINGS) == summary_report(tables, SETTINGS)
-    assert any("declared factor" in notice["text"] for notice in summary_data(tables, SETTINGS)["notices"])
+    assert any("declared factor" in notice.text for notice in summary_data(tables, SETTINGS).notices)
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -200,13 +201,13 @@ def test_long_lists_are_cut_and_say_how_much_was_left_out():
     names = [f"r{place}" for place in range(250)]
     records = [filled(RecordRow, record=each, component="EW", scale_factor=2.0, samples=1) for each in names]
     data = summary_data(summary_tables([*unsafe, *fallen], record=records), SETTINGS)
-    names = [row[0] for row in data["unsafe"]["rows"]]
+    names = [row[0] for row in data.unsafe.rows]
     assert names[0] == "fallen" and len(names) == 20
-    assert data["unsafe"]["rows"][1][4] == "0.101", "the worst first"
-    assert data["unsafe-note"] == " Another 81 cases in comparison.csv."
-    assert len(data["records"]["rows"]) == 200
-    assert data["records-note"] == " Another 50 components in record.csv."
-    assert "and 230 others" in data["notices"][-1]["text"]
+    assert data.unsafe.rows[1][4] == "0.101", "the worst first"
+    assert data.unsafe_note == " Another 81 cases in comparison.csv."
+    assert len(data.records.rows) == 200
+    assert data.records_note == " Another 50 components in record.csv."
+    assert "and 230 others" in data.notices[-1].text
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -214,7 +215,7 @@ def test_a_record_is_listed_with_its_dominant_pulse(example):
     (dominant,) = (row for row in example.tables.pulses if row.kind == "alternative" and row.rank == 1)
     others = [replace(row, period_s=9.0) for row in example.tables.pulses if row is not dominant]
     tables = summarised(replace(example.tables, pulses=[*others, dominant]), example.structures)
-    (row,) = summary_data(tables, SETTINGS)["records"]["rows"]
+    (row,) = summary_data(tables, SETTINGS).records.rows
     assert {"9.00", "9.0", "9"}.isdisjoint(row)
     assert any(cell.startswith(f"{dominant.period_s:.1f}") for cell in row)
 
@@ -229,9 +230,9 @@ def test_the_design_level_stands_beside_the_spectra_of_the_records():
         spectrum, response_spectrum(record, periods, 0.05).pseudo_acceleration, rtol=1e-3
     )
     tables = summary_tables(CASES)
-    assert summary_data(tables, SETTINGS)["design"] == []
-    (drawn,) = summary_data(tables, SETTINGS, design=(level, [spectrum, spectrum]))["design"]
-    assert drawn["words"] == level.words
+    assert summary_data(tables, SETTINGS).design == ()
+    (drawn,) = summary_data(tables, SETTINGS, design=(level, [spectrum, spectrum])).design
+    assert drawn.words == level.words
     for count, label in ((2, "components"), (MOST_LINES + 1, "5 to 95 % of the components")):
         (axes,) = design_summary_figure([spectrum] * count, level).axes
         assert axes.get_legend().get_texts()[0].get_text() == label
@@ -244,7 +245,7 @@ def test_the_design_level_stands_beside_the_spectra_of_the_records():
 @pytest.mark.parametrize(("predicted", "drawn"), [(0.3, 1), (math.nan, 0)])
 def test_a_scatter_stands_where_three_cases_have_both_ratios(predicted, drawn):
     cases = [case("pier", 0.5, 0.4), case("arch", 0.9, 0.8, "two"), case("wall", predicted, 0.7, "three")]
-    assert len(summary_data(summary_tables(cases), SETTINGS)["scatter"]) == drawn
+    assert len(summary_data(summary_tables(cases), SETTINGS).scatter) == drawn
 
 
 def test_a_scatter_of_many_cases_does_not_grow_with_them():
@@ -301,20 +302,22 @@ def test_the_document_of_the_fragility_names_records_stations_units_and_what_gov
     curves = frame(FragilityRow, FRAGILITY[FragilityRow])
     of_measures = frame(IntensityMeasureRow, measures)
     data = fragility_data(curves, FRAGILITY[FragilitySummaryRow], ida_frame(FRAGILITY), of_measures)
-    assert data["subtitle"] == "4 records of 3 stations; 1 structure."
-    text, table, scatter, figure = data["parts"]
-    assert scatter["rows"] == [
-        ["pier", "AvgSA(0.5,3.7) 0.16, pgv 0.30, pga –", "4 with AvgSA(0.5,3.7), 12 with pgv"]
-    ]
-    assert "With 3 stations the curves are rough" in text["text"]
-    assert "pgv [m/s]" in figure["svg"] and ">overturns, worst crack</text>" in figure["svg"]
-    (row,) = table["rows"]
-    assert row[:2] == ["pier", "pgv 0.20 (0.13–0.31) m/s"] and row[3] == "3"
+    assert data.subtitle == "4 records of 3 stations; 1 structure."
+    text, table, scatter, figure = data.parts
+    assert scatter.table.rows == (
+        ("pier", "AvgSA(0.5,3.7) 0.16, pgv 0.30, pga –", "4 with AvgSA(0.5,3.7), 12 with pgv"),
+    )
+    assert "With 3 stations the curves are rough" in text.text
+    assert (
+        "pgv [m/s]" in figure.pictures[0].svg and ">overturns, worst crack</text>" in figure.pictures[0].svg
+    )
+    (row,) = table.table.rows
+    assert row[:2] == ("pier", "pgv 0.20 (0.13–0.31) m/s") and row[3] == "3"
     # d overturns it at 0.1 in all members, b at 0.2 in most of them, a at 0.4, and c nowhere
     assert row[4] == "d (0.10), b (0.20), a (0.40)"
     tables = summarised(example.tables, example.structures)
-    assert summary_data(tables, SETTINGS)["fragility"] == []
-    assert summary_data(tables | FRAGILITY, SETTINGS)["fragility"][0]["rows"] == [row]
+    assert summary_data(tables, SETTINGS).fragility == ()
+    assert summary_data(tables | FRAGILITY, SETTINGS).fragility[0].table.rows == (row,)
 
 
 @pytest.mark.parametrize("measure", [each.name for each in compared(rocking.Block(2.0, 0.2).mechanism())])

@@ -14,6 +14,7 @@ from rocking.assessment.scene import Scene, on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.floors.place import place_from_config
 from rocking.records import Accelerogram
+from rocking.reports.pages import PageSettings
 from rocking.reports.record import RecordReport
 from rocking.reports.style import PREDICTED
 from rocking.reports.supports import shares_by_period_figure, support_panels, supports_figure
@@ -35,21 +36,21 @@ def report():
     structures = {"parapet": body, "pier": pier}
     settings = AssessmentSettings(fidelity="full", ensemble=EnsembleSettings(members=16))
     result = Assessor(settings).assess("made", [record], scenes)
-    settings = {"tolerance": 1e-6, "acceleration_scale": "linearised", "friction_coefficient": 0.6}
+    settings = PageSettings(acceleration_scale="linearised", friction_coefficient=0.6)
     return RecordReport(result, rows_of_record(result), structures, settings)
 
 
 def test_the_page_after_the_first_says_it_once_for_all_periods_and_page_one_names_the_worst(report):
-    data = report.data()
+    data = report.page()
     sentence = report.result.scenes["parapet"].sentence
     assert sentence.startswith("parapet on roof ")
-    assert [
-        text for each in data["known"] for text in each["texts"] if text.startswith("parapet on roof")
-    ] == [f"{sentence}."]
-    (row,) = (each for each in data["rows"] if each["name"] == "parapet")
+    assert [text for each in data.known for text in each.texts if text.startswith("parapet on roof")] == [
+        f"{sentence}."
+    ]
+    (row,) = (each for each in data.page_one.rows if each.name == "parapet")
     carried = [each for each in report.tables.verdicts if each.support_period_s]
     worst = max(carried, key=lambda each: each.severity)
-    assert row["below"] == f"T_b {worst.support_period_s:.3g} s"
+    assert row.below == f"T_b {worst.support_period_s:.3g} s"
 
 
 def test_the_reserve_stands_on_a_scale_of_its_own_for_each_period(report):
@@ -116,14 +117,9 @@ def test_a_support_without_damping_has_no_spectrum_of_the_code():
     rows = rows_of_record(result)
     assert np.isnan(rows.supports[-1].code_spectral_acceleration_m_s2)
     assert rows.supports[-1].floor_spectral_acceleration_m_s2 > 0
-    settings = {
-        "tolerance": 1e-6,
-        "acceleration_scale": "linearised",
-        "friction_coefficient": 0.6,
-        "details": True,
-    }
-    (rest,) = RecordReport(result, rows, structures, settings).data()["details"]
-    assert rest["supports"]
+    settings = PageSettings(details=True)
+    (rest,) = RecordReport(result, rows, structures, settings).page().details
+    assert rest.supports
 
 
 def test_the_mean_share_over_the_records_stands_over_the_period_from_zero_on(report):

@@ -69,23 +69,23 @@ def test_each_variant_has_its_difference_to_the_first(made):
 
 def test_the_strip_says_it_in_words(made):
     (strip,) = strips(made, STRUCTURES)
-    first, thicker = strip["cells"]
-    assert [first["word"], first["difference"]] == ["probably overturns", "the first"]
-    assert thicker["difference"] == "−50 points of share, reserve × 1.8"
-    assert thicker["checks"] == [
+    first, thicker = strip.cells
+    assert [first.chip.word, first.difference] == ["probably overturns", "the first"]
+    assert thicker.difference == "−50 points of share, reserve × 1.8"
+    assert list(thicker.checks) == [
         f"{kind} {getattr(check(THICK, SPECTRUM), kind).ratio_in_words}" for kind in ("linear", "nonlinear")
     ]
     (italian,) = strips(made, STRUCTURES, Sentences("it"))
-    assert italian["cells"][1]["difference"] == "−50 punti percentuali, margine × 1,8"
-    assert italian["cells"][0]["word"] == "probab. ribalta"
+    assert italian.cells[1].difference == "−50 punti percentuali, margine × 1,8"
+    assert italian.cells[0].chip.word == "probab. ribalta"
 
 
 def test_the_drawings_have_one_scale(made):
     """Both walls are 3 m high, and at rest as high in the picture; alone, the thick one would be drawn smaller."""
     (strip,) = strips(made, STRUCTURES)
     heights = []
-    for cell in strip["cells"]:
-        at_rest = re.search(r'<polygon points="([^"]*)" fill="none"', cell["drawing"]["svg"]).group(1)
+    for cell in strip.cells:
+        at_rest = re.search(r'<polygon points="([^"]*)" fill="none"', cell.drawing.svg).group(1)
         up = [float(point.split(",")[1]) for point in at_rest.split()]
         heights.append(max(up) - min(up))
     assert heights[0] == pytest.approx(heights[1], abs=2e-3)  # of points to three digits
@@ -93,9 +93,9 @@ def test_the_drawings_have_one_scale(made):
 
 def test_summary_page_to_explore_and_page_to_sign_hold_the_strip(made):
     drawn = strips(made, STRUCTURES)
-    difference = drawn[0]["cells"][1]["difference"]
+    difference = drawn[0].cells[1].difference
     data = summary_data(summarised(RecordRows(), {}), SETTINGS, strips=drawn)
-    assert data["strips"] == drawn
+    assert data.strips == tuple(drawn)
     assert difference in explore_page([], STRUCTURES, strips=drawn).decode()
     pages = [
         CheckedStructure(
@@ -107,5 +107,8 @@ def test_summary_page_to_explore_and_page_to_sign_hold_the_strip(made):
         )
         for place, (name, each) in enumerate(STRUCTURES.items())
     ]
-    for page in structures_data(pages, SPECTRUM, Settings().mapping())["pages"]:
-        assert [each["difference"] for each in page["strips"][0]["cells"]] == ["the first", difference]
+    for page in structures_data(pages, SPECTRUM, Settings().for_pages).sheets:
+        assert [each.difference for each in page.answers[0].basis.strips[0].cells] == [
+            "the first",
+            difference,
+        ]

@@ -23,6 +23,7 @@ from rocking.errors import ConfigurationError
 from rocking.motion.response import ModelCheck
 from rocking.remarks import Kind, Remark
 from rocking.reports.explore import explore_page
+from rocking.reports.pages import Fact
 from rocking.reports.structures import CheckedStructure, share_interval, structures_data
 from rocking.reports.summary import summary_data
 from rocking.study.checks import shares_by_station, write_checks
@@ -278,9 +279,9 @@ def test_the_same_conclusion_stands_in_terminal_summary_workbook_and_page_to_exp
     write_rows(CodeCheckRow, rows, tmp_path / "code_checks.csv")
     assert " ".join(line.strip(" ") for line in lines_by_code(tmp_path)) == sentence
     data = summary_data(summarised(RecordRows(), {}) | {CodeCheckRow: rows}, SETTINGS)
-    assert data["by-code"] == sentence
-    ((name, *ratios, conclusion, others),) = data["checks"]["rows"]
-    assert [name["text"], conclusion] == ["pier", "verified by C8.7.1.2.1.9"]
+    assert data.by_code == sentence
+    ((name, *ratios, conclusion, others),) = data.checks.rows
+    assert [name.text, conclusion] == ["pier", "verified by C8.7.1.2.1.9"]
     assert ratios == [each.ratio_in_words for each in checked.checks]
     assert others == "20–100\u00a0%"
     page = explore_page([], {"pier": STRUCTURES["parapet"]}, "", concluded).decode()
@@ -296,37 +297,37 @@ def test_the_same_conclusion_stands_in_terminal_summary_workbook_and_page_to_exp
 def page_of(checked=FORMULAS, language="en", name="wall", **facts):
     """What the template is given for one page."""
     page = CheckedStructure(name=name, structure=Block.of_size(0.6, 2.0), checked=checked, **facts)
-    settings = Settings(language=language).mapping()
-    (data,) = structures_data([page], DesignSpectrum.ntc(1.0, 2.5, 0.3), settings)["pages"]
+    settings = Settings(language=language).for_pages
+    (data,) = structures_data([page], DesignSpectrum.ntc(1.0, 2.5, 0.3), settings).sheets
     return data
 
 
 @pytest.mark.usefixtures("undrawn")
 def test_a_page_ends_in_a_sentence():
     met = page_of(replace(FORMULAS, dynamic=found(True, interval=(0.35, 1.0))))
-    assert met["headline"] == "Verified by C8.7.1.2.1.9, and by C8.7.1.2.1.8 and C8.7.1.2.1.7."
-    assert "met by 35–100\u00a0%" in " ".join(met["details"])
+    assert met.headline == "Verified by C8.7.1.2.1.9, and by C8.7.1.2.1.8 and C8.7.1.2.1.7."
+    assert "met by 35–100\u00a0%" in " ".join(met.details)
     falls = page_of(replace(FORMULAS, dynamic=found(False, 3)))
-    assert falls["headline"] == "Not verified: d₀ is exceeded under 3 of 40 motions (C8.7.1.2.1.9)."
-    assert "Met: linear check and nonlinear check; but C8.7.1.2.1.9" in " ".join(falls["details"])
+    assert falls.headline == "Not verified: d₀ is exceeded under 3 of 40 motions (C8.7.1.2.1.9)."
+    assert "Met: linear check and nonlinear check; but C8.7.1.2.1.9" in " ".join(falls.details)
     unlike = page_of(replace(FORMULAS, dynamic=found(True, refusal=UNLIKE, share=0.44)))
-    assert unlike["headline"].startswith("Not verified: 44\u00a0% of 200 sets of records meet C8.7.1.2.1.9")
-    assert page_of(WEAK)["headline"].startswith("Not verified: C8.7.1.2.1.8 gives 0.")
-    assert falls["signed"] and met["signed"], "either is a finding"
+    assert unlike.headline.startswith("Not verified: 44\u00a0% of 200 sets of records meet C8.7.1.2.1.9")
+    assert page_of(WEAK).headline.startswith("Not verified: C8.7.1.2.1.8 gives 0.")
+    assert falls.answers and met.answers, "either is a finding"
     refused = page_of(None, refusal="the spectrum ends at 1 s.")
-    assert not refused["signed"], "what was not checked is not signed"
-    assert "the spectrum ends at 1 s" in refused["details"][0]
+    assert not refused.answers, "what was not checked is not signed"
+    assert "the spectrum ends at 1 s" in refused.details[0]
 
 
 @pytest.mark.usefixtures("undrawn")
 def test_a_study_that_contradicts_the_checks_is_told_with_its_figure():
     often = page_of(overturning_share=0.25, stations=20, records=40, peaks=(1.96, 4.90))
-    told = " ".join(often["details"])
+    told = " ".join(often.details)
     assert "met at the design level, whose peak is 0.10 g" in told, "1.0 m/s² on rock, without amplification"
     assert "of 20 stations, act with peaks from 0.20 to 0.50 g, and 25 % of its members overturn" in told
     never = page_of(WEAK, overturning_share=0.0, stations=20, records=40)
-    assert "no member overturns" in " ".join(never["details"])
-    assert "stations" not in " ".join(page_of(overturning_share=0.05, stations=20, records=40)["details"])
+    assert "no member overturns" in " ".join(never.details)
+    assert "stations" not in " ".join(page_of(overturning_share=0.05, stations=20, records=40).details)
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -335,12 +336,12 @@ def test_a_structure_that_only_its_tie_holds_says_so():
     tied = Facade((3.0,), (0.5,), unit_weight=20e3, **strength)
     spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
     page = CheckedStructure(name="front", structure=tied, checked=FORMULAS, untied=WEAK)
-    (data,) = structures_data([page], spectrum, Settings().mapping())["pages"]
-    assert data["headline"].endswith(", only with its tie.")
-    assert "Without its tie C8.7.1.2.1.8 is not met." in data["details"]
+    (data,) = structures_data([page], spectrum, Settings().for_pages).sheets
+    assert data.headline.endswith(", only with its tie.")
+    assert "Without its tie C8.7.1.2.1.8 is not met." in data.details
     page = replace(page, untied=FORMULAS)
-    (data,) = structures_data([page], spectrum, Settings().mapping())["pages"]
-    assert "only with" not in data["headline"]
+    (data,) = structures_data([page], spectrum, Settings().for_pages).sheets
+    assert "only with" not in data.headline
     bare = tied.without_ties()
     assert not bare.tie_heights and bare.mechanism().positive.ties == ()
     assert bare == Facade((3.0,), (0.5,), unit_weight=20e3)
@@ -386,18 +387,18 @@ def test_the_page_names_the_client_and_what_the_checks_rest_on():
         records=6,
         stations=4,
     )
-    settings = Settings(client="The town").mapping()
+    settings = Settings(client="The town").for_pages
     data = structures_data([page], spectrum, settings)
-    assert data["about"]["client"] == "The town"
-    (text,) = data["pages"]
-    (share,) = text["sure"]
-    assert share["value"] == "50\u00a0%"
-    assert "6 records of 4 stations" in share["text"]
-    assert text["bars"][0]["svg"].startswith("<?xml") and text["basis"]["figure"][0]["svg"].startswith(
+    assert Fact("client", "The town") in data.about
+    (text,) = data.sheets
+    (share,) = text.answers[0].sure
+    assert share.value == "50\u00a0%"
+    assert "6 records of 4 stations" in share.text
+    assert text.answers[0].bars[0].svg.startswith("<?xml") and text.answers[0].basis.figure[0].svg.startswith(
         "<?xml"
     )
-    assert f"T_SLV = {checked.limit.period:.3g}" in " ".join(text["basis"]["sentences"])
-    assert [line[0] for line in text["basis"]["checks"]["rows"]] == ["linear", "nonlinear"]
+    assert f"T_SLV = {checked.limit.period:.3g}" in " ".join(text.answers[0].basis.sentences)
+    assert [line[0] for line in text.answers[0].basis.checks.rows] == ["linear", "nonlinear"]
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -414,9 +415,9 @@ def test_the_page_tells_a_reserve_that_was_not_sought_from_one_that_was_not_reac
             reserves=reserves,
             reserve_doubts=doubts,
         )
-        (data,) = structures_data([page], spectrum, Settings().mapping())["pages"]
-        lines = [f"{each['value']} {each['text']}" for each in data["sure"][1:]]
-        return lines[0] if lines else data["basis"]["share"]
+        (data,) = structures_data([page], spectrum, Settings().for_pages).sheets
+        lines = [f"{each.value} {each.text}" for each in data.answers[0].sure[1:]]
+        return lines[0] if lines else data.answers[0].basis.share
 
     never = Reserve(math.nan, math.nan, math.nan, 3.0)
     low = Reserve(0.8, 1.1, math.nan, 3.0)
@@ -449,10 +450,10 @@ def test_the_page_to_sign_carries_the_caveat_of_page_one(study, monkeypatch):
     monkeypatch.setattr("rocking.reports.printing.compile_document", lambda *_: b"")
     changed = read_settings(settings | {"design_spectrum": DESIGN})
     write_checks(Study(on_the_ground(STRUCTURES), changed), folder, verdicts, records)
-    data = structures_data(pages, DesignSpectrum.ntc(1.0, 2.5, 0.3), Settings().mapping())
+    data = structures_data(pages, DesignSpectrum.ntc(1.0, 2.5, 0.3), Settings().for_pages)
     signed = {
-        page.name: " ".join(each["text"] for each in text["sure"])
-        for page, text in zip(pages, data["pages"], strict=True)
+        page.name: " ".join(each.text for each in text.answers[0].sure)
+        for page, text in zip(pages, data.sheets, strict=True)
     }
     caveat = station.reserve_in_words.partition("; ")[2]
     assert caveat
@@ -500,20 +501,20 @@ def test_a_page_says_on_what_its_structure_stands_and_what_is_not_checked(tmp_pa
         for name, each in load_scenes(listed).items()
         for support in each.place.axis
     ]
-    data = structures_data(pages, spectrum, Settings().mapping())
-    page = {each["name"]: each for each in data["pages"]}
+    data = structures_data(pages, spectrum, Settings().for_pages)
+    page = {each.name: each for each in data.sheets}
     assert list(page) == ["parapet", "plain", "tied"], "the ground of a support is a line of its page"
-    assert "stands on roof, a support of period 0.250" in " ".join(page["parapet"]["assumptions"])
-    assert page["parapet"]["place"] == "roof with T_b 0.250 s."
-    assert page["plain"]["place"] == ""
-    (ground,) = page["parapet"]["basis"]["periods"]["rows"]
+    assert "stands on roof, a support of period 0.250" in " ".join(page["parapet"].answers[0].assumptions)
+    assert page["parapet"].place == "roof with T_b 0.250 s."
+    assert page["plain"].place == ""
+    (ground,) = page["parapet"].answers[0].basis.periods.rows
     assert ground[0] == "on the ground (for comparison)"
     assert ground[1] == pages[0].checked.linear.ratio_in_words
-    assert page["plain"]["basis"]["periods"]["rows"] == []
+    assert page["plain"].answers[0].basis.periods.rows == ()
     (tied,) = [each.checked.remark for each in pages if each.name == "tied"]
     assert tied.kind is Kind.TIE_MUST_BEAR
-    assert str(tied) in " ".join(page["tied"]["basis"]["sentences"])
-    assert not any("strength" in text for text in page["plain"]["basis"]["sentences"])
+    assert str(tied) in " ".join(page["tied"].answers[0].basis.sentences)
+    assert not any("strength" in text for text in page["plain"].answers[0].basis.sentences)
 
 
 @pytest.mark.parametrize("units", ["SI", "g and cm"])
@@ -528,7 +529,7 @@ def test_a_limit_displacement_is_drawn_on_the_capacity_curve_in_every_unit(units
     block = STRUCTURES["parapet"]
     spectrum = DesignSpectrum.ntc(1.0, 2.5, 0.3)
     page = CheckedStructure(name="parapet", structure=block, checked=check(block, spectrum))
-    structures_data([page], spectrum, Settings(display_units=units).mapping())
+    structures_data([page], spectrum, Settings(display_units=units).for_pages)
     (axes,) = (each for each in figures[-1].axes if each.get_xlabel())
     curve, *others = axes.lines
     marked = [line.get_xydata()[0] for line in others if line.get_marker() == "o"]

@@ -118,10 +118,10 @@ def test_a_fault_of_a_record_or_a_structure_costs_no_other_and_is_a_row(tmp_path
         assert names[0].read_bytes() == names[1].read_bytes()
     told: list[dict] = []
     monkeypatch.setattr(
-        "rocking.reports.printing.compile_document", lambda _, data: told.append(data) or b"%PDF"
+        "rocking.reports.printing.compile_document", lambda page: told.append(page) or b"%PDF"
     )
     write_fragility_report(written, tmp_path / "curves.pdf", tmp_path / "curves.svg")
-    listed = [part["list"] for part in told[0]["parts"] if "list" in part]
+    listed = [list(part.sentences) for part in told[0].parts if part.sentences]
     assert listed == [
         [f"made2: {written[FailureRow][0].message}", f"stout: {written[FailureRow][1].message}"]
     ]
@@ -135,13 +135,13 @@ def test_where_every_structure_has_a_fault_the_page_says_so(tmp_path, monkeypatc
     assert [each.structure for each in written[FailureRow]] == list(STRUCTURES)
     told: list[dict] = []
     monkeypatch.setattr(
-        "rocking.reports.printing.compile_document", lambda _, data: told.append(data) or b"%PDF"
+        "rocking.reports.printing.compile_document", lambda page: told.append(page) or b"%PDF"
     )
     pdf, image = tmp_path / "out" / "fragility.pdf", tmp_path / "out" / "fragility.svg"
     write_beside(None, pdf, image, job, written[FailureRow])
-    assert len(told[0]["parts"][0]["list"]) == 3 and pdf.is_file() and image.is_file()
+    assert len(told[0].parts[0].sentences) == 3 and pdf.is_file() and image.is_file()
     write_beside(lambda *_: {}["page"], pdf, image, job, written[FailureRow])
-    assert "a fault of rocking in fragility.pdf (KeyError: 'page')" in told[1]["parts"][0]["list"][3]
+    assert "a fault of rocking in fragility.pdf (KeyError: 'page')" in told[1].parts[0].sentences[3]
 
 
 @pytest.mark.process

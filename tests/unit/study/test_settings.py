@@ -17,7 +17,6 @@ from rocking.described import described_values, parts_of
 from rocking.errors import ConfigurationError
 from rocking.fragility.measures import INTENSITY_MEASURES, MEASURES_IN_WORDS, SPELLINGS
 from rocking.records.processing import UNPROCESSED_DEFAULT
-from rocking.reports.printing import settings_texts
 from rocking.study.settings import (
     EXAMPLE,
     Settings,
@@ -227,7 +226,7 @@ def test_what_a_study_is_told_by_stands_in_every_report_and_changes_no_number() 
     }
     assert {"study", "client", "author", "date", "project_number"} <= told.keys()
     settings = replace(Settings(), **{name: f"the {name}" for name in told})
-    printed = settings_texts(settings.mapping())["about"]
+    printed = settings.for_pages.about
     assert printed == {label: f"the {name}" for name, label in told.items()}
     numbers = Settings.changing_numbers()
     assert settings.told_in(numbers) == Settings().told_in(numbers)

@@ -1,0 +1,522 @@
+"""What each template is given: one frozen dataclass a page, of which it reads every field and no other (a test).
+
+A class of a page names the variable of the template that holds it: a `Row` is `row` there, a `TableCell` `table_cell`.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields, is_dataclass
+from typing import Any
+
+from rocking.remarks import Language
+
+
+@dataclass(frozen=True, kw_only=True)
+class PageSettings:
+    """What the settings of a study say of its pages. about: what every report tells of the study, by its label."""
+
+    about: Mapping[str, str] = field(default_factory=dict)
+    language: Language = "en"
+    display_units: str = "SI"
+    details: bool = False
+    tolerance: float = 1e-6
+    acceleration_scale: str = "rest"
+    friction_coefficient: float | None = None
+
+
+# What several pages hold ---------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure as SVG, and its alternative text."""
+
+    svg: str
+    alt: str
+
+
+@dataclass(frozen=True)
+class TableCell:
+    """A cell of a table that is set in bold, where it is `strong`, or has a grey line `below`."""
+
+    text: str
+    strong: bool = False
+    below: str = ""
+
+
+Cell = str | TableCell
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table. widths: "auto" or a number of fractions; alignments: "l", "c" or "r"."""
+
+    heads: tuple[str, ...] = ()
+    widths: tuple[str, ...] = ()
+    alignments: tuple[str, ...] = ()
+    rows: tuple[tuple[Cell, ...], ...] = ()
+
+
+@dataclass(frozen=True)
+class CaptionedTable:
+    """A table and what it is."""
+
+    table: Table
+    caption: str
+
+
+@dataclass(frozen=True)
+class Chip:
+    """A word on its colour, with a share beside it; hatched: within a dashed edge."""
+
+    word: str
+    share: str
+    fill: str
+    ink: str
+    hatched: bool
+
+
+@dataclass(frozen=True)
+class Notice:
+    """A sentence that stands above everything; strong: it warns, and is set so."""
+
+    text: str
+    strong: bool = True
+
+
+@dataclass(frozen=True)
+class Fact:
+    """What the settings say of the study: a label and its text."""
+
+    label: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Footer:
+    """What the foot of each page says; {page} and {pages} are numbers."""
+
+    made: str = "Made with the Python package rocking."
+    page: str = "Page {page} of {pages}"
+    continued: str = "Continued from page {page}"
+    units: str = "SI units and radians"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Page:
+    """What every document has."""
+
+    title: str
+    language: Language = "en"
+    about: tuple[Fact, ...] = ()
+    footer: Footer = Footer()
+
+
+@dataclass(frozen=True)
+class VariantCell:
+    """One variant of a structure: its drawing, its word and what else is known of it, each "" where it is not."""
+
+    drawing: Picture
+    name: str
+    chip: Chip
+    reserve: str
+    checks: tuple[str, ...]
+    conclusion: str
+    difference: str
+
+
+@dataclass(frozen=True)
+class Strip:
+    """The variants of a structure on one scale."""
+
+    name: str
+    cells: tuple[VariantCell, ...]
+
+
+# A plain document ----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class Part:
+    """One part of a plain document: what of this there is stands in this order, the caption under picture or table."""
+
+    heading: str = ""
+    notice: str = ""
+    text: str = ""
+    sentences: tuple[str, ...] = ()
+    pictures: tuple[Picture, ...] = ()
+    table: Table = Table()
+    caption: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlainPage(Page):
+    """A plain document."""
+
+    subtitle: str = ""
+    parts: tuple[Part, ...] = ()
+
+
+# The report of a record ----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Peak:
+    """A measure of the motion."""
+
+    value: str
+    name: str
+
+
+@dataclass(frozen=True)
+class Sine:
+    """The dominant sine: its share of the energy, and what follows from it."""
+
+    share: str
+    clause: str
+
+
+@dataclass(frozen=True)
+class Marks:
+    """Where the marks of a row stand on its scale, mm: closed form, block, whole motion, and the line of members."""
+
+    form: float | None
+    block: float | None
+    whole: float | None
+    line: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Row:
+    """The row of a structure on page one. alone: its reserve is that of the mechanism alone."""
+
+    name: str
+    below: str
+    drawing: tuple[Picture, ...]
+    chip: Chip
+    marks: Marks
+    reserve: str
+    alone: bool
+    remark: str
+
+
+@dataclass(frozen=True)
+class Others:
+    """The structures of one word that have no row."""
+
+    word: str
+    names: str
+
+
+@dataclass(frozen=True)
+class Topic:
+    """What there is to know of one thing."""
+
+    topic: str
+    texts: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class PageOne:
+    """The page to look at, below its title: the record as a strip, and a row for each structure."""
+
+    trace: tuple[Picture, ...]
+    peaks: tuple[Peak, ...]
+    sine: Sine
+    rows: tuple[Row, ...]
+    others: tuple[Others, ...]
+    untold: bool
+    left_out: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Assumed:
+    """What was assumed, as far as it differs from study to study. measured: figures of campaigns, by name."""
+
+    friction: str
+    vertical: str
+    arch: bool
+    tapering: bool
+    supported: bool
+    times: str
+    files: str
+    settings: str
+    version: str
+    tolerance: str
+    acceleration_scale: str
+    stones_farther: str
+    arch_momentum: str
+    missed_on_supports: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Details:
+    """The figures and tables behind the pages of a record, with the sentences on what they leave out."""
+
+    histories: tuple[Picture, ...]
+    histories_note: str
+    reserve: tuple[Picture, ...]
+    reserve_note: str
+    supports: tuple[Picture, ...]
+    design: tuple[Picture, ...]
+    design_words: str
+    pulse_figures: tuple[Picture, ...]
+    comparison: tuple[Picture, ...]
+    comparison_note: str
+    verdicts: Table
+    facts: Table
+    pulses: Table
+    structures: Table
+    methods: Table
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecordPage(Page):
+    """The report of one record."""
+
+    subtitle: str
+    running: str
+    conclusion: str
+    at_design_level: str
+    scale_note: str
+    notices: tuple[Notice, ...]
+    page_one: PageOne
+    strips: tuple[Strip, ...]
+    advice: tuple[str, ...]
+    components: Table
+    known: tuple[Topic, ...]
+    assumed: Assumed
+    details: tuple[Details, ...]
+
+
+# The report over all records -----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class MatrixHead:
+    """A record above a column of the matrix."""
+
+    name: str
+    below: str
+
+
+@dataclass(frozen=True)
+class MatrixRow:
+    """What becomes of a structure under each record."""
+
+    name: str
+    cells: tuple[Chip, ...]
+    remark: str
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """A column for each record, a row for each structure, both the worst first. left_out: structures without a row."""
+
+    heads: tuple[MatrixHead, ...] = ()
+    rows: tuple[MatrixRow, ...] = ()
+    legend: tuple[Chip, ...] = ()
+    upright: bool = False
+    left_out: int = 0
+
+
+@dataclass(frozen=True)
+class MapCell:
+    """Sign and share of one case on the colour of its word."""
+
+    text: str
+    fill: str
+    ink: str
+
+
+@dataclass(frozen=True)
+class MapRow:
+    """One record of the map: its peaks, and a cell for each structure."""
+
+    record: str
+    peaks: tuple[str, ...]
+    cells: tuple[MapCell, ...]
+
+
+@dataclass(frozen=True)
+class SeverityMap:
+    """A line for each record, a column for each structure."""
+
+    peak_heads: tuple[str, ...]
+    heads: tuple[str, ...]
+    rows: tuple[MapRow, ...]
+    legend: str
+    note: str
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """The closed form against the integration, and what it saw of the falls."""
+
+    heading: str
+    picture: Picture
+
+
+@dataclass(frozen=True)
+class DesignSpectra:
+    """Spectra beside that of the design level, and what that is."""
+
+    picture: Picture
+    words: str
+
+
+@dataclass(frozen=True)
+class TradePicture:
+    """What accuracy costs: a figure, and what follows."""
+
+    picture: Picture
+    conclusion: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class SummaryPage(Page):
+    """The report over all records."""
+
+    subtitle: str
+    conclusion: str
+    falls: str
+    by_code: str
+    notices: tuple[Notice, ...]
+    matrix: Matrix
+    map: SeverityMap
+    whole_map: SeverityMap
+    scatter: tuple[Scatter, ...]
+    outcomes: tuple[Picture, ...]
+    structures: Table
+    strips: tuple[Strip, ...]
+    checks: Table
+    supports: tuple[Picture, ...]
+    design: tuple[DesignSpectra, ...]
+    fragility: tuple[CaptionedTable, ...]
+    failures: Table
+    failures_note: str
+    agreement: Table
+    trade: tuple[TradePicture, ...]
+    methods: Table
+    unsafe: Table
+    unsafe_note: str
+    records: Table
+    records_note: str
+    tolerance: str
+    acceleration_scale: str
+
+
+# The pages to sign ---------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class SignWords:
+    """What the pages to sign say in every study, in their language."""
+
+    what_governs: str
+    capacity_over_demand: str
+    how_sure: str
+    assumed: str
+    place_and_date: str
+    signature: str
+    not_to_sign: str
+    next_page: str
+    figure: str
+    table_checks: str
+    table_mechanisms: str
+    table_periods: str
+    variants_title: str
+    records_title: str
+    table_records: str
+
+
+@dataclass(frozen=True)
+class Sure:
+    """How sure a conclusion is: a figure, and what it is the figure of."""
+
+    value: str
+    text: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Basis:
+    """The page behind the one to sign."""
+
+    title: str
+    figure: tuple[Picture, ...]
+    checks: Table
+    mechanisms: Table
+    sentences: tuple[str, ...]
+    periods: Table
+    share: str
+    strips: tuple[Strip, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Answer:
+    """What a page to sign holds below its conclusion."""
+
+    way: str
+    bars: tuple[Picture, ...]
+    sure: tuple[Sure, ...]
+    assumptions: tuple[str, ...]
+    basis: Basis
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sheet:
+    """The page of one structure; without an answer where it could not be checked, and it is then not to be signed."""
+
+    name: str
+    level: str
+    place: str
+    headline: str
+    met: bool
+    details: tuple[str, ...]
+    answers: tuple[Answer, ...]
+
+
+@dataclass(frozen=True)
+class SetFigure:
+    """The set of records of the dynamic check beside its target."""
+
+    picture: Picture
+    caption: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class StructuresPage(Page):
+    """The pages to sign."""
+
+    words: SignWords
+    notices: tuple[str, ...]
+    unread: str
+    spectra: tuple[SetFigure, ...]
+    motions: Table
+    sheets: tuple[Sheet, ...]
+
+
+# What a template receives --------------------------------------------------------------------------------
+
+
+def as_data(thing: Any) -> Any:
+    """Return a page as JSON holds it: a dataclass by the names of its fields."""
+    if is_dataclass(thing) and not isinstance(thing, type):
+        return {each.name: as_data(getattr(thing, each.name)) for each in fields(thing)}
+    if isinstance(thing, Mapping):
+        return {key: as_data(value) for key, value in thing.items()}
+    return [as_data(each) for each in thing] if isinstance(thing, list | tuple) else thing
+
+
+def pictures_in(thing: Any) -> Iterator[Picture]:
+    """Yield every picture of a page, in its order."""
+    if isinstance(thing, Picture):
+        yield thing
+    elif is_dataclass(thing) and not isinstance(thing, type):
+        for each in fields(thing):
+            yield from pictures_in(getattr(thing, each.name))
+    elif isinstance(thing, Mapping):
+        for value in thing.values():
+            yield from pictures_in(value)
+    elif isinstance(thing, list | tuple):
+        for value in thing:
+            yield from pictures_in(value)
