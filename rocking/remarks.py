@@ -138,6 +138,11 @@ class Kind(StrEnum):
         "le catene si allungano, e con il moto che trasmettono la parete fra di esse ruota molto",
         brief="its ties give",
     )
+    FRICTION_SHORT = auto(), Sentence(
+        "a contact needs more friction than it has while it rocks",
+        "un contatto richiede più attrito di quello che ha mentre oscilla",
+        brief="a contact slides",
+    )
     CURVE_ALONE = auto(), Sentence(
         "a capacity curve says nothing of impacts, sliding or opening contacts",
         "una curva di capacità non dice nulla di urti, scorrimenti e contatti che si aprono",
@@ -206,6 +211,12 @@ class Kind(StrEnum):
         "un contatto richiede un attrito di {lifting:.2g} al sollevamento e fino a {largest:.2g} mentre "
         "oscilla",
         brief="slides below μ {lifting:.2g}–{largest:.2g}",
+    )
+    STANDS_AS_VOUSSOIRS = auto(), Sentence(
+        "A joint of {about} needs a friction of {needed:.2g} while it rocks; as loose voussoirs on a friction of 0.5 "
+        "and more, such arches stood wherever their mechanism does.",
+        "Un giunto di {about} richiede un attrito di {needed:.2g} mentre oscilla; come conci sciolti con attrito di "
+        "0,5 e oltre, archi simili sono rimasti in piedi ovunque vi resti il loro meccanismo.",
     )
     FALLS_AS_RECORDED = auto(), Sentence(
         "as recorded it falls",

@@ -102,10 +102,11 @@ class CaseResult:
     failed. ensembles: of the cracks that were followed; None where none ran. reserve: of the crack that governs; None
     where it was not computed; a store keeps it apart, as only what is printed has one. overturning_estimate: from the
     peak velocity, where no ensemble ran; None of a structure unlike those behind the estimate. slides_at: acceleration
-    [g] at which its joints slide before they lift, where the motion reaches it; else nan. crack: to which prediction,
-    responses, check and answer belong; "" where it is that of the structure. statics: the case of that one, where
-    another crack governs. ties_give: whether its ties let so much through that it turns beyond BEYOND; not computed
-    where that changes no word. variations: other cracks, then other processings.
+    [g] at which its joints slide before they lift, where the motion reaches it; else nan. friction_needed: the
+    coefficient that a contact needs while it rocks, where it has less, of what (probably) stands but for that; else
+    nan. crack: to which prediction, responses, check and answer belong; "" where it is that of the structure. statics:
+    the case of that one, where another crack governs. ties_give: whether its ties let so much through that it turns
+    beyond BEYOND; not computed where that changes no word. variations: other cracks, then other processings.
     """
 
     component: str
@@ -118,6 +119,7 @@ class CaseResult:
     reserve: Reserve | None = None
     overturning_estimate: Estimate | None = None
     slides_at: float = math.nan
+    friction_needed: float = math.nan
     crack: str = ""
     statics: "CaseResult | None" = None
     doubt: Remark | None = None
@@ -198,6 +200,7 @@ class CaseResult:
             settled=settled,
             never_lets_go=never_lets_go(body),
             slides_at=own.slides_at if math.isnan(self.slides_at) else self.slides_at,
+            friction_needed=self.friction_needed,
             doubts=(self.doubt,) if self.doubt else (),
             held=isinstance(body, Tied) and bool(body.held_wall.holds),
             beyond=beyond,
@@ -303,6 +306,12 @@ class StationResult:
         """The case whose ensemble decides; None without an ensemble."""
         case = self._decided[0]
         return case if case is not None and case.ensembles is not None else None
+
+    @property
+    def friction_needed(self) -> float:
+        """The friction coefficient that a contact needs, where it has less, of what (probably) stands; else nan."""
+        case = self._decided[0]
+        return case.friction_needed if case is not None else math.nan
 
     @property
     def ensemble(self) -> Ensemble:

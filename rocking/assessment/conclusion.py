@@ -63,6 +63,8 @@ class Conclusion:
         # A range whose upper end is that of contact dynamics is not one of cracks.
         if falls and runs and falls / runs == decision.interval[1] > decision.interval[0]:
             return Remark.of(Kind.STACKS_FALL, falls=falls, runs=runs)
+        if not math.isnan(self.verdict.friction_needed):
+            return self._sliding(self.verdict.friction_needed)
         if decision.tells and not word.is_sure:
             return decision.tells[0]
         if decision.doubts:
@@ -71,10 +73,7 @@ class Conclusion:
         if shares and "–" in (share := percents(*shares)):
             return Remark.of(Kind.OTHER_PERIODS, share=share)
         if self.case is not None and self.case.slides:
-            largest = self.case.required_friction
-            if largest == math.inf:
-                return Remark(Kind.CONTACTS_OPEN)
-            return Remark.of(Kind.CONTACT_SLIDES, lifting=self.case.lifting_friction, largest=largest)
+            return self._sliding(self.case.required_friction)
         falls = self.ratios[-1] == math.inf
         if word is Verdict.PROBABLY_OVERTURNS and not falls:
             return Remark(Kind.STANDS_AS_RECORDED)
@@ -85,6 +84,16 @@ class Conclusion:
         return Remark(
             Kind.FALLS_AS_RECORDED if falls and word is Verdict.PROBABLY_STANDS else Kind.NOTHING_DECIDES
         )
+
+    def _sliding(self, largest: float) -> Remark:
+        """The friction that a contact needs as it lifts, and the `largest`: inf where nothing presses it."""
+        if largest == math.inf:
+            return Remark(Kind.CONTACTS_OPEN)
+        # The largest alone is of an instant, and would call a slender pier one that slides.
+        lifting = self.case.lifting_friction if self.case else math.nan
+        if math.isnan(lifting):
+            return Remark(Kind.FRICTION_SHORT)
+        return Remark.of(Kind.CONTACT_SLIDES, lifting=lifting, largest=largest)
 
 
 def worst_cases(comparison: Iterable[ComparisonRow]) -> dict[tuple[str, str, float | None], ComparisonRow]:

@@ -5,7 +5,9 @@ bounce; and courses that stand on a rocking body are thrown by its impacts, whic
 bounds (theory: section 11). "Stands" is then not said.
 """
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import product
@@ -132,6 +134,29 @@ def ties_give(structure: Structure, motions: GroundMotions, settings: Assessment
         if not (followed.rotation_ratio <= BEYOND).all():
             return True
     return False
+
+
+def friction_needed(
+    bodies: Iterable[Structure], motions: GroundMotions, settings: AssessmentSettings
+) -> float:
+    """Return the friction coefficient that a contact of the mechanisms needs where it has less; nan where none does.
+
+    bodies: the structure with each crack that is asked. Followed as recorded in every direction and sign, at every
+    sample at which they rock below the critical rotation; inf where nothing presses a contact there. What cannot be
+    followed, or has contacts of which nothing is known, says nothing.
+    """
+    largest = math.nan
+    for body, motion in product(bodies, _directions(motions)):
+        for sign in _signs(body, settings):
+            acting = motion.scaled(sign)
+            with suppress(RockingError):
+                response = integrate(
+                    body, acting, settings.tolerance, history=True, vertical=motions.vertical
+                )
+                check = check_model(body, response, acting, motions.vertical)
+                if check.slides(settings.friction_coefficient):
+                    largest = float(np.fmax(largest, check.required_friction))
+    return largest
 
 
 def _directions(motions: GroundMotions) -> list[Accelerogram]:

@@ -207,8 +207,9 @@ class Facts:
     lift. run_ratio: largest rotation ratio of single runs, where no members were followed; nan without one. settled:
     the word of a cheaper method that settled it. never_lets_go: why no motion can overturn it with a crack that counts;
     "" where one can. slides_at: the least acceleration [g] at which the joints of a crack that counts slide before it
-    lifts, where the motion reaches it; else nan. doubts: what one degree of freedom does not follow. held: whether it
-    is a wall that is held above its foot, and
+    lifts, where the motion reaches it; else nan. friction_needed: the coefficient that a contact needs while it rocks,
+    where it has less; else nan. doubts: what one degree of freedom does not follow. held: whether it is a wall that is
+    held above its foot, and
     beyond: HELD_BEYOND where some chain of it goes beyond BEYOND of its critical rotation in any member, TIES_GIVE
     where only one that its ties hold does, under the motion that these let through. top: what its top needs
     and does not get, so that it slips; None where it holds, or there is none. stacks: stacks of courses that fall in
@@ -223,6 +224,7 @@ class Facts:
     settled: Verdict | None = None
     never_lets_go: str = ""
     slides_at: float = math.nan
+    friction_needed: float = math.nan
     doubts: tuple[Remark, ...] = ()
     held: bool = False
     beyond: Kind | None = None
@@ -344,8 +346,9 @@ def decide(facts: Facts) -> Decision:
          does it (probably) overturn
     8    the step is overturns                                             overturns
     8b   a held wall some chain of which goes beyond BEYOND, as the        no safer than probably stands
-         motion comes or as its ties let it through, and fewer than
-         UNANIMOUS runs of contact dynamics
+         motion comes or as its ties let it through; or a contact that
+         needs more friction than it has while it rocks; and fewer than
+         UNANIMOUS runs of contact dynamics, which are on that friction
     9    contact dynamics ran                                              the worse of its step and that of the members
     10   contacts open, an impact may open them or courses may be thrown   cannot be told
          and contact dynamics did not run, or a component is missing; and
@@ -445,10 +448,14 @@ def decide(facts: Facts) -> Decision:
     if word is Verdict.OVERTURNS:
         return Decision(word, share, interval, why, beside)
     # 8b, 9: what bounds the step of the mechanism.
-    if facts.held and facts.beyond and (facts.stacks is None or facts.stacks[1] < UNANIMOUS):
+    limits = [Remark(facts.beyond)] if facts.held and facts.beyond else []
+    slides = not math.isnan(facts.friction_needed)
+    if slides:
+        limits.append(Remark(Kind.FRICTION_SHORT))
+    if limits and (facts.stacks is None or facts.stacks[1] < UNANIMOUS):
         word = worse(word, Verdict.PROBABLY_STANDS)
-        beside = (*beside, Remark(facts.beyond))
-        tells = (*tells, *contact_dynamics)
+        beside = (*beside, *limits)
+        tells = (*tells, *contact_dynamics, *([Remark(Kind.FRICTION)] if slides else []))
     if facts.stacks is not None:
         of_stacks = step(fallen, runs, risk=risk)
         if of_stacks.badness > word.badness and runs < UNANIMOUS and not fallen:

@@ -12,10 +12,11 @@ from functools import lru_cache, partial
 from time import process_time
 
 from rocking.assessment.case import CaseResult, Failure, Prediction, Variation
-from rocking.assessment.contacts import MOST_RUNS, RUNS, contact_share, doubt, ties_give
+from rocking.assessment.contacts import MOST_RUNS, RUNS, contact_share, doubt, friction_needed, ties_give
 from rocking.assessment.cracks import (
     Crack,
     counting_cracks,
+    cracked,
     cracks,
     ensemble_over_cracks,
     is_own,
@@ -163,10 +164,11 @@ def with_contacts(
 ) -> CaseResult:
     """Return the case with what its joints do: whether they slide, a doubt, and contact dynamics where it is needed.
 
-    Doubts are looked for with every word below "probably overturns", and of a wall that stands whether its ties hold it
-    still enough. Contact dynamics runs, except with fidelity: auto, where nothing else decides; with fidelity:
-    contact by MOST_RUNS runs, and also where a held wall turns so far that it only probably stands. bounces: whether a
-    contact opens in a run as recorded; None where that is not known.
+    Doubts are looked for with every word below "probably overturns"; of what stands whether its ties hold it still
+    enough; and of what (probably) stands whether its contacts have the friction that they need. Contact dynamics runs,
+    except with fidelity: auto, where nothing else decides, and where contacts have less; with fidelity: contact by
+    MOST_RUNS runs, and also where a held wall turns so far that it only probably stands. bounces: whether a contact
+    opens in a run as recorded; None where that is not known.
     """
     counting = counting_cracks(structure)
     sliding = sliding_first(cracks(structure), motions, settings)
@@ -177,6 +179,12 @@ def with_contacts(
         case = replace(case, doubt=reason)
     if decide(case.facts(structure)).word is Verdict.STANDS:
         case = replace(case, ties_give=ties_give(structure, motions, settings))
+    exempt = settings.friction_coefficient >= structure.stands_on_friction
+    if not exempt and decide(case.facts(structure)).word in (Verdict.STANDS, Verdict.PROBABLY_STANDS):
+        lifting = next(each for each in counting if each not in sliding)
+        governing = [case.ensembles.governing.description] if case.ensembles else []
+        bodies = [cracked(structure, name) for name in dict.fromkeys([lifting.description, *governing])]
+        case = replace(case, friction_needed=friction_needed(bodies, motions, settings))
     decision = decide(case.facts(structure))
     advised = any(each.kind is Kind.CONTACT_DYNAMICS for each in decision.tells)
     asking = {
@@ -184,7 +192,8 @@ def with_contacts(
         "full": (Verdict.CANNOT_BE_TOLD,),
         "contact": (Verdict.CANNOT_BE_TOLD, Verdict.PROBABLY_STANDS),
     }
-    if advised and decision.word in asking[settings.fidelity]:
+    slides = settings.fidelity != "auto" and not math.isnan(case.friction_needed)
+    if advised and (slides or decision.word in asking[settings.fidelity]):
         runs = MOST_RUNS if settings.fidelity == "contact" else RUNS
         return replace(case, contact=contact_share(structure, motions, settings, runs))
     return case

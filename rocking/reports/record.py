@@ -76,6 +76,7 @@ from rocking.reports.record_figures import History
 from rocking.reports.style import PULSE, pictures
 from rocking.reports.supports import SupportPanel, floor_sentences, support_panels, supports_figure
 from rocking.structures import Structure
+from rocking.structures.linkage import FRICTION
 
 if TYPE_CHECKING:
     from rocking.codes.design_spectrum import DesignSpectrum
@@ -483,17 +484,6 @@ def _known(report: RecordReport) -> list[Topic]:
     warnings = (scene.place.warning(scene.name) for scene in scenes)
     heavy = dict.fromkeys(str(each) for each in warnings if each)
     carried = sorted(report.result.carried, key=lambda scene: scene.worst.severity, reverse=True)
-    # What the contacts of each structure do under any component.
-    of_contacts: dict[str, set[str]] = {}
-    for row in report.tables.comparison:
-        fail = {kind for kind, does in (("slides", row.slides), ("bounces", row.bounces)) if does}
-        of_contacts.setdefault(report.called(row.structure), set()).update(fail)
-    failing = [
-        f"{name} ({' and '.join(sorted(kinds, reverse=True))})"
-        for name, kinds in of_contacts.items()
-        if kinds
-    ]
-    contacts = f"The model does not hold, because a contact fails, for {listed(failing)}."
     topics = {
         "Dominant sine": _pulse_doubts(report),
         "Closed form": _doubts(report.tables.comparison, several=len(report.motions) > 1),
@@ -502,12 +492,36 @@ def _known(report: RecordReport) -> list[Topic]:
             *(floor_sentences(report.support_panels) if carried else []),
             *heavy,
         ],
-        "Contacts": [contacts] if failing else [],
+        "Contacts": _contacts(report),
         "Models": [str(replace(each, about=listed(names))) for each, names in report.left_out.items()],
         "Processing": [remark] if depends else [],
         "Warnings": warnings_of(report.tables),
     }
     return [Topic(topic, tuple(texts)) for topic, texts in topics.items() if texts]
+
+
+def _contacts(report: RecordReport) -> list[str]:
+    """What the contacts of each structure do under any component: where the model fails, and where it need not."""
+    friction = report.settings.friction_coefficient or FRICTION
+    failing: dict[str, set[str]] = {}
+    needed: dict[str, float] = {}
+    for row in report.tables.comparison:
+        name = report.called(row.structure)
+        structure = report.structures.get(row.structure)
+        stands = structure is not None and friction >= structure.stands_on_friction
+        if row.bounces:
+            failing.setdefault(name, set()).add("bounces")
+        if row.slides and not stands:
+            failing.setdefault(name, set()).add("slides")
+        if row.slides and stands and not row.bounces:
+            needed[name] = max(needed.get(name, 0.0), row.required_friction)
+    texts = [f"{name} ({' and '.join(sorted(kinds, reverse=True))})" for name, kinds in failing.items()]
+    told = [f"The model does not hold, because a contact fails, for {listed(texts)}."] if texts else []
+    return told + [
+        str(Remark.of(Kind.STANDS_AS_VOUSSOIRS, name, needed=largest))
+        for name, largest in needed.items()
+        if name not in failing
+    ]
 
 
 def _would_crush(station: StationResult) -> bool:

@@ -122,6 +122,14 @@ class Structure(ABC):
         """The description, and the first remark on unusual values."""
         return " ".join([f"{type(self).__name__}({self.description})", *map(str, self.described.remarks[:1])])
 
+    @property
+    def stands_on_friction(self) -> float:
+        """The coefficient of its joints from which on it stands as loose stones where its mechanism does.
+
+        Though a joint of that mechanism needs more; inf where nobody has shown it.
+        """
+        return math.inf
+
     def mechanism(self) -> Mechanism:
         """Return the structure in standard form; the same object at every call."""
         return self._mechanism

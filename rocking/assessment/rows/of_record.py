@@ -199,7 +199,7 @@ class ComparisonRow(DecidedRow[ComparedCase]):
         lambda check: check.required_friction,
     )
     slides: bool | None = of_case(
-        "Whether a contact slides, so that the model fails",
+        "Whether a contact needs more friction than it has while it rocks",
         lambda of: of.case.check.slides(of.friction_coefficient),
     )
     bounces: bool | None = of_check(
@@ -306,6 +306,10 @@ class VerdictRow(DecidedRow[OfStructure]):
     rotation_ratio: float = of_structure(
         "Largest rotation over critical rotation as recorded; INF if it overturns",
         lambda of: of.station.rotation_ratio,
+    )
+    friction_needed: float = of_structure(
+        "Friction coefficient that a contact needs while it rocks, where it has less, of what (probably) stands",
+        lambda of: of.station.friction_needed,
     )
     direction: str = of_structure(
         "Direction of the largest rotation; empty where there is only one", lambda of: of.station.direction

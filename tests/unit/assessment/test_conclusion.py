@@ -73,6 +73,15 @@ def test_a_contact_that_slides_is_told_by_what_it_needs_as_it_lifts_and_at_most(
     assert replace(made, case=lost).remark.kind is Kind.CONTACTS_OPEN
 
 
+def test_the_friction_that_limits_a_word_stands_beside_it():
+    """Of all directions, before what else there is to do; without a comparison it is told without figures."""
+    limited = of(Verdict.PROBABLY_STANDS)
+    limited = replace(limited, verdict=replace(limited.verdict, friction_needed=0.67))
+    known = replace(limited, case=replace(compared("EW", 0.5), lifting_friction=0.49))
+    assert known.remark == Remark.of(Kind.CONTACT_SLIDES, lifting=0.49, largest=0.67)
+    assert replace(limited, case=None).remark == Remark(Kind.FRICTION_SHORT)
+
+
 def test_the_worst_period_stands_for_a_support_and_the_others_are_its_remark():
     """The ground below it stands for comparison only."""
     shares = {0.0: 1.0, 0.2: 0.25, 0.3: 0.75, 0.4: 0.5}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import rocking
-from rocking import Accelerogram, Block, Frame, LoadedWall, Spire, Verdict, Wall
+from rocking import Accelerogram, Arch, ArchOnPiers, Block, Frame, LoadedWall, Spire, Verdict, Wall
 from rocking.assessment.contacts import (
     MANY_COURSES,
     MOST_RUNS,
@@ -15,11 +15,12 @@ from rocking.assessment.contacts import (
     contact_share,
     doubt,
     expected_seconds,
+    friction_needed,
     stackable,
 )
 from rocking.assessment.decide import Decision, decide, step
 from rocking.assessment.inputs import CaseInputs
-from rocking.assessment.motions import GroundMotions, Motion
+from rocking.assessment.motions import GroundMotions, Motion, ground_motions
 from rocking.assessment.one_case import compute_case
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
@@ -122,7 +123,7 @@ def test_few_runs_of_contact_dynamics_let_a_spire_probably_stand_and_many_let_it
 def test_contact_dynamics_is_asked_where_it_cannot_be_told_and_of_a_held_wall_that_turns_far(monkeypatch):
     """Not where the members are uncertain, and with fidelity: auto never; with contact by all runs.
 
-    Whether it is asked, and by how many runs, is all that counts here.
+    Whether it is asked, and by how many runs, is all that counts here, of joints that nothing lets slide.
     """
     without_reserve = EnsembleSettings(reserve=0)
     monkeypatch.setattr(
@@ -142,7 +143,9 @@ def test_contact_dynamics_is_asked_where_it_cannot_be_told_and_of_a_held_wall_th
     for severity, period in ((1.2, 0.4), (1.6, 0.4), (4.0, 0.25), (2.1, 0.4)):
         motion = sine(severity * wall.static_multiplier * GRAVITY, period)
         few, many = (
-            rocking.assess(motion, wall, settings=replace(each, ensemble=without_reserve))
+            rocking.assess(
+                motion, wall, settings=replace(each, ensemble=without_reserve, friction_coefficient=5.0)
+            )
             for each in (AssessmentSettings(), CONTACT)
         )
         words.append(without_stacks(few).word)
@@ -336,3 +339,95 @@ def test_what_cannot_be_followed_may_open(monkeypatch):
     assert doubt(wall, motions, 0.05) is None
     monkeypatch.setattr("rocking.assessment.contacts.integrate", lost)
     assert doubt(wall, motions, 0.05) == Remark(Kind.CONTACTS_OPEN)
+
+
+# Friction -----------------------------------------------------------------------------------------------------
+
+
+def friction_of_a_block(block: Block, record: Accelerogram) -> float:
+    """The largest ratio of the forces at the corner of a block that turns, by Newton's laws of its centre of mass."""
+    response = rocking.integrate(block, record, history=True)
+    ground = np.interp(response.times, record.times, record.acceleration, right=0.0)
+    turned = response.rotation != 0
+    side = np.sign(response.rotation[turned])
+    left = block.slenderness - np.abs(
+        response.rotation[turned]
+    )  # from the vertical to the line to the centre
+    velocity = response.angular_velocity[turned]
+    push = -side * ground[turned]
+    radius = block.semi_diagonal
+    turning = 0.75 * (push * np.cos(left) - GRAVITY * np.sin(left)) / radius
+    along = side * radius * (np.cos(left) * turning + np.sin(left) * velocity**2) + ground[turned]
+    up = radius * (np.sin(left) * turning - np.cos(left) * velocity**2) + GRAVITY
+    return float(np.max(np.abs(along) / up))
+
+
+@pytest.mark.parametrize("amplitude", [5.0, 8.0])
+def test_the_friction_that_a_rocking_block_needs_is_that_of_its_centre_of_mass(amplitude):
+    block = Block.of_size(0.9, 2.0)
+    record = sine(amplitude, 0.4)
+    motions = ground_motions(Motion((record,)), processing=False)
+    needed = friction_of_a_block(block, record)
+    assert 0.45 < needed < 2
+    less, more = (AssessmentSettings(friction_coefficient=factor * needed) for factor in (0.98, 1.02))
+    assert friction_needed([block], motions, less) == pytest.approx(needed, rel=0.01)
+    assert np.isnan(friction_needed([block], motions, more))
+
+
+def test_a_block_whose_corner_needs_more_friction_than_it_has_only_probably_stands():
+    """It lifts before it slides, and needs more while it rocks; the pages say how much."""
+    block = Block.of_size(0.9, 2.0)
+    record = sine(8.0, 0.4)
+    needed = friction_of_a_block(block, record)
+    settings = AssessmentSettings(friction_coefficient=0.5)
+    assert 0.45 < 0.5 < needed
+    limited = rocking.assess(record, block, settings=settings)
+    assert (limited.verdict, limited.overturning_share) == (Verdict.PROBABLY_STANDS, 0.0)
+    assert limited.friction_needed == pytest.approx(needed, rel=0.01)
+    assert Kind.FRICTION in [each.kind for each in limited.decision.tells]
+    firm = rocking.assess(record, block, settings=replace(settings, friction_coefficient=1.1 * needed))
+    assert firm.verdict is Verdict.STANDS
+    assert np.isnan(firm.friction_needed)
+    auto = replace(settings, fidelity="auto", fidelity_risk=0.0)
+    case = compute_case(CaseInputs(motion=Motion((record,)), structure=block, settings=auto))
+    assert decide(case.facts(block)).word is Verdict.PROBABLY_STANDS, "as every path to a word has it"
+
+
+@pytest.mark.process
+def test_an_arch_that_needs_more_friction_stands_as_its_voussoirs_do():
+    """On 0.5 and more, where none fell that stands as a mechanism; with fill, or on less, nobody has shown it."""
+    record = rocking.read("records/20161113_110259_WTMC_20.V2A")[0]
+    arch = Arch(radius=15.0, thickness=2.25, embrace_angle=np.radians(157.5))
+    without_reserve = EnsembleSettings(reserve=0)
+    less, more = (
+        rocking.assess(
+            record, arch, settings=AssessmentSettings(friction_coefficient=each, ensemble=without_reserve)
+        )
+        for each in (0.495, 0.505)
+    )
+    (case,) = more.cases.values()
+    assert case.check.slides(0.505)
+    assert more.verdict is Verdict.STANDS and np.isnan(more.friction_needed)
+    assert less.verdict is Verdict.PROBABLY_STANDS
+    assert less.friction_needed >= case.check.required_friction
+    assert arch.stands_on_friction == 0.5
+    assert replace(arch, fill_depth=0.2).stands_on_friction == np.inf
+    piers = ArchOnPiers(5.0, 0.8, np.pi, pier_width=1.5, pier_height=4.0)
+    assert piers.stands_on_friction == Block(2.0, 0.2).stands_on_friction == np.inf
+
+
+def test_a_stack_is_followed_on_the_friction_that_its_courses_have():
+    """With fidelity: full by 24 runs, which may find that it slides apart; with contact by 64, which may clear it."""
+    wall = Wall(lower_height=2.0, upper_height=1.0, thickness=0.5, crack="known")
+    motion = Accelerogram(sine(7.0, 0.3).acceleration[:130], 0.005)
+    slippery = AssessmentSettings(friction_coefficient=0.35, ensemble=EnsembleSettings(reserve=0))
+    few, many = (
+        rocking.assess(motion, wall, settings=replace(slippery, fidelity=each))
+        for each in ("full", "contact")
+    )
+    assert few.friction_needed == many.friction_needed > 0.35
+    assert few.verdict is Verdict.PROBABLY_STANDS
+    assert few.stacks is not None and few.stacks.runs <= RUNS
+    assert many.stacks == ContactShare(0, MOST_RUNS)
+    assert many.verdict is Verdict.STANDS
+    assert Kind.FRICTION_SHORT not in [each.kind for each in many.decision.doubts]

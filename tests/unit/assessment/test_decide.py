@@ -219,6 +219,21 @@ def test_8b_a_held_wall_that_turns_far_needs_contact_dynamics_of_many_runs(runs,
     assert word(**far, stacks=(0, runs)) == expected
 
 
+@pytest.mark.parametrize(
+    ("runs", "expected"), [(None, "probably stands"), (24, "probably stands"), (64, "stands")]
+)
+def test_8b_a_contact_that_needs_more_friction_than_it_has_limits_the_word(runs, expected):
+    """Lifted by many runs of contact dynamics, which are on that friction; the share is left."""
+    slides = Facts(cracks=(crack(0),), friction_needed=0.7, stacks=None if runs is None else (0, runs))
+    decision = decide(slides)
+    assert (str(decision.word), decision.share) == (expected, 0.0)
+    limited = expected != "stands"
+    assert (Kind.FRICTION_SHORT in kinds(decision.doubts)) is limited
+    assert (Kind.FRICTION in kinds(decision.tells)) is limited
+    settled = decide(Facts(settled=Verdict.STANDS, friction_needed=math.inf))
+    assert str(settled.word) == "probably stands"
+
+
 @pytest.mark.parametrize("far", [{"doubts": (OPEN,)}, {"held": True, "beyond": Kind.TIES_GIVE}])
 def test_contact_dynamics_is_advised_only_where_it_may_still_tell(far):
     """Not where it ran often enough already, nor of what it cannot follow, of which a doubt says so."""
@@ -390,6 +405,7 @@ def drawn(chance):
         settled=one_of(Verdict.STANDS, Verdict.OVERTURNS) if chance() < 0.1 else None,
         never_lets_go="stays tied" if chance() < 0.05 else "",
         slides_at=0.6 if chance() < 0.1 else math.nan,
+        friction_needed=one_of(0.7, math.inf) if chance() < 0.1 else math.nan,
         doubts=one_of((), (), (), (OPEN,), (THROWN,)),
         held=chance() < 0.3,
         beyond=Kind.HELD_BEYOND if chance() < 0.3 else None,
@@ -458,7 +474,8 @@ def oracle(facts):
         place = 2 if facts.run_ratio <= 0.3 else 3
     if place == 6:
         return SAFEST_FIRST[6]
-    if facts.held and facts.beyond and not (facts.stacks and facts.stacks[1] >= 64):
+    limited = (facts.held and facts.beyond) or facts.friction_needed > 0.6
+    if limited and not (facts.stacks and facts.stacks[1] >= 64):
         place = max(place, 2)
     if facts.stacks:
         place = max(place, word_of(*facts.stacks, False))
@@ -500,7 +517,7 @@ def test_the_share_stands_on_the_word(draws):
             continue
         assert decision.share == float(share), facts
         assert decision.interval[0] <= decision.share == decision.interval[1]
-        if facts.held and facts.beyond:
+        if (facts.held and facts.beyond) or facts.friction_needed > 0:
             continue
         groups = [
             (each.falls + each.failed, each.members, math.inf if each.failed else each.farthest)
@@ -519,6 +536,7 @@ def test_the_share_stands_on_the_word(draws):
 def worsened(facts, chance):
     """The facts with one thing gone worse: a doubt, a component, a member or a stack more."""
     ways = [{"failures": (*facts.failures, "component Y is cut")}, {"beyond": Kind.TIES_GIVE}]
+    ways.append({"friction_needed": 0.8})
     ways += [{"doubts": (*facts.doubts, each)} for each in (OPEN, THROWN) if each not in facts.doubts]
     if not math.isnan(facts.run_ratio):
         ways.append({"run_ratio": math.inf})

@@ -17,7 +17,7 @@ from rocking.reports import printing
 from rocking.reports.pages import RecordPage, Table, TableCell
 from rocking.reports.printing import MEASURED, compile_document
 from rocking.reports.record import RecordReport, failure_page
-from rocking.structures import Block, Facade, LoadedWall, Spire
+from rocking.structures import Arch, ArchOnPiers, Block, Facade, LoadedWall, Spire
 from rocking.tables import cell
 
 from .conftest import HOSTILE, assessed, detailed, of_structures, pages, shaken
@@ -258,6 +258,28 @@ def test_a_contact_that_fails_is_told(example):
     slides = Remark.of(Kind.CONTACT_SLIDES, lifting=0.2, largest=0.7).brief
     assert slides in {row.remark for row in data.page_one.rows}
     assert data.details[0].methods.rows[0][-2:] == ("yes", "yes")
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_an_arch_that_stands_on_its_friction_is_no_model_that_fails(example):
+    """Where a joint needs more than it has; on less than 0.5, or on piers, the model does not hold."""
+    name = next(iter(example.structures))
+    comparison = [
+        replace(row, slides=row.structure == name, bounces=False, required_friction=0.67)
+        for row in example.tables.comparison
+    ]
+    arch = Arch(radius=15.0, thickness=2.25, embrace_angle=2.75)
+    piers = ArchOnPiers(5.0, 0.8, 3.14, pier_width=1.5, pier_height=4.0)
+    stands = str(Remark.of(Kind.STANDS_AS_VOUSSOIRS, name, needed=0.67))
+    for structure, friction, told in ((arch, 0.6, True), (arch, 0.4, False), (piers, 0.6, False)):
+        report = replace(
+            detailed(example),
+            structures={**example.structures, name: structure},
+            settings=replace(example.settings, friction_coefficient=friction),
+        )
+        texts = known(with_tables(report, comparison=comparison))
+        assert (stands in texts) is told
+        assert any(f"{name} (slides)" in each for each in texts) is not told
 
 
 @pytest.mark.usefixtures("undrawn")
