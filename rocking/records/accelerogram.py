@@ -3,7 +3,7 @@
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -25,6 +25,9 @@ SHORTEST_STEP = 1e-4
 """s; no accelerograph has a shorter one."""
 LONGEST_STEP = 0.1
 """s; a longer one leaves out what makes a structure rock."""
+
+Calibration = Literal["apply", "done"]
+"""Whether the samples of a trace are still to be multiplied by its calibration, or are: obspy never resets it."""
 
 OBSPY_EXTRAS = (
     "component",
@@ -205,14 +208,17 @@ class Accelerogram(Drawn):
         inventory: Any = None,
         unit: str | None = None,
         response: str = "sensitivity",
+        calibration: Calibration | None = None,
     ) -> "list[Accelerogram]":
         """Return an accelerogram for each channel of an obspy Trace or Stream, in the order of its channels.
 
         inventory: obspy's, by whose response counts become acceleration; it may be attached to the trace instead. unit:
         of samples that are acceleration already ("m/s2", "cm/s2", "g", ...), which wins over a response. response: as
-        read() takes it. What obspy has noted of the processing is read: samples whose response was removed to
-        acceleration are in m/s². Every check of `read` is made. Raises RecordError for a gap, for velocity and
-        displacement, and where nothing says what the samples are.
+        read() takes it. calibration: "apply" where the samples are still to be multiplied by the `calib` of their
+        trace, "done" where obspy.read(apply_calib=True) has done so; asked for where the numbers do not say it. What
+        obspy has noted of the processing is read: samples whose response was removed to acceleration are in m/s².
+        Every check of `read` is made, and the record is the one that `read` gives of the same file. Raises RecordError
+        for a gap, for velocity and displacement, and where nothing says what the samples are.
 
         >>> from obspy import Trace
         >>> rocking.Accelerogram.from_obspy(Trace(np.sin(np.arange(9.0)), {"channel": "HNE"}), unit="m/s2")[0].azimuth
@@ -220,7 +226,7 @@ class Accelerogram(Drawn):
         """
         from rocking import from_obspy  # which stands above this
 
-        return from_obspy(trace_or_stream, inventory, unit, response)
+        return from_obspy(trace_or_stream, inventory, unit, response, calibration)
 
     def to_obspy(self) -> Any:
         """Return an obspy Trace of the acceleration, m/s², from which from_obspy makes this accelerogram again.

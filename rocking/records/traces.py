@@ -21,7 +21,11 @@ _CORNERS = (0.02, 0.05, 0.8, 0.95)
 
 
 def joined(result: Any) -> Any:
-    """Return the stream with the pieces of each channel joined. Raises RecordError at a gap, naming where it is."""
+    """Return the stream with the pieces of each channel joined, in the order in which the channels come.
+
+    Raises RecordError at a gap, naming where it is.
+    """
+    order = list(dict.fromkeys(trace.id for trace in result))
     try:
         result = result.merge(method=0)
     except Exception as error:
@@ -33,6 +37,7 @@ def joined(result: Any) -> Any:
             at = int(np.flatnonzero(np.ma.getmaskarray(trace.data))[0]) * trace.stats.delta
             raise RecordError(f"channel {trace.id} has a gap at {at:g} s; give a record without gaps.")
         trace.data = np.ma.getdata(trace.data)
+    result.traces.sort(key=lambda trace: order.index(trace.id))  # which joining sorts by name
     return result
 
 

@@ -117,8 +117,8 @@ def test_unam_columns_are_ten_wide_where_the_header_names_no_width() -> None:
 
 def test_the_third_of_three_channels_of_a_recorder_is_vertical_by_its_place(monkeypatch) -> None:
     """A second instrument on the same recorder begins again with X."""
-    header = {"delta": 0.01, "station": "MADE", "kinemetrics_evt": {}}
-    traces = [obspy.Trace(np.arange(9.0), header) for _ in range(6)]
+    header = {"delta": 0.01, "station": "MADE", "kinemetrics_evt": {}, "_format": "KINEMETRICS_EVT"}
+    traces = [obspy.Trace(np.arange(9.0), header | {"channel": str(place)}) for place in range(6)]
     monkeypatch.setattr(by_obspy, "_stream", lambda *_, **__: (traces, ()))
     records = by_obspy.EVT.read(b"", Options())
     assert [(r.component, r.vertical) for r in records] == 2 * [("X", False), ("Y", False), ("Z", True)]

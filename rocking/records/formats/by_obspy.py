@@ -18,14 +18,14 @@ from typing import Any
 import numpy as np
 
 from rocking.errors import RecordError, UndeclaredError
-from rocking.quantities import GRAVITY, acceleration_unit, positive
+from rocking.quantities import acceleration_unit, positive
 from rocking.records.accelerogram import Accelerogram
-from rocking.records.direction import Direction
 from rocking.records.formats import text
-from rocking.records.formats.format import Format, Layout, Options, required, without_offset
+from rocking.records.formats.format import Format, Layout, Options, required
 from rocking.records.formats.text import LARGEST_SERIES
-from rocking.records.plausibility import BURIED, refuse_other_quantity
-from rocking.records.traces import STEEP, calibrated, first_line, joined, names, printed, site
+from rocking.records.one_trace import as_stated, from_traces, header
+from rocking.records.plausibility import refuse_other_quantity
+from rocking.records.traces import first_line, joined, printed
 from rocking.remarks import Kind, Remark
 from rocking.tables import read_whole
 
@@ -110,8 +110,6 @@ _KNET = Layout("gal", {
 }, mandatory=("duration", "peak"), duration_steps=0.501, duration_digits=0.0, code="BO")  # fmt: skip
 """What the header states beside the samples, which are held against it."""
 _KNET_FIRST = re.compile("".join(f"{re.escape(name)}.*\n" for name in _KNET_KEYS[:10]))
-_KIKNET = {"1": "NS", "2": "EW", "3": "UD", "4": "NS", "5": "EW", "6": "UD"}
-_BOREHOLE = {"1", "2", "3"}
 
 
 def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
@@ -126,34 +124,14 @@ def _read_knet(content: bytes, options: Options) -> list[Accelerogram]:
         positive(RecordError, "Scale Factor", text.number("Scale Factor", part))
     text.check_plain(text.after_lines(content, len(_KNET_KEYS)))
     ((trace,), notes) = _stream(content.decode("latin-1").encode("ascii", "replace"), "KNET")
-    values, offset = without_offset(trace.data * (100 * trace.stats.calib), options.unit_of("gal"))
-    direction = _KNET.text("component", head)
-    facts: dict[str, Any] = {"processing": (offset,), "borehole": direction in _BOREHOLE, "warnings": notes}
-    facts["component"] = _KIKNET.get(direction, direction)
+    stated = as_stated(trace, options.unit_of("gal"), is_due=True)
+    facts = header(trace) | {"processing": stated.processing, "warnings": notes}
     facts["event"] = facts["event_time"] = f"{_KNET.text('event_time', head)} JST".strip()
-    facts["start_time"] = f"{trace.stats.starttime.datetime.isoformat()}Z"
-    return [_KNET.channel(head, values, options, **facts)]
-
-
-def _sac_direction(header: dict[str, float], component: str) -> dict[str, Any]:
-    """Return where a SAC header lets a channel point: azimuth [degrees] and whether it is vertical, as far as it says.
-
-    Zeros for both, in a channel called north or east, are those of a program that sets neither: they say nothing.
-    """
-    angle, inclination = (header.get(key, _UNDEFINED) for key in ("cmpaz", "cmpinc"))
-    if angle == 0 == inclination and Direction.of(component).azimuth in (0.0, 90.0):
-        return {}
-    facts: dict[str, Any] = {"azimuth": angle % 360} if abs(angle) <= 360 else {}
-    if inclination != _UNDEFINED:  # degrees from upwards: 0 and 180 are vertical, 90 is horizontal
-        facts["vertical"] = abs(inclination % 180 - 90) > STEEP
-    return facts
+    return [_KNET.channel(head, stated.samples, options, **facts)]
 
 
 _SAC_HEADER = 632
-_SAC_PLACE = {"latitude": "stla", "longitude": "stlo", "elevation": "stel"}
 _UNDEFINED = -12345.0
-_OTHER_SAC = {6: "displacement", 7: "velocity"}
-"""Kinds of the dependent variable, `idep`, that are no acceleration (SAC manual: IDISP, IVEL)."""
 _VERSION = 304
 """Byte at which the header's version stands (SAC manual, word 76)."""
 _SAMPLES = 316
@@ -171,50 +149,32 @@ def _is_sac(content: bytes) -> bool:
 
 
 def _read_sac(content: bytes, options: Options) -> list[Accelerogram]:
+    """A unit that is declared wins; without one the samples are counts, which a StationXML turns into acceleration."""
     traces, warnings = _stream(content, "SAC", checksize=True)
     records = []
     for trace in traces:
         numbers = {key: float(x) for key, x in trace.stats.sac.items() if isinstance(x, np.floating | float)}
         header = {key: value for key, value in numbers.items() if value != _UNDEFINED}
-        if quantity := _OTHER_SAC.get(int(trace.stats.sac.get("idep", 0))):
-            raise RecordError(
-                f"its header says that it holds {quantity}; use the acceleration of the same record."
-            )
         # The step in the file has single precision: 0.02 is stored as 0.0199999996.
-        step = float(f"{trace.stats.delta:.6g}")
-        _check_sac(header, trace.data, step)
-        unit, values, facts = _sac_motion(trace, options)
-        facts |= {name: header[key] for name, key in _SAC_PLACE.items() if key in header}
-        facts |= _sac_direction(header, trace.stats.channel)
-        if header.get("stdp", 0.0) >= BURIED:
-            facts["borehole"] = True
-        facts |= names(trace) | {"warnings": (*warnings, *facts["warnings"])}
-        records.append(options.accelerogram(unit, values, step, **facts))
+        _check_sac(header, trace.data, float(f"{trace.stats.delta:.6g}"))
+        try:
+            inventory = None if options.unit else _inventory(trace.stats, options)
+        except UndeclaredError as error:
+            raise UndeclaredError(_SAC_SILENT.format(error), "unit") from None
+        unit = None if inventory else options.unit_of(None)
+        records += _taken([trace], inventory, unit, options, warnings)
     return records
 
 
-def _sac_motion(trace: Any, options: Options) -> tuple[str, np.ndarray, dict[str, Any]]:
-    """Return the unit of the samples of a SAC file, the samples (n,), and what was done to them.
-
-    A unit that is declared wins; without one the samples are counts, which the StationXML that is given, or lies beside
-    the file, turns into acceleration. Raises UndeclaredError where there is neither.
-    """
-    if options.unit is None:
-        try:
-            inventory = _inventory(trace.stats, options)
-        except UndeclaredError as error:
-            raise UndeclaredError(_SAC_SILENT.format(error), "unit") from None
-        if inventory is not None:
-            motion = calibrated(trace, inventory, options.response)
-            place = site(trace, inventory)
-            told = (*motion.warnings, *place.pop("warnings", ()))
-            facts = {"processing": (motion.sentence,), "warnings": told, "processed": False}
-            return "m/s2", motion.acceleration, facts | place
-    unit = options.unit_of(None)
-    values, offset = without_offset(trace.data.astype(float) * trace.stats.calib, unit)
-    scale = float(trace.stats.calib)
-    scaled = (Remark.of(Kind.SCALE_APPLIED, factor=scale),) if scale != 1 else ()
-    return unit, values, {"processing": (*map(str, scaled), offset), "warnings": scaled}
+def _taken(
+    traces: Any, inventory: Any, unit: str | None, options: Options, warnings: tuple[Remark, ...]
+) -> list[Accelerogram]:
+    """Return the accelerograms of traces as the file holds them, with what obspy warned of."""
+    records = []
+    for record in from_traces(traces, inventory, unit, options.response, "apply"):
+        step = options.time_step_of(record.time_step)
+        records.append(replace(record, time_step=step, warnings=(*warnings, *record.warnings)))
+    return records
 
 
 _SAC_SILENT = (
@@ -240,9 +200,6 @@ def _check_sac(header: dict[str, float], data: np.ndarray, step: float) -> None:
         raise RecordError(f"{stated} from {begin:g} s end elsewhere; the file is damaged; fetch it again.")
 
 
-_OBSPY_G = 9.81  # obspy turns the sensitivity in V/g into V/(m/s²) with this g
-
-_COMPONENTS = "XYZ"
 _TAG = struct.Struct(">cBBBLHHHH")
 _FRAME = struct.Struct(">6xL6xH")  # time of a frame's first sample: whole seconds and milliseconds
 _FRAME_LENGTH = 100  # ms
@@ -252,16 +209,7 @@ def _read_evt(content: bytes, options: Options) -> list[Accelerogram]:
     options.unit_of("m/s2")
     _check_frames(content)
     traces, warnings = _stream(content, "KINEMETRICS_EVT", apply_calib=False)
-    records = []
-    for i, trace in enumerate(traces):
-        samples = trace.data.astype(float) * trace.stats.calib * (GRAVITY / _OBSPY_G)
-        values, offset = without_offset(samples, "m/s2")
-        component = str(trace.stats.kinemetrics_evt.get("chan_id", "")).strip() or _COMPONENTS[i % 3]
-        facts: dict[str, Any] = {"processing": (offset,), "warnings": warnings, **names(trace)}
-        facts |= {"component": component, "event": str(trace.stats.starttime)[:10]}
-        facts["vertical"] = component.upper() in ("Z", "V", "UP") or i == 2
-        records.append(options.accelerogram("m/s2", values, float(trace.stats.delta), **facts))
-    return records
+    return _taken(traces, None, None, options, warnings)
 
 
 def _check_frames(content: bytes) -> None:
@@ -305,14 +253,7 @@ def _read_counts(form: str, content: bytes, options: Options) -> list[Accelerogr
     unit = _stated_unit(traces, options)
     inventory = None if unit else _inventory(traces[0].stats, options)
     unit = options.unit_of(unit) if inventory is None else None
-    records = []
-    for record in Accelerogram.from_obspy(traces, inventory, unit, options.response):
-        step = options.time_step_of(float(f"{record.time_step:.9g}"))
-        doubts = (*warnings, *record.warnings)
-        if form == "WIN":  # whose channels have numbers and no directions
-            doubts += (Remark(Kind.DIRECTION_UNKNOWN, record.component),)
-        records.append(replace(record, time_step=step, warnings=doubts, processed=False))
-    return records
+    return _taken(traces, inventory, unit, options, warnings)
 
 
 _GSE_LINE = 81

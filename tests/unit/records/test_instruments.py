@@ -12,7 +12,7 @@ from obspy import Stream, Trace, UTCDateTime, read_inventory
 from obspy import read as obspy_read
 from obspy.core.util.base import get_example_file
 
-from rocking.errors import RecordError, RockingError
+from rocking.errors import RecordError, RockingError, UndeclaredError
 from rocking.records import Accelerogram, load_catalogue, read
 from rocking.records.direction import Direction
 from rocking.records.folder import list_folder
@@ -287,9 +287,13 @@ def test_a_stream_passes_the_checks_of_a_file() -> None:
             Accelerogram.from_obspy(trace(samples), unit="m/s2")
     calibrated = trace(COUNTS / 1e5)
     calibrated.stats.calib = 2.0
-    (record,) = Accelerogram.from_obspy(calibrated, unit="m/s2")
-    assert record.peak_acceleration == pytest.approx(2 * np.abs(COUNTS).max() / 1e5)
-    assert "calibration" in record.processing[-1]
+    with pytest.raises(UndeclaredError, match="its calibration is 2"):
+        Accelerogram.from_obspy(calibrated, unit="m/s2")
+    for calibration, factor in (("apply", 2), ("done", 1)):
+        (record,) = Accelerogram.from_obspy(calibrated, unit="m/s2", calibration=calibration)
+        assert record.peak_acceleration == pytest.approx(factor * np.abs(COUNTS).max() / 1e5)
+    with pytest.raises(RecordError, match="must be 'apply' or 'done'"):
+        Accelerogram.from_obspy(calibrated, unit="m/s2", calibration=True)
     numbered = Stream([trace(COUNTS / (1e5 + n), channel=str(n)) for n in range(3)])
     for record in Accelerogram.from_obspy(numbered, unit="m/s2"):
         assert record.azimuth is None and record.component.startswith("channel ")
