@@ -18,7 +18,7 @@ from rocking.assessment.cracks import (
     never_lets_go,
     would_tell,
 )
-from rocking.assessment.decide import BEYOND, Decision, Facts, Verdict, decide
+from rocking.assessment.decide import BEYOND, Decision, Facts, Severity, Verdict, decide, severity
 from rocking.assessment.ensemble import NO_MEMBERS, Ensemble
 from rocking.assessment.fidelity import Answer, Estimate
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
@@ -282,7 +282,7 @@ class StationResult:
             if each.failure
         )
         decided = [(each, decide(each.facts(self.scene.structure, missing))) for each in answered]
-        return max(decided, key=lambda pair: (pair[1].severity, *_rotation_severity(pair[0])))
+        return max(decided, key=lambda pair: (severity(pair[1]), *_rotation_severity(pair[0])))
 
     def check_of(self, candidate: Candidate) -> ModelCheck | None:
         """Return the contacts along the run of one of its mechanisms under the worst component as recorded.
@@ -428,9 +428,10 @@ class StationResult:
         return self.decision.word
 
     @property
-    def severity(self) -> tuple[float, ...]:
-        """Key by which the worst of several comes last: verdict, then share of members, then rotation."""
-        return *self.decision.severity, -1.0 if math.isnan(self.rotation_ratio) else self.rotation_ratio
+    def severity(self) -> Severity:
+        """Key by which the worst of several comes last."""
+        factor = self.reserve.low if self.reserve else math.nan
+        return severity(self.decision, factor, self.rotation_ratio)
 
     @property
     def crack(self) -> str:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rocking.assessment.decide import Verdict
+from rocking.assessment.decide import Severity, Verdict
 from rocking.assessment.rows import (
     ComparisonRow,
     ExpectedFallsRow,
@@ -45,13 +45,9 @@ class Conclusion:
         return self.case.predicted_rotation_ratio, self.case.block_on_record_rotation_ratio, whole
 
     @property
-    def severity(self) -> tuple[float, ...]:
-        """Key by which the worst comes last: the word, the share, then the reserve and the rotation."""
-        reserve = self.verdict.reserve
-        factor = reserve.low if reserve and not math.isnan(reserve.low) else math.inf
-        integrated = self.ratios[-1]
-        rotation = -1.0 if math.isnan(integrated) else integrated
-        return *self.verdict.decision.severity, -factor, rotation
+    def severity(self) -> Severity:
+        """Key by which the worst comes last: that of its verdict."""
+        return self.verdict.severity
 
     @property
     def remark(self) -> Remark:

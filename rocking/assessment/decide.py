@@ -306,20 +306,37 @@ class Decision:
         """Its upper end."""
         return self.interval[1]
 
-    @property
-    def severity(self) -> tuple[int, float]:
-        """Key by which the worst of several comes last: the word, then the share."""
-        share = self.interval[0] if math.isnan(self.share) else self.share
-        return self.word.badness, -1.0 if math.isnan(share) else share
+
+Severity = tuple[int, float, float, float]
+"""Key of a case by which the worst of several comes last."""
 
 
-def worst_first(decisions: Iterable[tuple[str, Decision]]) -> list[str]:
-    """Return the names, of records or structures, by the shares that overturn at least, summed over all of a name."""
+def severity(decision: Decision, factor: float = math.nan, rotation_ratio: float = math.nan) -> Severity:
+    """Return the key of a case: its word, its share, the smallest reserve, then the largest rotation.
+
+    Every order by what is worst is of this key. factor: on the motion, at which 5 % of the members overturn; nan where
+    none is known, which counts as large. rotation_ratio: as recorded.
+    """
+    share = decision.interval[0] if math.isnan(decision.share) else decision.share
+    return (
+        decision.word.badness,
+        -1.0 if math.isnan(share) else share,
+        -math.inf if math.isnan(factor) else -factor,
+        -1.0 if math.isnan(rotation_ratio) else rotation_ratio,
+    )
+
+
+def worst_first(cases: Iterable[tuple[str, Severity]]) -> list[str]:
+    """Return the names, of records or structures, by the worst case of each; of equals the larger sum of shares first.
+
+    cases: their name and key. The first of equals stays first.
+    """
+    worst: dict[str, Severity] = {}
     shares: dict[str, float] = {}
-    for name, decision in decisions:
-        known = max(decision.severity[1], 0.0)
-        shares[name] = shares.get(name, 0.0) + known
-    return sorted(shares, key=shares.__getitem__, reverse=True)
+    for name, key in cases:
+        worst[name] = max(key, worst.get(name, key))
+        shares[name] = shares.get(name, 0.0) + max(key[1], 0.0)
+    return sorted(worst, key=lambda name: (worst[name], shares[name]), reverse=True)
 
 
 def decide(facts: Facts) -> Decision:

@@ -64,6 +64,16 @@ class Reserve:
         low, median, high = factors
         return Reserve(low, median, high, self.limit)
 
+    @property
+    def in_figures(self) -> str:
+        """The factors at which 5 % and half of the members overturn: "0.28–0.54", "2.5–3+" or "3+"."""
+        beyond = f"{self.limit:g}+"
+        low, median = (
+            beyond if math.isnan(factor) else f"{factor:.0f}" if factor >= 10 else f"{factor:#.2g}"
+            for factor in (self.low, self.median)
+        )
+        return low if low == median else f"{low}–{median}"
+
     def __str__(self) -> str:
         if math.isnan(self.low):
             return f"fewer than 5 % of members fall up to {self.limit:g} × this record"

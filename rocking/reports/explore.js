@@ -55,17 +55,12 @@
     const place = a.findIndex((value, k) => value !== b[k]);
     return place < 0 ? 0 : b[place] - a[place];
   }
-  // The worst case of a row or a column, then the sum of its shares: so the worst cell of all comes first
-  function worstOf(cases) {
-    const [worst] = cases.map((each) => each.severity).sort(compared);
-    return [...worst, cases.reduce((sum, each) => sum + (each.share || 0), 0)];
-  }
-  const columnOrder = COLUMNS.map((_, c) => c).sort((a, b) =>
-    compared(...[a, b].map((c) => worstOf(ROWS.map((_, r) => caseAt(r, c))))));
+  // The order by what is worst is that of all documents: each record and structure states its place
+  const columnOrder = COLUMNS.map((_, c) => c).sort((a, b) => COLUMNS[a].rank - COLUMNS[b].rank);
 
   // What the rows may be ordered by, the largest on top
   const KEYS = {
-    worst: (_, r) => worstOf(COLUMNS.map((_, c) => caseAt(r, c))),
+    worst: (each) => [-each.rank],
     name: (_, r) => [-r],
     pga: (record) => [record.pga],
     pgv: (record) => [record.pgv],

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from rocking.assessment.case import RecordResult, StationResult
 from rocking.assessment.conclusion import conclusion_in_words, worst_cases
 from rocking.assessment.cracks import cracked
-from rocking.assessment.decide import Verdict, worse
+from rocking.assessment.decide import Verdict, worse, worst_first
 from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.rows import ComparisonRow, RecordRows
 from rocking.assessment.scene import placed
@@ -47,9 +47,11 @@ PULSE_BINS = 60
 """Points of a pulse."""
 FRAMES = 24
 """Drawings of a structure for each side; between two of them the page interpolates."""
-_NONE = [-9]
+_NONE = [-9.0, 0.0, 0.0, 0.0]
 """The severity of a case without a result."""
 _HERE = Path(__file__).parent
+_EXTREME = 1e9
+"""What stands for inf, which JSON cannot hold."""
 _MOST = 32767
 _BEYOND = 3.0
 """Times the critical rotation up to which a fall is followed and drawn, but no further than a fallen structure."""
@@ -114,7 +116,15 @@ def explore_page(
         }
         for name, structure in structures.items()
     ]
-    both = {"records": of_records, "structures": of_structures}
+    cases = [
+        (record["id"], name, tuple(case["severity"]))
+        for record in of_records
+        for name, case in record["cases"].items()
+    ]
+    both = {
+        "records": _ranked(of_records, "id", worst_first((record, key) for record, _, key in cases)),
+        "structures": _ranked(of_structures, "name", worst_first((name, key) for _, name, key in cases)),
+    }
     content = json.dumps(both, allow_nan=False, separators=(",", ":"))
     colours = "".join(
         f".{_css(verdict)} {{ background: {fill}; color: {ink};{' border-style: dashed;' if hatch else ''} }}\n"
@@ -127,7 +137,7 @@ def explore_page(
     pieces = {
         "title": escape(title or "Rocking of structures under recorded earthquakes"),
         "conclusion": escape(f"{_conclusion(of_records)} {_at_design_level(checked)}".rstrip()),
-        "count": f"{counted(len(of_records), 'record')}, {counted(len(structures), 'structure')}",
+        "count": f"{counted(len(_judged(of_records)), 'record')}, {counted(len(structures), 'structure')}",
         "verdicts": "".join(f"<option>{verdict}</option>" for verdict in LOOKS),
         "legend": "\n".join(legend),
         "variants": strips_in_html(strips) if strips else "",
@@ -143,14 +153,25 @@ def explore_page(
 def _conclusion(records: Sequence[Content]) -> str:
     """The sentence on all structures, each by its worst verdict under a record that gave one."""
     words: dict[str, Verdict] = {}
-    judged = [
-        {name: each for name, each in record["cases"].items() if each["severity"] != _NONE}
-        for record in records
+    judged = _judged(records)
+    for record in judged:
+        for name, each in record["cases"].items():
+            if each["severity"] != _NONE:
+                words[name] = worse(Verdict(each["verdict"]), words.get(name, Verdict.CANNOT_OVERTURN))
+    return conclusion_in_words(words, len(judged))
+
+
+def _judged(records: Sequence[Content]) -> list[Content]:
+    """The records under which a structure has a verdict: one that failed is counted nowhere."""
+    return [
+        record for record in records if any(each["severity"] != _NONE for each in record["cases"].values())
     ]
-    for cases in judged:
-        for name, each in cases.items():
-            words[name] = worse(Verdict(each["verdict"]), words.get(name, Verdict.CANNOT_OVERTURN))
-    return conclusion_in_words(words, sum(map(bool, judged)))
+
+
+def _ranked(contents: Sequence[Content], key: str, worst: Sequence[str]) -> list[Content]:
+    """The records or structures, each with the place of its name among the `worst` first."""
+    ranks = {name: rank for rank, name in enumerate(worst)}
+    return [{**each, "rank": ranks.get(each[key], len(ranks))} for each in contents]
 
 
 def _at_design_level(checked: "Sequence[CodeConclusion]") -> str:
@@ -193,10 +214,9 @@ def _case(
         "text": f"{place}{decision.word}{share}: {decision.why}.{doubts} As given: "
         f"{ratio(station.rotation_ratio, 2)}{band}; by the closed form: {closed} (rotation over the critical one)."
         f"{crack}{reserve}",
-        "share": _number(decision.share),
-        "severity": [_number(min(each, 1e9)) for each in station.severity],
+        "severity": [_number(float(np.clip(each, -_EXTREME, _EXTREME))) for each in station.severity],
         "component": row.component if row else "",
-        "predicted": _number(min(predicted, 1e9)),
+        "predicted": _number(min(predicted, _EXTREME)),
         "closed": closed,
     }
     response = responses.get(row.case) if row else None

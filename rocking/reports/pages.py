@@ -350,10 +350,14 @@ class SeverityMap:
 
 @dataclass(frozen=True)
 class Scatter:
-    """The closed form against the integration, and what it saw of the falls."""
+    """The closed form against the integration, and what it saw of the falls.
+
+    counted: which cases those are, of a study with a structure on a support; "" of another one.
+    """
 
     heading: str
     picture: Picture
+    counted: str = ""
 
 
 @dataclass(frozen=True)

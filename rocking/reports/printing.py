@@ -21,7 +21,6 @@ import typst
 
 from rocking.assessment.decide import Verdict
 from rocking.assessment.methods import NEGLIGIBLE, Method, rests
-from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import FailureRow
 from rocking.quantities import GRAVITY, counted
 from rocking.reports.pages import (
@@ -165,15 +164,6 @@ def band_text(result: Banded, to: str) -> str:
     low = ratio(result.rotation_ratio_low, 2)
     high = ratio(result.rotation_ratio_high, 2)
     return low if low == high else f"{low}{to}{high}"
-
-
-def reserve_in_figures(reserve: Reserve | None) -> str:
-    """Return the factors at which 5 % and half of the members overturn: "0.28–0.54", "2.5–3+" or "3+"; "" without."""
-    if reserve is None:
-        return ""
-    beyond = f"{reserve.limit:g}+"
-    low, median = (beyond if math.isnan(each) else number(each, 2) for each in (reserve.low, reserve.median))
-    return low if low == median else f"{low}–{median}"
 
 
 def facts_of(settings: PageSettings) -> tuple[Fact, ...]:

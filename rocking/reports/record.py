@@ -67,7 +67,6 @@ from rocking.reports.printing import (
     number,
     plain,
     remainder,
-    reserve_in_figures,
     strong,
     table_of,
     words,
@@ -362,7 +361,7 @@ def structure_row(conclusion: Conclusion, structure: Structure | None) -> Row:
             whole=_place(whole, "whole"),
             line=() if low is None or high is None else (low, high),
         ),
-        reserve=reserve_in_figures(verdict.reserve),
+        reserve=verdict.reserve.in_figures if verdict.reserve else "",
         alone=bool(verdict.reserve_doubts),
         remark="" if conclusion.remark.kind in UNSAID else conclusion.remark.brief,
     )

@@ -23,6 +23,7 @@ from rocking.assessment.rows import (
     StructureRow,
     SupportRow,
     VerdictRow,
+    counted_cases,
     worst_period_each,
 )
 from rocking.assessment.scene import placed
@@ -120,7 +121,7 @@ def _page(
 ) -> SummaryPage:
     verdicts = rows_of(VerdictRow, rows)
     shown = worst_period_each(verdicts)
-    comparison = rows_of(ComparisonRow, rows)
+    comparison = list(counted_cases(rows_of(ComparisonRow, rows), verdicts))
     made = conclusions(verdicts, comparison)
     words_of_all = {each.verdict.structure: each.verdict.decision.word for each in worst_of_each(made)}
     judged = {row.record for row in shown}
@@ -141,7 +142,7 @@ def _page(
         tolerance=plain(settings.tolerance),
         acceleration_scale=settings.acceleration_scale,
         strips=tuple(strips),
-        subtitle=f"{counted(len({row.record for row in records}), 'record')}, "
+        subtitle=f"{counted(len(judged), 'record')}, "
         f"{counted(len(rows_of(StructureRow, rows)), 'structure')}",
         conclusion=conclusion_in_words(words_of_all, len(judged)),
         falls=falls_in_words(rows_of(ExpectedFallsRow, rows)),
@@ -177,6 +178,11 @@ def _page(
     )
 
 
+_COUNTED = (
+    "A structure on a support counts once, at the period of its verdict and with the closed form there."
+)
+
+
 def _scatter(
     comparison: Sequence[ComparisonRow], pulses: Sequence[PulseRow], of_all: AgreementRow, height: float
 ) -> tuple[Scatter, ...]:
@@ -187,7 +193,8 @@ def _scatter(
     heading = f"The closed form sees {falls}"
     alt = "Scatter of the rotation ratio by closed form against that by integration, in four quadrants."
     figure = prediction_scatter(comparison, pulses, height)
-    return (Scatter(heading, picture(figure, alt)),)
+    carried = any(row.support_period_s is not None for row in comparison)
+    return (Scatter(heading, picture(figure, alt), _COUNTED if carried else ""),)
 
 
 def _fragility(rows: Mapping[type[Row], Sequence[Row]]) -> tuple[CaptionedTable, ...]:
@@ -265,7 +272,7 @@ def _notices(
 def outcome_counts(verdicts: Sequence[VerdictRow]) -> dict[str, Counter[Verdict]]:
     """Return of each structure under how many records it has each verdict; the structures the worst first."""
     counts: dict[str, Counter[Verdict]] = {
-        name: Counter() for name in worst_first((row.structure, row.decision) for row in verdicts)
+        name: Counter() for name in worst_first((row.structure, row.severity) for row in verdicts)
     }
     for row in verdicts:
         counts[row.structure][row.verdict] += 1
@@ -315,7 +322,7 @@ def severity_map(
     verdicts: the worst first. most: records.
     """
     names = [
-        worst_first((getattr(row, which), row.decision) for row in verdicts)
+        worst_first((getattr(row, which), row.severity) for row in verdicts)
         for which in ("record", "structure")
     ]
     rows = names[0][:most]
@@ -356,7 +363,8 @@ def _cell(verdict_row: VerdictRow | None) -> MapCell:
 
 def structure_table(verdicts: Sequence[VerdictRow]) -> Table:
     """Return one row per structure: under how many records it overturns, and the record that is worst for it."""
-    worst = {row.structure: row for row in reversed(verdicts)}
+    by_severity = sorted(verdicts, key=lambda row: row.severity, reverse=True)
+    worst = {row.structure: row for row in reversed(by_severity)}
     counts = outcome_counts(verdicts)
     present = {row.verdict for row in verdicts}
     kinds = [verdict for verdict in ORDER if verdict in present]
@@ -422,7 +430,7 @@ def _worth(method: Method, comparison: Sequence[ComparisonRow]) -> _Worth:
 
 
 AGREEMENT_COLUMNS: list[Column] = [
-    ("Structure", "1.4", "l", lambda row: placed(row.structure, row.support_period_s) or "all"),
+    ("Structure", "1.4", "l", lambda row: row.structure or "all"),
     *columns_of(
         AgreementRow,
         "records=0.7 cases=0.6 both_rock=0.7 within_factor_two=0.8 median_ratio=0.7 overturning=1 overturning_hits=1 "

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from rocking.errors import FaultError, one_structure
 from rocking.reports.drawings import drawn_by_hand, room, sketch
 from rocking.reports.pages import Chip, Strip, VariantCell
-from rocking.reports.printing import chip, reserve_in_figures
+from rocking.reports.printing import chip
 from rocking.reports.sentences import Sentences
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def _cell(
         decision = conclusion.verdict.decision
         share = words.decimal(decision.share_in_words) if not math.isnan(decision.share) else ""
         word = chip(decision.word, share, words(f"verdict {decision.word}"))
-        figures = words.decimal(reserve_in_figures(conclusion.verdict.reserve))
+        figures = words.decimal(conclusion.verdict.reserve.in_figures if conclusion.verdict.reserve else "")
         if figures:
             caveat = "strip reserve alone" if conclusion.verdict.reserve_doubts else "strip reserve"
             reserve = words(caveat, reserve=figures)

@@ -27,6 +27,7 @@ from rocking.assessment.rows import (
     VerdictRow,
     agreement_rows,
     capacity_rows,
+    counted_cases,
     falls_over,
     falls_under,
     structure_rows,
@@ -177,6 +178,7 @@ def write_summary(
     pages: list[dict[str, Any]] = []
     spectra: list[Sequence[float]] = []
     falls_of_records: list[ExpectedFallsRow] = []
+    counted: list[ComparisonRow] = []
     of_records = [each for each in SUMMARY_TABLES if each in RECORD_TABLES]
     with written_together(), ExitStack() as stack:
         write = {
@@ -186,9 +188,10 @@ def write_summary(
         for outcome in outcomes:
             for each in of_records:
                 write[each](outcome.rows[each])
-                if reports or each is ComparisonRow:
+                if reports:
                     kept[each] += outcome.rows[each]
-            verdicts = (row for row in outcome.rows[VerdictRow] if isinstance(row, VerdictRow))
+            verdicts = rows_of(VerdictRow, outcome.rows)
+            counted += counted_cases(rows_of(ComparisonRow, outcome.rows), verdicts)
             if falls := falls_under(verdicts, variants):
                 falls_of_records.append(falls)
             if reports:
@@ -203,7 +206,7 @@ def write_summary(
         kept[FailureRow] += told if reports else ()
         of_all = falls_over(falls_of_records)
         kept[ExpectedFallsRow] = [*falls_of_records, *([of_all] if of_all else [])]
-        kept[AgreementRow] = list(agreement_rows(rows_of(ComparisonRow, kept)))
+        kept[AgreementRow] = list(agreement_rows(counted))
         write_tables({each: rows for each, rows in kept.items() if each not in write}, target)
     return kept, pages, spectra
 

@@ -19,7 +19,15 @@ from rocking.assessment.case import SceneResult
 from rocking.assessment.conclusion import conclusion_in_words, conclusions, falls_in_words, worst_of_each
 from rocking.assessment.decide import ORDER, Verdict, worst_first
 from rocking.assessment.methods import rocks
-from rocking.assessment.rows import ComparisonRow, ExpectedFallsRow, FailureRow, TradeRow, VerdictRow
+from rocking.assessment.rows import (
+    ComparisonRow,
+    ExpectedFallsRow,
+    FailureRow,
+    TradeRow,
+    VerdictRow,
+    counted_cases,
+    worst_period_each,
+)
 from rocking.errors import LOGS, RecordError, RockingError, log_fault
 from rocking.quantities import counted, escaped, listed
 from rocking.study.folder import new_log
@@ -32,6 +40,8 @@ T = TypeVar("T")
 
 _WORST = 5
 """Structures of the table at the end."""
+COUNTED = ", a structure on a support at the period of its verdict"
+"""Which cases of it are counted; see `counted_cases`."""
 _NAMED = 8
 """Names of a list; a line is to be read at a glance."""
 NO_BREAK = "\u00a0"
@@ -82,16 +92,19 @@ def closing_lines(
 ) -> Iterator[str]:
     """Yield the conclusion on all structures, the worst with closed form, block and integration, and the others' words.
 
-    Below them stand what the closed form saw of the falls, and the records that failed. comparison: is gone through
-    once, and not kept. expected: how many fall, by record and of all. At most _NAMED structures are named.
+    Below them stand what the closed form saw of the falls among `counted_cases`, and the records that failed.
+    comparison: is gone through once, and not kept. expected: how many fall, by record and of all. At most _NAMED
+    structures are named.
     """
     worst = worst_of_each(conclusions(verdicts, []))
-    records = len({each.record for each in verdicts})
+    records = len({each.record for each in verdicts})  # one that failed gives none
     shown = {(each.verdict.record, each.verdict.structure): each for each in worst[:_WORST]}
+    taken = worst_period_each(verdicts)
+    carried = any(each.support_period_s is not None for each in taken)
     of_shown: list[ComparisonRow] = []
     seen = false = 0
     missed = Counter[str]()
-    for row in comparison:
+    for row in counted_cases(comparison, taken):
         if (row.record, row.structure) in shown:
             of_shown.append(row)
         predicted = row.predicted_rotation_ratio
@@ -105,13 +118,15 @@ def closing_lines(
         words = {each.verdict.structure: each.verdict.decision.word for each in worst}
         for said in (count + conclusion_in_words(words, records), falls_in_words(expected)):
             yield from wrap(said, _WIDTH)
-        yield "Largest rotation over critical rotation of the worst structures, each under its worst record:"
-        yield f"{'':<17}  {'record':<22}  closed form   block  integrated  members that overturn"
-    own = (row for row in verdicts if (row.record, row.structure) in shown)
+        yield "Rotation over critical rotation of the worst structures, each under its worst record; the first by"
+        yield "verdict, share, then reserve (5 and 50 % overturn at × the record):"
+        yield f"{'':<16}  {'record':<18}  closed  block  integrated     reserve  verdict, share"
+    own = (row for row in taken if (row.record, row.structure) in shown)
     for each in conclusions(own, of_shown):
         ratios = map(_rotation, each.ratios)
-        marks = "  ".join(f"{text:>{width}}" for text, width in zip(ratios, (11, 6, 10), strict=True))
-        line = f"{_cut(each.verdict.structure, 17):<17}  {_cut(each.verdict.record, 22):<22}  {marks}  "
+        marks = "  ".join(f"{text:>{width}}" for text, width in zip(ratios, (6, 5, 10), strict=True))
+        reserve = each.verdict.reserve.in_figures if each.verdict.reserve else "–"
+        line = f"{_cut(each.verdict.structure, 16):<16}  {_cut(each.verdict.record, 18):<18}  {marks}  {reserve:>10}  "
         yield f"{line}{each.verdict.decision.word} {each.verdict.decision.share_in_words}".rstrip()
     if any("–" in each.verdict.decision.share_in_words for each in worst[:_WORST]):
         yield "A range: two cracks, or the mechanism and contact dynamics, disagree."
@@ -119,15 +134,24 @@ def closing_lines(
     if names := {word: [name for its, name in others if its is word] for word, _ in others}:
         text = "; ".join(map(": ".join, _named(names, _NAMED - _WORST).items()))
         yield from wrap(text, _WIDTH, initial_indent="Others  ", subsequent_indent=" " * 8)
-    if falls := seen + missed.total():
-        most, count_of_most = missed.most_common(1)[0]
-        where = f" ({count_of_most} of them in {_cut(most, 24)})" if records > 1 and count_of_most else ""
+    of_what = COUNTED if carried else ""
+    yield from _closed_form_lines(seen, missed if records > 1 else missed.total(), false, of_what)
+    yield from _failing_lines(failures)
+
+
+def _closed_form_lines(seen: int, missed: Counter[str] | int, false: int, of_what: str) -> Iterator[str]:
+    """What the closed form saw of the falls, where there is one. missed: by record, where there are several."""
+    where = ""
+    if isinstance(missed, Counter):
+        most, count_of_most = (missed.most_common(1) or [("", 0)])[0]
+        where = f" ({count_of_most} of them in {_cut(most, 24)})" if count_of_most else ""
+        missed = missed.total()
+    if falls := seen + missed:
         text = (
-            f"Closed form against integration: {seen} of {counted(falls, 'fall')} seen, "
-            f"{missed.total()} missed{where}, {counted(false, 'false alarm').replace(' ', NO_BREAK)}"
+            f"Closed form against integration{of_what}: {seen} of {counted(falls, 'fall')} seen, "
+            f"{missed} missed{where}, {counted(false, 'false alarm').replace(' ', NO_BREAK)}"
         )
         yield from (line.replace(NO_BREAK, " ") for line in wrap(text, _WIDTH, subsequent_indent=" " * 8))
-    yield from _failing_lines(failures)
 
 
 def _failing_lines(failures: Sequence[FailureRow]) -> Iterator[str]:
@@ -207,7 +231,7 @@ def paths_to_read(
     that this one does not make, is not named: it would not say what the tables say.
     """
     summary = results / "summary"
-    records = worst_first((each.record, each.decision) for each in verdicts)
+    records = worst_first((each.record, each.severity) for each in worst_period_each(verdicts))
     first = summary / "summary.pdf" if reports else summary
     files = {first: "all records"}
     if records and reports:

@@ -33,6 +33,7 @@ from rocking.assessment.rows.of_record import TimedStage as TimedStage
 from rocking.assessment.rows.of_record import TimingRow as TimingRow
 from rocking.assessment.rows.of_record import VariationRow as VariationRow
 from rocking.assessment.rows.of_record import VerdictRow as VerdictRow
+from rocking.assessment.rows.of_record import counted_cases as counted_cases
 from rocking.assessment.rows.of_record import history_rows as history_rows
 from rocking.assessment.rows.of_record import rows_of_record as rows_of_record
 from rocking.assessment.rows.of_record import worst_period_each as worst_period_each

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
-from rocking.assessment.decide import Decision, Verdict
+from rocking.assessment.decide import Decision, Severity, Verdict, severity
 from rocking.assessment.methods import (
     BOTH_COMPONENTS,
     POLARITIES,
@@ -352,10 +352,10 @@ class VerdictRow(DecidedRow[OfStructure]):
     )
 
     @property
-    def severity(self) -> tuple[float, ...]:
-        """Key by which the worst of several comes last, as that of the result."""
-        rotation = -1.0 if math.isnan(self.rotation_ratio) else self.rotation_ratio
-        return *self.decision.severity, rotation
+    def severity(self) -> Severity:
+        """Key by which the worst of several comes last."""
+        factor = self.reserve.low if self.reserve else math.nan
+        return severity(self.decision, factor, self.rotation_ratio)
 
 
 def worst_period_each(verdicts: Iterable[VerdictRow]) -> list[VerdictRow]:
@@ -367,6 +367,19 @@ def worst_period_each(verdicts: Iterable[VerdictRow]) -> list[VerdictRow]:
     for each in sorted(verdicts, key=lambda each: (each.support_period_s != 0, each.severity), reverse=True):
         shown.setdefault((each.record, each.structure), each)
     return sorted(shown.values(), key=lambda each: each.severity, reverse=True)
+
+
+def counted_cases(
+    comparison: Iterable[ComparisonRow], verdicts: Iterable[VerdictRow]
+) -> Iterator[ComparisonRow]:
+    """Yield the cases that are counted: of a structure on a support those at the period that its verdict takes.
+
+    Its other periods, and the ground below it, are the same structure under the same record once more.
+    """
+    taken = {(row.record, row.structure): row.support_period_s for row in worst_period_each(verdicts)}
+    for case in comparison:
+        if taken.get((case.record, case.structure), case.support_period_s) == case.support_period_s:
+            yield case
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,6 @@ class CountedCases:
     """The cases of one structure ("": of all) that have both ratios."""
 
     structure: str
-    support_period: float | None
     cases: Sequence[rows.ComparisonRow]
 
     @property
@@ -53,12 +52,14 @@ of_cases = Columns(CountedCases)
 
 @row("agreement")
 class AgreementRow(RowOf[CountedCases]):
-    """One row per structure and one for all: the closed form under the dominant pulse against the full integration."""
+    """One row per structure and one for all: the closed form under the dominant pulse against the full integration.
+
+    A structure on a support counts once under each component, at the period that its verdict takes.
+    """
 
     structure: str = of_cases(
         "Name of the structure in the structure list; empty for all together", lambda of: of.structure
     )
-    support_period_s: float | None = of_cases(inputs.SUPPORT_PERIOD, lambda of: of.support_period)
     records: int = of_cases("Number of records", lambda of: len({row.record for row in of.cases}))
     cases: int = of_cases("Number of cases with a prediction and an integration", lambda of: len(of.cases))
     both_rock: int = of_cases("Number of cases in which both rock", lambda of: len(of.rock_ratios))
@@ -86,18 +87,18 @@ class AgreementRow(RowOf[CountedCases]):
 
 
 def agreement_rows(comparison: Iterable[rows.ComparisonRow]) -> Iterator[AgreementRow]:
-    """Yield the counts of all and of each structure."""
+    """Yield the counts of all and of each structure. comparison: the cases that are counted, of all records."""
     compared = [
         row
         for row in comparison
         if not (math.isnan(row.predicted_rotation_ratio) or math.isnan(row.integrated_rotation_ratio))
     ]
-    yield AgreementRow.of(CountedCases("", None, compared))
-    by_scene: dict[tuple[str, float | None], list[rows.ComparisonRow]] = {}
+    yield AgreementRow.of(CountedCases("", compared))
+    of_each: dict[str, list[rows.ComparisonRow]] = {}
     for each in compared:
-        by_scene.setdefault((each.structure, each.support_period_s), []).append(each)
-    for (structure, period), cases in by_scene.items():
-        yield AgreementRow.of(CountedCases(structure, period, cases))
+        of_each.setdefault(each.structure, []).append(each)
+    for structure, cases in of_each.items():
+        yield AgreementRow.of(CountedCases(structure, cases))
 
 
 @dataclass(frozen=True)

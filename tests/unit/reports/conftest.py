@@ -18,6 +18,7 @@ from rocking.assessment.rows import (
     RecordRows,
     StructureRow,
     agreement_rows,
+    counted_cases,
     rows_of_record,
     structure_rows,
 )
@@ -111,7 +112,7 @@ def summarised(tables: RecordRows, structures: dict[str, object]) -> dict[type[R
     """Return the rows of the summary of one record."""
     return tables.tables | {
         StructureRow: list(structure_rows(structures)),
-        AgreementRow: list(agreement_rows(tables.comparison)),
+        AgreementRow: list(agreement_rows(counted_cases(tables.comparison, tables.verdicts))),
     }
 
 

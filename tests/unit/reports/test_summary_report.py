@@ -125,12 +125,12 @@ def test_the_map_holds_sign_and_share_with_the_worst_record_and_structure_first(
     alone += verdicts([station(run("EW", 0.8, "arch"))], "two")
     judged = [*alone, verdict("two", "wall", math.inf, 60), verdict("three", "wall", 0.7, 0)]
     content = severity_map(judged, [])
-    assert content.heads == ("pier", "wall", "arch")
-    assert [row.record for row in content.rows] == ["one", "two", "three"]
+    assert content.heads == ("wall", "pier", "arch"), "the worse word, not the larger share of one run"
+    assert [row.record for row in content.rows] == ["two", "one", "three"]
     assert [[cell.text for cell in row.cells] for row in content.rows] == [
-        ["≈ one run", "?", "?"],
-        ["?", "△ 94\u00a0%", "≈ one run"],
-        ["?", "● 0\u00a0%", "?"],
+        ["△ 94\u00a0%", "?", "≈ one run"],
+        ["?", "≈ one run", "?"],
+        ["● 0\u00a0%", "?", "?"],
     ]
 
 
