@@ -107,3 +107,17 @@ def test_too_few_stations_say_nothing():
     for each in (few, equal):
         assert each.efficiency > 0
         assert np.isnan([each.slope, each.p_value, each.power]).all()
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_of_a_slope_near_zero_both_signs_count_in_the_power(seed):
+    """It is the chance of showing such a slope again: a sample scatters by one error about that of the p value."""
+    rng = np.random.default_rng(seed)
+    names = [str(n) for n in range(12)]
+    levels = np.broadcast_to(np.linspace(-1.0, 1.0, 15), (12, 15))
+    figures = rng.normal(size=12)
+    limits = (0.05 * seed * figures + rng.normal(scale=0.3, size=12))[:, None]
+    found = explanation(levels, (levels > limits).astype(float), figures, names)
+    errors = student.isf(found.p_value / 2, 9)
+    limit = student.isf(0.025, 9)
+    assert found.power == pytest.approx(norm.sf(limit, loc=errors) + norm.cdf(-limit, loc=errors), rel=1e-6)

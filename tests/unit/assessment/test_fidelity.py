@@ -1,6 +1,7 @@
 """The cheapest answer: what is not integrated, and what cheap figures say of overturning."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -26,7 +27,7 @@ from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.motion.integration import integrate
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
-from rocking.structures import Block, Facade, Outcome
+from rocking.structures import Block, EquivalentBlock, Facade, Outcome
 
 STEP = 0.01
 TIMES = np.arange(400) * STEP
@@ -190,3 +191,12 @@ def test_an_estimate_is_the_logistic_curve_with_its_ends_on_either_side():
 def test_the_block_is_tried_evenly_on_both_sides_of_the_motion_as_given():
     """The fit that is shipped was made at these factors: its terms are those of as many responses."""
     assert np.diff(NUDGES) == pytest.approx(0.125) and NUDGES[len(NUDGES) // 2] == 1.0
+
+
+def test_the_velocity_counts_against_the_side_that_lifts_first():
+    """Of unlike sides the weaker one: p PGV/(gλ) with the smaller λ, in whatever order they stand."""
+    strong = EquivalentBlock(2.0, 0.2, 0.5, 0.9)
+    weak = EquivalentBlock(2.0, 0.1, 0.5, 0.9)
+    assert (strong.uplift_multiplier, weak.uplift_multiplier) == (0.4, 0.2)
+    for block in (replace(strong, other_side=weak), replace(weak, other_side=strong)):
+        assert fidelity.per_velocity(block) == pytest.approx(2.0 / (9.80665 * 0.2), rel=1e-12)

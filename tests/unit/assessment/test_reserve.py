@@ -11,7 +11,7 @@ from rocking.assessment.assessor import Assessor
 from rocking.assessment.case import StationResult
 from rocking.assessment.ensemble import CAUSES, lattice
 from rocking.assessment.motions import GroundMotions
-from rocking.assessment.reserve import Reserve, reserve
+from rocking.assessment.reserve import Reserve, Stage, _Ladder, reserve
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.store import RecordStore
@@ -181,3 +181,45 @@ def test_on_a_support_it_is_sought_on_the_ground_and_at_the_worst_period_alone(t
     monkeypatch.setattr("rocking.assessment.one_case.reserve", None)
     again = assessed([0.15, 0.6], RecordStore(tmp_path / "cases"))
     assert {period: each.reserve for period, each in again.items() if each.reserve is not None} == sought
+
+
+def test_what_falls_as_soon_as_it_lifts_has_the_factors_at_which_it_lifts():
+    """Under an acceleration that stays it never comes back: the least factor is that of the largest amplitude."""
+    record = Accelerogram(np.where(TIMES < 19.5, 1.0, 0.0), STEP)
+    lifts = np.tan(BLOCK.slenderness) * 9.80665
+    for spread in (0.05, 0.2):
+        settings = EnsembleSettings(amplitude_range=spread, reserve=6.0)
+        own = reserve(BLOCK.mechanism(), GroundMotions.of(record), settings)
+        expected = [lifts / (1 + spread * (1 - 2 * share)) for share in (0.05, 0.5, 0.95)]
+        assert [own.low, own.median, own.high] == pytest.approx(expected, rel=2e-3)
+
+
+def test_rungs_are_followed_about_what_falls_below_the_median_or_stands_above_it():
+    """Of a ladder on which all fall from a factor of 2 on, but one rung far below it falls and one far above stands."""
+    settings = EnsembleSettings(amplitude_range=0.05, reserve=6.0)
+    motions = GroundMotions.of(_record(3.0))
+    ladder = _Ladder(BLOCK.mechanism(), motions, settings, 0.5, np.zeros(len(CAUSES)))
+    falls = (ladder.amplitudes >= 2.0).astype(float)
+    below, above = (int(np.searchsorted(ladder.amplitudes, factor)) for factor in (1.2, 3.5))
+    falls[below] = 1.0
+    falls[above] = 0.0
+    followed = np.zeros(falls.size, dtype=bool)
+    followed[::16] = followed[[below, above]] = True
+    ladder.falls = np.where(followed, falls, np.nan)
+    around = 0.1
+    wanted = ladder.worth_following(Stage(1, 0.0, around, shares=()))
+    distance = np.abs(ladder.logs[:, None] - ladder.logs[[below, above]]).min(axis=1)
+    assert wanted.tolist() == (distance < around).tolist()
+
+
+@pytest.mark.parametrize(
+    ("low", "median", "figures"),
+    [
+        (0.4, math.nan, "0.40–3+"),
+        (0.284, 0.542, "0.28–0.54"),
+        (math.nan, math.nan, "3+"),
+        (11.6, 12.2, "12"),
+    ],
+)
+def test_the_reserve_in_figures(low, median, figures):
+    assert Reserve(low, median, math.nan, 3.0).in_figures == figures

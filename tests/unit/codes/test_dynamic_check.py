@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.stats import betabinom, hypergeom
 
 import rocking
 from rocking import (
@@ -213,3 +214,63 @@ def test_it_is_called_met_from_ninety_five_sets_of_a_hundred_on(records, monkeyp
         )
         found = rocking.check(block, SPECTRUM, records=replace(records, sets=records.sets[:200])).dynamic
         assert found.share == met / 200 and found.passed is is_called
+
+
+# The interval of other pools ----------------------------------------------------------------------------------
+
+
+class Pool:
+    """A pool of single records in place of a selection: sets of any of its stations, drawn with them again."""
+
+    def __init__(self, stations, events, size):
+        self.stations, self.events = stations, events
+        self.chosen = np.arange(size)
+
+    def redrawn(self, groups, rng):
+        return np.array([rng.choice(len(self.stations), self.chosen.size, False) for _ in range(400)])
+
+
+def other_pools(failing, stations, size, per_group, groups):
+    """The shares of sets that meet the check in another pool, where of `groups` so many fail alone; by scipy."""
+    of = [failing, *(per_group * betabinom.ppf([0.05, 0.95], groups, failing / per_group + 0.5,
+                                               groups - failing / per_group + 0.5))]  # fmt: skip
+    here, best, worst = (hypergeom.pmf(0, stations, round(each), size) for each in of)
+    return here, worst / here, best / here
+
+
+@pytest.mark.parametrize("per_event", [1, 3])
+@pytest.mark.parametrize("by", ["falls", "displacements"])
+def test_the_interval_is_bounded_by_stations_that_fail_a_set_alone(by, per_event):
+    """By d_0 that is exceeded there, or by a mean above the limit whatever the others do: with 2 bodies, in either."""
+    stations, size = 30, 5
+    pool = Pool(tuple(map(str, range(stations))), tuple(str(n // per_event) for n in range(stations)), size)
+    use = np.full((2, stations), 0.1)
+    falls = np.zeros((2, stations), dtype=int)
+    failing = range(per_event)
+    for place in failing:
+        if by == "falls":
+            falls[place % 2, place] = 1
+        else:
+            use[place % 2, place] = size + 0.01
+    share, worst, best = other_pools(per_event, stations, size, 1, stations)
+    _, worst_event, best_event = other_pools(per_event, stations, size, per_event, stations // per_event)
+    low, high = dynamic_check._interval(use, falls, pool, share)
+    drawn = [
+        dynamic_check._met(use, falls, pool.redrawn((), np.random.default_rng(n))).mean() for n in range(50)
+    ]
+    scatter = 4 * np.std(drawn)
+    assert low == pytest.approx(share * min(worst, worst_event), abs=scatter)
+    assert high == pytest.approx(min(share * max(best, best_event), 1.0), abs=scatter)
+
+
+def test_a_station_that_fails_no_set_alone_bounds_nothing():
+    """A mean of just the limit is met, where the others do not move."""
+    stations, size = 30, 5
+    pool = Pool(tuple(map(str, range(stations))), tuple(map(str, range(stations))), size)
+    falls = np.zeros((1, stations), dtype=int)
+    still = np.zeros((1, stations))
+    just = still.copy()
+    just[0, 3] = size
+    assert dynamic_check._interval(just, falls, pool, 1.0) == dynamic_check._interval(still, falls, pool, 1.0)
+    just[0, 3] = size + 1e-6
+    assert dynamic_check._interval(just, falls, pool, 1.0) != dynamic_check._interval(still, falls, pool, 1.0)

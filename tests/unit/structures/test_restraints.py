@@ -130,3 +130,19 @@ def test_ties_say_what_they_bear_and_what_they_give():
 
 def test_usual_friction_is_that_of_the_settings():
     assert AssessmentSettings().friction_coefficient == FRICTION
+
+
+@pytest.mark.parametrize("friction", [0.05, 0.3, 5.0])
+def test_beside_a_known_crack_a_top_that_friction_holds_may_slip(friction):
+    """Between two supports the known crack is the only bulge: what a top on friction adds is that it slips."""
+    wall = replace(WALL, top_friction=friction, crack="known")
+    own, others = [], []
+    for each in wall.mechanisms():
+        opening = each.structure.opening
+        (others if opening is not None and wall.held_wall.slip(opening) else own).append(each)
+    assert len(own) == 1 and own[0].structure == wall
+    assert others, "it slips, however rough the top is"
+    assert min(others, key=lambda each: each.uplift_multiplier).uplift_multiplier > 0
+    held = replace(WALL, top_friction=None, crack="known")
+    assert not held.held_wall.top_may_slip
+    assert [each.structure for each in held.mechanisms()] == [held]
