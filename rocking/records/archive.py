@@ -1,98 +1,249 @@
-"""Archive: a zip file of records, whose members are called `archive.zip/member`, as if it were a folder."""
+"""Archive: a zip or tar file of records, whose members are called `archive.zip/member`, as if it were a folder.
 
+An archive within an archive is a folder in it: `event.tar/knt.tar.gz/AOM001.EW`.
+"""
+
+import gzip
+import io
 import os
+import tarfile
 import zipfile
+import zlib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import lru_cache
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from rocking.errors import RecordError
 from rocking.records.formats.format import plain
 from rocking.tables import read_start
 
-ENDING = ".zip"
+ENDINGS = ".zip", ".tar", ".tar.gz", ".tgz"
 ZIPPED = b"PK\x03\x04"
 """The begin of a zip file."""
-_MOST_MEMBERS = 1000
+_MARKS: Mapping[str, tuple[int, bytes]] = {
+    ".zip": (0, ZIPPED),
+    ".tar": (257, b"ustar"),
+    ".tar.gz": (0, b"\x1f\x8b"),
+    ".tgz": (0, b"\x1f\x8b"),
+}
+"""Where a file that is called so has which bytes."""
+_MOST_MEMBERS = 10_000
 """Members of an archive that are read; a whole event of a large network has fewer."""
 _LARGEST_WHOLE = 2**30
 """Bytes of all members, unpacked."""
+_LARGEST_NESTED = 2**28
+"""Bytes of an archive within another one."""
+_DEEPEST = 3
+"""Archives one in another."""
+_LARGEST_TAR = 2**29
+"""Bytes of a packed tar file, which is unpacked as one."""
+_DAMAGES = (
+    zipfile.BadZipFile,
+    tarfile.TarError,
+    zlib.error,
+    EOFError,
+    OSError,
+    ValueError,
+    NotImplementedError,
+)
+"""What the libraries raise of an archive that is damaged."""
+
+
+def ending_of(name: str) -> str:
+    """Return the ending by which a file is called an archive, "" where it is not."""
+    return next((end for end in ENDINGS if name.lower().endswith(end)), "")
 
 
 def is_archive(path: Path) -> bool:
-    """Whether a zip file lies at `path`, called so."""
-    return path.suffix.lower() == ENDING and read_start(path, len(ZIPPED)) == ZIPPED
+    """Whether an archive lies at `path`, called so."""
+    ending = ending_of(path.name)
+    return bool(ending) and _is_marked(ending, read_start(path, 512))
+
+
+def _is_marked(ending: str, head: bytes) -> bool:
+    at, mark = _MARKS[ending]
+    return head[at : at + len(mark)] == mark
 
 
 def archive_of(path: Path) -> Path | None:
-    """Return the archive of which `path` names a member, None where it names none."""
-    if ENDING not in str(path).lower():
+    """Return the archive on this machine of which `path` names a member, None where it names none."""
+    if not any(ending_of(part) for part in path.parts[:-1]):
         return None
     return next((parent for parent in path.parents if is_archive(parent)), None)
 
 
 def members(archive: Path) -> tuple[str, ...]:
-    """Return the names of the files in `archive`, sorted, without those that systems add.
+    """Return the names of the files in `archive` and in archives in it, sorted, without those that systems add.
 
     Raises RecordError where it is damaged, is a workbook, holds too much, or names a path that leads out of it.
     """
-    opened = _opened(archive)
-    names = [each.filename for each in opened.infolist() if not each.is_dir()]
-    if "[Content_Types].xml" in names:
+    names: list[str] = []
+    waiting = [("", 1)]
+    while waiting:
+        place, depth = waiting.pop()
+        packed = _packed(archive, place)
+        for name in packed.names:
+            whole = f"{place}/{name}" if place else name
+            if depth < _DEEPEST and ending_of(name) and _is_nested(packed, name):
+                waiting.append((whole, depth + 1))
+            else:
+                names.append(whole)
+        if len(names) > _MOST_MEMBERS:
+            raise RecordError(
+                f"the archive holds {len(names)} files, more than {_MOST_MEMBERS}; unpack it, or part it."
+            )
+    return tuple(sorted(names))
+
+
+def _is_nested(packed: "_Packed", name: str) -> bool:
+    try:
+        return _is_marked(ending_of(name), packed.start(name, 512))
+    except RecordError:
+        return False
+
+
+def member_bytes(path: Path, archive: Path, largest: int) -> bytes:
+    """Return the bytes of the member of `archive` that `path` names, at most `largest`.
+
+    Raises RecordError where there is none, or it is larger, cannot be unpacked, or is an archive too deep in others.
+    """
+    name = path.relative_to(archive).as_posix()
+    called = plain(f"{archive.name}/{name}")
+    place, rest = _place_in(archive, name)
+    packed = _packed(archive, place)
+    if rest not in packed.names:
+        raise RecordError(f"{called}: the archive holds no such file; mend the name.")
+    content = packed.whole(rest, largest, called)
+    ending = ending_of(rest)
+    if (ending and _is_marked(ending, content[:512])) or (content.startswith(ZIPPED) and ending == ".zip"):
+        raise RecordError(f"{called}: this is an archive, {_DEEPEST} deep in others; unpack it.")
+    return content
+
+
+def _place_in(archive: Path, name: str) -> tuple[str, str]:
+    """Return the archive within `archive` that a member lies in, "" for itself, and the name of the member there."""
+    place = ""
+    rest = name
+    for _ in range(_DEEPEST - 1):
+        packed = _packed(archive, place)
+        parents = [each.as_posix() for each in PurePosixPath(rest).parents if each.as_posix() in packed.names]
+        inner = next((each for each in parents if ending_of(each)), "")
+        if not inner:
+            break
+        place = f"{place}/{inner}" if place else inner
+        rest = rest.removeprefix(f"{inner}/")
+    return place, rest
+
+
+@dataclass(frozen=True)
+class _Packed:
+    """An opened archive: the names of its files, those of systems left out, and what reads the start of one of them."""
+
+    names: frozenset[str]
+    start_of: Callable[[str, int], bytes]
+
+    def start(self, name: str, size: int, called: str = "") -> bytes:
+        """Return the first bytes of a member. Raises RecordError where it cannot be unpacked."""
+        try:
+            return self.start_of(name, size)
+        except Exception as error:  # zipfile raises what it likes: RuntimeError of what is encrypted
+            raise RecordError(
+                f"{called or plain(name)}: the file cannot be unpacked, {error}; unpack the archive yourself."
+            ) from None
+
+    def whole(self, name: str, largest: int, called: str = "") -> bytes:
+        """Return a member. Raises RecordError where it is larger than allowed, or cannot be unpacked."""
+        content = self.start(name, largest + 1, called)
+        if len(content) > largest:
+            raise RecordError(
+                f"{called or plain(name)}: the file is larger than {largest} bytes, the most that is read."
+            )
+        return content
+
+
+def _packed(archive: Path, place: str) -> _Packed:
+    """Return the archive, or the one at `place` in it, opened once for all its members.
+
+    Raises RecordError where it is damaged, or holds what is not allowed.
+    """
+    try:
+        state = archive.stat()
+        return _opened_once(str(archive), place, state.st_mtime_ns, state.st_size, os.getpid())
+    except _DAMAGES as error:
+        kind = "zip" if (place or archive.name).lower().endswith(".zip") else "tar"
+        raise RecordError(f"damaged {kind} archive, {error}; fetch it again.") from None
+
+
+@lru_cache(maxsize=8)
+def _opened_once(path: str, place: str, changed: int, size: int, process: int) -> _Packed:
+    """Return the archive at `path` as it is: `changed` and `size` are its state, and each process has its own."""
+    if not place:
+        return _of_content(path, path)
+    outer, rest = _place_in(Path(path), place)
+    return _of_content(_packed(Path(path), outer).whole(rest, _LARGEST_NESTED), rest)
+
+
+def _of_content(source: str | bytes, name: str) -> _Packed:
+    """Return the archive at a path, or in bytes."""
+    if name.lower().endswith(".zip"):
+        return _of_zip(zipfile.ZipFile(source if isinstance(source, str) else io.BytesIO(source)))
+    if not name.lower().endswith(".tar"):
+        with gzip.open(source if isinstance(source, str) else io.BytesIO(source)) as packed:
+            source = packed.read(_LARGEST_TAR + 1)
+        if len(source) > _LARGEST_TAR:
+            raise RecordError(f"the archive unpacks to more than {_LARGEST_TAR} bytes; unpack it.")
+    return _of_tar(source)
+
+
+def _of_zip(archive: zipfile.ZipFile) -> _Packed:
+    def start_of(name: str, size: int) -> bytes:
+        with archive.open(name) as stream:
+            return stream.read(size)
+
+    sizes = {each.filename: each.file_size for each in archive.infolist() if not each.is_dir()}
+    return _Packed(_checked(sizes), start_of)
+
+
+def _of_tar(source: str | bytes) -> _Packed:
+    """Its files lie in it as they are, so that none of it stays open."""
+    end = Path(source).stat().st_size if isinstance(source, str) else len(source)
+    stream = None if isinstance(source, str) else io.BytesIO(source)
+    with tarfile.open(source if isinstance(source, str) else None, "r:", stream) as archive:
+        entries = [each for each in archive.getmembers() if each.isreg() and not each.issparse()]
+    if end % tarfile.BLOCKSIZE or any(each.offset_data + each.size > end for each in entries):
+        raise tarfile.ReadError("it is cut")
+    places = {each.name.removeprefix("./"): (each.offset_data, each.size) for each in entries}
+
+    def start_of(name: str, size: int) -> bytes:
+        at, whole = places[name]
+        if isinstance(source, bytes):
+            return source[at : at + min(size, whole)]
+        with Path(source).open("rb") as opened:
+            opened.seek(at)
+            return opened.read(min(size, whole))
+
+    return _Packed(_checked({name: size for name, (_, size) in places.items()}), start_of)
+
+
+def _checked(sizes: Mapping[str, int]) -> frozenset[str]:
+    """Return the names of the files of an archive, by their sizes in bytes, without those that systems add.
+
+    Raises RecordError where it is a workbook, holds too much, or names a path that leads out of it.
+    """
+    if "[Content_Types].xml" in sizes:
         raise RecordError("this is a workbook or a document; save the sheet as CSV.")
-    if len(names) > _MOST_MEMBERS:
+    if len(sizes) > _MOST_MEMBERS:
         raise RecordError(
-            f"the archive holds {len(names)} files, more than {_MOST_MEMBERS}; unpack it, or part it."
+            f"the archive holds {len(sizes)} files, more than {_MOST_MEMBERS}; unpack it, or part it."
         )
-    size = sum(each.file_size for each in opened.infolist())
-    if size > _LARGEST_WHOLE:
+    if (size := sum(sizes.values())) > _LARGEST_WHOLE:
         raise RecordError(f"the archive unpacks to {size} bytes, more than {_LARGEST_WHOLE}; unpack it.")
-    for name in names:
+    for name in sizes:
         parts = name.split("/")
         if name.startswith("/") or "\\" in name or ":" in name or {"", ".", ".."} & set(parts):
             raise RecordError(
                 f"the archive names a file {plain(name)[:60]!r}, which leads out of it; unpack it with care."
             )
     hidden = (".", "__MACOSX")  # with which begins what systems and programs put there
-    return tuple(
-        sorted(name for name in set(names) if not any(p.startswith(hidden) for p in name.split("/")))
-    )
-
-
-def member_bytes(path: Path, archive: Path, largest: int) -> bytes:
-    """Return the bytes of the member of `archive` that `path` names, at most `largest`.
-
-    Raises RecordError where there is none, or it is larger, cannot be unpacked, or is an archive.
-    """
-    name = path.relative_to(archive).as_posix()
-    called = plain(f"{archive.name}/{name}")
-    if name not in members(archive):
-        raise RecordError(f"{called}: the archive holds no such file; mend the name.")
-    opened = _opened(archive)
-    entry = opened.getinfo(name)
-    try:
-        with opened.open(entry) as stream:
-            content = stream.read(largest + 1)
-    except Exception as error:  # zipfile raises what it likes: RuntimeError of what is encrypted
-        raise RecordError(
-            f"{called}: the file cannot be unpacked, {error}; unpack the archive yourself."
-        ) from None
-    if len(content) > largest:
-        raise RecordError(f"{called}: the file is larger than {largest} bytes, the most that is read.")
-    if content.startswith(ZIPPED):
-        raise RecordError(f"{called}: this is an archive within an archive; unpack it.")
-    return content
-
-
-def _opened(archive: Path) -> zipfile.ZipFile:
-    """Return the archive, opened once for all its members. Raises RecordError where it is damaged."""
-    try:
-        state = archive.stat()
-        return _opened_once(str(archive), state.st_mtime_ns, state.st_size, os.getpid())
-    except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError) as error:
-        raise RecordError(f"damaged zip archive, {error}; fetch it again.") from None
-
-
-@lru_cache(maxsize=4)
-def _opened_once(path: str, changed: int, size: int, process: int) -> zipfile.ZipFile:
-    """Return the archive at `path` as it is: `changed` and `size` are its state, and each process has its own."""
-    return zipfile.ZipFile(path)
+    return frozenset(name for name in sizes if not any(part.startswith(hidden) for part in name.split("/")))

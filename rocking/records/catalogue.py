@@ -56,7 +56,7 @@ class CatalogueRecord:
     )
     file: str = described(
         MISSING,
-        "path beside the catalogue or in the mirror, `archive.zip/member` for a file in a zip archive, or "
+        "path beside the catalogue or in the mirror, `archive.zip/member` for a file in a zip or tar archive, or "
         "`obspy:NAME` for one that obspy installs; the files of one station, the vertical component among them, are "
         "separated by `;`",
     )

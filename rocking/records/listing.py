@@ -12,6 +12,7 @@ from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import GRAVITY
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.catalogue import few, stays_inside
+from rocking.records.doors import through
 from rocking.records.formats import Options
 from rocking.records.formats.layouts import NAME, AskedError, Layouts, Question, Signature, families
 from rocking.records.plausibility import OF_COUNTS
@@ -131,6 +132,14 @@ def read_for_listing(
 
     declared: unit and time_step [s], None where the caller knows none; each is used only where the file is silent.
     """
+    with through("catalogue"):
+        return _read_for_listing(raw, sha256, path, declared, layouts)
+
+
+# Whole on purpose: a file is read, asked what it leaves open, and read again with that.
+def _read_for_listing(
+    raw: bytes, sha256: str, path: Path, declared: Mapping[str, Any], layouts: Layouts
+) -> Reading:
     missing: tuple[str, ...] = ()
     question: Question | None = None
     asked: UndeclaredError | None = None

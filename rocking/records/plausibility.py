@@ -17,6 +17,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, acceleration_factor
 from rocking.records.accelerogram import LARGEST_PEAK, Accelerogram
+from rocking.records.doors import advice
 from rocking.records.processing import UNPROCESSED_DEFAULT, integral, process, velocity
 from rocking.remarks import Kind, Remark
 
@@ -165,7 +166,7 @@ def _refuse_peak(record: Accelerogram, found: str, limit: str, form: str) -> NoR
     beyond = f"{found} read as {record.source.unit or 'm/s2'}, above {limit}"
     if form in OF_COUNTS:
         raise RecordError(
-            f"{beyond}: the samples may be counts of the recorder; give the StationXML of the instrument (inventory=) "
+            f"{beyond}: the samples may be counts of the recorder; {advice('inventory')} "
             f"and no unit{f'; divided {fits} they would be plausible as acceleration' if fits else ''}."
         )
     if fits:
@@ -444,6 +445,25 @@ def refuse_other_quantity(file: str, text: str) -> None:
     suffix = next((word for end, word in _SUFFIXES.items() if file.lower().endswith(end)), None)
     if quantity := other_quantity(text) or suffix:
         raise RecordError(f"this is a file of {quantity}; use the acceleration of the same record.")
+
+
+_SPECTRUM = re.compile(
+    r"(?i)(?<![a-z])((?:response|fourier|power|design|pseudo|spectral|elastic|amplitude|hazard)\w*[ _-]+(?:\w+[ _-]+)?"
+    r"spectr(?:um|a|al)|spectr(?:um|a) of|(?:pseudo[ -]?)?spectral acceleration|espectro de respuesta|"
+    r"spettro di risposta|antwortspektr\w*|spectre de réponse|tepki spektrum\w*)(?![a-z])"
+)
+_OF_MOTION = re.compile(
+    r"(?i)match|compatib|consistent|scaled to|target|time[ -]?(history|series)|accelerogram"
+)
+"""Words of a motion that was made to a spectrum, or stands beside one."""
+
+
+def refuse_spectrum(header: Sequence[str]) -> None:
+    """Raise RecordError when the lines of a header say that a file holds a spectrum, and none speaks of a motion."""
+    if any(_OF_MOTION.search(line) for line in header):
+        return
+    if said := next((match[0] for line in header if (match := _SPECTRUM.search(line))), ""):
+        raise RecordError(f"this is a spectrum ({said}); use the record of acceleration against time.")
 
 
 _QUANTITY_IN_NAME = re.compile(r"(?<![a-z])(vel(?:ocity|oc)?|disp(?:l|lacement)?)(?![a-z])", re.I)

@@ -18,7 +18,7 @@ from rocking.errors import RecordError, UndeclaredError, UnknownFormatError, abo
 from rocking.hashes import sha256_of_bytes
 from rocking.quantities import shown
 from rocking.records.accelerogram import Accelerogram, Source
-from rocking.records.archive import ENDING, ZIPPED, archive_of, is_archive, member_bytes, members
+from rocking.records.archive import ZIPPED, archive_of, is_archive, member_bytes, members
 from rocking.records.direction import (
     contradiction,
     doubts_of_channel,
@@ -30,10 +30,12 @@ from rocking.records.formats import FORMATS, Format, Options
 from rocking.records.formats.format import Response, plain
 from rocking.records.formats.layouts import Signature
 from rocking.records.formats.tables import signature_of
+from rocking.records.formats.text import lines
 from rocking.records.plausibility import (
     channel_warnings,
     damage_warnings,
     pass_limits,
+    refuse_spectrum,
     repeated_rows,
     site_warnings,
 )
@@ -58,7 +60,7 @@ def read(
 ) -> list[Accelerogram]:
     """Return every channel of acceleration in the file at `path`, in the file's order, in m/s².
 
-    Of a zip archive, those of every file in it; "archive.zip/member" names one of them.
+    Of a zip or tar archive, those of every file in it; "archive.zip/member" names one of them.
     unit, time_step [s]: needed where the file does not declare them; refused where it declares otherwise.
     What a table leaves open is answered in the layouts.csv beside it, as `rocking catalogue` writes it.
     inventory: StationXML of a miniSEED or SAC file; by default the one beside it that names the same station.
@@ -74,7 +76,7 @@ def read(
     path = Path(path)
     stationxml = Path(inventory) if inventory else None
     options = Options(unit, time_step, stationxml, path.parent, response)
-    if path.suffix.lower() == ENDING and is_archive(path):
+    if is_archive(path):
         return _read_archive(path, options)
     return read_raw(bytes_of(path), path, options)
 
@@ -130,7 +132,12 @@ def read_content(
         reader = reader or recognise(text)
         if isinstance(reader.read, str):
             raise RecordError(reader.read)
-        records = distinct_channels(_named_by_file(reader.read(text, replace(options, file=name)), name))
+        try:
+            read_by = reader.read(text, replace(options, file=name))
+        except RecordError:
+            refuse_spectrum(lines(text, _HEAD_OF_SPECTRUM))
+            raise
+        records = distinct_channels(_named_by_file(read_by, name))
         if not records:
             raise RecordError("the file holds no channel of acceleration; use the acceleration file.")
         is_doubled = b"\r\r\n" in content[:2000] and text is not content
@@ -143,6 +150,10 @@ def read_content(
             damage = (*damage_warnings(record), *repeated)
             records[i] = replace(record, source=own, warnings=tuple(dict.fromkeys((*doubts, *damage))))
         return records
+
+
+_HEAD_OF_SPECTRUM = 30
+"""Lines in which a header says that it is one of a spectrum."""
 
 
 def signature_in(raw: bytes, name: str, folder: str) -> Signature | None:
@@ -187,8 +198,16 @@ def bare_text(content: bytes) -> bytes:
     return body + b"\n" if ended else body
 
 
+_BY_OBSPY = "Or: rocking.from_obspy(obspy.read(path), unit=...)"
 _TOLD = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence in (
-    (rb"PK\x03\x04", "this is a zip archive; unpack it."),
+    (rb"PK\x03\x04", "this is a zip archive; call it .zip, or unpack it."),
+    (rb"(.|\n){257}ustar", "this is a tar archive; call it .tar, or unpack it."),
+    (rb"BZh|\xfd7zXZ\0", "this is a packed file of bzip2 or xz; unpack it."),
+    (rb"\d{6}V ", "this is a SEED volume, of which obspy reads the samples where it holds any: rocking.from_obspy("
+     "obspy.read(path), inventory=obspy.read_inventory(path)); a dataless one holds responses alone, and goes with the "
+     "record: rocking.from_obspy(obspy.read(record), inventory=obspy.read_inventory(path))."),
+    (rb"(#.*\n)*B05\dF\d\d\b|#\s*<+\s*IRIS SEED Reader", "this is a RESP file, which holds a response and no motion, "
+     "and goes with its record: rocking.from_obspy(obspy.read(record), inventory=obspy.read_inventory(path))."),
     (rb"\x93NUMPY", "this is an array of numpy, which says neither unit nor time step; give it as "
      "rocking.Accelerogram(numpy.load(path), time_step)."),
     (rb"MATLAB 5\.0", "this is a file of MATLAB; export time and acceleration as text, with their units as names."),
@@ -205,7 +224,9 @@ _TOLD = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence in (
      "and no motion: read the file of the samples, with the StationXML of its station beside it, which the data centre "
      "of the poles and zeros serves as well (inventory)."),
     (rb"\s*<\?xml|\s*<(FDSNStationXML|q:quakeml)", "this is an XML file, which holds no motion; read the record."),
-    (rb"\s*<(!doctype html|html)", "this is a web page, and no record: the download failed; fetch the file again."),
+    (rb"(?s)\s*<(!doctype html|html|table|meta)(?=.{0,350}<(table|tr|td)\b|.{0,350}(excel|spreadsheet))",
+     "this is a web page with a table, as some programs call .xls; open it in a spreadsheet, and save it as CSV."),
+    (rb"\s*<(!doctype html|html|table)", "this is a web page, and no record: the download failed; fetch it again."),
     (rb"%PDF|\x89HDF|7z\xbc\xaf|Rar!", "this is a PDF, an archive or a data base; export the record as text."),
 ))  # fmt: skip
 """Kinds of file that no reader takes, and what to do with each."""
@@ -232,7 +253,7 @@ def recognise(content: bytes) -> Format:
     words = head.decode("latin-1").splitlines()[0].strip()
     raise UnknownFormatError(
         f"no reader recognises this file, which begins with {(words if words.isprintable() else head[:8])!r}; "
-        "rocking read --details says why. Or: rocking.from_obspy(obspy.read(path), unit=...).",
+        f"rocking read --details says why. {_BY_OBSPY}.",
         details=tuple(f"{form.name}: no {form.signature}" for form in FORMATS),
     )
 
@@ -257,18 +278,17 @@ def unpack(raw: bytes, name: str) -> bytes:
 
 
 def bytes_of(path: Path, largest: int = LARGEST_FILE) -> bytes:
-    """Return the bytes of a regular file, or of a member of a zip archive.
+    """Return the bytes of a regular file, or of a member of an archive.
 
     Raises RecordError when it is missing, larger than any accelerogram, or an archive itself.
     """
-    in_archive = ENDING in str(path).lower()  # or an archive itself, if it is one at all
-    if in_archive and (archive := archive_of(path)):
+    if archive := archive_of(path):
         return member_bytes(path, archive, largest)
-    if in_archive and is_archive(path):
+    if is_archive(path):
         with about(printable(path.name)):
             count = len(members(path))
         raise RecordError(
-            f"{printable(path.name)}: this is a zip archive of {count} files; name each of them, as "
+            f"{printable(path.name)}: this is an archive of {count} files; name each of them, as "
             f"{printable(path.name)}/member, or list the folder with rocking catalogue."
         )
     return read_whole(path, largest, RecordError, printable(str(path)))

@@ -16,6 +16,7 @@ from rocking.records.direction import (
     pair_doubt,
     vertical_doubt,
 )
+from rocking.records.doors import through
 from rocking.records.files import beside_catalogue, path_of
 from rocking.records.formats import Options
 from rocking.records.formats.layouts import Layouts
@@ -68,7 +69,8 @@ def _channels_of(
         raise RecordError(f"{hashes}; it is another version.")
     layouts = Layouts(record.folder, PurePosixPath(file.name).parent.as_posix())
     options = Options(record.unit or None, record.time_step, inventory, path.parent, layouts=layouts)
-    channels = read_raw(raw, path, options)
+    with through("catalogue"):
+        channels = read_raw(raw, path, options)
     return [replace(each, source=replace(each.source, path=file.name)) for each in channels]
 
 

@@ -20,6 +20,7 @@ import numpy as np
 from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_unit, positive
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.doors import advice
 from rocking.records.formats import text
 from rocking.records.formats.format import Format, Layout, Options, required
 from rocking.records.formats.text import LARGEST_SERIES
@@ -177,10 +178,7 @@ def _taken(
     return records
 
 
-_SAC_SILENT = (
-    "unit is not declared, for a SAC file declares none. Of acceleration, declare it: the column unit of the "
-    "catalogue, --unit on the command line, unit= in Python. Of counts, give the StationXML of the instrument: {}"
-)
+_SAC_SILENT = "unit is not declared, for a SAC file declares none, and {}"
 
 
 def _check_sac(header: dict[str, float], data: np.ndarray, step: float) -> None:
@@ -312,8 +310,7 @@ def _stated_unit(traces: Any, options: Options) -> str | None:
         refuse_other_quantity("", unit)
         if acceleration_unit(unit) is None and options.unit is None:
             raise UndeclaredError(
-                f"unit is {unit!r} in the file, which is none of acceleration; declare it: the column unit of the "
-                "catalogue, --unit on the command line, unit= in Python.",
+                f"unit is {unit!r} in the file, which is none of acceleration; {advice('unit')} if it is one.",
                 "unit",
             )
     return next((unit for unit in units if acceleration_unit(unit)), None)
@@ -335,7 +332,9 @@ def _inventory(stats: Any, options: Options) -> Any:
     if len(naming) != 1:
         several = f"several do: {', '.join(p.name for p in naming)}" if naming else "none beside it does"
         missing = f"no single StationXML describes {stats.network}.{stats.station} ({several})"
-        raise UndeclaredError(f"{missing}; give inventory=, or unit= if the samples are acceleration.")
+        raise UndeclaredError(
+            f"{missing}; {advice('inventory')}; if the samples are acceleration, {advice('unit')}."
+        )
     return _parse(naming[0])
 
 

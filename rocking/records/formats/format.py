@@ -17,6 +17,7 @@ from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_factor, acceleration_unit, positive
 from rocking.records.accelerogram import LARGEST_PEAK, Accelerogram, Source
 from rocking.records.direction import directed
+from rocking.records.doors import advice
 from rocking.records.formats.layouts import Layouts
 from rocking.records.formats.text import (
     NUMBER,
@@ -42,10 +43,7 @@ from rocking.remarks import Kind, Remark
 Response = Literal["sensitivity", "full"]
 
 _STEPS = (1e-6, 10.0)  # s; a step outside is a misplaced number, not a recorder
-_UNDECLARED = (
-    "{0} is not declared, neither in the file nor by the caller; declare it: the column {1} of the catalogue, --{2} on "
-    "the command line, {0}= in Python."
-)
+_UNDECLARED = "{} is not declared, neither in the file nor by the caller; {}."
 
 
 @dataclass(frozen=True)
@@ -81,7 +79,7 @@ class Options:
         """
         unit = in_file or self.unit
         if unit is None:
-            raise UndeclaredError(_UNDECLARED.format("unit", "unit", "unit"), "unit")
+            raise UndeclaredError(_UNDECLARED.format("unit", advice("unit")), "unit")
         factor = acceleration_factor(unit)
         if self.unit is not None and acceleration_factor(self.unit) != factor:
             raise RecordError(f"unit is {unit!r} in the file, but {self.unit!r} was declared; omit it.")
@@ -91,7 +89,7 @@ class Options:
         """Return the time step [s] the file declares, else the caller's; the two may differ by 0.1 %."""
         step = in_file if in_file is not None else self.time_step
         if step is None:
-            raise UndeclaredError(_UNDECLARED.format("time_step", "time_step_s", "time-step"), "time_step")
+            raise UndeclaredError(_UNDECLARED.format("time_step", advice("time_step")), "time_step")
         step = positive(RecordError, "time_step", float(step), "s")
         if not _STEPS[0] <= step <= _STEPS[1]:
             raise RecordError(f"time_step is {step!r} s, but must be from {_STEPS[0]:g} to {_STEPS[1]:g} s.")
@@ -164,8 +162,8 @@ def without_offset(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
     offset = values.mean() if values.size else 0.0
     if abs(offset) * acceleration_factor(unit) > LARGEST_PEAK:
         limit = (
-            "above the 5 g that no recorder is off by; declare the true unit, or the calibration of counts "
-            "(inventory= of miniSEED and SAC)"
+            f"above the 5 g that no recorder is off by; {advice('unit')} as it truly is, or, of counts of miniSEED and "
+            f"SAC, {advice('inventory')}"
         )
         raise RecordError(f"the mean of the record is {offset:.6g} {unit}, {limit}.")
     sentence = f"Mean of the whole record removed, {offset:.6g} {unit}: the offset of the recorder."

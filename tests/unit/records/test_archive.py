@@ -1,6 +1,8 @@
 """Zip archives: their members are read as the files of a folder are, and nothing leads out of them or swells."""
 
+import io
 import shutil
+import tarfile
 import zipfile
 from pathlib import Path
 
@@ -15,7 +17,7 @@ from rocking.records.files import fill_hashes, local_files
 from rocking.records.folder import catalogue_of_folder, list_folder
 from rocking.records.station import open_station
 from rocking.remarks import Kind, Remark
-from tests.contracts.made_files import TRUE, peer
+from tests.contracts.made_files import TRUE, knet, peer
 
 FILES = {"quake/RSN1_MADE_ST000.AT2": peer(), "quake/RSN1_MADE_ST090.AT2": peer().replace(", 45", ", 135")}
 
@@ -76,7 +78,7 @@ def test_members_that_were_unpacked_are_followed_by_their_content(tmp_path):
         ({"/etc/passwd": "x"}, "leads out of it"),
         ({"a\\b.AT2": peer()}, "leads out of it"),
         ({"C:x.AT2": peer()}, "leads out of it"),
-        ({f"{n}.AT2": "x" for n in range(1001)}, "1001 files, more than 1000"),
+        ({f"{n}.AT2": "x" for n in range(10_001)}, "10001 files, more than 10000"),
         ({"[Content_Types].xml": "x", "xl/sheet.xml": "x"}, "workbook"),
         ({"empty/": ""}, "holds no file"),
         ({"big.txt": b"1 2\n" * (3 * 2**20)}, "larger than"),
@@ -91,14 +93,88 @@ def test_archives_that_are_refused(tmp_path, files, words):
         assert files and all(file.refusal for file in files)
 
 
-def test_an_archive_within_an_archive_is_refused(tmp_path):
+def tarred(path: Path, files: dict[str, bytes], how: str = "w") -> Path:
+    with tarfile.open(path, how) as archive:
+        for name, content in files.items():
+            entry = tarfile.TarInfo(name)
+            entry.size = len(content)
+            archive.addfile(entry, io.BytesIO(content))
+    return path
+
+
+PLAIN = {name: content.encode() for name, content in FILES.items()}
+
+
+@pytest.mark.parametrize(("name", "how"), [("a.tar", "w"), ("a.tar.gz", "w:gz"), ("A.TGZ", "w:gz")])
+def test_a_tar_file_is_read_as_a_zip_file_is(tmp_path, name, how):
+    archive = tarred(tmp_path / name, PLAIN | {"./readme.pdf": b"%PDF"}, how)
+    first, second = read(archive)
+    assert np.allclose(first.acceleration, TRUE, atol=1e-6) and second.component == "135"
+    assert first.warnings == (Remark.of(Kind.FILES_NOT_READ, names="readme.pdf"),)
+    rows = list_folder(tmp_path)[1]
+    assert rows[0]["file"] == ";".join(f"{name}/{member}" for member in FILES)
+    (tmp_path / "c.csv").write_text(catalogue_text(rows), encoding="utf-8")
+    (record,) = load_catalogue(tmp_path / "c.csv")
+    assert len(open_station(record).horizontal) == 2 and local_files(record) == [archive]
+
+
+def test_what_k_net_serves_is_a_tar_file_of_packed_tar_files(tmp_path):
+    """Those of K-NET and of KiK-net, each with a file a component."""
+    parts = {}
+    for network, station in (("knt", "AOM001"), ("kik", "AOMH01")):
+        of_station = {f"{station}.{end}": knet().replace("MADE01", station).encode() for end in ("EW", "NS")}
+        parts[f"{network}.tar.gz"] = tarred(tmp_path / "part", of_station, "w:gz").read_bytes()
+    (tmp_path / "part").unlink()
+    archive = tarred(tmp_path / "20240101161000.tar", parts)
+    assert members(archive) == (
+        "kik.tar.gz/AOMH01.EW", "kik.tar.gz/AOMH01.NS", "knt.tar.gz/AOM001.EW", "knt.tar.gz/AOM001.NS",
+    )  # fmt: skip
+    assert len(read(archive)) == 4
+    (alone,) = read(archive / "knt.tar.gz" / "AOM001.NS")
+    assert alone.peak_acceleration == pytest.approx(np.abs(TRUE - TRUE.mean()).max(), rel=1e-2)
+
+
+def test_a_zip_file_in_a_zip_file_is_a_folder_of_it(tmp_path):
     inner = packed(tmp_path / "inner.zip").read_bytes()
     (tmp_path / "inner.zip").unlink()
-    archive = packed(tmp_path / "outer.zip", {"inner.zip": inner})
-    with pytest.raises(RecordError, match="archive within an archive"):
-        read(archive)
-    with pytest.raises(RecordError, match="holds no such file"):
-        read(archive / "inner.zip" / "quake")
+    archive = packed(tmp_path / "outer.zip", {"a/inner.zip": inner, "b.AT2": peer()})
+    assert members(archive) == (*(f"a/inner.zip/{name}" for name in FILES), "b.AT2")
+    assert len(read(archive)) == 3
+    with pytest.raises(RecordError, match="no such file"):
+        read(archive / "a" / "inner.zip" / "quake")
+    assert read(archive / "a" / "inner.zip" / "quake" / "RSN1_MADE_ST090.AT2")[0].component == "135"
+
+
+def test_archives_too_deep_in_others_are_refused(tmp_path):
+    content = packed(tmp_path / "x.zip").read_bytes()
+    for _ in range(4):
+        content = packed(tmp_path / "x.zip", {"x.zip": content}).read_bytes()
+    (name,) = members(tmp_path / "x.zip")
+    assert name == "x.zip/x.zip/x.zip"
+    with pytest.raises(RecordError, match="3 deep in others"):
+        read(tmp_path / "x.zip")
+
+
+@pytest.mark.parametrize("name", ["x.tar", "x.tar.gz", "x.zip"])
+def test_a_damaged_archive_is_refused_in_a_sentence(tmp_path, name):
+    content = tarred(tmp_path / name, PLAIN, "w:gz" if name.endswith("gz") else "w").read_bytes()
+    if name.endswith("zip"):
+        content = packed(tmp_path / name).read_bytes()
+    (tmp_path / name).write_bytes(content[: len(content) // 3])
+    with pytest.raises(RecordError, match=r"damaged (zip|tar) archive"):
+        read(tmp_path / name)
+    assert all(file.refusal for file in list_folder(tmp_path)[0])
+
+
+def test_links_and_ways_out_of_a_tar_file_are_not_followed(tmp_path):
+    with pytest.raises(RecordError, match="leads out of it"):
+        read(tarred(tmp_path / "bad.tar", {"../out.AT2": b"x"}))
+    with tarfile.open(tmp_path / "link.tar", "w") as archive:
+        link = tarfile.TarInfo("a.AT2")
+        link.type, link.linkname = tarfile.SYMTYPE, "/etc/passwd"
+        archive.addfile(link)
+    with pytest.raises(RecordError, match="holds no file"):
+        read(tmp_path / "link.tar")
 
 
 def test_what_swells_or_is_damaged_is_refused_member_by_member(tmp_path):
@@ -118,7 +194,7 @@ def test_what_swells_or_is_damaged_is_refused_member_by_member(tmp_path):
 def test_a_row_that_names_the_archive_alone_is_told_what_to_write(tmp_path):
     packed(tmp_path / "peer.zip")
     (tmp_path / "c.csv").write_text("id,file\nA,peer.zip\n", encoding="utf-8")
-    with pytest.raises(RecordError, match=r"zip archive of 2 files; name each of them, as peer\.zip/member"):
+    with pytest.raises(RecordError, match=r"archive of 2 files; name each of them, as peer\.zip/member"):
         open_station(load_catalogue(tmp_path / "c.csv")[0])
 
 
