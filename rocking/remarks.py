@@ -875,6 +875,34 @@ class Kind(StrEnum):
         "non tutti dichiarano unità e passo",
     )
 
+    # Which earthquakes the records of a figure are of.
+    EARTHQUAKES_UNNAMED = auto(), Sentence(
+        "{records} of {all} records name no earthquake, and count as of one: name it in the column event of the "
+        "catalogue, or declare each of them an earthquake of its own (unnamed_events: each).",
+        "{records} registrazioni su {all} non indicano il terremoto e contano come di uno solo: indicarlo nella "
+        "colonna event del catalogo, o dichiarare ciascuna di un terremoto proprio (unnamed_events: each).",
+    )
+    EARTHQUAKE_ONE = auto(), Sentence(
+        "All {stations} stations are of one earthquake, which tells nothing of another: there is no interval.",
+        "Tutte le {stations} stazioni sono di un solo terremoto, che nulla dice di un altro: non c'è intervallo.",
+    )
+    EARTHQUAKES_FEW = auto(), Sentence(
+        "With {earthquakes} earthquakes, fewer than {fewest}, nothing is resampled: intervals are those of Student, "
+        "or of Clopper and Pearson, on the earthquakes.",
+        "Con {earthquakes} terremoti, meno di {fewest}, nulla è ricampionato: gli intervalli sono quelli di Student, "
+        "o di Clopper e Pearson, sui terremoti.",
+    )
+    EARTHQUAKE_NAMED_TWICE = auto(), Sentence(
+        "One motion is listed under two earthquakes, {first} and {second}: name it once, or leave one record out.",
+        "Un moto è elencato con due terremoti, {first} e {second}: indicarne uno, o togliere una registrazione.",
+    )
+    STATION_OF_TWO_EARTHQUAKES = auto(), Sentence(
+        "Station {about} is given for two earthquakes, {first} and {second}, and counts for the first: give each its "
+        "own name in each earthquake.",
+        "La stazione {about} è data per due terremoti, {first} e {second}, e conta per il primo: darle un nome "
+        "proprio in ciascun terremoto.",
+    )
+
     # A catalogue and its folder, and a study before its run.
     FILE_RENAMED = auto(), Sentence(
         "{about}: the file {before} is now {now}, by its content; the row names it.",

@@ -1,22 +1,25 @@
 """What holds it: the smallest tie, thickness or load that can be shown to hold under records, by dynamics.
 
 The rule is fixed before anything is followed: the smallest of GRID values such that at it and at all larger ones the
-upper bound of the share that overturns, by station, is at or below the target. The least value at which the records at
-hand show a share below the target would only just hold on them, and fail on others.
+upper bound of the share that overturns, by earthquakes, is at or below the target. The least value at which the records
+at hand show a share below the target would only just hold on them, and fail on others.
 """
 
 import math
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
+from time import process_time
 
 import numpy as np
-from scipy.special import betaincinv, stdtrit
+from scipy.special import betaincinv
 
-from rocking.assessment.assessor import Assessor
-from rocking.assessment.motions import Component, HorizontalMotion
+from rocking.assessment.assessor import Assessor, Store
+from rocking.assessment.cracks import counting_cracks
+from rocking.assessment.decide import Verdict
+from rocking.assessment.motions import Component, HorizontalMotion, Motion
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings
 from rocking.codes.check import CodeTerms
@@ -24,9 +27,11 @@ from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.static_check import kinematic_check
 from rocking.drawn import Drawn
 from rocking.errors import ConfigurationError, DoesNotStandError, RockingError, StructureError
-from rocking.fragility.curves import station_names
-from rocking.quantities import counted, finite, kind_of, percents, shown
+from rocking.hashes import sha256_of_content
+from rocking.quantities import GRAVITY, counted, finite, kind_of, percents, shown
 from rocking.records import Accelerogram
+from rocking.records.sample import Sample
+from rocking.remarks import Kind
 from rocking.structures import Structure, structure_from_config
 from rocking.structures.fields import Field, article
 from rocking.structures.structure_list import nearest
@@ -44,24 +49,14 @@ _MOST_NEEDED = 10_000
 _TIE = "tie_strength"
 
 
-def share_bounds(falls: float, stations: int) -> tuple[float, float]:
-    """Return the lower and the upper one-sided 90 % bound of a share (Jeffreys), of which `falls` may be a fraction.
-
-    The lower one is 0 where nothing falls, the upper one 1 where everything does.
-    """
-    stands = stations - falls
-    low = float(betaincinv(falls + 0.5, stands + 0.5, 1 - CONFIDENCE)) if falls > 0 else 0.0
-    high = float(betaincinv(falls + 0.5, stands + 0.5, CONFIDENCE)) if stands > 0 else 1.0
-    return low, high
-
-
 def stations_needed(share: float, target: float) -> float:
-    """Return the number of stations from which on the upper bound of this `share` is at or below the target.
+    """Return the number of stations, each of another earthquake, from which on the upper bound of this `share` is at
+    or below the target.
 
     nan where more than 10 000 are needed, as where the share is not below the target.
     """
     numbers = np.arange(1, _MOST_NEEDED + 1)
-    bounds = betaincinv(share * numbers + 0.5, (1 - share) * numbers + 0.5, CONFIDENCE)
+    bounds = betaincinv(share * numbers + 1, (1 - share) * numbers, CONFIDENCE)
     too_few = np.flatnonzero(bounds > target)
     needed = int(too_few[-1]) + 2 if too_few.size else 1
     return float(needed) if needed <= _MOST_NEEDED and share < target else math.nan
@@ -72,55 +67,94 @@ class Tried:
     """One value that was tried.
 
     value: in SI; nan where the structure states none. shares: (n,) of each station, the mean over its components of the
-    share of the decision; what cannot be told counts as 1. governing: what overturns most often, or turns where nothing
-    does; "" of a structure with one mechanism. untold: components under which it cannot be told.
+    share of the decision, nan of a station under which it was not followed; what cannot be told counts as 1. sample: of
+    the n stations. governing: what overturns most often, or turns where nothing does; "" of a structure with one
+    mechanism. untold: components under which it cannot be told. slid: (n,) the part of `shares` that cannot be told
+    because it slides before it lifts.
     """
 
     value: float
     shares: np.ndarray
+    sample: Sample
     governing: str = ""
     untold: int = 0
+    slid: np.ndarray | None = None
+
+    @cached_property
+    def followed(self) -> np.ndarray:
+        """(n,): the stations under which it was followed."""
+        followed: np.ndarray = ~np.isnan(self.shares)
+        return followed
 
     @property
     def share(self) -> float:
-        """The mean over the stations."""
-        return float(self.shares.mean())
+        """The mean over these stations."""
+        return float(self.shares[self.followed].mean())
+
+    @property
+    def overturns(self) -> np.ndarray:
+        """(n,): the shares without what slides, nan of a station under which it was not followed."""
+        return self.shares if self.slid is None else self.shares - self.slid
 
     @cached_property
     def interval(self) -> tuple[float, float]:
         """The one-sided 90 % bounds of the share, each by itself."""
-        return share_bounds(float(self.shares.sum()), self.shares.size)
+        return _bounds(self.shares, self.sample)
+
+    def fails_by_sliding(self, target: float) -> bool:
+        """Whether the upper bound is above the target only by what slides."""
+        return self.interval[1] > target >= _bounds(self.overturns, self.sample)[1]
 
     @property
     def in_words(self) -> str:
-        """The share with its bounds: "3 % (1–8 %)"."""
-        return f"{percents(self.share)} ({percents(*self.interval)})"
+        """The share with its bounds, and the stations of one that was given up: "3 % (1–8 %)"."""
+        told = f"{percents(self.share)} ({percents(*self.interval)})"
+        return (
+            told
+            if self.followed.all()
+            else f"{told} at the first {counted(int(self.followed.sum()), 'station')}"
+        )
+
+
+def _bounds(shares: np.ndarray, sample: Sample) -> tuple[float, float]:
+    """The one-sided 90 % bounds of shares (n,) over the stations of a sample, nan where one was not followed."""
+    told = np.flatnonzero(~np.isnan(shares))
+    low, high = sample.part(told).share_bounds(shares[told], 1 - CONFIDENCE)
+    return float(low), float(high)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Strengthening(Drawn):
     """The smallest value of one size of a structure that can be shown to hold, and what was tried.
 
-    field: of the structure. target: share that overturns at the most. stations: (n,) names. tried: the values, smallest
-    first. given: the structure as it was given. static_tie: the least strength of a tie by the linear check of the
-    code, N/m; nan of another size, and where none of the range is enough. `plot` draws the share over the value with
-    its bounds.
+    field: of the structure. target: share that overturns at the most. sample: the n stations that count, and their
+    earthquakes. tried: the values, smallest first. given: the structure as it was given. static_tie: the least strength
+    of a tie by the linear check of the code, N/m; nan of another size, and where none of the range is enough. still:
+    stations at which nothing lifts it with any value, which tell nothing and do not count. `plot` draws the share over
+    the value with its bounds.
 
     >>> step = 0.01 * np.arange(600)
     >>> pulses = [rocking.Pulse(3.0, omega, 0.5) for omega in np.linspace(4.0, 8.0, 30)]
     >>> records = [rocking.Accelerogram(pulse.acceleration(step), 0.01) for pulse in pulses]
     >>> parapet = rocking.Block.of_size(breadth=0.25, height=2.0)
-    >>> held = rocking.strengthen(records, parapet, "breadth", between=(0.25, 1.5))
+    >>> names = [f"earthquake {place}" for place, _ in enumerate(records)]
+    >>> held = rocking.strengthen(records, parapet, "breadth", between=(0.25, 1.5), events=names)
     >>> round(held.value, 2), round(held.share, 3), held.monotone
     (0.54, 0.015, True)
     """
 
     field: Field
     target: float
-    stations: tuple[str, ...]
+    sample: Sample
     tried: tuple[Tried, ...]
     given: Tried
     static_tie: float = math.nan
+    still: int = 0
+
+    @property
+    def stations(self) -> tuple[str, ...]:
+        """(n,): the stations that count."""
+        return self.sample.station_names
 
     @property
     def key(self) -> str:
@@ -134,15 +168,23 @@ class Strengthening(Drawn):
         return None if place is None else self.tried[place]
 
     @cached_property
+    def told(self) -> tuple[Tried, ...]:
+        """The values without those at the top that cannot be told because they slide before they lift."""
+        number = len(self.tried)
+        while number > 1 and self.tried[number - 1].fails_by_sliding(self.target):
+            number -= 1
+        return self.tried[:number]
+
+    @cached_property
     def _place(self) -> int | None:
-        place = len(self.tried)
+        place = len(self.told)
         while place > 0 and self.tried[place - 1].interval[1] <= self.target:
             place -= 1
-        return place if place < len(self.tried) else None
+        return place if place < len(self.told) else None
 
     @property
     def value(self) -> float:
-        """The smallest that can be shown to hold, as all larger ones can, in SI; nan where none can."""
+        """The smallest that can be shown to hold, as all larger ones of `told` can, in SI; nan where none can."""
         return self.chosen.value if self.chosen else math.nan
 
     @property
@@ -162,11 +204,12 @@ class Strengthening(Drawn):
 
     @property
     def needed_stations(self) -> float:
-        """About how many stations show a share as at the value, or at the largest one where none can be shown.
+        """About how many stations of as many earthquakes show a share as at the value, or at the largest one where none
+        can be shown.
 
         nan where the share there is not below the target, so that no number of stations shows it.
         """
-        return stations_needed((self.chosen or self.tried[-1]).share, self.target)
+        return stations_needed((self.chosen or self.told[-1]).share, self.target)
 
     @property
     def monotone(self) -> bool:
@@ -177,16 +220,17 @@ class Strengthening(Drawn):
     def harmful(self) -> float:
         """The value at which the share has risen most above that of a smaller one, in SI; nan where it does not rise.
 
-        It rises where the mean of the differences of the stations is above 0 with a confidence of 99 %.
+        It rises where the mean of the differences of the stations is above 0 with a confidence of 99 %, by earthquakes.
+        What slides overturns nothing.
         """
         worst = 0.0
         found = math.nan
-        least = self.tried[0]
-        limit = stdtrit(len(self.stations) - 1, RISES)
-        for each in self.tried[1:]:
-            rises = each.shares - least.shares
-            rise = float(rises.mean())
-            if rise > worst and rise > limit * rises.std(ddof=1) / math.sqrt(rises.size):
+        least = self.told[0]
+        for each in self.told[1:]:
+            both = np.flatnonzero(each.followed & least.followed)
+            rises = (each.overturns - least.overturns)[both]
+            rise = float(rises.mean()) if both.size else 0.0
+            if rise > worst and rise > self.sample.part(both).spread(rises).reach(1 - RISES):
                 worst = rise
                 found = each.value
             if each.share < least.share:
@@ -200,10 +244,10 @@ class Strengthening(Drawn):
     @property
     def words(self) -> str:
         """What was found, in sentences."""
-        stations = counted(len(self.stations), "station")
+        stations = self.sample.words
         target = percents(self.target)
-        first = self.tried[0]
-        last = self.tried[-1]
+        first = self.told[0]
+        last = self.told[-1]
         as_given = self.given.in_words
         if self.given.governing:
             as_given += f", mostly {self.given.governing}"
@@ -211,10 +255,14 @@ class Strengthening(Drawn):
             told = (
                 f"{self.key}: no value from {self.as_typed(first.value)} to {self.as_typed(last.value)} can be shown "
                 f"to keep the share that overturns at or below {target}: at the largest one it is {last.in_words}, one "
-                f"step below it, {self.as_typed(self.tried[-2].value)}, {self.tried[-2].in_words}; {stations}, "
+                f"step below it, {self.as_typed(self.told[-2].value)}, {self.told[-2].in_words}; {stations}, "
             )
             needed = self.needed_stations
-            told += "give larger values" if math.isnan(needed) else f"about {needed:.0f} are needed"
+            told += (
+                "give larger values"
+                if math.isnan(needed)
+                else f"about {needed:.0f} of as many earthquakes are needed"
+            )
         else:
             told = (
                 f"{self.key}: {self.as_typed(self.value)} can be shown to hold, as all larger values can: "
@@ -227,6 +275,17 @@ class Strengthening(Drawn):
             else:
                 told += "; every value of the range holds, so that smaller ones may, too: give them"
         sentences = [f"{told}", f"As given {as_given} overturn"]
+        if self.still:
+            sentences.append(
+                f"Nothing lifts it with any value at {counted(self.still, 'further station')}, which tell nothing and "
+                "do not count"
+            )
+        if len(self.told) < len(self.tried):
+            least = self.tried[len(self.told)]
+            sentences.append(
+                f"From {self.as_typed(least.value)} on it slides before it lifts, and nothing can be told: these "
+                "values are left out, and what holds is shown below them alone"
+            )
         if not self.monotone:
             sentences.append(
                 f"A larger value harms: more overturn at {self.as_typed(self.harmful)} than below it"
@@ -237,7 +296,8 @@ class Strengthening(Drawn):
             )
         if not math.isnan(self.static_tie):
             sentences.append(f"The linear check of the code asks for {self.as_typed(self.static_tie)}")
-        return ". ".join(sentences) + "."
+        remarks = "".join(f" {remark}" for remark in self.sample.remarks)
+        return ". ".join(sentences) + f".{remarks}"
 
     def __repr__(self) -> str:
         return f"<{self.words}>"
@@ -251,6 +311,8 @@ def strengthen(
     between: tuple[float, float],
     target: float = 0.10,
     stations: Sequence[str] | None = None,
+    events: Sequence[str] | None = None,
+    early: bool = True,
 ) -> Strengthening:
     """Return the smallest value of `key` that can be shown to hold `structure` under records as they are given.
 
@@ -260,8 +322,10 @@ def strengthen(
     told counts as 1, as does a value with which the structure does not stand at rest.
 
     records: horizontal components, each by itself. key: a length, an angle, a force or a stiffness of the structure, in
-    SI, as its constructor has it: tie_strength [N/m], thickness, breadth, pier_width, top_load. stations: one name a
-    record; None: each record's own event and station. Of a tie's strength the static one stands beside it: the least
+    SI, as its constructor has it: tie_strength [N/m], thickness, breadth, pier_width, top_load. stations, events: one
+    name a record; None: those that each record names; all that name no earthquake count as of one, from which nothing
+    can be shown. early: whether a value is given up once its bound cannot be met any more, whatever the stations that
+    are left say. Of a tie's strength the static one stands beside it: the least
     by the linear check (C8.7.1.2.1.7, q = 2, FC = 1.35) at the mean peak acceleration of the records.
     Raises ConfigurationError for a key that the structure lacks, a range or a target that is none, fewer than 6
     stations, and a value with which there is no such structure.
@@ -269,9 +333,10 @@ def strengthen(
     >>> times = 0.01 * np.arange(600)
     >>> pulses = [rocking.Pulse(3.0, omega, 0.5) for omega in np.linspace(4.0, 8.0, 6)]
     >>> records = [rocking.Accelerogram(pulse.acceleration(times), 0.01) for pulse in pulses]
-    >>> few = rocking.strengthen(records, rocking.Block(2.0, 0.2), "breadth", between=(1.0, 3.0))
+    >>> names = [f"earthquake {place}" for place, _ in enumerate(records)]
+    >>> few = rocking.strengthen(records, rocking.Block(2.0, 0.2), "breadth", between=(1.0, 3.0), events=names)
     >>> few.value, few.needed_stations
-    (nan, 13.0)
+    (nan, 22.0)
     """
     if isinstance(records, Accelerogram | str | bytes) or not isinstance(records, Sequence):
         raise ConfigurationError(f"records is {kind_of(records)}, but must be a list of accelerograms.")
@@ -293,7 +358,10 @@ def strengthen(
             f"key is {shown(key)}, but {article(structure.type_name)} has no such size{nearest(key, fields)}; it has "
             f"{', '.join(fields)}."
         )
-    return strengthen_scene(records, Scene("structure", structure), fields[key], between, target, stations)
+    sample = Sample.of(records, stations, events)
+    return strengthen_scene(
+        records, Scene("structure", structure), fields[key], between, target, sample, early=early
+    )
 
 
 def sizes(structure: Structure) -> list[Field]:
@@ -316,15 +384,20 @@ def strengthen_scene(
     size: Field,
     between: tuple[float, float],
     target: float,
-    stations: Sequence[str] | None = None,
+    sample: Sample,
     settings: AssessmentSettings | None = None,
     spectrum: DesignSpectrum | None = None,
     terms: CodeTerms | None = None,
+    *,
+    early: bool = True,
+    store: Store | None = None,
+    tell: Callable[[str], object] = lambda line: None,
 ) -> Strengthening:
     """Return what `strengthen` does, for a scene: on a support its worst period counts.
 
-    size: one of its `sizes`. between: in SI. settings: of the ensemble, friction and tolerance; no estimate settles a
-    case. spectrum, terms: at which a tie is sized by the code; without a spectrum, the mean peak of the records.
+    size: one of its `sizes`. between: in SI. sample: of the records. settings: of the ensemble, friction and tolerance;
+    no estimate settles a case. spectrum, terms: at which a tie is sized by the code; without a spectrum, the mean peak
+    of the records. store: keeps the outcome of each value under each record. tell: takes a line on what it will cost.
     """
     if not (isinstance(between, tuple | list) and len(between) == 2):
         raise ConfigurationError(f"between is {shown(between)}, but must be two values, the lower one first.")
@@ -338,11 +411,9 @@ def strengthen_scene(
             f"target is {target:g}, but must be above 0 and below 1: no number of stations shows a share of 0, and "
             "every value keeps one of 1."
         )
-    names = station_names(records, stations)
-    number = len(set(names))
-    if number < LEAST_STATIONS:
+    if sample.count < LEAST_STATIONS:
         raise ConfigurationError(
-            f"the records come from {counted(number, 'station')}, but at least {LEAST_STATIONS} are needed; add "
+            f"the records come from {counted(sample.count, 'station')}, but at least {LEAST_STATIONS} are needed; add "
             "records."
         )
     settings = settings or AssessmentSettings()
@@ -354,12 +425,16 @@ def strengthen_scene(
     changed = {f"{value!r}": with_value(scene.structure, size, value) for value in values}
     scenes = {name: replace(scene, name=name, structure=each) for name, each in changed.items() if each}
     scenes[""] = replace(scene, name="")
-    outcomes = _follow(records, scenes, settings)
+    following = _Following(records, scenes, settings, sample, target, early, store, tell)
+    outcomes = following.outcomes()
+    # A station at which no value lets it lift says nothing of what stronger shaking would do.
+    moves = np.flatnonzero(sample.by_station(_lifting(records, scenes.values(), settings).astype(float)) > 0)
+    counting = replace(sample.part(moves), remarks=sample.remarks)
 
     def tried(value: float, name: str) -> Tried:
         if name not in scenes:
-            return Tried(value, np.ones(number), "what acts on it at rest")
-        return _tried(value, [each[name] for each in outcomes], names)
+            return Tried(value, np.ones(moves.size), counting, "what acts on it at rest")
+        return _tried(value, [own.get(name) for own in outcomes], sample, moves, counting)
 
     given = {each.field.name: each for each in scene.structure.described.values}.get(size.name)
     own = math.nan
@@ -368,9 +443,10 @@ def strengthen_scene(
     made = Strengthening(
         field=size,
         target=float(target),
-        stations=tuple(dict.fromkeys(names)),
+        sample=counting,
         tried=tuple(tried(value, f"{value!r}") for value in values),
         given=tried(own, ""),
+        still=sample.count - moves.size,
     )
     if size.name != _TIE:
         return made
@@ -399,48 +475,148 @@ def with_value(structure: Structure, size: Field, value: float) -> Structure | N
 
 @dataclass(frozen=True)
 class _Outcome:
-    """The outcome of one component: the share that overturns, nan where it cannot be told, and what governs."""
+    """The outcome of one component: the share that overturns, nan where it cannot be told, and what governs.
+
+    slides: whether it cannot be told because it slides before it lifts.
+    """
 
     share: float
-    governing: str
+    governing: str = ""
+    slides: bool = False
 
 
-def _follow(
-    records: Sequence[Accelerogram], scenes: dict[str, Scene], settings: AssessmentSettings
-) -> list[dict[str, _Outcome]]:
-    """The outcome of every scene under each record, by name."""
+_BATCH = 6
+"""Stations that are followed before it is asked again which values can still be shown to hold."""
 
-    def under(record: Accelerogram) -> dict[str, _Outcome]:
+
+@dataclass(frozen=True, eq=False)
+class _Following:
+    """What follows every scene under the records, station after station, as far as it can still be shown to hold."""
+
+    records: Sequence[Accelerogram]
+    scenes: Mapping[str, Scene]
+    settings: AssessmentSettings
+    sample: Sample
+    target: float
+    early: bool
+    store: Store | None
+    tell: Callable[[str], object]
+
+    def outcomes(self) -> list[dict[str, _Outcome]]:
+        """Return the outcome of the scenes that were followed under each record, by name."""
+        found: list[dict[str, _Outcome]] = [{} for _ in self.records]
+        # One station of each earthquake after another, so that the first ones speak for all.
+        turns = np.zeros(self.sample.count, dtype=int)
+        seen: dict[int, int] = {}
+        for place, event in enumerate(self.sample.of_station.tolist()):
+            turns[place] = seen.setdefault(event, 0)
+            seen[event] += 1
+        order = np.argsort(turns, kind="stable")
+        open_scenes = dict(self.scenes)
+        cases = len(self.scenes) * len(self.records)
+        with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+            for first in range(0, order.size, _BATCH):
+                started = process_time()
+                batch = np.flatnonzero(np.isin(self.sample.of_record, order[first : first + _BATCH])).tolist()
+                under = partial(self._under, scenes=open_scenes)
+                for place, own in zip(batch, pool.map(under, [self.records[k] for k in batch]), strict=True):
+                    found[place] = own
+                if first == 0:
+                    spent = (process_time() - started) * len(self.records) / len(batch)
+                    self.tell(
+                        f"{counted(len(self.scenes), 'value')} under {counted(len(self.records), 'component')}: "
+                        f"{cases} cases, at most about {spent:.0f} s of processor time."
+                    )
+                followed = order[: first + _BATCH]
+                if self.early:
+                    open_scenes = {
+                        name: scene
+                        for name, scene in open_scenes.items()
+                        if self._can_hold(name, found, followed)
+                    }
+                if not open_scenes:
+                    break
+        return found
+
+    def _can_hold(self, name: str, found: Sequence[Mapping[str, _Outcome]], followed: np.ndarray) -> bool:
+        """Whether the bound can be met if nothing overturns at the stations that are left."""
+        places = np.isin(self.sample.of_record, followed)
+        told = [
+            own[name].share if each and not math.isnan(own[name].share) else 0.0
+            for each, own in zip(places, found, strict=True)
+        ]
+        return _bounds(self.sample.by_station(np.array(told)), self.sample)[1] <= self.target
+
+    def _under(self, record: Accelerogram, scenes: Mapping[str, Scene]) -> dict[str, _Outcome]:
+        """The outcome of scenes under one record, as far as the store has none."""
+        kept: dict[str, _Outcome] = {}
+        keys: dict[str, str] = {}
+        for name, scene in scenes.items():
+            if self.store is not None:
+                motion = Motion((record,))
+                keys[name] = sha256_of_content(
+                    (motion.fingerprint, scene.place, scene.structure, self.settings)
+                )
+                if (own := self.store.find(_Outcome, keys[name])) is not None:
+                    kept[name] = own
+        wanted = {name: scene for name, scene in scenes.items() if name not in kept}
         # Pulses are not sought: no closed form is asked for.
         component = Component(record, None, HorizontalMotion(), None, ())
-        result = Assessor(settings).integrate("", (component,), scenes, {})
-        outcomes = {}
-        for name in scenes:
-            of_scene = result.scenes.get(name)
+        result = Assessor(self.settings).integrate("", (component,), wanted, {}) if wanted else None
+        for name in wanted:
+            of_scene = result.scenes.get(name) if result else None
             if of_scene is None:
-                outcomes[name] = _Outcome(math.nan, "")
-                continue
-            worst = of_scene.worst
-            governing = worst.ensembles.governing.description if worst.ensembles else ""
-            outcomes[name] = _Outcome(worst.decision.share, governing)
-        return outcomes
+                kept[name] = _Outcome(math.nan)
+            else:
+                worst = of_scene.worst
+                decision = worst.decision
+                untold = decision.word is Verdict.CANNOT_BE_TOLD
+                kept[name] = _Outcome(
+                    share=decision.share,
+                    governing=worst.ensembles.governing.description if worst.ensembles else "",
+                    slides=untold and any(each.kind is Kind.FRICTION for each in decision.tells),
+                )
+            if self.store is not None:
+                self.store.keep(keys[name], kept[name], {})
+        return kept
 
-    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        return list(pool.map(under, records))
+
+def _lifting(
+    records: Sequence[Accelerogram], scenes: Iterable[Scene], settings: AssessmentSettings
+) -> np.ndarray:
+    """Whether each record, (r,), lifts some crack of some of the scenes; on a support all do, as it may ring."""
+    least = math.inf
+    for scene in scenes:
+        if scene.place.supports:
+            return np.ones(len(records), dtype=bool)
+        cracks = counting_cracks(scene.structure)
+        least = min(least, *(each.mechanism.uplift_multiplier for each in cracks))
+    strongest = (1 + settings.ensemble.amplitude_range) / GRAVITY
+    return np.array([strongest * each.peak_acceleration > least for each in records])
 
 
-def _tried(value: float, outcomes: Sequence[_Outcome], names: Sequence[str]) -> Tried:
-    """The outcome at one value, by station. names: of the station of each record."""
-    told = [1.0 if math.isnan(each.share) else each.share for each in outcomes]
-    by_station: dict[str, list[float]] = {}
+def _tried(
+    value: float, outcomes: Sequence[_Outcome | None], sample: Sample, moves: np.ndarray, counting: Sample
+) -> Tried:
+    """The outcome at one value, by station; None of a record under which it was not followed.
+
+    moves: the places of the stations that count, which are those of `counting`.
+    """
+    told = [math.nan if each is None else 1.0 if math.isnan(each.share) else each.share for each in outcomes]
+    slid = [0.0 if each is None else float(each.slides) for each in outcomes]
     weights: dict[str, float] = {}
-    for name, share, outcome in zip(names, told, outcomes, strict=True):
-        by_station.setdefault(name, []).append(share)
-        # Where nothing overturns, what governs most often.
-        weights[outcome.governing] = weights.get(outcome.governing, 0.0) + share + 1e-6
-    untold = sum(math.isnan(each.share) for each in outcomes)
-    shares = np.array([float(np.mean(each)) for each in by_station.values()])
-    return Tried(value, shares, max(weights, key=weights.__getitem__), untold)
+    for share, outcome in zip(told, outcomes, strict=True):
+        if outcome is not None:
+            # Where nothing overturns, what governs most often.
+            weights[outcome.governing] = weights.get(outcome.governing, 0.0) + share + 1e-6
+    return Tried(
+        value=value,
+        shares=sample.by_station(np.array(told))[moves],
+        sample=counting,
+        governing=max(weights, key=weights.__getitem__, default=""),
+        untold=sum(each is not None and math.isnan(each.share) for each in outcomes),
+        slid=sample.by_station(np.array(slid))[moves],
+    )
 
 
 def static_tie(

@@ -24,6 +24,7 @@ from rocking.fragility.curves import (
     fragility,
     fragility_of,
 )
+from rocking.records.sample import Sample
 from rocking.structures import Structure
 
 ALL_LEVELS: dict[str, Any] = {"over_cracks": False, "largest_factor": np.inf}
@@ -166,7 +167,7 @@ def _scores(
     """Coverage of the interval and bias of the median, at each number of stations. curve: (k,) of all of them."""
     truth = median_of(levels, curve[None])
     for count in STATIONS:
-        rng, names = np.random.default_rng(count), list(map(str, range(count)))
+        rng, names = np.random.default_rng(count), Sample.scattered(list(map(str, range(count))))
         over = np.array([median_of(levels, draw(rng, count)) for _ in range(ESTIMATES)]) / truth
         ends = [fragility_of(levels, draw(rng, count), names).interval for _ in range(TRIALS)]
         covers = [low <= truth <= high for low, high in ends]

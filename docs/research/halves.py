@@ -60,7 +60,7 @@ def halves(target: Target) -> None:
     stations = [scaled.names[place] for place in places for _ in scaled.pairs[place]]
     rows: list[Score] = []
     for name, (structure, key, between) in TRIED.items():
-        found = strengthen(records, structure, key, between=between, stations=stations)
+        found = strengthen(records, structure, key, between=between, stations=stations, early=False)
         rows += scores_of_halves(name, found)
         target.tell(f"{name}: {found.words}")
     subtitle = f"{len(pool)} stations, scaled to a spectrum of a_g = {LEVEL:g} g; the half that chooses is drawn once."
@@ -97,9 +97,17 @@ def scores_of_halves(name: str, found: Strengthening) -> Iterator[Score]:
 
 def shown(found: Strengthening, stations: np.ndarray, limit: float) -> Tried | None:
     """Return what the rule of the package chooses on some of the stations, by their places."""
-    tried = tuple(replace(each, shares=each.shares[stations]) for each in found.tried)
-    names = tuple(found.stations[place] for place in stations)
-    value = replace(found, target=limit, stations=names, tried=tried).value
+    sample = found.sample.part(stations)
+    tried = tuple(
+        replace(
+            each,
+            shares=each.shares[stations],
+            sample=sample,
+            slid=None if each.slid is None else each.slid[stations],
+        )
+        for each in found.tried
+    )
+    value = replace(found, target=limit, sample=sample, tried=tried).value
     return next((each for each in found.tried if each.value == value), None)
 
 

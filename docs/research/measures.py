@@ -17,6 +17,7 @@ from rocking import Accelerogram
 from rocking.errors import RecordError
 from rocking.fragility.curves import explanation, fragility
 from rocking.fragility.measures import IntensityMeasure, compared, intensity_measure
+from rocking.records.sample import Sample
 from rocking.structures import Arch, Block, Spire, Structure, Wall
 
 REPLICATES = 100
@@ -66,7 +67,9 @@ class Scatter:
         drawn = name, rows.tobytes()
         if drawn not in self.found:
             labels = [f"{place}" for place, _ in enumerate(rows)]
-            fit = explanation(self.logs[name][rows], self.falls[rows], np.zeros(rows.size), labels)
+            fit = explanation(
+                self.logs[name][rows], self.falls[rows], np.zeros(rows.size), Sample.scattered(labels)
+            )
             self.found[drawn] = fit.efficiency
         return self.found[drawn]
 

@@ -19,6 +19,7 @@ from docs.research.fragilities import real_sites
 from docs.research.report import Target
 from rocking.fragility.curves import Fragility
 from rocking.fragility.hazard import Hazard, rate_interval
+from rocking.records.sample import Sample
 
 SLOPES = (1.5, 2.5, 3.5)
 """Of the logarithm of the hazard over that of the level, downwards."""
@@ -64,7 +65,8 @@ def interval_scores(
     for count in STATIONS:
         rng = np.random.default_rng(count)
         drawn = [draw(rng, count) for _ in range(TRIALS)]
-        low, high = np.array([rate_interval(each) for each in drawn]).T
+        sample = Sample.scattered(list(map(str, range(count))))
+        low, high = np.array([rate_interval(each, sample) for each in drawn]).T
         rate = np.array([each.mean() for each in drawn])
         with np.errstate(divide="ignore", invalid="ignore"):
             reach = np.where(rate > 0, np.maximum(high, rate) / rate, np.nan)
@@ -117,7 +119,7 @@ def rates_of_sites(curve: Fragility, pool: np.ndarray, slope: float) -> np.ndarr
     ends = curve.levels[[0, -1]] * np.array([0.5, 2.0])
     hazard = Hazard(ends, (ends / ends[0]) ** -slope)
     of_each = (
-        replace(curve, probability=own, exceedance=own[None], stations=(str(place),))
+        replace(curve, probability=own, exceedance=own[None], sample=Sample.scattered([str(place)]))
         for place, own in enumerate(pool)
     )
     return np.array([each.annual_rate(hazard).value for each in of_each])

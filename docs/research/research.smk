@@ -17,6 +17,11 @@ TARGETS_OF_RESEARCH = {
     ),
     "cover": ("Hold a fragility's median against truths that are known", REAL_RECORDS, []),
     "cover_rate": ("Hold the interval of an annual rate against truths that are known", REAL_RECORDS, []),
+    "cover_earthquakes": (
+        "Hold every interval against truths that are known, with few earthquakes of several stations",
+        REAL_RECORDS,
+        [],
+    ),
     "pulse_shapes": ("Try half a sine, a cosine and several cycles beside one sine", REAL_RECORDS[1:], []),
     "measure_scatter": ("Measure by how much the level that overturns scatters", REAL_RECORDS, []),
     "govern": ("Try the governing crack on stacks of courses", REAL_RECORDS, ["cracks.csv"]),

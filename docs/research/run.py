@@ -21,6 +21,7 @@ def targets() -> "dict[str, Callable[[Target], None]]":
     from docs.research import (
         code_checks,
         cracks,
+        earthquakes,
         ensembles,
         floors,
         fragilities,
@@ -42,6 +43,7 @@ def targets() -> "dict[str, Callable[[Target], None]]":
         "trade_fragility": fragilities.trade_fragility,
         "cover": fragilities.cover,
         "cover_rate": rates.cover_rate,
+        "cover_earthquakes": earthquakes.cover_earthquakes,
         "pulse_shapes": shapes.pulse_shapes,
         "measure_scatter": measures.measure_scatter,
         "govern": cracks.govern,

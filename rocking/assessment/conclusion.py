@@ -14,7 +14,7 @@ from rocking.assessment.rows import (
     hardly_spread,
     worst_period_each,
 )
-from rocking.quantities import percents
+from rocking.quantities import counted, percents
 from rocking.remarks import Kind, Remark
 
 CLASS = 20
@@ -188,16 +188,21 @@ def falls_in_words(falls: Sequence[ExpectedFallsRow]) -> str:
     records = of_records.size
     expected = f"{of_all.expected_falls:.0f} of {of_all.structures} structures are expected to fall"
     sentence = f"{expected} under the record" if records == 1 else f"{expected} under such a record"
-    if not math.isnan(of_all.expected_falls_low):
+    if of_all.earthquakes == 1 < records:
+        sentence += f" (no interval: all {counted(of_all.stations, 'station')} are of one earthquake)"
+    elif not math.isnan(of_all.expected_falls_low):
         interval = f"{of_all.expected_falls_low:.0f}–{of_all.expected_falls_high:.0f}"
-        because = f", by the spread over {records} records"
-        if hardly_spread(of_records, of_all.structures):
+        sample = f"{counted(of_all.stations, 'station')} of {counted(of_all.earthquakes, 'earthquake')}"
+        because = f", by the spread over {sample}"
+        if hardly_spread(of_records / of_all.structures, of_all.structures):
             middle = float(np.median(of_records))
             falling = "all are" if middle > of_all.structures - 0.5 else "none is"
             if 0.5 <= middle <= of_all.structures - 0.5:
                 falling = "the same number is"
-            because = f"; wide, as under most of the {records} records {falling} expected to fall"
+            because = f"; wide, as under most of the records, of {sample}, {falling} expected to fall"
         sentence += f" (90 %: {interval}{because})"
+    if of_all.still:
+        sentence += f"; nothing lifts any of them at {of_all.still} of {counted(of_all.stations, 'station')}"
     if not of_all.without_share:
         return f"{sentence}."
     untold = f"{of_all.without_share:.{0 if records == 1 else 1}f}"

@@ -21,6 +21,7 @@ from rocking.motion import integrate
 from rocking.pulses import DEMAND_CANDIDATES, PulseEvidence, extract_pulses
 from rocking.quantities import counted
 from rocking.records import Accelerogram
+from rocking.records.sample import Sample
 from rocking.sine_pulse import predict_maximum
 from rocking.structures import EquivalentBlock, Mechanism, Structure
 
@@ -39,12 +40,14 @@ def trade(
     structures: Mapping[str, Structure],
     *,
     settings: AssessmentSettings | None = None,
+    each_unnamed: bool = False,
     tell: Callable[[str], None] = lambda line: None,
     within: Callable[[str], AbstractContextManager[None]] = lambda structure: nullcontext(),
 ) -> list[TradeRow]:
     """Return a row for each method and structure, and one for each method over all structures.
 
-    Every structure is met by every record with every method, one response at a time. tell: takes a line for each
+    Every structure is met by every record with every method, one response at a time. each_unnamed: whether records
+    that name no earthquake are of one each, not all of one. tell: takes a line for each
     record, and one for each case that cannot be followed. within: gives what surrounds the work on a structure, by its
     name, or on a record ("") and may keep errors from the rest. Times are processor times of this machine, in s.
 
@@ -59,7 +62,9 @@ def trade(
         with within(name):
             mechanisms[name] = structure.mechanism()
     answers: dict[tuple[TradeMethod, str], list[TimedAnswer]] = {}
+    tried: list[Accelerogram] = []
     for number, record in enumerate(records, start=1):
+        tried.append(record)
         sines: tuple[PulseEvidence, ...] | None = None
         with within(""):
             sines, searched_s = _timed(partial(best_sines, record, chosen))
@@ -70,13 +75,14 @@ def trade(
                 with within(name):
                     for method, answer in list(_answers(mechanism, record, sines, searched_s, chosen)):
                         for whose in ("", name):
-                            answers.setdefault((method, whose), []).append(answer)
+                            answers.setdefault((method, whose), []).append(replace(answer, record=number - 1))
             except RockingError as error:
                 tell(f"record {number}, {name}: {error}")
         tell(f"record {number}: {len(mechanisms)} structures")
     machine = machine_in_words()
+    sample = Sample.of(tried, each_unnamed=each_unnamed)
     return [
-        TradeRow.of(TriedMethod(method, structure, answers[method, structure], machine))
+        TradeRow.of(TriedMethod(method, structure, answers[method, structure], machine, sample))
         for structure in ("", *mechanisms)
         for method in TradeMethod
         if (method, structure) in answers
@@ -200,7 +206,11 @@ def _in_words(row: TradeRow) -> str:
     """How often a method is wrong, and by how much."""
     unsafe = f", {row.unsafe_verdicts} of them unsafe" if row.wrong_verdicts else ""
     error = f", median error {100 * row.error:.2g} %" if row.error >= 0 else ""
-    return f"{row.wrong_verdicts} of {row.cases} verdicts wrong{unsafe}{error}"
+    bounds = ""
+    if row.earthquakes > 1:
+        share = f"{100 * row.wrong_share_low:.0f}–{100 * row.wrong_share_high:.0f} %"
+        bounds = f" (90 %: {share} of such cases, by {counted(row.earthquakes, 'earthquake')})"
+    return f"{row.wrong_verdicts} of {row.cases} verdicts wrong{bounds}{unsafe}{error}"
 
 
 def machine_in_words() -> str:

@@ -1,7 +1,7 @@
 """Fragility: the probability that a structure overturns, or turns far, at a level of shaking.
 
 From records scaled to common levels (incremental dynamic analysis) or left as recorded (cloud): the empirical curve and
-the lognormal one, with intervals by station; and how well an intensity measure explains which record overturns when.
+the lognormal one, with intervals by earthquake; and how well an intensity measure explains which record overturns when.
 """
 
 import math
@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
-from scipy.special import betaincinv, erfcx, ndtr, stdtr, stdtrit
+from scipy.special import erfcx, ndtr, stdtr, stdtrit
 
 from rocking.assessment.cracks import counting_cracks, never_lets_go
 from rocking.assessment.ensemble import drawn, lattice
@@ -31,8 +31,9 @@ from rocking.fragility.measures import IntensityMeasure, check_name
 from rocking.fragility.measures import intensity_measure as measure_named
 from rocking.motion.batch import integrate_batch
 from rocking.motion.integration import Rocking, reduce
-from rocking.quantities import GRAVITY
+from rocking.quantities import GRAVITY, counted
 from rocking.records import Accelerogram
+from rocking.records.sample import Sample
 from rocking.structures import EquivalentBlock, Mechanism, Structure
 from rocking.structures.alone import as_structure
 from rocking.tables import write_whole
@@ -52,8 +53,6 @@ LARGEST_FACTOR = 10.0
 that strong, and the noise of its instrument is scaled with it."""
 MEMBERS = 16
 """Members of each ensemble."""
-REPLICATES = 1000
-"""Samples of the stations behind the interval of a median."""
 DISPERSIONS = (0.02, 3.0)
 """Bounds of a dispersion: outcomes that a level parts cleanly would fit ever smaller ones."""
 _FARTHEST = 8.0
@@ -69,14 +68,16 @@ class Fragility(Drawn):
     measure, unit: of the intensity. levels: (k,). probability, probability_low, probability_high: (k,) the empirical
     curve, each station with the same weight, and its 90 % interval, point by point; nan where nothing was tried.
     median, interval: level at which the rising curve next to the empirical one crosses one half, and its 90 % interval;
-    inf where it does not reach one half. exceedance: (r, k) share of each record's members above the threshold.
-    stations: (r,) what counts as one independent record. lognormal_median, dispersion: the two parameters of the
-    lognormal curve, by maximum likelihood. lognormal: (k,) that curve. misfit: its largest distance from the empirical
-    one. analysis: the responses behind the curve; None of outcomes alone. `plot` draws the empirical curve with its
-    interval and the lognormal one.
+    inf where it does not reach one half. exceedance: (r, k) share of each record's members above the threshold. sample:
+    which records are of one station, and which stations of one earthquake. lognormal_median, dispersion: the two
+    parameters of the lognormal curve, by maximum likelihood. lognormal: (k,) that curve. misfit: its largest distance
+    from the empirical one. analysis: the responses behind the curve; None of outcomes alone. `plot` draws the empirical
+    curve with its interval and the lognormal one.
 
     >>> records = rocking.read("records/20161113_110259_WTMC_20.V2A")[:2]
     >>> curve = rocking.fragility(records, rocking.Block(2.0, 0.2), stations=["a", "b"], levels=[0.2, 0.6, 1.0])
+    >>> curve.sample.words
+    '2 stations of 1 earthquake'
     >>> (curve.measure, curve.levels.tolist(), curve.probability.tolist())
     ('pgv', [0.2, 0.6, 1.0], [0.0, 0.0, 1.0])
     """
@@ -92,7 +93,7 @@ class Fragility(Drawn):
     dispersion: float
     misfit: float
     exceedance: np.ndarray
-    stations: tuple[str, ...]
+    sample: Sample
     measure: str = ""
     unit: str = ""
     threshold: float = np.inf
@@ -103,23 +104,24 @@ class Fragility(Drawn):
         unit = f" {self.unit}" if self.unit else ""
         return (
             f"<Fragility: median {self.measure} {self.median:.3g}{unit} (90 %: {low:.3g} to {high:.3g}), "
-            f"{len(self.stations)} records of {self.independent} stations>"
+            f"{counted(len(self.stations), 'record')} of {self.sample.words}>"
         )
 
     @property
-    def independent(self) -> int:
-        """Number of stations."""
-        return len(set(self.stations))
+    def stations(self) -> tuple[str, ...]:
+        """(r,): the station of each record."""
+        return self.sample.stations
 
     def annual_rate(self, hazard: Hazard) -> AnnualRate:
-        """Return the annual rate of exceedance under a hazard curve, with its 90 % interval by stations.
+        """Return the annual rate of exceedance under a hazard curve, with its 90 % interval by earthquakes; nan with
+        both ends where too few stations reach the level at which half of it is made.
 
         Beside it stand the rates under the quantiles of the hazard. Raises ConfigurationError for a hazard curve that
         says another intensity measure.
         """
         if self.measure:
             hazard.check_measure(self.measure)
-        return annual_rate(self.levels, self.probability, self.exceedance, self.stations, hazard)
+        return annual_rate(self.levels, self.probability, self.exceedance, self.sample, hazard)
 
     def to_nrml(self, path: str | Path, *, name: str = "structure", lognormal: bool = False) -> None:
         """Write the curve as a fragility model of OpenQuake, NRML 0.5: discrete, or with two parameters of a lognormal.
@@ -133,6 +135,14 @@ class Fragility(Drawn):
         """Write the curve as a CSV: a row a level, with the measure and its unit in each."""
         write_whole(Path(path), fragility_csv(self))
 
+    def reaching(self, level: float) -> int:
+        """Return how many stations have a record that was tried at `level` or above, within the largest factor."""
+        places = np.flatnonzero(self.levels >= level * (1 - 1e-9))
+        if not places.size:
+            return 0
+        reaches = np.isfinite(self.exceedance[:, places[0] :]).any(axis=1)
+        return len({name for name, each in zip(self.stations, reaches, strict=True) if each})
+
     @property
     def reversals(self) -> np.ndarray:
         """The times that each record, scaled up, lets stand again what it had overturned, (r,)."""
@@ -140,30 +150,31 @@ class Fragility(Drawn):
         return np.array([int((np.diff(each.astype(int)) < 0).sum()) for each in falls])
 
 
-def fragility_of(levels: np.ndarray, exceedance: np.ndarray, stations: Sequence[str]) -> Fragility:
+def fragility_of(levels: np.ndarray, exceedance: np.ndarray, sample: Sample) -> Fragility:
     """Return the curve of outcomes at `levels` (k,) > 0, ascending.
 
-    exceedance: (r, k) shares in [0, 1], one row a record, nan where it was not tried. stations: (r,) names; the records
-    of one are resampled together and weigh as much as one. Where all or none overturn the median of the lognormal lies
-    at the edge of what the levels can tell.
+    exceedance: (r, k) shares in [0, 1], one row a record, nan where it was not tried. sample: of the records; those of
+    one station weigh as much as one. Where all or none overturn the median of the lognormal lies at the edge of what
+    the levels can tell.
 
     >>> outcomes = np.array([[0, 0, 1, 1], [0, 1, 1, 1], [0, 0, 0, 1]])
-    >>> round(fragility_of(np.array([0.1, 0.2, 0.4, 0.8]), outcomes, ["A", "B", "C"]).median, 3)
+    >>> sample = Sample.scattered(["A", "B", "C"])
+    >>> round(fragility_of(np.array([0.1, 0.2, 0.4, 0.8]), outcomes, sample).median, 3)
     0.283
     """
     tried = np.isfinite(exceedance)
-    over = _by_station(np.where(tried, exceedance, 0.0), stations)
-    trials = _by_station(tried.astype(float), stations)
-    ever = trials.any(axis=1)
+    over = sample.by_station(np.where(tried, exceedance, 0.0))
+    trials = sample.by_station(tried.astype(float))
+    ever = np.flatnonzero(trials.any(axis=1))
     over = over[ever]
     trials = trials[ever]
-    count = len(over)
-    probability, low, high = _empirical(over, trials)
-    resampled = np.random.default_rng(0).multinomial(count, np.full(count, 1 / count), REPLICATES)
-    crossings = [crossing(levels, weights @ over, weights @ trials) for weights in resampled]
+    telling = sample.part(ever)
+    low, high = telling.share_bounds(over, tried=trials)
+    with np.errstate(invalid="ignore"):
+        probability = np.clip(over.sum(axis=0) / trials.sum(axis=0), 0.0, 1.0)
     logs = np.log(levels)
     middle = logs.mean()
-    (offset, slope), _ = _probit([np.broadcast_to(logs - middle, exceedance.shape)], exceedance, stations)
+    (offset, slope), _ = _probit([np.broadcast_to(logs - middle, exceedance.shape)], exceedance, sample)
     dispersion = float(np.clip(1 / slope if slope > 0 else np.inf, *DISPERSIONS))
     lognormal = ndtr((logs - middle) / dispersion + offset)
     return Fragility(
@@ -172,49 +183,14 @@ def fragility_of(levels: np.ndarray, exceedance: np.ndarray, stations: Sequence[
         probability_low=low,
         probability_high=high,
         median=crossing(levels, over.sum(axis=0), trials.sum(axis=0)),
-        interval=_interval(crossings, count),
+        interval=telling.interval(lambda weights: crossing(levels, weights @ over, weights @ trials)),
         lognormal=lognormal,
         lognormal_median=float(np.exp(middle - offset * dispersion)),
         dispersion=dispersion,
         misfit=float(np.nanmax(np.abs(probability - lognormal))),
         exceedance=exceedance,
-        stations=tuple(stations),
+        sample=sample,
     )
-
-
-def _by_station(values: np.ndarray, stations: Sequence[str]) -> np.ndarray:
-    """The mean over the records of each station, (s, k)."""
-    names, place, records = np.unique(np.asarray(stations), return_inverse=True, return_counts=True)
-    mean: np.ndarray = (place == np.arange(names.size)[:, None]) @ values / records[:, None]
-    return mean
-
-
-def _empirical(over: np.ndarray, trials: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Share and its 90 % interval after Jeffreys, for as many independent records as the scatter of stations allows."""
-    total = trials.sum(axis=0)
-    count = (trials > 0).sum(axis=0)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        share = np.clip(over.sum(axis=0) / total, 0.0, 1.0)
-        scatter = ((over - share * trials) ** 2).sum(axis=0) * count / np.maximum(count - 1, 1) / total**2
-        effective = share * (1 - share) / scatter
-    unanimous = ~np.isfinite(effective) | (share == 0) | (share == 1)
-    effective = np.where(unanimous, count, np.clip(effective, count / 2, 2 * count))
-    yes = share * effective + 0.5
-    no = (1 - share) * effective + 0.5
-    low = np.where(share == 0, 0.0, betaincinv(yes, no, 0.05))
-    return share, low, np.where(share == 1, 1.0, betaincinv(yes, no, 0.95))
-
-
-def _interval(replicates: Sequence[float], count: int) -> tuple[float, float]:
-    """The 90 % interval from replicates over `count` stations.
-
-    Its ends lie farther out than 5 and 95 %, by what the scatter of few stations hides: the expanded percentile
-    interval of Hesterberg (2015), What teachers should know about the bootstrap, Am. Stat. 69, 371-386.
-    """
-    tail = ndtr(-((count / (count - 1)) ** 0.5) * stdtrit(count - 1, 0.95))
-    ordered = np.sort(replicates)
-    outer = int(np.floor(tail * (len(ordered) - 1)))
-    return float(ordered[outer]), float(ordered[-1 - outer])
 
 
 def crossing(levels: np.ndarray, over: np.ndarray, trials: np.ndarray) -> float:
@@ -241,14 +217,15 @@ def crossing(levels: np.ndarray, over: np.ndarray, trials: np.ndarray) -> float:
 
 
 def _probit(
-    terms: Sequence[np.ndarray], outcomes: np.ndarray, stations: Sequence[str]
+    terms: Sequence[np.ndarray], outcomes: np.ndarray, sample: Sample
 ) -> tuple[np.ndarray, np.ndarray]:
     """Coefficients (q,) of the shares (r, k) as Φ of an intercept and terms (r, k), each station with the same weight,
-    by Fisher scoring; and their covariance by the scatter between the stations (Liang & Zeger 1986).
+    by Fisher scoring; and their covariance by the scatter between the earthquakes (Liang & Zeger 1986).
 
     outcomes: nan where there is none.
     """
-    _, place, records = np.unique(np.asarray(stations), return_inverse=True, return_counts=True)
+    place = sample.of_record
+    records = np.bincount(place)
     tried = np.isfinite(outcomes)
     station = np.broadcast_to(place[:, None], outcomes.shape)[tried]
     weight = 1 / records[station]
@@ -270,11 +247,11 @@ def _probit(
         coefficients = coefficients + step * min(1.0, 2.0 / max(np.abs(step).sum(), 1e-300))
         if np.abs(step).sum() < 1e-10:
             break
-    count = records.size
-    of_stations = np.zeros((count, scale.size))
-    np.add.at(of_stations, station, scores)
+    count = sample.earthquakes
+    of_earthquakes = np.zeros((count, scale.size))
+    np.add.at(of_earthquakes, sample.of_station[station], scores)
     inverse = np.linalg.inv(curvature)
-    covariance = inverse @ (of_stations.T @ of_stations) @ inverse * count / max(count - scale.size, 1)
+    covariance = inverse @ (of_earthquakes.T @ of_earthquakes) @ inverse * count / max(count - scale.size, 1)
     return coefficients / scale, covariance / np.outer(scale, scale)
 
 
@@ -283,8 +260,8 @@ class Explanation:
     """How well levels of an intensity measure, and a figure of the record beside them, explain which records overturn.
 
     efficiency: standard deviation of the logarithm of the level that overturns. slope: change of that logarithm for one
-    standard deviation of the figure. p_value: of no change. power: share of samples of as many stations that would show
-    such a slope at 5 %. The last three are nan for fewer than four stations or equal figures.
+    standard deviation of the figure. p_value: of no change. power: share of samples of as many earthquakes that would
+    show such a slope at 5 %. The last three are nan for fewer than four earthquakes or equal figures.
     """
 
     efficiency: float
@@ -294,28 +271,28 @@ class Explanation:
 
 
 def explanation(
-    log_levels: np.ndarray, exceedance: np.ndarray, figures: np.ndarray, stations: Sequence[str]
+    log_levels: np.ndarray, exceedance: np.ndarray, figures: np.ndarray, sample: Sample
 ) -> Explanation:
     """Return how well the levels (r, k), and the `figures` (r,) beside them, explain the outcomes (r, k).
 
     A record that was tried at no level says nothing, and a figure that differs in such a record alone is equal. Every
     outcome counts, also of records that never overturn or that stand again above the level that overturned them. The
-    error of the slope is that between stations, so that two components of one are no two observations, and the slope
-    over it is held against Student's law for the number of stations less three.
+    error of the slope is that between earthquakes, so that two stations of one are no two observations, and the slope
+    over it is held against Student's law for the number of earthquakes less three.
     """
     tried = np.isfinite(exceedance).any(axis=1)
     log_levels = log_levels[tried]
     exceedance = exceedance[tried]
     figures = figures[tried]
-    stations = np.asarray(stations)[tried].tolist()
-    (_, steepness), _ = _probit([log_levels], exceedance, stations)
+    sample = sample.of_records(tried)
+    (_, steepness), _ = _probit([log_levels], exceedance, sample)
     efficiency = float(1 / steepness) if steepness > 0 else math.nan
-    freedom = len(set(stations)) - 3
+    freedom = sample.earthquakes - 3
     if freedom < 1 or np.ptp(figures) == 0:
         return Explanation(efficiency)
     scaled = (figures - figures.mean()) / figures.std()
     beside = np.broadcast_to(scaled[:, None], log_levels.shape)
-    (_, level, figure), covariance = _probit([log_levels, beside], exceedance, stations)
+    (_, level, figure), covariance = _probit([log_levels, beside], exceedance, sample)
     t = abs(figure) / np.sqrt(covariance[2, 2])
     limit = stdtrit(freedom, 0.975)
     return Explanation(
@@ -333,20 +310,25 @@ class IncrementalDynamicAnalysis:
     measure: of the levels. levels: (k,) ascending. rotation_ratios: (r, k, m) of every record, level and member, with
     the crack that statics chooses where some may form; inf overturns or cannot be followed, nan where a cloud holds no
     such case. governing_ratios: the same with the worst of all cracks, member by member; None where they were not
-    followed. intensities: (r,) of the records as they are. stations: (r,) what counts as one independent record.
+    followed. intensities: (r,) of the records as they are. sample: their stations and earthquakes.
     """
 
     measure: IntensityMeasure
     levels: np.ndarray
     rotation_ratios: np.ndarray
     intensities: np.ndarray
-    stations: tuple[str, ...]
+    sample: Sample
     governing_ratios: np.ndarray | None = None
 
     def __repr__(self) -> str:
         records, levels, members = self.rotation_ratios.shape
         shape = f"{records} records at {levels} levels of {self.measure.name}, {members} members each"
         return f"<IncrementalDynamicAnalysis: {shape}>"
+
+    @property
+    def stations(self) -> tuple[str, ...]:
+        """(r,): the station of each record."""
+        return self.sample.stations
 
     @property
     def factors(self) -> np.ndarray:
@@ -359,7 +341,7 @@ class IncrementalDynamicAnalysis:
         ratios = self.rotation_ratios if worst is None else worst
         above = np.isinf(ratios) | (ratios > threshold)
         exceedance = np.where(np.isnan(ratios), np.nan, above).mean(axis=2)
-        curve = fragility_of(self.levels, exceedance, self.stations)
+        curve = fragility_of(self.levels, exceedance, self.sample)
         name = self.measure.name
         unit = self.measure.unit
         return replace(curve, measure=name, unit=unit, threshold=threshold, analysis=self)
@@ -373,6 +355,7 @@ def fragility(
     intensity_measure: str = "pgv",
     levels: Sequence[float] | np.ndarray | None = None,
     stations: Sequence[str] | None = None,
+    events: Sequence[str] | None = None,
     method: Literal["scaling", "cloud"] = "scaling",
     ensemble: EnsembleSettings | None = None,
     over_cracks: bool = True,
@@ -385,14 +368,14 @@ def fragility(
 
     threshold: rotation ratio that is exceeded; inf: overturning. intensity_measure: a name that
     `rocking.intensity_measure` knows, AvgSA and FIV3 also without periods. levels: ascending, in the unit of the
-    measure; by default 40 that lie where the probability of overturning moves. stations: what counts as one independent
-    record, by default event and station. method: scaling takes every record to
-    every level; cloud leaves it as recorded, and the levels are then those of the records. ensemble: ranges of the
-    uncertain inputs; each case then has MEMBERS members. largest_factor: on a record; one that would need more to reach
-    a level is left out of that level. support: on which the structure stands and whose motion it meets; the intensity
-    stays that of the ground. What cannot be followed counts as overturning. Raises ConfigurationError
-    for fewer than two stations, levels out of order or out of reach, or a measure that a record lacks, and
-    StructureError for a structure that cannot overturn.
+    measure; by default 40 that lie where the probability of overturning moves. stations, events: station and earthquake
+    of each record, by default those that it names; all that name no earthquake count as of one, from which no interval
+    follows. method: scaling takes every record to every level; cloud leaves it as recorded, and the levels are then
+    those of the records. ensemble: ranges of the uncertain inputs; each case then has MEMBERS members. largest_factor:
+    on a record; one that would need more to reach a level is left out of that level. support: on which the structure
+    stands and whose motion it meets; the intensity stays that of the ground. What cannot be followed counts as
+    overturning. Raises ConfigurationError for fewer than two stations, levels out of order or out of reach, or a
+    measure that a record lacks, and StructureError for a structure that cannot overturn.
 
     >>> pulses = [rocking.Pulse(1.0, frequency, 0.5) for frequency in (4.0, 6.0, 9.0)]
     >>> times = np.arange(400) * 0.01
@@ -406,7 +389,7 @@ def fragility(
     check_name(intensity_measure)
     if isinstance(reduced, EquivalentBlock):
         raise ConfigurationError("structure is an equivalent block, but must be a structure or a mechanism.")
-    names = _checked_stations(records, stations)
+    sample = checked_sample(Sample.of(records, stations, events))
     body = as_structure(structure if isinstance(structure, Structure) else reduced)
     first, *others = counting_cracks(body)
     mechanism = first.mechanism
@@ -425,39 +408,23 @@ def fragility(
         factors[order, places] = 1.0
         ratios = follow(mechanism, factors)
     else:
-        scaling = _Scaling(intensities, names, largest_factor, measure.power)
+        scaling = _Scaling(intensities, sample.stations, largest_factor, measure.power)
         chosen, ratios = _at_levels(partial(follow, mechanism), mechanism, carried, scaling, levels)
         factors = scaling.factors(chosen)
     worst = ratios if over_cracks and others else None
     for other in others if over_cracks else ():
         worst = follow(other.mechanism, factors, worst)
-    analysis = IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, names, worst)
+    analysis = IncrementalDynamicAnalysis(measure, chosen, ratios, intensities, sample, worst)
     return analysis.fragility(threshold, governing=True)
 
 
-def station_names(records: Sequence[Accelerogram], stations: Sequence[str] | None) -> tuple[str, ...]:
-    """Return what counts as one independent record, (r,): the stations, by default the event and station of each.
-
-    A record that names neither counts by itself. Raises ConfigurationError unless there is one name a record.
-    """
-    if stations is None:
-        names = (f"{record.event}; {record.station}" for record in records)
-        stations = [f"record {place}" if name == "; " else name for place, name in enumerate(names)]
-    if len(stations) != len(records):
+def checked_sample(sample: Sample) -> Sample:
+    """Return the sample. Raises ConfigurationError for fewer than two stations."""
+    if sample.count < 2:
         raise ConfigurationError(
-            f"stations names {len(stations)}, but must name one for each of {len(records)} records."
+            f"the records come from {sample.count} station, but a fragility needs at least 2; add records."
         )
-    return tuple(map(str, stations))
-
-
-def _checked_stations(records: Sequence[Accelerogram], stations: Sequence[str] | None) -> tuple[str, ...]:
-    """The stations, those of the records by default. Raises ConfigurationError for fewer than two."""
-    names = station_names(records, stations)
-    if len(set(names)) < 2:
-        raise ConfigurationError(
-            f"the records come from {len(set(names))} station, but a fragility needs at least 2; add records."
-        )
-    return names
+    return sample
 
 
 def _rotation_ratios(

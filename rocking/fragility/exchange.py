@@ -12,6 +12,7 @@ import numpy as np
 from rocking.errors import ConfigurationError
 from rocking.fragility.measures import of_openquake
 from rocking.quantities import UNPRINTABLE
+from rocking.records.sample import Sample
 
 _NRML = "http://openquake.org/xmlns/nrml/0.5"
 _COLUMNS = ("probability", "probability_low", "probability_high", "lognormal")
@@ -27,7 +28,7 @@ class Curve(Protocol):
     @property
     def threshold(self) -> float: ...
     @property
-    def independent(self) -> int: ...
+    def sample(self) -> Sample: ...
     @property
     def levels(self) -> np.ndarray: ...
     @property
@@ -50,7 +51,7 @@ def nrml(curves: Mapping[str, Curve], lognormal: bool) -> bytes:
     model = ElementTree.SubElement(
         root, "fragilityModel", id="rocking", assetCategory="buildings", lossCategory="structural"
     )
-    over = dict.fromkeys(f"{each.measure}, {each.independent} stations" for each in curves.values())
+    over = dict.fromkeys(f"{each.measure}, {each.sample.words}" for each in curves.values())
     ElementTree.SubElement(model, "description").text = f"{state} over {'; '.join(over)}"
     ElementTree.SubElement(model, "limitStates").text = state
     for name, curve in curves.items():

@@ -3,22 +3,24 @@
 import csv
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from scipy.special import stdtrit
 
 from rocking.errors import ConfigurationError
 from rocking.fragility.measures import intensity_measure, of_openquake
 from rocking.quantities import ACCELERATION_UNITS, GRAVITY, VELOCITY_UNITS, acceleration_unit, velocity_unit
+from rocking.records.sample import Sample, students
 from rocking.tables import read_whole
 
 _STEPS = 400
 """Steps of the integral over the hazard curve, in equal parts of the logarithm of the level."""
 _LARGEST_HAZARD = 1_000_000
 """Bytes of a hazard curve; fifty points take about one thousand."""
+REACHING = 0.9
+"""Least share of the stations that must reach the level at which half of a rate is made for it to be told."""
 _SAME_PLACE = 1e-4
 """Degrees within which a site is the one that is asked for: ten metres."""
 
@@ -257,6 +259,9 @@ class AnnualRate:
     """The annual rate of exceedance with its 90 % interval, and the most that it may lack, 1/year.
 
     of_quantiles: the rate under each quantile of the hazard, which the interval does not hold: it tells the records.
+    half_level: at which half of the rate is made. reaching: stations that reach it within the largest factor, of
+    `stations`. Where these are fewer than 90 %, nobody knows the others' part: value is nan, and the ends are those of
+    both cases, that the others never overturn beyond what they reach, and that they do at once (`is_told`).
 
     >>> f"{rocking.AnnualRate(2e-3, 1e-3, 4e-3, 0.0).probability(50)[0]:.3f}"
     '0.095'
@@ -267,6 +272,14 @@ class AnnualRate:
     high: float
     remainder: float
     of_quantiles: Mapping[float, float] = field(default_factory=dict)
+    half_level: float = math.nan
+    reaching: int = 0
+    stations: int = 0
+
+    @property
+    def is_told(self) -> bool:
+        """Whether enough stations reach the level at which half of the rate is made."""
+        return self.reaching >= REACHING * self.stations
 
     def probability(self, years: float) -> tuple[float, float, float]:
         """Return the probability of at least one exceedance in so many years, with its interval (a Poisson process)."""
@@ -278,14 +291,14 @@ def annual_rate(
     levels: np.ndarray,
     probability: np.ndarray,
     exceedance: np.ndarray,
-    stations: Sequence[str],
+    sample: Sample,
     hazard: Hazard,
 ) -> AnnualRate:
     """Return ∫ P dν over the hazard curve ν; both are linear in the logarithm of the level between their points.
 
-    levels: (k,). probability: (k,) of all stations. exceedance: (r, k) of each record. stations: (r,). The rate is the
-    mean over the stations of the rate of each. Below its levels a station's curve counts as 0, above them as its last
-    value, and where it was not tried as the share of the others; beyond the last point of the hazard curve all is
+    levels: (k,). probability: (k,) of all stations. exceedance: (r, k) of each record. sample: of these. The rate is
+    the mean over the stations of the rate of each. Below its levels a station's curve counts as 0, above them as its
+    last value, and where it was not tried as the share of the others; beyond the last point of the hazard curve all is
     counted there. The interval is that of `rate_interval`. The remainder is the most that the rate may lack: because
     the curve ends below a probability of 1, and because levels below the first point of the hazard curve are left out,
     which occur as often as the hazard curve, continued by its first slope, says.
@@ -302,65 +315,96 @@ def annual_rate(
 
     tried = np.isfinite(probability)
     pooled = np.interp(places, places[tried], probability[tried])
-    curves = _curves_of_stations(exceedance, stations, pooled)
-    at_middles = np.array([np.interp(middles, places, each, left=0.0) for each in curves])
-    of_stations = at_middles @ occurring(hazard.annual_rates)
-    rate = float(of_stations.mean())
-    low, high = rate_interval(of_stations)
+    curves = _curves_of_stations(exceedance, sample)
+    frequencies = occurring(hazard.annual_rates)
 
-    above = (1 - pooled[-1]) * occurring(hazard.annual_rates)[middles >= places[-1]].sum()
+    def rates_of(filled: np.ndarray) -> np.ndarray:
+        return np.array([np.interp(middles, places, own, left=0.0) for own in filled])
+
+    at_middles = rates_of(np.where(np.isnan(curves), pooled, curves))
+    of_stations = at_middles @ frequencies
+    rate = float(of_stations.mean())
+    low, high = rate_interval(of_stations, sample)
+
+    made = np.cumsum(at_middles.mean(axis=0) * frequencies)
+    half = float(np.exp(middles[int(np.searchsorted(made, made[-1] / 2))])) if rate > 0 else float(levels[-1])
+    # Beyond the last level there is nothing to reach.
+    needed = min(half, float(levels[-1])) * (1 - 1e-9)
+    reaching = int((~np.isnan(curves[:, levels >= needed])).any(axis=1).sum())
+    is_told = reaching >= REACHING * sample.count
+    if not is_told:
+        low = rate_interval(rates_of(_filled(curves, at_once=False)) @ frequencies, sample)[0]
+        high = rate_interval(rates_of(_filled(curves, at_once=True)) @ frequencies, sample)[1]
+
+    above = (1 - pooled[-1]) * frequencies[middles >= places[-1]].sum()
     slope = (log_rates[0] - log_rates[1]) / (logs[1] - logs[0])
     lower = np.linspace(min(places[0], logs[0]), logs[0], _STEPS + 1)
     continued = np.exp(log_rates[0] + slope * (logs[0] - lower))
     below = np.interp((lower[1:] + lower[:-1]) / 2, places, pooled, left=0.0) @ -np.diff(continued)
+    of_quantiles = {
+        share: float((at_middles @ occurring(rates)).mean()) for share, rates in hazard.quantiles.items()
+    }
+    most = float(hazard.annual_rates[0])
     return AnnualRate(
-        value=rate,
+        value=rate if is_told else math.nan,
         low=min(low, rate),
-        high=max(rate, min(high, float(hazard.annual_rates[0]))),
+        high=max(rate, min(high, most)),
         remainder=float(above + below),
-        of_quantiles={
-            share: float((at_middles @ occurring(rates)).mean()) for share, rates in hazard.quantiles.items()
-        },
+        of_quantiles=of_quantiles if is_told else dict.fromkeys(of_quantiles, math.nan),
+        half_level=half,
+        reaching=reaching,
+        stations=sample.count,
     )
 
 
-def _curves_of_stations(exceedance: np.ndarray, stations: Sequence[str], pooled: np.ndarray) -> np.ndarray:
-    """The curve of each station, (s, k): the mean of its records, and where none was tried the pooled one (k,)."""
-    names = np.asarray(stations)
-    curves = []
-    for name in dict.fromkeys(stations):
-        own = exceedance[names == name]
-        tried = np.isfinite(own)
-        count = tried.sum(axis=0)
-        mean = np.where(tried, own, 0.0).sum(axis=0) / np.maximum(count, 1)
-        curves.append(np.where(count > 0, mean, pooled))
-    return np.array(curves)
+def _curves_of_stations(exceedance: np.ndarray, sample: Sample) -> np.ndarray:
+    """The curve of each station, (s, k): the mean of its records, nan where none was tried."""
+    tried = np.isfinite(exceedance)
+    trials = sample.by_station(tried.astype(float))
+    with np.errstate(invalid="ignore"):
+        curves: np.ndarray = sample.by_station(np.where(tried, exceedance, 0.0)) / trials
+    return curves
 
 
-def rate_interval(of_stations: np.ndarray) -> tuple[float, float]:
-    """Return the 90 % interval of the mean of the rates (s,) of stations.
+def _filled(curves: np.ndarray, *, at_once: bool) -> np.ndarray:
+    """The curves (s, k) with what was not tried: 1 at once, else as the level below left it, 0 below the first."""
+    filled = curves.copy()
+    for own in filled:
+        last = 0.0
+        for place, value in enumerate(own):
+            if math.isnan(value):
+                own[place] = 1.0 if at_once else last
+            else:
+                last = float(value)
+    return filled
 
-    Rates scatter by orders of magnitude, as the hazard curve raises a level to a power of 2 to 4. Resampling of 8 to 35
-    stations seldom meets the few that make up the mean, and its interval holds the truth in 56 to 92 % only
-    (docs/pages/fragility.md). The interval is therefore that of the mean of a lognormal, by Student's law for few
-    stations (Cox's method: Zhou & Gao 1997, Confidence intervals for the log-normal mean, Stat. Med. 16, 783-790),
-    times the share of the stations that have a rate at all. Where rates are no lognormal, that mean is not theirs; the
-    interval therefore also holds that of the mean itself, by Student's law for its logarithm.
+
+def rate_interval(of_stations: np.ndarray, sample: Sample) -> tuple[float, float]:
+    """Return the 90 % interval of the mean of the rates (s,) of the stations of a sample, by its earthquakes.
+
+    Rates scatter by orders of magnitude, as the hazard curve raises a level to a power of 2 to 4. Resampling seldom
+    meets the few that make up the mean, and its interval holds the truth in 56 to 92 % only. The interval is therefore
+    that of the mean of a lognormal, by Student's law for few earthquakes (Cox's method: Zhou & Gao 1997, Confidence
+    intervals for the log-normal mean, Stat. Med. 16, 783-790), times the share of the stations of earthquakes that have
+    a rate at all. Where rates are no lognormal, that mean is not theirs; the interval therefore also holds that of the
+    mean itself, by Student's law for its logarithm. What counts as one is an earthquake with the mean of its stations.
     """
-    positive = np.log(of_stations[of_stations > 0])
-    count = positive.size
-    if count < 2:
+    of_earthquakes = sample.spread(of_stations)
+    positive = of_earthquakes.values > 0
+    if positive.sum() < 2:
         return 0.0, math.inf
-    share = count / of_stations.size
-    variance = float(positive.var(ddof=1))
-    middle = math.log(share) + float(positive.mean()) + variance / 2
+    share = float(of_earthquakes.weights[positive].sum())
+    part = of_earthquakes.part(positive)
+    logs = part.of(np.log(part.values))
+    count = logs.count
+    variance = logs.deviation**2
+    middle = math.log(share) + logs.mean + variance / 2
     error = math.sqrt((1 - share) / count + variance / count + variance**2 / (2 * (count - 1)))
-    reach = float(stdtrit(count - 1, 0.95)) * error
+    reach = students(count - 1) * error
 
-    mean = float(of_stations.mean())
-    relative_error = float(of_stations.std(ddof=1)) / mean / math.sqrt(of_stations.size)
-    own_reach = float(stdtrit(of_stations.size - 1, 0.95)) * relative_error
+    mean = of_earthquakes.mean
+    own_reach = of_earthquakes.reach() / mean
 
     low = min(middle - reach, math.log(mean) - own_reach)
     high = max(middle + reach, math.log(mean) + own_reach)
-    return math.exp(low), math.exp(min(high, 700.0))
+    return math.exp(max(low, -700.0)), math.exp(min(high, 700.0))

@@ -12,14 +12,21 @@ from scipy.special import ndtri
 from rocking.assessment.fidelity import peak_velocity
 from rocking.assessment.rows import RECORD, Placed, PlacedRow
 from rocking.errors import ConfigurationError
-from rocking.fragility.curves import Explanation, Fragility, IncrementalDynamicAnalysis, explanation
-from rocking.fragility.hazard import AnnualRate, Hazard
+from rocking.fragility.curves import (
+    Explanation,
+    Fragility,
+    IncrementalDynamicAnalysis,
+    explanation,
+    factors_to,
+)
+from rocking.fragility.hazard import REACHING, AnnualRate, Hazard
 from rocking.fragility.measures import (
     MEASURES_IN_WORDS,
     IntensityMeasure,
     compared,
 )
 from rocking.records import Accelerogram
+from rocking.records.sample import Sample
 from rocking.structures import Mechanism
 from rocking.tables import Columns, Row, row
 
@@ -212,7 +219,24 @@ class SummarisedCurve(DrawnCurve):
     @property
     def stations(self) -> int:
         """The number of their stations."""
-        return self.curve.independent
+        return self.curve.sample.count
+
+    @property
+    def stations_at_median(self) -> int:
+        """The number of those that reach the median; where there is none, the highest level."""
+        return self.curve.reaching(min(self.curve.median, float(self.curve.levels[-1])))
+
+    @property
+    def factor_for_median(self) -> float:
+        """The largest factor with which nine in ten stations reach the median; nan without one."""
+        analysis = self.curve.analysis
+        if analysis is None or not math.isfinite(self.curve.median):
+            return math.nan
+        needed: dict[str, float] = {}
+        factors = factors_to(np.array([self.curve.median]), analysis.intensities, analysis.measure.power)
+        for name, factor in zip(self.curve.stations, factors[:, 0].tolist(), strict=True):
+            needed[name] = min(needed.get(name, math.inf), factor)
+        return float(np.quantile(list(needed.values()), REACHING, method="higher"))
 
     @property
     def stations_out(self) -> int:
@@ -246,6 +270,17 @@ class FragilitySummaryRow(CurveRow[SummarisedCurve]):
 
     records: int = of_summary("Number of records", lambda of: of.records)
     stations: int = of_summary("Number of stations", lambda of: of.stations)
+    earthquakes: int = of_summary(
+        "Number of earthquakes of these; what names none counts as of one",
+        lambda of: of.curve.sample.earthquakes,
+    )
+    stations_at_median: int = of_summary(
+        "Number of stations that reach the median within the largest factor; without one the highest level",
+        lambda of: of.stations_at_median,
+    )
+    factor_for_median: float = of_summary(
+        "Largest factor with which nine in ten stations reach the median", lambda of: of.factor_for_median
+    )
     stations_out: int = of_summary(
         "Number of stations that do not reach the highest level within the largest factor",
         lambda of: of.stations_out,
@@ -257,7 +292,7 @@ class FragilitySummaryRow(CurveRow[SummarisedCurve]):
         "Level at which the empirical curve crosses one half; INF: it does not", lambda of: of.curve.median
     )
     median_low: float = of_summary(
-        "Lower end of the 90 % interval of the median, by resampling stations",
+        "Lower end of the 90 % interval of the median, by earthquakes; 0: none can be told",
         lambda of: of.median_low,
     )
     median_high: float = of_summary(
@@ -279,19 +314,26 @@ class FragilitySummaryRow(CurveRow[SummarisedCurve]):
         lambda of: int((of.curve.reversals > 0).sum()),
     )
     annual_rate: float = of_summary(
-        "Annual rate of exceedance; empty without a hazard curve",
+        "Annual rate of exceedance; empty without a hazard curve, and where fewer than nine in ten stations reach the "
+        "level at which half of it is made",
         lambda of: of.rate.value if of.rate else math.nan,
         unit="1/year",
     )
     annual_rate_low: float = of_summary(
-        "Lower end of the 90 % interval of the rate, by stations",
+        "Lower end of the 90 % interval of the rate, by earthquakes; of an empty rate, where what is not reached "
+        "never overturns",
         lambda of: of.rate.low if of.rate else math.nan,
         unit="1/year",
     )
     annual_rate_high: float = of_summary(
-        "Upper end of the 90 % interval of the rate, by stations",
+        "Upper end of the 90 % interval of the rate, by earthquakes; of an empty rate, where what is not reached "
+        "overturns at once",
         lambda of: of.rate.high if of.rate else math.nan,
         unit="1/year",
+    )
+    stations_at_half_rate: int | None = of_summary(
+        "Number of stations that reach the level at which half of the rate is made",
+        lambda of: of.rate.reaching if of.rate else None,
     )
     annual_rate_remainder: float = of_summary(
         "Largest rate that may be missing beyond the ends of both curves",
@@ -321,23 +363,23 @@ def curve_rows(
 class ExplainedOverturning(Placed):
     """One intensity measure, and one other figure of the record, that may explain which records overturn a structure.
 
-    of_records: the station of each record that has both.
+    sample: of the records that have both.
     """
 
     measure: IntensityMeasure
     figure: str
-    of_records: Sequence[str]
+    sample: Sample
     explanation: Explanation
 
     @property
     def records(self) -> int:
         """The number of these records."""
-        return len(self.of_records)
+        return len(self.sample.stations)
 
     @property
     def stations(self) -> int:
         """The number of their stations."""
-        return len(set(self.of_records))
+        return self.sample.count
 
 
 of_explained = Columns(ExplainedOverturning)
@@ -362,6 +404,7 @@ class IntensityMeasureRow(PlacedRow[ExplainedOverturning]):
     )
     records: int = of_explained("Number of records with the measure and the figure", lambda of: of.records)
     stations: int = of_explained("Number of stations", lambda of: of.stations)
+    earthquakes: int = of_explained("Number of earthquakes of these", lambda of: of.sample.earthquakes)
     slope: float = of_explained(
         "Change of the logarithm of that level for one standard deviation of the figure",
         lambda of: of.explanation.slope,
@@ -370,7 +413,7 @@ class IntensityMeasureRow(PlacedRow[ExplainedOverturning]):
         "p-value of no change; below 0.05 the measure is not sufficient", lambda of: of.explanation.p_value
     )
     power: float = of_explained(
-        "Share of samples of as many stations that would show such a slope at 5 %",
+        "Share of samples of as many earthquakes that would show such a slope at 5 %",
         lambda of: of.explanation.power,
     )
 
@@ -405,13 +448,13 @@ def intensity_measure_rows(
         logs = np.log([_or_nan(measure, record, mechanism) for record in records]) / measure.power
         for figure, values in _figures(records).items():
             both = np.isfinite(logs) & np.isfinite(values)
-            stations = np.array(analysis.stations)[both].tolist()
-            if len(set(stations)) < 2:
+            sample = analysis.sample.of_records(both)
+            if sample.count < 2:
                 continue
             levels = logs[both, None] + factors[both]
-            explained = explanation(levels, falls[both], values[both], stations)
+            explained = explanation(levels, falls[both], values[both], sample)
             of_measure = ExplainedOverturning(
-                structure, measure, figure, stations, explained, support_period=support_period
+                structure, measure, figure, sample, explained, support_period=support_period
             )
             yield IntensityMeasureRow.of(of_measure)
 

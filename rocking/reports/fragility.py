@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from rocking.assessment.rows import PlacedRow
 from rocking.assessment.scene import placed
+from rocking.fragility.hazard import REACHING
 from rocking.fragility.measures import INTENSITY_MEASURES, intensity_measure
 from rocking.fragility.rows import (
     ROTATION_RATIOS,
@@ -21,6 +22,7 @@ from rocking.fragility.rows import (
     IntensityMeasureRow,
 )
 from rocking.quantities import counted
+from rocking.records.sample import FEWEST
 from rocking.reports.pages import CaptionedTable, Part, PlainPage
 from rocking.reports.panels import Curve, draw_probability
 from rocking.reports.printing import (
@@ -102,15 +104,20 @@ def fragility_data(
 ) -> PlainPage:
     """Return the page. The tables are fragility, fragility_summary, ida and intensity_measures."""
     stations = max((row.stations for row in summary), default=0)
+    earthquakes = max((row.earthquakes for row in summary), default=0)
+    sample = f"{counted(stations, 'station')} of {counted(earthquakes, 'earthquake')}"
     scaled = (
         "Each record of the study is scaled up until the structure overturns; a level counts by its stations."
     )
-    few = f" With {counted(stations, 'station')} the curves are rough and their intervals wide: take more."
+    few = f" With {sample} the curves are rough and their intervals wide: take more."
     of_curves = (
         "Share of the stations that overturn each structure with the crack that governs, the worst of those that may "
         "form, and that exceed a rotation (overturns, or a share of the critical rotation φcr) with that of statics."
     )
-    parts = [Part(text=scaled + few * (stations < FEW_STATIONS)), _part(fragility_table(summary, ida))]
+    parts = [
+        Part(text=scaled + few * (stations < FEW_STATIONS or earthquakes < FEWEST)),
+        _part(fragility_table(summary, ida)),
+    ]
     if faults:
         parts.append(Part(sentences=tuple(faults)))
     if len(measures):
@@ -121,7 +128,7 @@ def fragility_data(
         figure = fragility_figure(curves[curves["structure"].isin(page)])
         alt = f"Fragility curves of {counted(len(page), 'structure')} with 90 % intervals."
         parts.append(Part(pictures=(picture(figure, alt),), caption=of_curves))
-    records = f"{counted(ida['record'].nunique(), 'record')} of {counted(stations, 'station')}"
+    records = f"{counted(ida['record'].nunique(), 'record')} of {sample}"
     subtitle = f"{records}; {counted(len(names), 'structure')}."
     return PlainPage(title="Fragility", subtitle=subtitle, parts=tuple(parts))
 
@@ -152,16 +159,24 @@ def fragility_table(summary: Sequence[FragilitySummaryRow], ida: "DataFrame") ->
         ("Median and its 90 % interval", "1.3", "l", lambda row: _with_interval(row, row.intensity_measure)),
         *([of_statics] if by_statics else []),
         ("Disper\u00adsion [-]", "0.6", "r", lambda row: number(row.dispersion, 2)),
-        ("Sta\u00adtions", "auto", "r", lambda row: plain(row.stations)),
+        (
+            "Sta\u00adtions of earth\u00adquakes",
+            "0.8",
+            "r",
+            lambda row: f"{row.stations} of {row.earthquakes}",
+        ),
+        ("Reach the median", "0.7", "r", _reaching_median),
         (first, "2.2", "l", lambda row: words(records.get(row.structure))),
         ("Stand again, scaled up", "0.6", "r", lambda row: plain(row.reversals)),
-        *([rate] if any(row.annual_rate > 0 for row in falls) else []),
+        *([rate] if any(row.annual_rate_high > 0 for row in falls) else []),
     )
     caption = (
-        "Level that half of the stations overturn each structure at, with its 90 % interval by stations, for the crack "
-        "that governs, the worst of those that may form, and for that of statics; dispersion of the lognormal curve; "
+        "Level that half of the stations overturn each structure at, with its 90 % interval by earthquakes (– where "
+        "it is not known), for the crack that governs, the worst of those that may form, and for that of statics; the "
+        "stations that reach this level within the largest factor, and the factor with which nine in ten would; "
+        "dispersion of the lognormal curve; "
         "records under which it overturns first, with the level of each: they govern the lower end of its curve; and "
-        f"how many records, scaled up, let it stand again.{_scaled(list(first_rows.values()))}"
+        f"how many records, scaled up, let it stand again.{_scaled(list(first_rows.values()))}{_untold(falls)}"
     )
     return CaptionedTable(table, caption)
 
@@ -211,16 +226,35 @@ def _scaled(rows: Sequence[FragilitySummaryRow]) -> str:
     )
 
 
+def _reaching_median(row: FragilitySummaryRow) -> str:
+    """Return how many stations reach the median: "14 of 22 (factor 23)"."""
+    told = f"{row.stations_at_median} of {row.stations}"
+    if row.stations_at_median >= REACHING * row.stations or math.isnan(row.factor_for_median):
+        return told
+    return f"{told} (factor {number(row.factor_for_median, 2)})"
+
+
+def _untold(rows: Sequence[FragilitySummaryRow]) -> str:
+    """Return the sentence on rates that too few stations tell, "" without any."""
+    if not any(math.isnan(row.annual_rate) and row.annual_rate_high > 0 for row in rows):
+        return ""
+    return (
+        " A rate is given by both ends alone where fewer than nine in ten stations reach the level at which half of it "
+        "is made: the lower one if the others never overturn there, the upper one if they do at once; a larger factor "
+        "or stronger records tell it."
+    )
+
+
 def _rate_with_interval(row: FragilitySummaryRow) -> str:
-    """Return the annual rate with its interval."""
-    low = number(row.annual_rate_low, 2)
-    high = number(row.annual_rate_high, 2)
-    return f"{number(row.annual_rate, 2)} ({low}–{high})"
+    """Return the annual rate with its interval, or both ends of one that too few stations tell."""
+    ends = f"{number(row.annual_rate_low, 2)}–{number(row.annual_rate_high, 2)}"
+    return ends if math.isnan(row.annual_rate) else f"{number(row.annual_rate, 2)} ({ends})"
 
 
 def _with_interval(row: FragilitySummaryRow, measure: str = "") -> str:
     """Return the median with its interval, and with name and unit of its intensity measure if that is named."""
-    text = f"{number(row.median, 2)} ({number(row.median_low, 2)}–{number(row.median_high, 2)})"
+    ends = f"{number(row.median_low, 2)}–{number(row.median_high, 2)}" if row.median_low > 0 else "–"
+    text = f"{number(row.median, 2)} ({ends})"
     return f"{measure} {text} {_unit(measure)}" if measure else text
 
 

@@ -241,7 +241,12 @@ def draw_probability(axes: Axes, curve: Curve, label: str = "empirical", colour:
     levels = curve.levels
     if curve.interval is not None:
         axes.fill_between(
-            levels, *curve.interval, color=colour, alpha=0.2, linewidth=0, label="90 % interval, by stations"
+            levels,
+            *curve.interval,
+            color=colour,
+            alpha=0.2,
+            linewidth=0,
+            label="90 % interval, by earthquakes",
         )
     axes.plot(levels, curve.probability, ".-", color=colour, linewidth=0.9, markersize=3, label=label)
     if curve.lognormal is not None:
@@ -298,7 +303,7 @@ def _plot_fragility(fragility: Fragility, axes: Axes) -> None:
     overturning = math.isinf(fragility.threshold)
     event = "overturning" if overturning else f"a rotation above {fragility.threshold:g} of the critical one"
     interval = fragility.probability_low, fragility.probability_high
-    label = f"empirical, {len(fragility.stations)} records"
+    label = f"empirical, {fragility.sample.words}"
     curve = Curve(fragility.levels, fragility.probability, interval, fragility.lognormal)
     draw_probability(axes, curve, label)
     axes.set(xlabel=f"{fragility.measure} [{fragility.unit or '-'}]", ylabel=f"probability of {event} [-]")
@@ -383,7 +388,7 @@ def _plot_strengthening(strengthening: Strengthening, axes: Axes) -> None:
     tried = strengthening.tried
     values = [outward(each.value) for each in tried]
     low, high = zip(*(each.interval for each in tried), strict=True)
-    label = f"share of {len(strengthening.stations)} stations"
+    label = f"share of {strengthening.sample.words}"
     axes.fill_between(
         values, low, high, color="C0", alpha=0.2, linewidth=0, label="one-sided 90 % bounds, by station"
     )

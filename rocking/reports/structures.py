@@ -68,8 +68,9 @@ class CheckedStructure:
     the structure of which it is a variant; "" of one that is none. worst: what becomes of it under its worst record.
     place, support: where it stands, and of what stands on a support one along its axis, None on the ground below it.
     checked: None where it could not be checked, and `refusal` then says why. overturning_share: mean over the stations
-    of the study, of each the mean over its records, nan without any; records, stations: how many there are, but for
-    those of which it cannot be told. verdicts: stations by the worst verdict on it there, and doubts: what may make
+    of the study, of each the mean over its records, nan without any; share_interval: its 90 % interval by earthquakes;
+    records, stations, earthquakes: how many there are, but for those of which it cannot be told; still: stations at
+    which nothing lifts it. verdicts: stations by the worst verdict on it there, and doubts: what may make
     one worse than said. reserves: under each record of the study under which one was sought; reserve_doubts: the kinds
     of doubt for which they may be too high. mechanisms: all in which it may fall. peaks: the least and the largest peak
     acceleration of the records of the study as they act, m/s².
@@ -85,8 +86,11 @@ class CheckedStructure:
     variant_of: str = ""
     worst: Conclusion | None = None
     overturning_share: float = math.nan
+    share_interval: tuple[float, float] = (math.nan, math.nan)
     records: int = 0
     stations: int = 0
+    earthquakes: int = 0
+    still: int = 0
     verdicts: Mapping[Verdict, int] = field(default_factory=dict)
     doubts: Sequence[Kind] = ()
     reserves: Sequence[Reserve] = ()
@@ -350,12 +354,12 @@ def _sure(page: CheckedStructure, dynamic: DynamicCheck | None, words: Sentences
         if not says_nothing(dynamic.interval):
             lines.append((words.percents(*dynamic.interval), words("sure others")))
     if page.stations:
-        low, high = (
-            words.decimal(percent(each)) for each in share_interval(page.overturning_share, page.stations)
-        )
+        low, high = (words.decimal(percent(each)) for each in page.share_interval)
         of_it = {
             "records": words.counted(page.records, "record"),
             "stations": words.counted(page.stations, "station"),
+            "earthquakes": words.counted(page.earthquakes, "earthquake"),
+            "still": words("sure still", still=page.still) if page.still else "",
         }
         share = f"{words.decimal(percent(page.overturning_share))}\u00a0%"
         lines.append((share, words("sure share", low=low, high=high, **of_it)))
@@ -764,11 +768,3 @@ def _motion_table(selection: Selection, words: Sentences) -> Table:
             ]
         )
     return table(heads, lines)
-
-
-def share_interval(share: float, count: int) -> tuple[float, float]:
-    """Return the 90 % interval of a share of `count` stations after Wilson (1927)."""
-    squared = _QUANTILE**2 / count
-    centre = (share + squared / 2) / (1 + squared)
-    half = math.sqrt(share * (1 - share) * squared + squared**2 / 4) / (1 + squared)
-    return max(centre - half, 0.0), min(centre + half, 1.0)

@@ -13,7 +13,7 @@ import numpy as np
 from rocking.assessment.conclusion import conclusions, worst_of_each
 from rocking.assessment.cracks import mechanisms_of
 from rocking.assessment.decide import Verdict, worse
-from rocking.assessment.rows import FailureRow, MechanismRow, RecordRow, VerdictRow
+from rocking.assessment.rows import FailureRow, MechanismRow, RecordRow, VerdictRow, named_records
 from rocking.assessment.scene import Scene, placed
 from rocking.codes.check import CodeTerms, StructureCheck
 from rocking.codes.dynamic_check import check
@@ -22,6 +22,7 @@ from rocking.codes.selection import Selection
 from rocking.errors import ConfigurationError, RockingError, one_structure
 from rocking.floors.support import Support
 from rocking.records import load_catalogue
+from rocking.records.sample import Sample
 from rocking.remarks import Remark
 from rocking.reports.printing import write_document
 from rocking.reports.structures import CheckedStructure, ListedMechanism, structures_data
@@ -55,7 +56,8 @@ def write_checks(
     worst = {each.verdict.structure: each for each in worst_of_each(conclusions(verdicts, []))}
     selection, without_sets, unread = _sets(study)
     of_records = list(records)
-    station_of = {each.record: _station(each) for each in of_records}
+    names = named_records(of_records, study.settings.unnamed_events == "each")
+    station_of = {record: station for record, (station, _) in names.items()}
     strongest: dict[str, float] = {}
     for each in of_records:
         strongest[each.record] = max(strongest.get(each.record, 0.0), each.peak_acceleration_m_s2)
@@ -75,7 +77,7 @@ def write_checks(
             period = scene.place.period_of(support)
             there = [each for each in own if each.support_period_s == period]
             page = replace(
-                _checked(scene, support, check_at, there, station_of),
+                _checked(scene, support, check_at, there, names),
                 worst=worst.get(name),
                 peaks=peaks,
             )
@@ -118,12 +120,12 @@ def _checked(
     support: Support | None,
     check_at: Callable[..., StructureCheck],
     verdicts: Sequence[VerdictRow],
-    station_of: Mapping[str, str],
+    names: Mapping[str, tuple[str, str]],
 ) -> CheckedStructure:
     """The checks of one scene beside its verdicts in the study; where it cannot be checked, why.
 
-    support: one along the axis of its place. check_at: `check` at the design level of the study. station_of: the
-    station of each record, by its identifier.
+    support: one along the axis of its place. check_at: `check` at the design level of the study. names: station and
+    earthquake of each record, by its identifier.
     """
     checked: StructureCheck | None = None
     untied: StructureCheck | None = None
@@ -144,7 +146,10 @@ def _checked(
         checked = None
         refusal = error.remark or str(error)
     known = [each for each in verdicts if not math.isnan(each.overturning_share)]
-    shares = shares_by_station(known, station_of)
+    sample = Sample.named(names[each.record] for each in known)
+    shares = sample.by_station(np.array([each.overturning_share for each in known]))
+    lifts = sample.by_station(np.array([float(each.rotation_ratio > 0) for each in known]))
+    low, high = sample.share_bounds(shares) if known else (math.nan, math.nan)
     return CheckedStructure(
         name=scene.name,
         structure=scene.structure,
@@ -154,10 +159,13 @@ def _checked(
         refusal=refusal,
         untied=untied,
         variant_of=scene.variant_of,
-        overturning_share=sum(shares) / len(shares) if shares else math.nan,
+        overturning_share=float(shares.mean()) if known else math.nan,
+        share_interval=(float(low), float(high)),
         records=len(known),
-        stations=len(shares),
-        verdicts=verdicts_by_station(verdicts, station_of),
+        stations=sample.count,
+        earthquakes=sample.earthquakes if known else 0,
+        still=int((lifts == 0).sum()),
+        verdicts=verdicts_by_station(verdicts, {record: station for record, (station, _) in names.items()}),
         doubts=sorted({kind for each in verdicts for kind in each.doubts}),
         reserves=[each.reserve for each in verdicts if each.reserve is not None],
         reserve_doubts=sorted({kind for each in verdicts for kind in each.reserve_doubts}),
@@ -192,17 +200,6 @@ def _mechanisms(
     return listed
 
 
-def shares_by_station(verdicts: Iterable[VerdictRow], station_of: Mapping[str, str]) -> list[float]:
-    """Return the share that overturns under each station, the mean over its records: these are not independent.
-
-    station_of: the station of each record, by its identifier.
-    """
-    shares: dict[str, list[float]] = {}
-    for each in verdicts:
-        shares.setdefault(station_of[each.record], []).append(each.overturning_share)
-    return [sum(own) / len(own) for own in shares.values()]
-
-
 def verdicts_by_station(verdicts: Iterable[VerdictRow], station_of: Mapping[str, str]) -> Counter[Verdict]:
     """Return under how many stations each verdict is the worst one of its records."""
     worst: dict[str, Verdict] = {}
@@ -210,11 +207,6 @@ def verdicts_by_station(verdicts: Iterable[VerdictRow], station_of: Mapping[str,
         station = station_of[each.record]
         worst[station] = worse(each.verdict, worst.get(station, each.verdict))
     return Counter(worst.values())
-
-
-def _station(record: RecordRow) -> str:
-    """The station in one earthquake that a record is of; the record itself where its file names none."""
-    return f"{record.event}, {record.station}" if record.station else record.record
 
 
 def _told(checked: StructureCheck | None) -> str:

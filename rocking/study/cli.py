@@ -201,7 +201,13 @@ def _strengthen(options: argparse.Namespace) -> None:
     from rocking.study.strengthening import write_strengthening
 
     lines = write_strengthening(
-        options.folder, options.structure, options.key, options.between, options.target, options.output
+        options.folder,
+        options.structure,
+        options.key,
+        options.between,
+        options.target,
+        options.output,
+        lambda line: print(line, file=sys.stderr),
     )
     print(*lines, sep="\n")
 

@@ -233,6 +233,12 @@ class Settings(AssessmentSettings):
         heading=Heading.RECORDS,
         changes_numbers=False,
     )
+    unnamed_events: Literal["one", "each"] = described(
+        "one",
+        "what records that name no earthquake count as in every interval: one earthquake all together, from which "
+        "nothing follows for others, or each of its own, where you know that they are",
+        heading=Heading.RECORDS,
+    )
     processing: StudyProcessing = StudyProcessing(pre_event=1.0, baseline="linear", taper=0.02, high_pass=0.1)
     scale_to: str | None = described(
         None,

@@ -2,18 +2,19 @@
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import chdir
 from dataclasses import dataclass
 from pathlib import Path
 
 from rocking.assessment.scene import Scene
+from rocking.assessment.store import RecordStore
 from rocking.codes.check import CodeTerms
 from rocking.codes.selection import scaled_pool
 from rocking.errors import ConfigurationError
-from rocking.fragility.curves import station_names
 from rocking.quantities import counted, shown
 from rocking.records import Accelerogram, load_catalogue
+from rocking.records.sample import Sample
 from rocking.strengthening import Strengthening, Tried, sizes, strengthen_scene
 from rocking.structures.fields import Field, article
 from rocking.structures.structure_list import nearest
@@ -39,9 +40,29 @@ class _TriedValue:
         return self.tried is self.found.given
 
     @property
+    def slides(self) -> bool:
+        """Whether it is left out because it slides."""
+        return not self.is_given and self.tried not in self.found.told
+
+    @property
     def holds(self) -> bool:
-        """Whether it and all larger ones can be shown to hold."""
-        return not self.is_given and self.tried.value >= self.found.value
+        """Whether it and all larger ones that are told can be shown to hold."""
+        return not self.is_given and not self.slides and self.tried.value >= self.found.value
+
+    @property
+    def stations(self) -> int:
+        """The number of stations under which it was followed."""
+        return int(self.tried.followed.sum())
+
+    @property
+    def earthquakes(self) -> int:
+        """The number of earthquakes of all that count."""
+        return self.found.sample.earthquakes
+
+    @property
+    def still_stations(self) -> int:
+        """The number of those at which nothing lifts it."""
+        return self.found.still
 
     @property
     def share_low(self) -> float:
@@ -77,10 +98,26 @@ class StrengtheningRow(RowOf[_TriedValue]):
         "Share that overturns, the mean over the stations; what cannot be told counts as 1",
         lambda each: each.tried.share,
     )
-    share_low: float = of_tried("Its lower one-sided 90 % bound", lambda each: each.share_low)
-    share_high: float = of_tried("Its upper one-sided 90 % bound", lambda each: each.share_high)
+    share_low: float = of_tried("Its lower one-sided 90 % bound, by earthquakes", lambda each: each.share_low)
+    share_high: float = of_tried(
+        "Its upper one-sided 90 % bound, by earthquakes", lambda each: each.share_high
+    )
     target_share: float = of_tried("Share that may overturn", lambda each: each.found.target)
-    stations: int = of_tried("Number of stations", lambda each: len(each.found.stations))
+    stations: int = of_tried(
+        "Number of stations under which this value was followed; one that cannot be shown to hold any more is given up",
+        lambda each: each.stations,
+    )
+    earthquakes: int = of_tried(
+        "Number of earthquakes of all stations that count", lambda each: each.earthquakes
+    )
+    still_stations: int = of_tried(
+        "Number of further stations at which nothing lifts it with any value, which do not count",
+        lambda each: each.still_stations,
+    )
+    slides: bool = of_tried(
+        "Whether the value is left out because it slides before it lifts and nothing can be told",
+        lambda each: each.slides,
+    )
     untold: int = of_tried(
         "Number of components under which it cannot be told", lambda each: each.tried.untold
     )
@@ -93,14 +130,22 @@ class StrengtheningRow(RowOf[_TriedValue]):
 
 
 def write_strengthening(
-    folder: Path, structure: str, key: str, between: str, target: float, output: Path | None = None
+    folder: Path,
+    structure: str,
+    key: str,
+    between: str,
+    target: float,
+    output: Path | None = None,
+    tell: Callable[[str], object] = lambda line: None,
 ) -> list[str]:
     """Write table and figure of what holds a structure of the study in `folder`, and return what to tell.
 
-    structure: its name. key: of the list. between: its range, as "2..40". output: folder of both files, by default that
-    of the results. At the design level of the study each record of the pool has the factor that brings it nearest to
-    the spectrum, and one that no factor within the limits brings there is left out; without a level the records of the
-    study act as the catalogue scales them. Raises ConfigurationError before anything is followed, and writes nothing.
+    What was followed is kept beside them, so that another target follows nothing again. structure: its name. key: of
+    the list. between: its range, as "2..40". output: folder of both files, by default that of the results. tell: takes
+    what it will cost, before it is spent. At the design level of the study each record of the pool has the factor that
+    brings it nearest to the spectrum, and one that no factor within the limits brings there is left out; without a
+    level the records of the study act as the catalogue scales them. Raises ConfigurationError before anything is
+    followed, and writes nothing.
     """
     target_folder = None if output is None else output.absolute()
     with chdir(folder):
@@ -109,28 +154,32 @@ def write_strengthening(
         scene = _scene(plan.scenes, structure, plan.settings.structures)
         size, ends = _size(scene, key, between)
         study = Study(plan.scenes, plan.settings)
-        records, stations, notes = _records(study)
+        records, sample, notes = _records(study)
         design = plan.settings.design_spectrum
+        place = target_folder or (Path(plan.settings.results) / "strengthening").absolute()
+        name = re.sub(r"[^A-Za-z0-9._-]+", "_", f"{structure}_{size.key}").strip("._-")[:150]
+        store = RecordStore(place / f"{name}.cases", tell)
         found = strengthen_scene(
             records,
             scene,
             size,
             ends,
             target,
-            stations,
+            sample,
             study.assessment,
             design.spectrum(),
             CodeTerms(confidence_factor=design.confidence_factor, behaviour_factor=design.behaviour_factor),
+            store=store,
+            tell=tell,
         )
         from rocking.reports.panels import svg_of  # matplotlib takes half a second to import
 
-        place = target_folder or (Path(plan.settings.results) / "strengthening").absolute()
-        name = re.sub(r"[^A-Za-z0-9._-]+", "_", f"{structure}_{size.key}").strip("._-")[:150]
         table = place / f"{name}.csv"
         image = place / f"{name}.svg"
         with written_together():
             write_rows(StrengtheningRow, _rows(structure, found), table)
             write_whole(image, svg_of(found))
+            store.save()
     return [*notes, f"{structure}: {found.words}", str(table), str(image)]
 
 
@@ -172,10 +221,11 @@ def _size(scene: Scene, key: str, between: str) -> tuple[Field, tuple[float, flo
     return size, (factor * low, factor * high)
 
 
-def _records(study: Study) -> tuple[list[Accelerogram], list[str], list[str]]:
-    """The components at the design level, or as the catalogue scales them; their stations, and what there is to say."""
+def _records(study: Study) -> tuple[list[Accelerogram], Sample, list[str]]:
+    """The components at the design level, or as the catalogue scales them; their sample, and what there is to say."""
     design = study.settings.design_spectrum
     spectrum = design.spectrum()
+    each_unnamed = study.settings.unnamed_events == "each"
     catalogue = load_catalogue(study.settings.catalogue if spectrum is None else pool_of(study.settings))
     pool, reasons = opened(study, catalogue)
     notes = [f"{name}: not used, {reason}" for name, reason in reasons.items()]
@@ -184,13 +234,8 @@ def _records(study: Study) -> tuple[list[Accelerogram], list[str], list[str]]:
     if spectrum is None:
         of_pool = [(name, each) for name, pair in pool.items() for each in pair]
         records = [each for _, each in of_pool]
-        own = station_names(records, None)
-        # A record whose file names no station is one by itself, with both of its components.
-        stations = [
-            name if not (each.event or each.station) else station
-            for (name, each), station in zip(of_pool, own, strict=True)
-        ]
-        return records, stations, notes
+        rows = [name for name, _ in of_pool]
+        return records, Sample.of(records, rows=rows, each_unnamed=each_unnamed), notes
     limits = (design.least_factor, design.largest_factor)
     scaled = scaled_pool(
         joined_by_station(pool), spectrum, (design.shortest_period, design.longest_period), limits
@@ -203,4 +248,4 @@ def _records(study: Study) -> tuple[list[Accelerogram], list[str], list[str]]:
         )
     records = [each for place in within for each in scaled.scaled(place)]
     stations = [scaled.stations[place] for place in within for _ in scaled.pairs[place]]
-    return records, stations, notes
+    return records, Sample.of(records, stations, each_unnamed=each_unnamed), notes

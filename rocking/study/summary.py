@@ -20,6 +20,7 @@ from rocking.assessment.rows import (
     FailedCase,
     FailureRow,
     PulseRow,
+    RecordRow,
     StructureRow,
     TimingRow,
     TradeRow,
@@ -30,11 +31,13 @@ from rocking.assessment.rows import (
     counted_cases,
     falls_over,
     falls_under,
+    named_records,
     structure_rows,
 )
 from rocking.assessment.scene import variants_of
 from rocking.errors import ConfigurationError, RockingError, one_structure
 from rocking.records import Accelerogram, CatalogueRecord
+from rocking.records.sample import Sample
 from rocking.structures import Mechanism, Structure
 from rocking.study.documents import made_or_told, write_reason
 from rocking.study.job import Job, Study, costs_no_other
@@ -81,7 +84,13 @@ def summarise(job: Job) -> list[Path]:
     beside = _beside(job)
     faults = beside.pop(FailureRow, [])
     shown, pages, spectra = write_summary(
-        outcomes, study.structures, target, study.settings.reports, instead, faults
+        outcomes,
+        study.structures,
+        target,
+        study.settings.reports,
+        instead,
+        faults,
+        study.settings.unnamed_events == "each",
     )
     paths: dict[type[Row], str | list[str]] = {each: each.table.file_name for each in SUMMARY_TABLES}
     write_whole(target / "datapackage.json", data_package("rocking-study", paths))
@@ -167,18 +176,21 @@ def write_summary(
     reports: bool,
     variants: Collection[str] = (),
     faults: Collection[Row] = (),
+    each_unnamed: bool = False,
 ) -> tuple[dict[type[Row], list[Row]], list[dict[str, Any]], list[Sequence[float]]]:
     """Write the tables of the summary into `target`, record by record.
 
     reports: whether the rows, and what the page to explore and the spectra show of each record, are returned as well:
     of thousands of records, which have no reports, they would fill the memory. variants: names of structures that
-    stand for another one. faults: of what else stands over all records.
+    stand for another one. faults: of what else stands over all records. each_unnamed: whether records that name no
+    earthquake are of one each.
     """
     kept: dict[type[Row], list[Row]] = {each: [] for each in SUMMARY_TABLES}
     pages: list[dict[str, Any]] = []
     spectra: list[Sequence[float]] = []
     falls_of_records: list[ExpectedFallsRow] = []
     counted: list[ComparisonRow] = []
+    read: list[RecordRow] = []
     of_records = [each for each in SUMMARY_TABLES if each in RECORD_TABLES]
     with written_together(), ExitStack() as stack:
         write = {
@@ -190,6 +202,7 @@ def write_summary(
                 write[each](outcome.rows[each])
                 if reports:
                     kept[each] += outcome.rows[each]
+            read += rows_of(RecordRow, outcome.rows)[:1]
             verdicts = rows_of(VerdictRow, outcome.rows)
             counted += counted_cases(rows_of(ComparisonRow, outcome.rows), verdicts)
             if falls := falls_under(verdicts, variants):
@@ -204,9 +217,10 @@ def write_summary(
                     kept[each] += list(make({name: structure}))
         write[FailureRow](told)
         kept[FailureRow] += told if reports else ()
-        of_all = falls_over(falls_of_records)
+        names = named_records(read, each_unnamed)
+        of_all = falls_over(falls_of_records, Sample.named(names[each.record] for each in falls_of_records))
         kept[ExpectedFallsRow] = [*falls_of_records, *([of_all] if of_all else [])]
-        kept[AgreementRow] = list(agreement_rows(counted))
+        kept[AgreementRow] = list(agreement_rows(counted, names))
         write_tables({each: rows for each, rows in kept.items() if each not in write}, target)
     return kept, pages, spectra
 
@@ -351,7 +365,13 @@ def _curves_of(
     settings = study.settings.fragility
     scene = study.scenes[name]
     mechanism = scene.structure.mechanism()
-    names, accelerograms, reasons = _measured(opened, settings.intensity_measure, mechanism, net)
+    of_records, accelerograms, reasons = _measured(opened, settings.intensity_measure, mechanism, net)
+    names = [
+        f"{record} {component.component}".strip()
+        for record, component in zip(of_records, accelerograms, strict=True)
+    ]
+    sample = Sample.of(accelerograms, rows=of_records, each_unnamed=study.settings.unnamed_events == "each")
+    reasons += map(str, sample.remarks)
     curves: dict[tuple[str, float | None], Fragility] = {}
     rows: list[Row] = []
     for support in scene.place.axis:
@@ -360,6 +380,8 @@ def _curves_of(
             curves[name, period] = fragility(
                 accelerograms,
                 scene.structure,
+                stations=sample.stations,
+                events=sample.events,
                 intensity_measure=settings.intensity_measure,
                 largest_factor=settings.largest_factor,
                 ensemble=study.settings.ensemble if settings.members else None,
@@ -440,7 +462,7 @@ def _measured(
     mechanism: Mechanism,
     net: Callable[..., AbstractContextManager[None]],
 ) -> tuple[list[str], list[Accelerogram], list[str]]:
-    """The components of the records that have the intensity measure, with their names; and why others are left out."""
+    """The components of the records that have the intensity measure, the record of each, and why others are out."""
     from rocking.fragility.measures import intensity_measure
 
     of_mechanism = intensity_measure(measure, mechanism)
@@ -452,7 +474,7 @@ def _measured(
             with net(f"its {measure}", record=record):
                 for each in components:
                     of_mechanism.of(each, mechanism)
-                names += [f"{record} {each.component}".strip() for each in components]
+                names += [record] * len(components)
                 accelerograms += components
         except RockingError as error:
             reasons.append(f"{record}: {error}")

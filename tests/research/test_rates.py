@@ -9,6 +9,7 @@ from scipy.special import gamma
 from docs.research import rates
 from docs.research.rates import POPULATIONS, bounds, interval_scores, least_reach, rates_of_sites
 from rocking.fragility.curves import fragility_of
+from rocking.records.sample import Sample
 
 SLOPE = 1.5
 CLOSED_FORM = {
@@ -59,7 +60,7 @@ def test_a_site_that_overturns_from_a_level_upwards_has_the_hazard_of_that_level
     levels = np.geomspace(0.1, 8.0, 400)
     thresholds = np.array([0.5, 1.0, 4.0])
     pool = (levels > thresholds[:, None]).astype(float)
-    curve = fragility_of(levels, pool, ["a", "b", "c"])
+    curve = fragility_of(levels, pool, Sample.scattered("abc"))
     found = rates_of_sites(curve, pool, SLOPE)
     # A level lies within 1.1 % of the next, and a step of the integral is 1.3 %.
     assert found == pytest.approx((thresholds / 0.05) ** -SLOPE, rel=0.04)

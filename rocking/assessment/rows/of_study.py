@@ -2,7 +2,7 @@
 
 import math
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
@@ -15,15 +15,66 @@ from rocking.assessment.methods import Agreement, agreement, ratio, rests
 from rocking.assessment.rows import of_inputs as inputs
 from rocking.assessment.rows import of_record as rows
 from rocking.records import Accelerogram
+from rocking.records.sample import TAIL, UNNAMED, Sample
 from rocking.tables import Columns, Row, RowOf, row
+
+
+def named_records(
+    records: Iterable[inputs.RecordRow], each_unnamed: bool = False
+) -> dict[str, tuple[str, str]]:
+    """Return station and earthquake of each record, by its identifier. each_unnamed: as of `Sample.of`."""
+    firsts: dict[str, inputs.RecordRow] = {}
+    for each in records:
+        firsts.setdefault(each.record, each)
+    sample = Sample.of(list(firsts.values()), rows=list(firsts), each_unnamed=each_unnamed)
+    return dict(zip(firsts, zip(sample.stations, sample.events, strict=True), strict=True))
 
 
 @dataclass(frozen=True, eq=False)
 class CountedCases:
-    """The cases of one structure ("": of all) that have both ratios."""
+    """The cases of one structure ("": of all) that have both ratios. names: station and earthquake of each record."""
 
     structure: str
     cases: Sequence[rows.ComparisonRow]
+    names: Mapping[str, tuple[str, str]]
+
+    @cached_property
+    def sample(self) -> Sample:
+        """Of the cases."""
+        return Sample.named(self.names.get(row.record, (row.record, UNNAMED)) for row in self.cases)
+
+    @cached_property
+    def within_bounds(self) -> tuple[float, float]:
+        """The 90 % interval, by earthquakes, of the share of those that rock in both with a ratio from 1/2 to 2."""
+        told = [place for place, row in enumerate(self.cases) if row.within_factor_two is not None]
+        if not told:
+            return math.nan, math.nan
+        sample = self.sample.of_records(np.array(told))
+        within = sample.by_station(
+            np.array([float(bool(self.cases[place].within_factor_two)) for place in told])
+        )
+        low, high = sample.share_bounds(within)
+        return float(low), float(high)
+
+    @property
+    def within_factor_two_low(self) -> float:
+        """The lower end."""
+        return self.within_bounds[0]
+
+    @property
+    def within_factor_two_high(self) -> float:
+        """The upper end."""
+        return self.within_bounds[1]
+
+    @property
+    def stations(self) -> int:
+        """The number of stations of these cases."""
+        return self.sample.count
+
+    @property
+    def earthquakes(self) -> int:
+        """The number of their earthquakes."""
+        return self.sample.earthquakes
 
     @property
     def overturning(self) -> int:
@@ -61,12 +112,21 @@ class AgreementRow(RowOf[CountedCases]):
         "Name of the structure in the structure list; empty for all together", lambda of: of.structure
     )
     records: int = of_cases("Number of records", lambda of: len({row.record for row in of.cases}))
+    stations: int = of_cases("Number of stations of these", lambda of: of.stations)
+    earthquakes: int = of_cases(
+        "Number of earthquakes of these; what names none counts as of one", lambda of: of.earthquakes
+    )
     cases: int = of_cases("Number of cases with a prediction and an integration", lambda of: len(of.cases))
     both_rock: int = of_cases("Number of cases in which both rock", lambda of: len(of.rock_ratios))
     within_factor_two: int = of_cases(
         "Number of these with a ratio between 1/2 and 2",
         lambda of: sum(bool(row.within_factor_two) for row in of.cases),
     )
+    within_factor_two_low: float = of_cases(
+        "Lower end of the 90 % interval of the share of these, by earthquakes; 0 to 1 of one earthquake",
+        lambda of: of.within_factor_two_low,
+    )
+    within_factor_two_high: float = of_cases("Its upper end", lambda of: of.within_factor_two_high)
     median_ratio: float = of_cases(
         "Median of predicted over integrated rotation where both rock",
         lambda of: median(of.rock_ratios) if of.rock_ratios else math.nan,
@@ -86,19 +146,24 @@ class AgreementRow(RowOf[CountedCases]):
     )
 
 
-def agreement_rows(comparison: Iterable[rows.ComparisonRow]) -> Iterator[AgreementRow]:
-    """Yield the counts of all and of each structure. comparison: the cases that are counted, of all records."""
+def agreement_rows(
+    comparison: Iterable[rows.ComparisonRow], names: Mapping[str, tuple[str, str]]
+) -> Iterator[AgreementRow]:
+    """Yield the counts of all and of each structure.
+
+    comparison: the cases that are counted, of all records. names: station and earthquake of each record.
+    """
     compared = [
         row
         for row in comparison
         if not (math.isnan(row.predicted_rotation_ratio) or math.isnan(row.integrated_rotation_ratio))
     ]
-    yield AgreementRow.of(CountedCases("", compared))
+    yield AgreementRow.of(CountedCases("", compared, names))
     of_each: dict[str, list[rows.ComparisonRow]] = {}
     for each in compared:
         of_each.setdefault(each.structure, []).append(each)
     for structure, cases in of_each.items():
-        yield AgreementRow.of(CountedCases(structure, cases))
+        yield AgreementRow.of(CountedCases(structure, cases, names))
 
 
 @dataclass(frozen=True)
@@ -155,7 +220,8 @@ class CountedFalls:
     """How many structures are expected to fall under one record, or on average under several.
 
     record: its identifier; "" for the mean over all. expected_falls: the sum of the shares of those that have one;
-    its low and high ends: of the 90 % interval of the mean. without_share: how many have none.
+    its low and high ends: of the 90 % interval of the mean. without_share: how many have none. still: of one record 1
+    where nothing lifts any of the structures, of all the stations of which that holds.
     """
 
     record: str
@@ -164,6 +230,9 @@ class CountedFalls:
     without_share: float
     expected_falls_low: float = math.nan
     expected_falls_high: float = math.nan
+    stations: int = 1
+    earthquakes: int = 1
+    still: int = 0
 
 
 of_falls = Columns(CountedFalls)
@@ -179,12 +248,20 @@ class ExpectedFallsRow(RowOf[CountedFalls]):
         "Sum of the shares that overturn, of the structures that have one", lambda of: of.expected_falls
     )
     expected_falls_low: float = of_falls(
-        "Low end of the 90 % interval of the mean over more such records, of some 80 % where few are far stronger than "
-        "all others; where none, or all, are expected to fall under most records it holds for any, and is wide",
+        "Low end of the 90 % interval of the mean over more such earthquakes; where none, or all, are expected to fall "
+        "under most of them it holds for any, and is wide",
         lambda of: of.expected_falls_low,
     )
     expected_falls_high: float = of_falls("High end of that interval", lambda of: of.expected_falls_high)
     without_share: float = of_falls("Number of structures that have no share", lambda of: of.without_share)
+    stations: int = of_falls("Number of stations", lambda of: of.stations)
+    earthquakes: int = of_falls(
+        "Number of earthquakes of these; what names none counts as of one", lambda of: of.earthquakes
+    )
+    still: int = of_falls(
+        "Number of these stations at which nothing lifts any structure, so that they tell nothing of stronger shaking",
+        lambda of: of.still,
+    )
 
 
 def falls_under(
@@ -200,64 +277,85 @@ def falls_under(
         return None
     shares = [row.overturning_share for row in worst]
     untold = sum(math.isnan(row.overturning_share) and not row.decision.word.stays_up for row in worst)
-    return ExpectedFallsRow.of(CountedFalls(worst[0].record, len(worst), float(np.nansum(shares)), untold))
+    still = all(row.rotation_ratio == 0 for row in worst)
+    return ExpectedFallsRow.of(
+        CountedFalls(worst[0].record, len(worst), float(np.nansum(shares)), untold, still=int(still))
+    )
 
 
-def falls_over(records: Sequence[ExpectedFallsRow]) -> ExpectedFallsRow | None:
-    """Return the mean over the records, with the interval of `interval_of_mean`; None without any.
+def falls_over(records: Sequence[ExpectedFallsRow], sample: Sample) -> ExpectedFallsRow | None:
+    """Return the mean over the stations, with the interval of `interval_of_mean`; None without any.
 
-    One record has no interval. What falls under one record falls together or not at all, so that each record is one
-    observation, however many structures there are.
+    sample: of the records. What falls under one record falls together or not at all, so that each record is one
+    observation, however many structures there are; and the stations of one earthquake are no independent ones.
     """
     if not records:
         return None
     structures = max(row.structures for row in records)
-    falls = np.array([row.expected_falls for row in records])
+    falls = sample.by_station(np.array([row.expected_falls for row in records]))
+    still = sample.by_station(np.array([float(row.still) for row in records]))
     untold = float(np.mean([row.without_share for row in records]))
     low = high = math.nan
     if len(records) > 1:
-        low, high = interval_of_mean(falls, structures)
-    return ExpectedFallsRow.of(CountedFalls("", structures, float(falls.mean()), untold, low, high))
+        low, high = interval_of_mean(falls, structures, sample)
+    return ExpectedFallsRow.of(
+        CountedFalls(
+            record="",
+            structures=structures,
+            expected_falls=float(falls.mean()),
+            without_share=untold,
+            expected_falls_low=low,
+            expected_falls_high=high,
+            stations=sample.count,
+            earthquakes=sample.earthquakes,
+            still=int((still == 1).sum()),
+        )
+    )
 
 
-def hardly_spread(falls: np.ndarray, structures: int) -> bool:
-    """Whether the numbers that fall (n,) say too little of what further records would do: under most of them fewer
-    than half a structure falls, or stands, or all are equal.
+def hardly_spread(parts: np.ndarray, structures: int) -> bool:
+    """Whether the parts of a class that fall (n,) say too little of what further earthquakes would do: under most of
+    them fewer than half a structure falls, or stands, or all are equal.
     """
+    falls = structures * parts
     told = (falls >= 0.5) & (falls <= structures - 0.5)
     return bool(2 * told.sum() < falls.size or np.ptp(falls) == 0)
 
 
-def interval_of_mean(falls: np.ndarray, structures: int) -> tuple[float, float]:
-    """Return the 90 % interval of the mean number that falls, of the numbers (n,) under n records.
+def interval_of_mean(falls: np.ndarray, structures: int, sample: Sample) -> tuple[float, float]:
+    """Return the 90 % interval of the mean number that falls, of the numbers (s,) at the stations of a sample.
 
-    The part of a class that falls is the normal distribution of a quantity that all structures share, which is normal
-    over the records (Vasicek 2002, Risk 15(12), 160-162): that of lognormal fragilities under lognormal shaking. The
-    interval of its mean is the generalised one (Krishnamoorthy & Mathew 2003, J. Stat. Plan. Inference 115, 103-121),
-    joined with Student's of the mean itself on its log odds, which does not need that law. Where the records are
-    `hardly_spread`, neither sees what none of them has shown; the interval is then that of Clopper and Pearson for the
-    sum of the parts, as of records under which all fall or none does, which vary more than any others of that mean.
+    What counts as one is an earthquake with the mean of its stations. The part of a class that falls is the normal
+    distribution of a quantity that all structures share, which is normal over the earthquakes (Vasicek 2002, Risk
+    15(12), 160-162): that of lognormal fragilities under lognormal shaking. The interval of its mean is the generalised
+    one (Krishnamoorthy & Mathew 2003, J. Stat. Plan. Inference 115, 103-121), joined with Student's of the mean itself
+    on its log odds, which does not need that law. Where the earthquakes are `hardly_spread`, neither sees what none of
+    them has shown; the interval is then that of Clopper and Pearson for the sum of the parts, as of earthquakes under
+    which all fall or none does, which vary more than any others of that mean. One earthquake tells nothing of others.
     """
-    from scipy.special import betaincinv, chdtri, expit, logit, ndtr, ndtri, stdtrit  # slow to import
+    from scipy.special import betaincinv, chdtri, expit, logit, ndtr, ndtri  # slow to import
 
-    parts = falls / structures
-    n = parts.size
-    mean = float(parts.mean())
-    if hardly_spread(falls, structures):
-        fell = parts.sum()
-        low = float(betaincinv(fell, n - fell + 1, 0.05)) if fell > 0 else 0.0
-        high = float(betaincinv(fell + 1, n - fell, 0.95)) if fell < n else 1.0
+    spread = sample.spread(falls / structures)
+    parts = spread.values
+    n = spread.count
+    mean = spread.mean
+    if parts.size < 2:
+        return 0.0, float(structures)
+    if hardly_spread(parts, structures):
+        fell = n * mean
+        low = float(betaincinv(fell, n - fell + 1, TAIL)) if fell > 0 else 0.0
+        high = float(betaincinv(fell + 1, n - fell, 1 - TAIL)) if fell < n else 1.0
         return structures * low, structures * high
 
     # Half a member of the 64 of one structure: the least that could have been seen.
     least = 1 / (128 * structures)
-    shaking = ndtri(np.clip(parts, least, 1 - least))
+    shaking = spread.of(ndtri(np.clip(parts, least, 1 - least)))
     middles = (np.arange(100) + 0.5) / 100
-    deviations = shaking.std(ddof=1) * np.sqrt((n - 1) / chdtri(n - 1, middles))
-    means = shaking.mean() + ndtri(middles)[:, None] * deviations / math.sqrt(n)
-    of_law = np.quantile(ndtr(means / np.sqrt(1 + deviations**2)), [0.05, 0.95])
+    deviations = shaking.deviation * np.sqrt((n - 1) / chdtri(n - 1, middles))
+    means = shaking.mean + ndtri(middles)[:, None] * deviations / math.sqrt(n)
+    of_law = np.quantile(ndtr(means / np.sqrt(1 + deviations**2)), [TAIL, 1 - TAIL])
 
-    half = stdtrit(n - 1, 0.95) * parts.std(ddof=1) / (math.sqrt(n) * mean * (1 - mean))
+    half = spread.reach() / (mean * (1 - mean))
     of_mean = expit(logit(mean) + half * np.array([-1, 1]))
     low, high = min(of_law[0], of_mean[0]), max(of_law[1], of_mean[1])
     return structures * float(low), structures * float(high)
@@ -302,23 +400,69 @@ class TradeMethod(StrEnum):
 class TimedAnswer:
     """The answer of one method to one record beside the reference: largest rotations over the critical one, and times.
 
-    cpu: of the response, s. preparation: of the search for the record's sines, s.
+    cpu: of the response, s. preparation: of the search for the record's sines, s. record: its place among the records.
     """
 
     rotation_ratio: float
     reference: float
     cpu: float
     preparation: float
+    record: int = 0
 
 
 @dataclass(frozen=True)
 class TriedMethod:
-    """One method with its answers for one structure ("": for all). machine: the processor that was timed."""
+    """One method with its answers for one structure ("": for all).
+
+    machine: the processor that was timed. sample: of the records.
+    """
 
     method: TradeMethod
     structure: str
     answers: Sequence[TimedAnswer]
     machine: str
+    sample: Sample
+
+    @cached_property
+    def of_moving(self) -> Sample:
+        """The sample of the cases in which one of the two does not rest."""
+        places = [
+            each.record
+            for each in self.answers
+            if not rests(each.rotation_ratio) or not rests(each.reference)
+        ]
+        return self.sample.of_records(np.array(places, dtype=int))
+
+    @cached_property
+    def wrong_bounds(self) -> tuple[float, float]:
+        """The 90 % interval, by earthquakes, of the share of those cases with another outcome than the reference."""
+        if not self.agreements:
+            return math.nan, math.nan
+        wrong = self.of_moving.by_station(
+            np.array([float(each is not Agreement.SAME) for each in self.agreements])
+        )
+        low, high = self.of_moving.share_bounds(wrong)
+        return float(low), float(high)
+
+    @property
+    def wrong_share_low(self) -> float:
+        """The lower end."""
+        return self.wrong_bounds[0]
+
+    @property
+    def wrong_share_high(self) -> float:
+        """The upper end."""
+        return self.wrong_bounds[1]
+
+    @property
+    def stations(self) -> int:
+        """The number of stations of these cases."""
+        return self.of_moving.count
+
+    @property
+    def earthquakes(self) -> int:
+        """The number of their earthquakes."""
+        return self.of_moving.earthquakes
 
     @cached_property
     def moving(self) -> list[tuple[float, float]]:
@@ -387,6 +531,16 @@ class TradeRow(RowOf[TriedMethod]):
     error_high: float = of_tried("95 % quantile of that error", lambda of: of.error_high)
     wrong_verdicts: int = of_tried(
         "Cases that do not rest, rock or overturn as the reference does", lambda of: of.wrong_verdicts
+    )
+    wrong_share_low: float = of_tried(
+        "Lower end of the 90 % interval of the share of these, by earthquakes; 0 to 1 of one earthquake",
+        lambda of: of.wrong_share_low,
+    )
+    wrong_share_high: float = of_tried("Its upper end", lambda of: of.wrong_share_high)
+    stations: int = of_tried("Number of stations of the cases", lambda of: of.stations)
+    earthquakes: int = of_tried(
+        "Number of earthquakes of these; what names none counts as of one",
+        lambda of: of.earthquakes,
     )
     unsafe_verdicts: int = of_tried(
         "Those in which the method predicts less than the reference", lambda of: of.unsafe_verdicts

@@ -7,7 +7,14 @@ import pytest
 from scipy.stats import binomtest, norm
 
 from rocking.assessment.conclusion import CLASS, falls_in_words
-from rocking.assessment.rows import CountedFalls, ExpectedFallsRow, falls_over, falls_under
+from rocking.assessment.rows import (
+    CountedFalls,
+    ExpectedFallsRow,
+    falls_over,
+    falls_under,
+    interval_of_mean,
+)
+from rocking.records.sample import Sample
 from tests.unit.assessment.made_rows import broken, case, station, verdicts
 
 
@@ -16,6 +23,11 @@ def under(shares: list[float], structures: int) -> list[ExpectedFallsRow]:
         ExpectedFallsRow.of(CountedFalls(f"record {number}", structures, share * structures, 0.0))
         for number, share in enumerate(shares)
     ]
+
+
+def over(records: list[ExpectedFallsRow]) -> ExpectedFallsRow | None:
+    """The mean over records of as many stations of as many earthquakes."""
+    return falls_over(records, Sample.scattered([each.record for each in records]))
 
 
 def test_the_shares_of_those_that_have_one_are_added() -> None:
@@ -35,10 +47,10 @@ def test_the_shares_of_those_that_have_one_are_added() -> None:
 
 
 def test_one_record_has_no_interval() -> None:
-    of_all = falls_over(under([0.3], 50))
+    of_all = over(under([0.3], 50))
     assert of_all is not None and of_all.expected_falls == pytest.approx(15)
     assert math.isnan(of_all.expected_falls_low) and math.isnan(of_all.expected_falls_high)
-    assert falls_over([]) is None
+    assert over([]) is None
 
 
 @pytest.mark.parametrize("records", [3, 10])
@@ -48,11 +60,11 @@ def test_what_no_record_has_shown_is_bounded_by_their_number(records) -> None:
     Of records that bring down all or none, the ends are those of Clopper and Pearson for k of n.
     """
     ends = 50 * (1 - 0.05 ** (1 / records))
-    none, every = falls_over(under([0.0] * records, 50)), falls_over(under([1.0] * records, 50))
+    none, every = over(under([0.0] * records, 50)), over(under([1.0] * records, 50))
     assert none is not None and every is not None
     assert (none.expected_falls_low, none.expected_falls_high) == pytest.approx((0, ends))
     assert (every.expected_falls_low, every.expected_falls_high) == pytest.approx((50 - ends, 50))
-    mixed = falls_over(under([1.0] * 2 + [0.0] * (records - 2), 50))
+    mixed = over(under([1.0] * 2 + [0.0] * (records - 2), 50))
     exact = binomtest(2, records).proportion_ci(0.9, "exact")
     assert mixed is not None
     assert (mixed.expected_falls_low, mixed.expected_falls_high) == pytest.approx(
@@ -63,7 +75,7 @@ def test_what_no_record_has_shown_is_bounded_by_their_number(records) -> None:
 def test_structures_that_fall_together_do_not_narrow_the_interval() -> None:
     """Ten times as many structures with the same shares are the same records: all ends are ten times as large."""
     shares = [0.1, 0.3, 0.2, 0.6, 0.05]
-    few, many = (falls_over(under(shares, number)) for number in (30, 300))
+    few, many = (over(under(shares, number)) for number in (30, 300))
     assert few is not None and many is not None
     for name in ("expected_falls", "expected_falls_low", "expected_falls_high"):
         assert getattr(many, name) == pytest.approx(10 * getattr(few, name))
@@ -84,7 +96,7 @@ def test_the_interval_holds_the_mean_of_records_that_are_drawn(records, median) 
 
     truth = 200 * share(median * np.exp(0.6 * norm.ppf((np.arange(2000) + 0.5) / 2000))).mean()
     studies = share(median * np.exp(0.6 * drawn.standard_normal((500, records))))
-    held = [falls_over(under(list(shares), 200)) for shares in studies]
+    held = [over(under(list(shares), 200)) for shares in studies]
     inside = [row.expected_falls_low <= truth <= row.expected_falls_high for row in held if row]
     assert len(inside) == 500 and np.mean(inside) > 0.9 - 0.022
 
@@ -95,17 +107,18 @@ def test_a_class_is_told_in_one_sentence() -> None:
         for name, falls, untold, interval in (
             ("a", 30.0, 12.0, ()),
             ("b", 52.0, 11.0, ()),
-            ("", 41.0, 11.5, (33.2, 50.4)),
+            ("", 41.0, 11.5, (33.2, 50.4, 7, 2, 3)),
         )
     ]
     assert falls_in_words(rows) == (
-        "41 of 300 structures are expected to fall under such a record (90 %: 33–50, by the spread over 2 records); "
+        "41 of 300 structures are expected to fall under such a record (90 %: 33–50, by the spread over 7 stations "
+        "of 2 earthquakes); nothing lifts any of them at 3 of 7 stations; "
         "11.5 more cannot be told per record on average."
     )
     assert falls_in_words([]) == ""
-    assert falls_in_words([row for row in map(falls_over, [under([0.2], CLASS - 1)]) if row]) == ""
+    assert falls_in_words([row for row in map(over, [under([0.2], CLASS - 1)]) if row]) == ""
     one = under([0.2], CLASS)
-    of_one = falls_over(one)
+    of_one = over(one)
     assert of_one is not None
     assert falls_in_words([*one, of_one]) == "4 of 20 structures are expected to fall under the record."
 
@@ -120,7 +133,21 @@ def test_a_class_is_told_in_one_sentence() -> None:
 )
 def test_a_wide_interval_says_why(shares, because) -> None:
     rows = under(shares, 40)
-    of_all = falls_over(rows)
+    of_all = over(rows)
     assert of_all is not None
     said = falls_in_words([*rows, of_all])
-    assert f"; wide, as under most of the 3 records {because} expected to fall)" in said
+    assert (
+        f"; wide, as under most of the records, of 3 stations of 3 earthquakes, {because} expected to fall)"
+        in said
+    )
+
+
+def test_stations_of_one_earthquake_say_no_more_than_their_mean() -> None:
+    """Of equally many stations each, the interval is that of the means of the earthquakes; one tells nothing."""
+    falls = np.array([5.0, 7.0, 20.0, 22.0, 11.0, 13.0])
+    pairs = Sample(tuple("abcdef"), ("one", "one", "two", "two", "three", "three"))
+    of_means = interval_of_mean(np.array([6.0, 21.0, 12.0]), 50, Sample.scattered("abc"))
+    assert interval_of_mean(falls, 50, pairs) == pytest.approx(of_means)
+    apart = interval_of_mean(falls, 50, Sample.scattered("abcdef"))
+    assert of_means[0] < apart[0] and apart[1] < of_means[1]
+    assert interval_of_mean(falls, 50, Sample(tuple("abcdef"), ("one",) * 6)) == (0.0, 50.0)

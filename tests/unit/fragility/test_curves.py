@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.optimize import minimize
-from scipy.stats import beta, norm
+from scipy.stats import norm
 
 import rocking
 from rocking.assessment.ensemble import drawn
@@ -22,6 +22,7 @@ from rocking.motion import integrate
 from rocking.motion.batch import integrate_batch
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
+from rocking.records.sample import Sample
 from rocking.structures import Block
 
 STEP, TIMES = 0.01, np.arange(0, 4, 0.01)
@@ -38,14 +39,14 @@ PEAK = int(_record(0.9, "").acceleration.argmax())
 RECORDS = [_record(period, f"{k // 2}") for k, period in enumerate((0.6, 0.7, 0.9, 1.0, 1.3, 1.5))]
 
 
-def _names(count: int) -> list[str]:
-    return [str(k) for k in range(count)]
+def _scattered(count: int) -> Sample:
+    return Sample.scattered(list(map(str, range(count))))
 
 
 def _counted(levels: list[float], shares: list[float], stations: int) -> Fragility:
     """The curve of records, one a station, of which the first `shares` overturn."""
     exceedance = np.arange(stations)[:, None] < stations * np.array(shares)
-    return fragility_of(np.array(levels), exceedance.astype(float), _names(stations))
+    return fragility_of(np.array(levels), exceedance.astype(float), _scattered(stations))
 
 
 def test_the_fit_is_the_maximum_that_scipy_finds():
@@ -58,7 +59,7 @@ def test_the_fit_is_the_maximum_that_scipy_finds():
             return -(over * norm.logcdf(eta) + (1 - over) * norm.logsf(eta)).sum()
 
         best = minimize(negative, (0.0, -1.0), method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-12})
-        curve = fragility_of(LEVELS, over, _names(12))
+        curve = fragility_of(LEVELS, over, _scattered(12))
         # The likelihood is flat to its rounding within the root of the machine precision of the best.
         assert curve.lognormal_median == pytest.approx(math.exp(best.x[0]), rel=1e-6)
         assert curve.dispersion == pytest.approx(math.exp(best.x[1]), rel=1e-6)
@@ -69,7 +70,7 @@ def _made(rng: np.random.Generator, stations: int, median: float = 1.0, dispersi
     shared, own = rng.standard_normal((stations, 1)), rng.standard_normal((stations, 2))
     threshold = median * np.exp(dispersion * (shared + own) / 2**0.5)
     exceedance = (threshold.reshape(-1, 1) < LEVELS).astype(float)
-    return exceedance, [str(k // 2) for k in range(2 * stations)]
+    return exceedance, Sample.scattered([str(k // 2) for k in range(2 * stations)])
 
 
 @pytest.mark.parametrize(("trials", "scatter"), [(16, 0.12), pytest.param(60, 0.08, marks=pytest.mark.slow)])
@@ -100,7 +101,7 @@ def test_a_curve_that_is_no_lognormal_has_the_median_of_the_rising_curve_beside_
 
 def test_a_record_overturns_at_a_level_where_more_than_half_of_its_members_do():
     shares = np.array([[0.6, 0.5, 0.6], [0.5, 0.4, 0.5], [0.6, 0.7, 0.4]])
-    curve = fragility_of(np.array([1.0, 2.0, 3.0]), shares, list("abc"))
+    curve = fragility_of(np.array([1.0, 2.0, 3.0]), shares, Sample.scattered("abc"))
     assert curve.reversals.tolist() == [1, 0, 1]
 
 
@@ -121,7 +122,7 @@ def test_levels_of_their_own_reach_from_rest_to_overturning():
     flat = (curve.probability == 0) | (curve.probability == 1)
     assert (~flat).sum() + 2 >= 20
     assert curve.interval[0] < curve.median < curve.interval[1]
-    assert curve.independent == 3
+    assert curve.sample.count == 3
     assert curve.plot().get_xlabel() == "pgv [m/s]"
 
 
@@ -191,7 +192,9 @@ def test_a_record_is_scaled_to_a_level_of_any_measure(intensity_measure):
 def test_a_row_of_the_analysis_tells_the_lower_median_of_its_members(members):
     ratios = np.array([0.4, 0.1, math.inf, 0.2])[None, None, :members]
     measure = INTENSITY_MEASURES["pgv"]
-    analysis = IncrementalDynamicAnalysis(measure, np.ones(1), ratios, np.full(1, 0.5), ("one",))
+    analysis = IncrementalDynamicAnalysis(
+        measure, np.ones(1), ratios, np.full(1, 0.5), Sample.scattered(["one"])
+    )
     (row,) = ida_rows("block", ["record"], analysis)
     assert row.rotation_ratio_median == statistics.median_low(ratios[0, 0])
     assert (row.members, row.scale_factor) == (members, 2.0)
@@ -213,6 +216,7 @@ def test_a_cloud_keeps_the_records_as_they_are():
         ({"levels": [0.5, math.nan]}, "levels must be at least two finite numbers"),
         ({"stations": ["one"] * 6}, "come from 1 station, but a fragility needs at least 2"),
         ({"stations": ["one", "two"]}, "stations names 2, but must name one for each of 6"),
+        ({"events": ["one", "two"]}, "events names 2, but must name one for each of 6"),
         ({"intensity_measure": "mmi"}, "intensity_measure is 'mmi', but must be one of pgv, pga"),
         ({"intensity_measure": "SA"}, "intensity_measure is 'SA', but must say its period here, as in SA"),
         ({"method": "cloud", "levels": [0.1, 0.2]}, "a cloud has those of its records"),
@@ -247,26 +251,6 @@ def test_the_median_is_linear_in_the_logarithm_of_levels_and_the_middle_of_a_fla
     assert math.isinf(curve.interval[1]) == math.isinf(median) and curve.interval[0] >= 1.0
 
 
-def test_the_interval_of_a_share_is_that_of_jeffreys_for_the_scatter_of_the_stations():
-    """Of n stations, one record each, the shares scatter as those of n − 1 independent records.
-
-    But all count as half to twice as many as they are: four that nearly agree, and one tried with all its records
-    beside nine with a tenth, which weigh a tenth.
-    """
-    agreeing = np.array([[0.24, 1.0], [0.25, 1.0], [0.25, 1.0], [0.26, 1.0]])
-    unlike = np.full((91, 2), np.nan)
-    unlike[0], unlike[1::10] = 1.0, 0.0
-    names = ["first", *(f"{k // 10}" for k in range(90))]
-    for curve, share, independent in (
-        (_counted([1.0, 2.0], [0.3, 0.7], 20), 0.3, 19),
-        (fragility_of(np.array([1.0, 2.0]), agreeing, list("abcd")), 0.25, 8),
-        (fragility_of(np.array([1.0, 2.0]), unlike, names), 1 / 1.9, 5),
-    ):
-        ends = beta.ppf((0.05, 0.95), independent * share + 0.5, independent * (1 - share) + 0.5)
-        assert curve.probability[0] == pytest.approx(share, rel=1e-12)
-        assert (curve.probability_low[0], curve.probability_high[0]) == pytest.approx(tuple(ends), rel=1e-9)
-
-
 def _points(levels, rates) -> Hazard:
     return Hazard(np.asarray(levels), np.asarray(rates))
 
@@ -276,7 +260,7 @@ def test_the_rate_is_that_of_the_closed_form():
     slope, scale, median, dispersion = 2.5, 1e-3, 1.2, 0.4
     levels = np.geomspace(0.02, 50.0, 400)
     thresholds = median * np.exp(dispersion * norm.ppf((np.arange(300) + 0.5) / 300))
-    curve = fragility_of(levels, (thresholds[:, None] < levels).astype(float), _names(300))
+    curve = fragility_of(levels, (thresholds[:, None] < levels).astype(float), _scattered(300))
     rates = curve.annual_rate(_points(levels[[0, -1]], scale * levels[[0, -1]] ** -slope))
     exact = scale * median**-slope * math.exp(slope**2 * dispersion**2 / 2)
     # Steps of 2 % in the level, half a step of lag in a curve that is counted: 2.5 x 1 % of the rate.
@@ -292,7 +276,7 @@ def test_the_interval_of_a_rate_holds_the_truth_of_a_made_population(slope, coun
     dispersion = 0.35
     truth = math.exp((slope * dispersion) ** 2 / 2)
     draws = np.exp(slope * dispersion * np.random.default_rng(count).standard_normal((400, count)))
-    ends = [rate_interval(each) for each in draws]
+    ends = [rate_interval(each, _scattered(each.size)) for each in draws]
     assert 0.85 <= np.mean([low <= truth <= high for low, high in ends]) <= 0.95
 
 
@@ -301,7 +285,7 @@ def test_the_interval_of_a_rate_holds_the_truth_where_rates_are_no_lognormal():
     0.1 % quantile of the binomial lies 4.9 % below; the method for lognormals alone holds it in 81 %."""
     draws = np.random.default_rng(7).weibull(2.5, (400, 35)) ** 3.5
     truth = math.gamma(1 + 3.5 / 2.5)
-    ends = [rate_interval(each) for each in draws]
+    ends = [rate_interval(each, _scattered(each.size)) for each in draws]
     assert np.mean([low <= truth <= high for low, high in ends]) >= 0.85
 
 
@@ -330,7 +314,7 @@ def test_what_curve_and_hazard_leave_out_is_said():
     # the same where the hazard curve ends at the last level: all that is rarer occurs beyond it
     ended = curve.annual_rate(_points([0.5, 2.0], [0.16, 0.04]))
     assert ended.remainder == pytest.approx(0.02, rel=1e-9)
-    falling = fragility_of(np.array([0.1, 0.2]), np.ones((4, 2)), list("abcd"))
+    falling = fragility_of(np.array([0.1, 0.2]), np.ones((4, 2)), Sample.scattered("abcd"))
     # between 0.1 and 0.5, which the hazard curve does not reach, there occurs 0.8 − 0.16
     assert falling.annual_rate(points).remainder == pytest.approx(0.64, rel=0.02)
 
@@ -341,7 +325,7 @@ def test_of_statics_or_of_what_governs_as_it_is_asked():
     statics = np.array([[[0.1], [np.inf]], [[0.1], [0.2]]])
     worst = np.array([[[0.1], [np.inf]], [[np.inf], [np.inf]]])
     measure = INTENSITY_MEASURES["pga"]
-    analysis = IncrementalDynamicAnalysis(measure, levels, statics, np.ones(2), ("a", "b"), worst)
+    analysis = IncrementalDynamicAnalysis(measure, levels, statics, np.ones(2), Sample.scattered("ab"), worst)
     assert analysis.fragility().probability.tolist() == [0.0, 0.5]
     assert analysis.fragility(governing=True).probability.tolist() == [0.5, 1.0]
     alone = replace(analysis, governing_ratios=None)

@@ -13,6 +13,7 @@ import rocking
 from rocking.errors import ConfigurationError
 from rocking.fragility.curves import Fragility, fragility_of
 from rocking.fragility.hazard import Hazard
+from rocking.records.sample import Sample
 
 LEVELS = np.geomspace(0.02, 50.0, 400)
 MEDIAN, DISPERSION = 1.2, 0.4
@@ -26,7 +27,7 @@ HEAD = (
 def _lognormal(measure: str = "pgv", unit: str = "m/s") -> Fragility:
     """The curve of four stations, each of which has the same lognormal."""
     shares = np.tile(norm.cdf(np.log(LEVELS / MEDIAN) / DISPERSION), (4, 1))
-    return replace(fragility_of(LEVELS, shares, list("abcd")), measure=measure, unit=unit)
+    return replace(fragility_of(LEVELS, shares, Sample.scattered("abcd")), measure=measure, unit=unit)
 
 
 def _file(folder, name, levels, rows, *, kind="mean", imt="PGV", time="50.0"):

@@ -112,7 +112,7 @@ def summarised(tables: RecordRows, structures: dict[str, object]) -> dict[type[R
     """Return the rows of the summary of one record."""
     return tables.tables | {
         StructureRow: list(structure_rows(structures)),
-        AgreementRow: list(agreement_rows(counted_cases(tables.comparison, tables.verdicts))),
+        AgreementRow: list(agreement_rows(counted_cases(tables.comparison, tables.verdicts), {})),
     }
 
 

@@ -177,7 +177,7 @@ def test_every_count_is_of_each_structure_once_at_the_period_of_its_verdict():
         ("pier", "EW", None),
         ("arch", "EW", None),
     ]
-    of_all, *of_each = agreement_rows(cases)
+    of_all, *of_each = agreement_rows(cases, {})
     assert (of_all.cases, of_all.overturning, of_all.overturning_hits) == (4, 3, 1)
     assert [(row.structure, row.cases) for row in of_each] == [("parapet", 2), ("pier", 1), ("arch", 1)]
 

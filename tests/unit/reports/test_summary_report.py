@@ -72,14 +72,14 @@ def summary_tables(comparison, **tables):
 
 
 def test_agreement_counts_all_and_each_structure():
-    rows = {row.structure: row for row in agreement_rows(CASES)}
+    rows = {row.structure: row for row in agreement_rows(CASES, {})}
     assert {name: row.cases for name, row in rows.items()} == {"": 5, "pier": 2, "arch": 1, "wall": 2}
     content = summary_data(summary_tables(CASES), SETTINGS).agreement.rows
     # records, cases, both rock, within a factor 2, median ratio; overturning, found, missed, false
     assert list(content[0]) == ["all", "3", "5", "2", "1", "0.696", "2", "1", "1", "1"]
     assert rows[""].median_ratio == (0.5 / 0.4 + 0.1 / 0.7) / 2 and rows["pier"].median_ratio == 1.25
     more = [*CASES, case("pier", 0.8, 0.1, "two")]
-    assert next(agreement_rows(more)).median_ratio == 1.25  # of 1/7, 5/4 and 8
+    assert next(agreement_rows(more, {})).median_ratio == 1.25  # of 1/7, 5/4 and 8
 
 
 def verdict(
@@ -264,6 +264,9 @@ MEDIAN = {
     "median_high": 0.31,
     "reversals": 1,
     "stations_out": 0,
+    "earthquakes": 3,
+    "stations_at_median": 3,
+    "stations_at_half_rate": 3,
 }
 FRAGILITY = {
     IdaRow: [
@@ -294,6 +297,7 @@ def test_the_document_of_the_fragility_names_records_stations_units_and_what_gov
             efficiency=scatter,
             records=4,
             stations=3,
+            earthquakes=3,
             stations_needed=count,
         )
         for measure, (scatter, count) in scatters.items()
@@ -302,17 +306,17 @@ def test_the_document_of_the_fragility_names_records_stations_units_and_what_gov
     curves = frame(FragilityRow, FRAGILITY[FragilityRow])
     of_measures = frame(IntensityMeasureRow, measures)
     data = fragility_data(curves, FRAGILITY[FragilitySummaryRow], ida_frame(FRAGILITY), of_measures)
-    assert data.subtitle == "4 records of 3 stations; 1 structure."
+    assert data.subtitle == "4 records of 3 stations of 3 earthquakes; 1 structure."
     text, table, scatter, figure = data.parts
     assert scatter.table.rows == (
         ("pier", "AvgSA(0.5,3.7) 0.16, pgv 0.30, pga –", "4 with AvgSA(0.5,3.7), 12 with pgv"),
     )
-    assert "With 3 stations the curves are rough" in text.text
+    assert "With 3 stations of 3 earthquakes the curves are rough" in text.text
     assert (
         "pgv [m/s]" in figure.pictures[0].svg and ">overturns, worst crack</text>" in figure.pictures[0].svg
     )
     (row,) = table.table.rows
-    assert row[:2] == ("pier", "pgv 0.20 (0.13–0.31) m/s") and row[3] == "3"
+    assert row[:2] == ("pier", "pgv 0.20 (0.13–0.31) m/s") and row[3] == "3 of 3"
     # d overturns it at 0.1 in all members, b at 0.2 in most of them, a at 0.4, and c nowhere
     assert row[4] == "d (0.10), b (0.20), a (0.40)"
     tables = summarised(example.tables, example.structures)

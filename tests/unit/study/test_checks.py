@@ -24,9 +24,9 @@ from rocking.motion.response import ModelCheck
 from rocking.remarks import Kind, Remark
 from rocking.reports.explore import explore_page
 from rocking.reports.pages import Fact
-from rocking.reports.structures import CheckedStructure, share_interval, structures_data
+from rocking.reports.structures import CheckedStructure, structures_data
 from rocking.reports.summary import summary_data
-from rocking.study.checks import shares_by_station, write_checks
+from rocking.study.checks import write_checks
 from rocking.study.job import Study
 from rocking.study.settings import Settings, read_settings
 from rocking.study.terminal import lines_by_code
@@ -356,24 +356,6 @@ def test_a_check_that_is_met_tells_how_far_its_stations_speak_for_others():
     assert met.caution["least_percent"] == 35.0
     assert pytest.approx(0.05, rel=2e-3) == (1 - 0.0512) ** 57
     assert found(False).caution is None
-
-
-def test_the_interval_of_a_share_is_that_of_wilson():
-    """Of 20 records 3: (.0583, .3331) at 90 %, by the quadratic (p − .15)² = 1.645² p(1 − p)/20, solved apart."""
-    import numpy as np
-
-    squared = 1.645**2 / 20
-    low, high = sorted(np.roots([1 + squared, -(0.3 + squared), 0.0225]))
-    assert share_interval(0.15, 20) == pytest.approx((low, high), rel=1e-12)
-    assert share_interval(0.0, 20)[0] == 0 and share_interval(1.0, 20)[1] == 1
-
-
-def test_records_of_one_station_count_once():
-    """Two components of one station, of which one lets it fall, and two other stations: a half, 0 and 1."""
-    shares = {"a_ns": 1.0, "a_ew": 0.0, "b": 0.0, "c": 1.0}
-    stations = {"a_ns": "quake, a", "a_ew": "quake, a", "b": "quake, b", "c": "c"}
-    verdicts = [SimpleNamespace(record=name, overturning_share=share) for name, share in shares.items()]
-    assert shares_by_station(verdicts, stations) == [0.5, 0.0, 1.0]
 
 
 def test_the_page_names_the_client_and_what_the_checks_rest_on():

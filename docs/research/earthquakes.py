@@ -1,0 +1,193 @@
+"""Do the intervals over earthquakes hold the truth, with few earthquakes and several stations of each?
+
+Earthquakes are drawn, and stations of each: from populations whose truth is that of very many, and from real sites,
+whose truth is that of all of them, each earthquake with the same weight. The interval of a median, of an annual rate,
+of a share (its bounds) and of the structures expected to fall are those of the package; beside them stands what they
+were when every station counted as independent.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
+
+import numpy as np
+from scipy.special import ndtr
+
+from docs.research import scores
+from docs.research.fragilities import median_of, real_sites
+from docs.research.rates import rates_of_sites
+from docs.research.report import Target
+from rocking.assessment.rows import interval_of_mean
+from rocking.fragility.curves import Fragility
+from rocking.fragility.hazard import rate_interval
+from rocking.records.sample import Sample
+
+EARTHQUAKES = (2, 4, 8, 16)
+STATIONS = (1, 3, 5)
+"""Of each earthquake."""
+TRIALS = 300
+MEDIANS = 100
+"""Of these the ones with the interval of a median, which resamples."""
+SLOPE = 2.5
+"""Of the logarithm of the hazard over that of the level, downwards."""
+DISPERSION = 0.4
+"""Of the levels at which stations overturn a structure: the standard deviation of the logarithm."""
+MANY = 200_000
+"""Earthquakes whose stations are the truth of a population."""
+STRUCTURES = 50
+"""Of a class of which some fall."""
+_SHARES = (0.1, 0.3)
+"""Shares that fall at the level of the bounds."""
+
+Draw = Callable[[np.random.Generator, int, int], np.ndarray]
+"""Logarithms (e, m) of the levels at which m stations of each of e earthquakes overturn a structure."""
+
+
+def cover_earthquakes(target: Target) -> None:
+    """Score the intervals on populations and on real sites by how many earthquakes and stations are drawn."""
+    rows: list[scores.Score] = []
+    for name, draw in POPULATIONS.items():
+        rows += made_scores(name, draw)
+        target.tell(name)
+    for name, curve, pool, events in _real_pools(target):
+        rows += real_scores(name, curve.levels, pool, rates_of_sites(curve, pool, SLOPE), events)
+        target.tell(name)
+    subtitle = (
+        f"{TRIALS} intervals each; a population with {MANY} earthquakes or the pool of sites is the truth."
+    )
+    target.publish("What intervals over earthquakes cover", subtitle, {scores.Score: rows})
+
+
+def sample_of(earthquakes: int, stations: int, alone: bool = False) -> Sample:
+    """Return as many stations of each earthquake. alone: as if each station were of another one."""
+    names = [f"station {place}" for place in range(earthquakes * stations)]
+    events = names if alone else [f"earthquake {place // stations}" for place in range(len(names))]
+    return Sample(tuple(names), tuple(events))
+
+
+def made_scores(name: str, draw: Draw) -> Iterator[scores.Score]:
+    """Yield the coverage of each interval for draws from a population."""
+    very_many = draw(np.random.default_rng(99), MANY, 2).ravel()
+    at_shares = np.quantile(very_many, _SHARES)
+    truths = {
+        "median": float(np.exp(np.median(very_many))),
+        "annual rate": float(np.exp(-SLOPE * very_many).mean()),
+        **{f"share of {share:g}, upper bound": share for share in _SHARES},
+        "expected falls": float(_falls(very_many).mean()),
+    }
+    for earthquakes in EARTHQUAKES:
+        for stations in STATIONS:
+            rng = np.random.default_rng([earthquakes, stations])
+            drawn = [draw(rng, earthquakes, stations).ravel() for _ in range(TRIALS)]
+            for alone in (False, True):
+                sample = sample_of(earthquakes, stations, alone)
+                held = {measure: np.full(TRIALS, np.nan) for measure in truths}
+                for trial, logs in enumerate(drawn):
+                    ends = {
+                        "annual rate": rate_interval(np.exp(-SLOPE * logs), sample),
+                        "expected falls": interval_of_mean(_falls(logs), STRUCTURES, sample),
+                    }
+                    if trial < MEDIANS:
+                        ends["median"] = sample.interval(partial(weighted_median, np.exp(logs)))
+                    for share, level in zip(_SHARES, at_shares, strict=True):
+                        bound = sample.share_bounds((logs < level).astype(float), 0.1)[1]
+                        ends[f"share of {share:g}, upper bound"] = (0.0, float(bound))
+                    for measure, (low, high) in ends.items():
+                        held[measure][trial] = low <= truths[measure] <= high
+                yield from _told(name, earthquakes, stations, alone, held)
+
+
+def real_scores(
+    name: str, levels: np.ndarray, pool: np.ndarray, rates: np.ndarray, events: Sequence[str]
+) -> Iterator[scores.Score]:
+    """Yield the coverage of the median and the rate for draws from real sites, whose curves are `pool` (s, k)."""
+    of_events = [np.flatnonzero(np.asarray(events) == event) for event in dict.fromkeys(events)]
+    curve = np.mean([pool[members].mean(axis=0) for members in of_events], axis=0)
+    truths = {
+        "median": median_of(levels, curve[None]),
+        "annual rate": float(np.mean([rates[members].mean() for members in of_events])),
+    }
+    for earthquakes in EARTHQUAKES:
+        for stations in STATIONS:
+            rng = np.random.default_rng([earthquakes, stations])
+            draws = []
+            for _ in range(TRIALS):
+                again = rng.integers(0, len(of_events), earthquakes)
+                draws.append(np.concatenate([rng.choice(of_events[event], stations) for event in again]))
+            for alone in (False, True):
+                sample = sample_of(earthquakes, stations, alone)
+                held = {measure: np.full(TRIALS, np.nan) for measure in truths}
+                for trial, places in enumerate(draws):
+                    ends = {"annual rate": rate_interval(rates[places], sample)}
+                    if trial < MEDIANS:
+                        ends["median"] = sample.interval(partial(_weighted_crossing, levels, pool[places]))
+                    for measure, (low, high) in ends.items():
+                        held[measure][trial] = low <= truths[measure] <= high
+                yield from _told(f"{name}, real sites", earthquakes, stations, alone, held)
+
+
+def weighted_median(values: np.ndarray, weights: np.ndarray) -> float:
+    """Return the median of values (n,) above 0 with weights (n,), linear in the logarithm between those beside it."""
+    order = np.argsort(values)
+    kept = order[weights[order] > 0]
+    places = np.cumsum(weights[kept]) - weights[kept] / 2
+    return float(np.exp(np.interp(weights[kept].sum() / 2, places, np.log(values[kept]))))
+
+
+def _weighted_crossing(levels: np.ndarray, curves: np.ndarray, weights: np.ndarray) -> float:
+    return median_of(levels, (weights @ curves / weights.sum())[None])
+
+
+def _falls(logs: np.ndarray) -> np.ndarray:
+    """How many structures of a class fall at each station, whose strengths scatter about a level a little stronger."""
+    falls: np.ndarray = STRUCTURES * ndtr((-logs - 0.3) / 0.3)
+    return falls
+
+
+def _told(
+    name: str, earthquakes: int, stations: int, alone: bool, held: Mapping[str, np.ndarray]
+) -> Iterator[scores.Score]:
+    which = ", stations as if independent" if alone else ""
+    part = f"{earthquakes} earthquakes, {stations} stations each{which}"
+    measures = {f"{measure}: intervals that hold it": values for measure, values in held.items()}
+    yield from scores.scored(name, part, measures, range(TRIALS), 200)
+
+
+def _real_pools(target: Target) -> Iterator[tuple[str, Fragility, np.ndarray, list[str]]]:
+    for name, curve, pool in real_sites(target):
+        yield name, curve, pool, events_of_sites(curve)
+
+
+def events_of_sites(curve: Fragility) -> list[str]:
+    """Return the earthquake of each site of a curve, in their order."""
+    event_of = dict(zip(curve.sample.stations, curve.sample.events, strict=True))
+    return [event_of[name] for name in curve.sample.station_names]
+
+
+def _correlated(alike: float, rng: np.random.Generator, earthquakes: int, stations: int) -> np.ndarray:
+    """Normal logarithms, of whose variance the part `alike` is that between earthquakes."""
+    between = rng.standard_normal((earthquakes, 1))
+    within = rng.standard_normal((earthquakes, stations))
+    logs: np.ndarray = DISPERSION * (np.sqrt(alike) * between + np.sqrt(1 - alike) * within)
+    return logs
+
+
+def _two_kinds(rng: np.random.Generator, earthquakes: int, stations: int) -> np.ndarray:
+    """Three in ten earthquakes need far stronger shaking."""
+    stronger = rng.random((earthquakes, 1)) < 0.3
+    logs: np.ndarray = np.where(stronger, 0.8, 0.0) + _correlated(0.3, rng, earthquakes, stations)
+    return logs
+
+
+def _weak_side(rng: np.random.Generator, earthquakes: int, stations: int) -> np.ndarray:
+    """Earthquakes with a tail to the weak side."""
+    between = np.log(rng.gamma(9.0, size=(earthquakes, 1)) / 9.0)
+    logs: np.ndarray = 0.7 * between + 0.3 * rng.standard_normal((earthquakes, stations))
+    return logs
+
+
+POPULATIONS: Mapping[str, Draw] = {
+    "normal, a fifth between earthquakes": partial(_correlated, 0.2),
+    "normal, half between earthquakes": partial(_correlated, 0.5),
+    "two kinds of earthquakes": _two_kinds,
+    "a tail to the weak side": _weak_side,
+}
