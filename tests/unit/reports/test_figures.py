@@ -54,6 +54,8 @@ def test_the_figures_of_a_document_stand_beside_it(tmp_path, kinds, named):
             error=0.1,
             wrong_verdicts=1,
             unsafe_verdicts=0,
+            stations=3,
+            earthquakes=3,
             cpu_s=1e-4,
             preparation_record_s=1e-3,
         )

@@ -167,7 +167,7 @@ def test_the_page_to_explore_says_it(report, decisions):
 @pytest.mark.usefixtures("undrawn")
 def test_the_page_to_sign_says_it(report, decisions):
     """Of one record: its word, the mean of one share, and the doubt."""
-    stations = {row.record: row.station for row in report.tables.record}
+    stations = {row.record: (row.station, row.event) for row in report.tables.record}
     for name, decision in decisions.items():
         own = [row for row in report.tables.verdicts if row.structure == name]
         page = _checked(
@@ -210,7 +210,7 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
     told = [line for each in result.stations for line in _told(each, 1.0)]
     of_all = zip(report.result.worst_first, data.details[0].verdicts.rows, strict=True)
     lines = workbook_lines(tables)
-    stations = {row.record: row.station for row in tables.record}
+    stations = {row.record: (row.station, row.event) for row in tables.record}
     for station, cells in of_all:
         name = placed(station.structure, station.support_period_s)
         decision = station.decision

@@ -316,9 +316,9 @@ def test_the_document_of_the_fragility_names_records_stations_units_and_what_gov
         "pgv [m/s]" in figure.pictures[0].svg and ">overturns, worst crack</text>" in figure.pictures[0].svg
     )
     (row,) = table.table.rows
-    assert row[:2] == ("pier", "pgv 0.20 (0.13–0.31) m/s") and row[3] == "3 of 3"
+    assert row[:2] == ("pier", "pgv 0.20 (0.13–0.31) m/s") and row[3:5] == ("3 of 3", "3 of 3")
     # d overturns it at 0.1 in all members, b at 0.2 in most of them, a at 0.4, and c nowhere
-    assert row[4] == "d (0.10), b (0.20), a (0.40)"
+    assert row[5] == "d (0.10), b (0.20), a (0.40)"
     tables = summarised(example.tables, example.structures)
     assert summary_data(tables, SETTINGS).fragility == ()
     assert summary_data(tables | FRAGILITY, SETTINGS).fragility[0].table.rows == (row,)
