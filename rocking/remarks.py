@@ -109,8 +109,8 @@ class Kind(StrEnum):
     # What else makes a decision doubtful.
     COMPONENT_MISSING = auto(), Sentence("a component gave no result", "una componente non ha dato risultato")
     OTHER_CRACK_WORSE = auto(), Sentence(
-        "a crack other than the one given is worse",
-        "una lesione diversa da quella assegnata è peggiore",
+        "a crack other than the known one is worse",
+        "una lesione diversa da quella nota è peggiore",
         brief="another crack is worse",
     )
     MEMBERS_FAILED = auto(), Sentence(

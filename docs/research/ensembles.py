@@ -194,7 +194,7 @@ def screening_trials(
     draw = sites.draw_of(component.identifier)
     for structure_name, structure in SCALES * list(structures.items()):
         every = cracks(structure)
-        if len(every) == 1 or structure.crack_is_given:
+        if len(every) == 1 or structure.crack_is_known:
             continue
         factor = sites.lifting_factor(record, every[0].mechanism.uplift_multiplier, sites.UPLIFTS, draw)
         motions = GroundMotions.of(record.scaled(factor))

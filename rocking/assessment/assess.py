@@ -39,7 +39,7 @@ class StructureAssessment(StationResult, Drawn):
 
     @property
     def mechanism(self) -> Mechanism:
-        """The mechanism with the crack that governs; as given where it is known."""
+        """The mechanism with the crack that governs."""
         return cracked(self.body, self.worst.crack if self.worst else "").mechanism()
 
     @property
@@ -99,7 +99,7 @@ class StructureAssessment(StationResult, Drawn):
 
     @property
     def statics(self) -> FollowedCrack | None:
-        """The crack of statics where another one governs, or the worst beside one that is given; None without one."""
+        """The crack of statics where another one governs, or the worst beside one that is known; None without one."""
         return self.ensembles.statics_beside if self.ensembles else None
 
     @property

@@ -82,7 +82,8 @@ class Prediction:
 class Variation:
     """A case with another crack or another processing of the record: its rotation ratios under record and pulse.
 
-    predicted_rotation_ratio: nan without a pulse. crack, position: what opens, in words, and its height, m.
+    predicted_rotation_ratio: nan without a pulse. crack, position: what opens, in words, and its height, m. counts:
+    whether it takes part in the verdict, as of `CrackFacts`.
     """
 
     integrated_rotation_ratio: float
@@ -90,6 +91,7 @@ class Variation:
     crack: str = ""
     position: float = math.nan
     processing: str = ""
+    counts: bool = True
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -174,7 +176,11 @@ class CaseResult:
         several = counting_cracks(body)
         settled = None
         beyond = Kind.TIES_GIVE if self.ties_give else None
-        rests = self.answer is not None and self.answer.outcome is Outcome.NO_UPLIFT
+        other_runs = [
+            each.integrated_rotation_ratio for each in self.variations if each.crack and each.counts
+        ]
+        runs = [each for each in (self.integrated_rotation_ratio, *other_runs) if not math.isnan(each)]
+        rests = self.answer is not None and self.answer.outcome is Outcome.NO_UPLIFT and not any(other_runs)
         if self.ensembles is not None:
             followed = [each for each in self.ensembles.followed if each.counts]
             rests = all(bool((each.ensemble.rotation_ratios == 0).all()) for each in followed)
@@ -182,13 +188,6 @@ class CaseResult:
                 beyond = Kind.HELD_BEYOND
         elif self.answer is not None and self.answer.response is None:
             settled = Verdict.OVERTURNS if self.overturns else Verdict.STANDS
-        runs = [self.integrated_rotation_ratio]
-        count = {each.description for each in several} if body.crack_is_given else set()
-        runs += [
-            each.integrated_rotation_ratio
-            for each in self.variations
-            if each.crack in count or (each.crack and not body.crack_is_given)
-        ]
         typed = several[0].mechanism.restitution_range is not None
         stacks = (self.contact.falls, self.contact.runs) if self.contact and self.contact.runs else None
         own = self.ensembles.facts if self.ensembles else Facts()
@@ -196,7 +195,7 @@ class CaseResult:
             own,
             # A component that is missing may lift.
             rests=rests and not failures,
-            run_ratio=max((each for each in runs if not math.isnan(each)), default=math.nan),
+            run_ratio=max(runs, default=math.nan),
             settled=settled,
             never_lets_go=never_lets_go(body),
             slides_at=own.slides_at if math.isnan(self.slides_at) else self.slides_at,
@@ -400,7 +399,7 @@ class StationResult:
         """A crack that overturns in a single run, where there is no ensemble; "" where none does."""
         if self.ensembles is not None:
             return ""
-        variations = (each for case in self.cases.values() for each in case.variations)
+        variations = (each for case in self.cases.values() for each in case.variations if each.counts)
         fallen = (
             each.crack for each in variations if each.crack and math.isinf(each.integrated_rotation_ratio)
         )

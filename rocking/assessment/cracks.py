@@ -85,12 +85,11 @@ class FollowedCrack:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CrackEnsembles:
-    """The ensemble of every crack that was followed, the one that is given or that statics chooses first.
+    """The ensemble of every crack that was followed, the one that is known or that statics chooses first.
 
-    The crack that governs gives every number of the case: the worst of those that count (`decide.Facts`). A crack that
-    is given in the description of the structure is meant: other cracks are reported beside it, and only the bulge of a
-    held wall counts as it does. slides_at: the least acceleration [g] at which one that counts slides before it lifts
-    and is left out; nan where none is.
+    The crack that governs gives every number of the case: the worst of those that count (`decide.Facts`). Beside a
+    crack that is known others are reported, and only the bulge of a held wall counts as it does. slides_at: the least
+    acceleration [g] at which one that counts slides before it lifts and is left out; nan where none is.
     """
 
     followed: tuple[FollowedCrack, ...]
@@ -114,15 +113,15 @@ class CrackEnsembles:
 
     @property
     def statics_beside(self) -> FollowedCrack | None:
-        """The crack reported beside the one that governs: that of statics, or the worst beside a given one; or None."""
-        worst = max(self.followed, key=lambda each: each.facts.severity(self.facts.risk))
-        other = self.followed[0] if worst is self.governing else worst
+        """The crack reported beside the one that governs: that of statics, or the worst beside a known one; or None."""
+        beside = [each for each in self.followed if not each.counts]
+        other = max(beside, key=lambda each: each.facts.severity(self.facts.risk), default=self.followed[0])
         return None if other is self.governing else other
 
 
 @lru_cache(maxsize=256)
 def cracks(structure: Structure) -> tuple[Crack, ...]:
-    """Return the mechanisms that may form; first the one that is given, or that statics chooses."""
+    """Return the mechanisms that may form; first the one that is known, or that statics chooses."""
     return tuple(
         Crack(
             each.description,
@@ -331,9 +330,9 @@ def screened(
 ) -> list[Crack]:
     """Return those of the `others` that may not stand, the worst first.
 
-    Each meets three members of the ensemble of statics, or of the crack given: the two that rotate most, and the middle
-    one. One that turns beyond IN_DOUBT of its critical rotation there, or cannot be followed, is left in doubt; one
-    without ties whose block stays FAR_FROM_DOUBT is not. Where all members rest, only what lifts below `lifted_at`, the
+    Each meets three members of the ensemble of statics, or of the crack that is known: the two that rotate most, and
+    the middle one. One that turns beyond IN_DOUBT of its critical rotation there, or cannot be followed, is left in
+    doubt; one without ties whose block stays FAR_FROM_DOUBT is not. Where all members rest, only what lifts below `lifted_at`, the
     λ of the first crack, may rock.
     """
     if np.all(of_statics.rotation_ratios == 0):

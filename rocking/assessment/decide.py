@@ -122,7 +122,7 @@ class CrackFacts:
     name: of the crack; "" where only one may form. falls: of those `followed`, that overturn. failed: members that
     could not be followed. farthest: largest rotation ratio of those followed; nan without any. slides: whether its
     joint slides before it lifts, under a motion that reaches so far. counts: whether it takes part in the word;
-    otherwise it is reported beside the crack that is given. bulges: whether it is the bulge of a held wall, which may
+    otherwise it is reported beside the crack that is known. bulges: whether it is the bulge of a held wall, which may
     form wherever that is cracked. Raises ValueError.
     """
 
@@ -203,7 +203,7 @@ CONTACTS = (Kind.CONTACTS_OPEN, Kind.COURSES_THROWN, Kind.IMPACT_OPENS)
 class Facts:
     """The facts that are known of one structure under one motion.
 
-    cracks: those that were followed, first the one that is given or that statics chooses. rests: whether nothing can
+    cracks: those that were followed, first the one that is known or that statics chooses. rests: whether nothing can
     lift. run_ratio: largest rotation ratio of single runs, where no members were followed; nan without one. settled:
     the word of a cheaper method that settled it. never_lets_go: why no motion can overturn it with a crack that counts;
     "" where one can. slides_at: the least acceleration [g] at which the joints of a crack that counts slide before it
@@ -386,7 +386,7 @@ def decide(facts: Facts) -> Decision:
     governing = facts.governing
     unsettled = facts.doubts if facts.stacks is None else ()
     missing = (Remark(Kind.COMPONENT_MISSING),) if facts.failures else ()
-    worse_beside = _worse_than_given(facts)
+    worse_beside = _worse_than_known(facts)
     beside = (*unsettled, *missing, *([Remark(Kind.OTHER_CRACK_WORSE)] if worse_beside else []))
     left_out = () if math.isnan(facts.slides_at) else (Remark(Kind.SLIDES_FIRST),)
     asks_for_stacks = facts.stackable and facts.stacks is None
@@ -510,8 +510,8 @@ def _envelope(words: Iterable[tuple[CrackFacts, Verdict]]) -> Verdict:
     return worse(worst, *of_bulges)
 
 
-def _worse_than_given(facts: Facts) -> CrackFacts | None:
-    """The worst crack beside one that is given, where its word is worse."""
+def _worse_than_known(facts: Facts) -> CrackFacts | None:
+    """The worst crack beside one that is known, where its word is worse."""
     others = [each for each in facts.cracks if not each.counts and each.members and not each.slides]
     worst = max(others, key=lambda each: each.severity(facts.risk), default=None)
     if worst is None or facts.governing is None:
@@ -529,7 +529,7 @@ def _counted(facts: Facts, worse_beside: CrackFacts | None) -> str:
     with_crack = f" with the {governing.name}" if governing.name else ""
     words = f"{governing.count} members overturn{with_crack}"
     if worse_beside is not None:
-        words += f" as given; should the {worse_beside.name} form instead, {worse_beside.count} do"
+        words += f", the known crack; with the {worse_beside.name} {worse_beside.count} would"
     elif governing is not first:
         words += f", {first.count} with the {first.name} of statics"
     if governing.failed:

@@ -242,7 +242,7 @@ def _cheapest(inputs: CaseInputs, ensemble_follows: bool) -> Answer:
     mechanism = structure.mechanism()
     # Peak velocities were calibrated on the ground, not on supports that ring.
     risk = settings.fidelity_risk if inputs.motion.support is None else 0.0
-    several = cracks(structure)
+    several = counting_cracks(structure)
     mechanisms = [each.mechanism for each in several]
     alone = len(several) == 1 and not several[0].bulges
     of_statics = mechanism if alone else mechanisms[0]
@@ -298,7 +298,7 @@ def other_cracks(
         if pulse and mechanism.can_overturn:
             block = mechanism.equivalent_block(settings.acceleration_scale)
             predicted = predict_maximum(block, pulse).rotation_ratio
-        variations.append(Variation(ratio, predicted, each.description, each.position))
+        variations.append(Variation(ratio, predicted, each.description, each.position, counts=each.counts))
     return variations
 
 

@@ -196,8 +196,9 @@ class StructureCheck:
 
     linear: None for SLC, of which the code has none. nonlinear: None for SLD, and where nothing can overturn, which
     `remark` then says. dynamic: None without records, and where nonlinear is. mechanisms: all that were checked.
-    restraints: what holds the structure sideways. damage_level: the least a_g [m/s²] at which a mechanism starts, that
-    of SLD.
+    were_it_unknown: the kinematic checks of a structure whose crack is known, were it not; None where it is not, or
+    would not stand with another one. restraints: what holds the structure sideways. damage_level: the least a_g [m/s²]
+    at which a mechanism starts, that of SLD.
 
     >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
     >>> rocking.check(rocking.Block.of_size(breadth=0.6, height=2.0), spectrum)
@@ -213,6 +214,7 @@ class StructureCheck:
     governing: LocalMechanism = field(repr=False)
     restraints: tuple[Restraint, ...] = field(default=(), repr=False)
     remark: Remark | None = None
+    were_it_unknown: "StructureCheck | None" = field(default=None, repr=False)
 
     def __repr__(self) -> str:
         """The verdict and the ratio of each check, and what the limit state leaves to say."""
@@ -238,6 +240,11 @@ class StructureCheck:
         """
         answered = [each for each in self.checks if not _is_open(each)]
         return answered[-1] if answered else None
+
+    def with_any_crack(self, check: Check) -> Check | None:
+        """Return a check as it would be were the crack not known; None where it is not known, or none was made."""
+        others = self.were_it_unknown.checks if self.were_it_unknown else ()
+        return next((each for each in others if each.clause == check.clause), None)
 
     @property
     def verified(self) -> bool:

@@ -32,6 +32,11 @@ class MadeCheck(Placed):
         return self.check if isinstance(self.check, DynamicCheck) else None
 
     @property
+    def with_any_crack(self) -> Check | None:
+        """The check as it would be were the crack not known; None where it is not."""
+        return self.checked.with_any_crack(self.check)
+
+    @property
     def governing(self) -> LocalMechanism:
         """The mechanism that governs."""
         return self.checked.governing
@@ -93,6 +98,14 @@ class CodeCheckRow(PlacedRow[MadeCheck]):
         lambda of: of.checked.part_of(of.check),
     )
     ratio: float = of_check("Capacity over demand; 1 or more where it is met", lambda of: of.check.ratio)
+    ratio_with_any_crack: float = of_check(
+        "The same where the crack is known, were it not; linear and nonlinear check only",
+        lambda of: of.with_any_crack.ratio if of.with_any_crack else math.nan,
+    )
+    weakest_of_any_crack: str = of_check(
+        "Mechanism that would then decide",
+        lambda of: of.with_any_crack.mechanism if of.with_any_crack else "",
+    )
     level_capacity_m_s2: float = of_check(
         "a_g at which the limit state is reached; empty for the dynamic check",
         lambda of: of.of_level.capacity if of.of_level else math.nan,

@@ -7,6 +7,7 @@ that push without resting on the chain are not implemented, nor are other codes.
 
 import math
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -16,12 +17,12 @@ from rocking.codes.crossings import Crossings
 from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.floor_demand import FloorDemand
 from rocking.codes.local_mechanism import LIMIT_STATES, LimitState, LocalMechanism
-from rocking.errors import ConfigurationError, StructureError
+from rocking.errors import ConfigurationError, DoesNotStandError, StructureError
 from rocking.quantities import GRAVITY, kind_of, positive
 from rocking.remarks import Kind, Remark
 from rocking.structures import Structure
 from rocking.structures.linkage import FRICTION
-from rocking.structures.structure import Candidate
+from rocking.structures.structure import Candidate, Crackable
 from rocking.structures.tied import Tied
 
 _SAME = 1e-9
@@ -63,6 +64,18 @@ def kinematic_check(
 ) -> StructureCheck:
     """Return the linear and the nonlinear check of `structure`; see `check`."""
     terms = terms or CodeTerms()
+    made = _kinematic_check(structure, spectrum, terms)
+    if not isinstance(structure, Crackable) or not structure.crack_is_known:
+        return made
+    with suppress(DoesNotStandError):
+        return replace(
+            made, were_it_unknown=_kinematic_check(replace(structure, crack=None), spectrum, terms)
+        )
+    return made
+
+
+def _kinematic_check(structure: Structure, spectrum: DesignSpectrum, terms: CodeTerms) -> StructureCheck:
+    """The checks with the crack that is known, or with all that may form."""
     if isinstance(structure, Structure):
         structure = structure.with_friction(FRICTION)
     mechanisms = _local_mechanisms(structure, terms)
@@ -144,21 +157,23 @@ def _opening(structure: Structure) -> Iterator[tuple[str, int, Structure]]:
     """The mechanisms that may open: crack and side of the fall, sign of that side, and the structure with the crack.
 
     Those of `Structure.mechanisms` whose motion can be followed; of hinges between supports that which limit analysis
-    finds, of other cracks all. What ties keep shut to one side opens to the other alone.
+    finds and one that is typed, of other cracks all, and where the crack is known no other. What ties keep shut to one
+    side opens to the other alone.
     """
     if not isinstance(structure, Structure):
         raise StructureError(
             f"the structure is {kind_of(structure)}, which has no capacity curve; give a structure with a "
             "geometry, as rocking.Block or rocking.Facade."
         )
-    cracked = [each for each in structure.candidates() if not _bulges(each)]
+    cracked = [each for each in structure.candidates() if each.counts and not _bulges(each)]
     if structure.statics_chooses:
-        cracked = cracked[:1]
+        typed = structure.crack_in_words if isinstance(structure, Crackable) else ""
+        cracked = [*cracked[:1], *(each for each in cracked[1:] if each.description == typed)]
     bulges = [each for each in structure.mechanisms() if _bulges(each) and not each.refusal]
     for candidate in cracked:
         body = candidate.structure
         opens = "" if candidate.description == "as given" else f"{candidate.description}, "
-        opens_elsewhere = bulges and not structure.crack_is_given
+        opens_elsewhere = bulges and not structure.crack_is_known
         shut = opens_elsewhere and isinstance(body, Tied) and not body.lets_go
         for sign, side in _sides(body):
             if shut and sign > 0:

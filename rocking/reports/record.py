@@ -72,10 +72,12 @@ from rocking.reports.printing import (
     words,
 )
 from rocking.reports.record_figures import History
+from rocking.reports.sentences import Sentences
 from rocking.reports.style import PULSE, pictures
 from rocking.reports.supports import SupportPanel, floor_sentences, support_panels, supports_figure
 from rocking.structures import Structure
 from rocking.structures.linkage import FRICTION
+from rocking.structures.structure import Crackable
 
 if TYPE_CHECKING:
     from rocking.codes.design_spectrum import DesignSpectrum
@@ -350,9 +352,10 @@ def structure_row(conclusion: Conclusion, structure: Structure | None) -> Row:
     closed_form, block, whole = conclusion.ratios
     low, high = (_place(each, "line") for each in (verdict.rotation_ratio_low, verdict.rotation_ratio_high))
     period = verdict.support_period_s
+    below = "" if period is None else f"T_b {period:.3g} s" if period else "on the ground"
     return Row(
         name=verdict.structure,
-        below="" if period is None else f"T_b {period:.3g} s" if period else "on the ground",
+        below="; ".join(filter(None, (below, _known_crack(structure, verdict)))),
         drawing=drawing,
         chip=chip(decision.word, decision.share_in_words),
         marks=Marks(
@@ -374,6 +377,21 @@ def _turned(verdict: VerdictRow, structure: Structure) -> Picture:
     side = broken.mechanism().sides[0 if sign > 0 else -1]
     shapes = sketch(broken, sign * _DRAWN * side.critical_rotation, *_ROOM)
     return drawn_by_hand(shapes, *_ROOM, f"{verdict.structure}, turned, and at rest.")
+
+
+def _known_crack(structure: Structure | None, verdict: VerdictRow) -> str:
+    """That the crack of a structure is known, and what the worst other one would do; "" where it is not."""
+    if not isinstance(structure, Crackable) or not structure.crack_is_known:
+        return ""
+    words = Sentences()
+    position = structure.crack_position
+    known = (
+        words("crack known at", height=plain(position)) if math.isfinite(position) else words("crack known")
+    )
+    if not verdict.statics_crack or verdict.statics_crack == structure.crack_in_words:
+        return known
+    falls = f"{verdict.statics_overturning_members} of {verdict.statics_members}"
+    return f"{known}; {verdict.statics_crack}: {falls} fall"
 
 
 def _place(ratio: float, mark: str) -> float | None:

@@ -51,7 +51,7 @@ from rocking.reports.structure_figures import bars_figure, basis_figure, selecti
 from rocking.reports.style import picture
 from rocking.reports.variants import strips
 from rocking.structures import Structure
-from rocking.structures.structure import Candidate
+from rocking.structures.structure import Candidate, Crackable
 from rocking.structures.tied import Tied
 
 _QUANTILE = 1.645
@@ -298,9 +298,24 @@ def _conclusion(
             details.append(
                 words("without tie met" if untied.passed else "without tie not met", clause=untied.clause)
             )
+    details += _were_it_unknown(checked, words)
     if finding := _finding(page, conclusion, spectrum, words):
         details.append(finding)
     return headline, tuple(details)
+
+
+def _were_it_unknown(checked: StructureCheck, words: Sentences) -> list[str]:
+    """What the kinematic check would say of a structure whose crack is known, were it not."""
+    if checked.were_it_unknown is None:
+        return []
+    other = checked.were_it_unknown.checks[-1]
+    opens = next(
+        opening_words(each, words)
+        for each in checked.were_it_unknown.mechanisms
+        if each.description == other.mechanism
+    )
+    key = "any crack met" if other.passed else "any crack not met"
+    return [words(key, clause=other.clause, ratio=ratio_words(other, words), mechanism=opens)]
 
 
 def _refusal(checked: StructureCheck, words: Sentences) -> str:
@@ -397,6 +412,12 @@ def _assumptions(page: CheckedStructure, mechanism: LocalMechanism, words: Sente
     lines = [words("assumed sizes", sizes=sizes[:1].upper() + sizes[1:])]
     restitution = min(each.restitution for each in structure.mechanism().sides)
     lines.append(words("assumed restitution", restitution=words.number(restitution, 2)))
+    if isinstance(structure, Crackable) and structure.crack_is_known:
+        position = structure.crack_position
+        known = words("crack known")
+        if math.isfinite(position):
+            known = words("crack known at", height=words.number(position))
+        lines.append(f"{known[:1].upper()}{known[1:]}.")
     lines.append(words("assumed rigid"))
     if getattr(structure, "compressive_strength", None) is None:
         lines.append(words("assumed crushing"))

@@ -139,7 +139,7 @@ class Arch(Crackable):
             ) from None
 
     def _may_form(self, count: int) -> tuple[Candidate, ...]:
-        """The mechanism of statics, that of the hinges as given, and the weakest with other hinges.
+        """The mechanism of statics, that of the hinges that are typed, and the weakest with other hinges.
 
         To the other side the mirror image of each rocks.
         """
@@ -164,12 +164,8 @@ class Arch(Crackable):
 
     @property
     def crack_in_words(self) -> str:
-        """The hinges as given, in words."""
+        """The hinges of its description, in words."""
         return self._in_words(self.onset.hinges)
-
-    @property
-    def _place_is_given(self) -> bool:
-        return self.hinge_angles is not None
 
     def _in_words(self, angles: np.ndarray) -> str:
         return "hinges at " + ", ".join(map(self._hinge_text, angles))
@@ -183,7 +179,7 @@ class Arch(Crackable):
     @cached_property
     def static_multiplier(self) -> float:
         """That of statics: the linear programme is the least over all hinges, so that no candidate has to be formed."""
-        return (self.onset if self.crack == "known" else self._static_onset()).multiplier
+        return (self.onset if self.crack_is_known else self._static_onset()).multiplier
 
     def _as_crushed(self, seek: Callable[[Ring], Onset]) -> Onset:
         """The onset that `seek` finds with the contacts where its own line of thrust crushes the joints.

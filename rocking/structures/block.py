@@ -267,8 +267,8 @@ class Spire(CrackedAtHeight):
     """A cone (plan "circular") or a square pyramid ("square") that rocks about the edge of a horizontal crack.
 
     width: at the base, diameter or side, m. height: of the whole spire, m. wall_thickness: horizontal thickness of a
-    hollow one, m, the inner surface parallel to the outer; None when it is solid. crack_height: above the base, m;
-    None: nobody says where it cracks, and the mechanism is that of its foot.
+    hollow one, m, the inner surface parallel to the outer; None when it is solid. crack_height: above the base, m,
+    of the mechanism as it is described; None: of its foot. It may crack elsewhere unless this crack is known.
     restitution, one_sided: as for a RigidBody. compressive_strength, unit_weight: as for a Block. courses: their number
     over the whole height, for contact dynamics.
     Raises StructureError when it cannot stand, or the crack lies outside it.
@@ -332,10 +332,6 @@ class Spire(CrackedAtHeight):
         return self.height
 
     @property
-    def _place_is_given(self) -> bool:
-        return self.crack_height is not None
-
-    @property
     def half_width(self) -> float:
         """Half the width at the crack, m."""
         return self.width / 2 * (1 - self.crack_position / self.height)
@@ -392,7 +388,7 @@ class Spire(CrackedAtHeight):
     def stack(self, courses: int | None = None) -> Stack:
         """Return the courses above the crack where it is known, else all of them; their number as given, or its own."""
         number = counted_courses(self.courses if courses is None else courses)
-        foot = self.crack_position if self.crack == "known" else 0.0
+        foot = self.crack_position if self.crack_is_known else 0.0
         levels = np.linspace(foot, self.height, number + 1)
         courses_above = tuple(self._course(*ends) for ends in pairwise(levels.tolist()))
         return Stack(courses_above, self._behind(courses_above))

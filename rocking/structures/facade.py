@@ -49,9 +49,9 @@ class Facade(Tied):
     mass, so that only their weight acts. top_slab: the uppermost load rests on a "hinged" bearing, or is a slab that
     stays "flat" and so rests on the corner that rises.
     thrust: of a vault or a roof outwards, N/m, at thrust_height above the ground, m; None is the top. crack_storey: 1
-    is the ground floor. crack_height: above the ground, m, of a crack at another joint than the foot of a storey. Where
-    neither is given it may open at any joint. behind: what stands behind it, "nothing" (the default), "floors" at the
-    top of every storey that bears one (of every storey where no load is given), which hold it inwards there, or
+    is the ground floor. crack_height: above the ground, m, of a crack at another joint than the foot of a storey. It
+    may open at any joint unless this crack is known. behind: what stands behind it, "nothing" (the default), "floors"
+    at the top of every storey that bears one (of every storey where no load is given), which hold it inwards there, or
     "cross_walls", which hold it inwards everywhere; one_sided is an older name, True for cross walls and False for
     nothing. restitution: η in [0, 1] or "momentum" (the default), for both sides; inward_restitution: of the inward
     side instead. Where something stands behind it must be a number, that of the impact on it. The rest: as `Tied`.
@@ -143,7 +143,7 @@ class Facade(Tied):
             return
         self.mechanism()  # one that is pushed over at rest is refused at birth
         grows = any(above > below for below, above in pairwise(self.thicknesses))
-        if self.crack != "known" and (self.thrust or grows):
+        if not self.crack_is_known and (self.thrust or grows):
             self.candidates()  # and one that is with another crack
             self.mechanisms()
 
@@ -208,7 +208,7 @@ class Facade(Tied):
 
     @property
     def crack_position(self) -> float:
-        """Height of the crack above the ground, m; where none is given that of the ground floor."""
+        """Height of the crack above the ground, m; where none is typed that of the ground floor."""
         if self.crack_height is not None:
             return self.crack_height
         return 0.0 if self.crack_storey is None else float(self.levels[self.crack_storey - 1])
@@ -217,10 +217,6 @@ class Facade(Tied):
     def total_height(self) -> float:
         """The height of all storeys, m."""
         return self.height
-
-    @property
-    def _place_is_given(self) -> bool:
-        return self.crack_storey is not None or self.crack_height is not None
 
     @cached_property
     def _lowest_storey(self) -> int:
@@ -374,7 +370,7 @@ class Facade(Tied):
         COURSES a storey, as it bulges within one.
         """
         bulges = bool(self.held_wall.holds)
-        if courses is None and self.crack == "known" and self.opening is None and not bulges:
+        if courses is None and self.crack_is_known and self.opening is None and not bulges:
             body = [joined(list(self._storey_courses(1, self.crack_position)))]
         else:
             storeys = len(self.storey_heights) if bulges and courses is None else 1

@@ -392,10 +392,10 @@ class Structure(ABC):
     def candidates(self, count: int = CRACKS) -> "tuple[Candidate, ...]":
         """Return the mechanisms that may form, `count` or one more; the first decides, the others by their λ.
 
-        The first is the structure as given where it says where it is cracked, else the one that statics chooses, of
-        least λ. One, the structure as given, where the crack is known or there is none. A wall that is held above its
-        foot may bulge wherever it is cracked: its bulge of least λ counts besides, and comes first where it is weaker.
-        The same objects at every call, as they keep what they compute.
+        The first is the one that statics chooses, of least λ; where the crack is known that one, and the others do not
+        count. One, the structure as given, of what does not crack. A wall that is held above its foot may bulge
+        wherever it is cracked: its bulge of least λ counts besides, and comes first where it is weaker. The same
+        objects at every call, as they keep what they compute.
         """
         known: dict[int, tuple[Candidate, ...]] = self.__dict__.setdefault("_candidates", {})
         if count not in known:
@@ -411,17 +411,15 @@ class Structure(ABC):
         return self.candidates()
 
     @property
-    def crack_is_given(self) -> bool:
-        """Whether it says where it is cracked, so that this crack decides and not the one that statics chooses."""
+    def crack_is_known(self) -> bool:
+        """Whether it is known how it opens, so that this decides and not what statics chooses."""
         return True
 
     @cached_property
     def static_multiplier(self) -> float:
-        """The least λ of its candidates: the ground acceleration in g at which static limit analysis lets it fall."""
-        first, *others = self.candidates()
-        if not self.crack_is_given:
-            return first.uplift_multiplier
-        return min(each.uplift_multiplier for each in (first, *others))
+        """The least λ of the candidates that count: the ground acceleration [g] at which statics lets it fall."""
+        first, *_ = self.candidates()
+        return first.uplift_multiplier
 
     @property
     def description(self) -> str:
@@ -547,7 +545,7 @@ class Candidate:
     description: in words, "hinge at 2.56 m". position: nan where a height does not tell it, as of an arch's hinges.
     name: what it does, "bulges between foot and tie". limit: its λ by limit analysis, in which a tie pulls with the
     force at which it yields; None where it has no such tie. sign: of the rotation to the side to which it falls; 0:
-    both sides. counts: whether it takes part in the verdict; otherwise it is told beside the crack that is given.
+    both sides. counts: whether it takes part in the verdict; otherwise it is told beside the crack that is known.
     """
 
     description: str
@@ -647,16 +645,16 @@ class Crushable(Structure):
 class Crackable(Crushable):
     """A structure that may open somewhere else than where it is described.
 
-    crack: "given" where the place is meant: it decides, and what else may form is told beside it. "known" where it
-    exists (a joint, a survey): nothing else forms. "unknown": statics chooses, and others may form. None, the default:
-    "given" where a place is given, else "unknown".
+    crack: "known" where it exists at the place of its description (a survey, a joint): it decides, and what another
+    one would do is told beside it. None, the default: the place of the description is one of those at which it may
+    crack, and each of them counts.
     """
 
     crack: Annotated[
-        Literal["given", "known", "unknown"] | None,
+        Literal["known"] | None,
         Value(
-            "Where it cracks: given (the place above decides, others are told beside it), known (it exists there and "
-            "nothing else forms) or unknown (statics chooses); left out: given where a place is given",
+            "known where it is cracked at the place above (a survey, a joint), which then decides; left out: it may "
+            "crack there or elsewhere, and each place counts",
             "known",
             phrase="{name} {value}",
         ),
@@ -665,37 +663,26 @@ class Crackable(Crushable):
     @property
     @abstractmethod
     def crack_position(self) -> float:
-        """Height of the crack as given above the base, m; nan where a height does not tell it."""
+        """Height of the crack of its description above the base, m; nan where a height does not tell it."""
 
     @property
     @abstractmethod
     def crack_in_words(self) -> str:
-        """The crack as given, in words: "hinge at 1.6 m"."""
+        """The crack of its description, in words: "hinge at 1.6 m"."""
 
     @property
-    @abstractmethod
-    def _place_is_given(self) -> bool:
-        """Whether its description says where it cracks."""
-
-    @property
-    def crack_is_given(self) -> bool:
-        """Whether it says where it is cracked, so that this crack decides and not the one that statics chooses."""
-        if self.crack is None:
-            return self._place_is_given
-        return self.crack != "unknown"
+    def crack_is_known(self) -> bool:
+        return self.crack == "known"
 
     def _ranked_candidates(self, count: int) -> tuple[Candidate, ...]:
-        if self.crack == "known":
-            return (Candidate("as given", np.nan, self),)
         others = self._may_form(count)
-        if not self.crack_is_given:
+        if not self.crack_is_known:
             for each in others:
                 if each.position == self.crack_position and _alike(each.structure, self):
-                    each.structure.__dict__["_mechanism"] = self.mechanism()  # one object, as below
+                    # one object, so that it is integrated once
+                    each.structure.__dict__["_mechanism"] = self.mechanism()
             return others
-        known = replace(self, crack="known")
-        known.__dict__["_mechanism"] = self.mechanism()  # one object, so that it is integrated once
-        own = Candidate(self.crack_in_words, self.crack_position, known)
+        own = Candidate(self.crack_in_words, self.crack_position, self)
         beside = (replace(each, counts=False) for each in others if each.description != own.description)
         return (own, *beside)
 
@@ -722,7 +709,6 @@ class CrackedAtHeight(Crackable):
 
     @property
     def crack_in_words(self) -> str:
-        """The crack as given, in words."""
         return self._in_words(self.crack_position)
 
     def _in_words(self, height: float) -> str:
@@ -739,7 +725,7 @@ class CrackedAtHeight(Crackable):
         Where λ has its least value between two of the heights, the height of that is one more. Where ties hold it, λ is
         that of limit analysis. A crack at which what
         holds the structure leaves no mechanism is left out, and one with which it cannot overturn where with another
-        one it can. Raises DoesNotStandError where it falls at rest with one of them.
+        one it can. Raises DoesNotStandError where it falls at rest with one of them and its crack is not known.
         """
         heights = sorted({*self._places(count), float(self.crack_position)})
         formed = [each for each in map(self._candidate, heights) if each]
@@ -773,7 +759,7 @@ class CrackedAtHeight(Crackable):
 
     @cached_property
     def _cracked_there_only(self) -> Self:
-        """This structure where nothing else forms than what is given, from which those cracked elsewhere are made."""
+        """This structure with its crack known, from which those cracked elsewhere are made."""
         return replace(self, crack="known")
 
     def _candidate(self, height: float) -> Candidate | None:
@@ -784,17 +770,19 @@ class CrackedAtHeight(Crackable):
                 structure = self._cracked_there_only.cracked_at(height)
                 structure.mechanism()
         except DoesNotStandError:
+            if self.crack_is_known:
+                return None  # it stands: it is not cracked there
             raise DoesNotStandError(
                 f"the structure does not stand with the {self._in_words(height)}: what acts on it at rest turns it "
-                "over; mend its loads or its sizes, or say by crack: known that it can open where it is given alone."
+                "over; mend its loads or its sizes, or say by crack: known that it is cracked where it is described."
             ) from None
         except StructureError:
             return None
         return Candidate(self._in_words(height), height, structure)
 
     def cracked_by_statics(self) -> Self:
-        """Return this structure cracked where statics chooses; the crack is unknown."""
-        return replace(self, crack="unknown").cracked_at(self._may_form(CRACKS)[0].position)
+        """Return this structure cracked where statics chooses."""
+        return replace(self, crack=None).cracked_at(self._may_form(CRACKS)[0].position)
 
 
 def _alike(one: Structure, other: Structure) -> bool:

@@ -140,15 +140,15 @@ class Tied(CrackedAtHeight):
     def mechanisms(self) -> tuple[Candidate, ...]:
         """Return every mechanism in which it may fall, by their λ of limit analysis (theory: section 12).
 
-        The cracks of `candidates`, and of the family beside them one by each name. Where the crack is known: the
-        structure as given, and its bulges. The same objects at every call.
+        The cracks of `candidates`, and of the family beside them one by each name. Where the crack is known: that
+        one, and its bulges. The same objects at every call.
         """
         return self._mechanisms
 
     @cached_property
     def _mechanisms(self) -> tuple[Candidate, ...]:
-        cracked = self.candidates()
-        others = self._bulges if self.crack == "known" else self._family
+        cracked = [each for each in self.candidates() if each.counts]
+        others = self._bulges if self.crack_is_known else self._family
         if self.symmetric:
             others = tuple(each for each in others if each.sign >= 0)
         beside = [each for each in others if not any(_is_that(own, each) for own in cracked)]
@@ -158,7 +158,7 @@ class Tied(CrackedAtHeight):
     def _bulges(self) -> tuple[Candidate, ...]:
         """Those of the family in which it opens at a hinge that cracks elsewhere leave out, by their λ.
 
-        A crack that is given says where the wall is cracked, not that what holds it keeps it from bulging.
+        A crack that is known says where the wall is cracked, not that what holds it keeps it from bulging.
         """
         if not self.held_wall.holds:
             return ()
@@ -194,7 +194,7 @@ class Tied(CrackedAtHeight):
         section 12.6).
 
         Either comes first where limit analysis, in which ties pull with the force at which they yield, finds it weaker
-        than every crack. Unless it is given, a crack that ties keep shut for good is left out, as far as something else
+        than every crack. Unless it is known, a crack that ties keep shut for good is left out, as far as something else
         is left, and one below a top that slips before: what would hold it there does not.
         """
         cracked = [self._limited(each) for each in super()._ranked_candidates(count)]
@@ -203,19 +203,16 @@ class Tied(CrackedAtHeight):
         bulging = [each for each in followed if not self._slips(each)][:1]
         counting = [each for each in cracked if each.counts]
         beside = [each for each in cracked if not each.counts and math.isfinite(each.uplift_multiplier)]
-        if not self.crack_is_given:
+        if not self.crack_is_known:
             opens = [each for each in counting if math.isfinite(each.uplift_multiplier)]
             counting = opens if opens or followed else counting
         if not followed:
             return (*counting, *beside)
-        if self.crack_is_given:
-            counting = [
-                replace(each, description=self.crack_in_words, position=self.crack_position)
-                for each in counting
-            ]
-        elif any(each.structure.mechanism().can_overturn for each in (*bulging, *slipping)):
+        if not self.crack_is_known and any(
+            each.structure.mechanism().can_overturn for each in (*bulging, *slipping)
+        ):
             counting = [each for each in counting if each.structure.mechanism().can_overturn]
-        if slipping and not self.crack_is_given:
+        if slipping and not self.crack_is_known:
             slips_at = slipping[0].uplift_multiplier
             counting = [each for each in counting if each.uplift_multiplier <= slips_at]
         for bulge in (*bulging, *slipping):

@@ -166,7 +166,8 @@ Height = Annotated[float, length("Height between the supports", 3.2, (0.5, 60), 
 HingeHeight = Annotated[
     float | None,
     length(
-        "Height of the hinge above the base; left out: where statics puts it, from 0.05 to 0.95 of the height",
+        "Height above the base of a hinge, one of those that may form unless crack is known; left out: where statics "
+        "puts it, from 0.05 to 0.95 of the height",
         1.6,
         (0.2, 57),
         "h₁",
@@ -176,7 +177,7 @@ Thickness = Annotated[float, length("Thickness", 0.25, (0.05, 5), "t")]
 Balanced = Annotated[Restitution, restitution_value("momentum")]
 
 
-Crack = Literal["given", "known", "unknown"] | None
+Crack = Literal["known"] | None
 """See `Crackable`."""
 
 
@@ -212,18 +213,18 @@ class CrackedWall(CrackedAtHeight):
     thickness: Thickness
 
     @classmethod
-    def _heights(cls, height: float, hinge_height: float | None, crack: Crack) -> tuple[float, float, Crack]:
-        """The heights below and above the hinge [m] and the crack, "unknown" where no hinge is given.
+    def _heights(cls, height: float, hinge_height: float | None, crack: Crack) -> tuple[float, float]:
+        """The heights below and above the hinge [m], in the middle where none is typed.
 
-        Raises StructureError for a hinge outside the wall, or a crack that is said to be there, but not where.
+        Raises StructureError for a hinge outside the wall, or a crack that is known, but not where.
         """
         cls._check_values("of_size", height=height)
         if hinge_height is None:
-            if crack in ("known", "given"):
+            if crack is not None:
                 raise StructureError(
                     f"crack is {crack!r}, but hinge_height is missing; give the height of the hinge."
                 )
-            return height / 2, height / 2, "unknown"
+            return height / 2, height / 2
         hinge = finite(StructureError, "hinge_height", hinge_height, "m")
         if not 0 < hinge < height:
             raise SizeError.of(
@@ -231,7 +232,7 @@ class CrackedWall(CrackedAtHeight):
                 repr(hinge),
                 f" m, but must lie inside the wall, between 0 and its height of {height!r} m.",
             )
-        return hinge, height - hinge, crack
+        return hinge, height - hinge
 
     @property
     def height(self) -> float:
@@ -253,10 +254,6 @@ class CrackedWall(CrackedAtHeight):
         """h₁ + h₂, m."""
         return self.height
 
-    @property
-    def _place_is_given(self) -> bool:
-        return True
-
     def _linkage(self, mirrored: bool) -> Linkage:
         return WallLinkage(self.lower_height, self.upper_height, self.thickness)
 
@@ -272,7 +269,7 @@ class CrackedWall(CrackedAtHeight):
 
     def _wall_courses(self, courses: int | None, density: float) -> tuple[Course, ...]:
         """The wall itself. density: mass per m³."""
-        if courses is None and self.crack == "known" and not self._holds_within:
+        if courses is None and self.crack_is_known and not self._holds_within:
             levels = [0.0, self.lower_height, self.height]
         else:
             levels = joints_between([0.0, *self._holds_within, self.height], counted_courses(courses))
@@ -335,7 +332,7 @@ class Wall(CrackedWall):
 
     type_name: ClassVar[str] = "wall"
     _described_as: ClassVar[dict[str, str]] = {
-        "of_size": "Wall held at floor and ceiling, by its height, and that of its hinge where it is known",
+        "of_size": "Wall held at floor and ceiling, by its height, and perhaps that of a hinge",
         "": "Wall held at floor and ceiling, by the heights below and above its hinge",
     }
 
@@ -393,8 +390,8 @@ class Wall(CrackedWall):
         compressive_strength: float | None = None,
         unit_weight: float | None = None,
     ) -> Self:
-        """Return the wall of that height and thickness [m], hinged where statics puts the hinge or as it is given."""
-        lower, upper, crack = cls._heights(height, hinge_height, crack)
+        """Return the wall of that height and thickness [m], hinged where it is typed, or else where statics puts it."""
+        lower, upper = cls._heights(height, hinge_height, crack)
         wall = cls(
             lower,
             upper,
@@ -499,7 +496,7 @@ class LoadedWall(CrackedWall, Tied):
         **options: Unpack[LoadedWallOptions],
     ) -> Self:
         """Return the wall of that height and thickness [m], hinged as `Wall.of_size`; options as for the class."""
-        lower, upper, crack = cls._heights(height, hinge_height, crack)
+        lower, upper = cls._heights(height, hinge_height, crack)
         wall = cls(lower, upper, thickness, unit_weight, crack=crack, **options)
         return wall if hinge_height is not None else wall.cracked_by_statics()
 

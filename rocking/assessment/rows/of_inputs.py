@@ -400,7 +400,7 @@ class StructureRow(StructureNameRow[ListedStructure]):
     )
     geometry: str = of_listed("Sizes of the structure with their units", lambda of: of.geometry)
     crack: str = of_listed(
-        "Hinge or crack whose position is not given; empty where there is none", lambda of: of.body.crack_name
+        "What opens, hinge or crack; empty of one that does not crack", lambda of: of.body.crack_name
     )
     frequency_parameter_rad_s: float = of_side(
         FREQUENCY_PARAMETER, lambda side: side.frequency_parameter, equation="Eq. 11"
@@ -416,7 +416,7 @@ class StructureRow(StructureNameRow[ListedStructure]):
         "Uplift acceleration in g", lambda of: of.body.mechanism().uplift_multiplier, equation="Eq. 7"
     )
     static_multiplier: float = of_listed(
-        "Least uplift acceleration in g over all cracks", lambda of: of.body.static_multiplier
+        "Least uplift acceleration in g over all cracks that count", lambda of: of.body.static_multiplier
     )
     static_multiplier_crushing: float = of_crushing(
         "The same if the edges of its joints crush at 2 MPa; empty where it states a strength or would not stand",

@@ -284,7 +284,7 @@ class VerdictRow(DecidedRow[OfStructure]):
         lambda of: of.station.crack,
     )
     statics_crack: str = of_statics(
-        "Crack of statics where another governs; beside a crack that is given, the worst other",
+        "Crack of statics where another governs; beside a crack that is known, the worst other",
         lambda crack: crack.description,
     )
     statics_overturning_members: int | None = of_statics(

@@ -47,7 +47,6 @@ def record(amplitude: float, period: float = 0.9) -> Accelerogram:
 def test_the_verdict_and_every_number_are_those_of_all_cracks_followed_one_by_one(structure, expected):
     """The oracle follows every crack in full; a spire, which tapers, never stands once it has lifted."""
     seen = set()
-    structure = replace(structure, crack="unknown")
     for severity in (1.5, 3.5, 5.0, 14.0):
         motion = record(severity * structure.static_multiplier * 9.80665)
         assessment = rocking.assess(motion, structure)
@@ -95,7 +94,7 @@ def test_the_counts_that_are_told_of_two_cracks_are_not_of_members_that_leave_th
     """With 16 members asked for, the crack of statics and the one that governs grow by the same rule."""
     settings = AssessmentSettings(ensemble=EnsembleSettings(members=16))
     both = 0
-    structure = replace(WALL, crack="unknown")
+    structure = WALL
     for severity in (2.0, 2.5, 3.0, 3.5, 4.0, 5.0):
         motions = GroundMotions.of(record(severity * structure.static_multiplier * 9.80665))
         ensembles = ensemble_over_cracks(structure, motions, settings)
@@ -107,30 +106,48 @@ def test_the_counts_that_are_told_of_two_cracks_are_not_of_members_that_leave_th
     assert both
 
 
-def test_a_crack_that_is_given_decides_and_what_falls_beside_it_is_told():
-    """Hinged at mid-height the wall stands where it falls with the hinge that statics chooses."""
-    given = Wall.hinged_at(6.0, 3.0, 0.4)
-    others = replace(given, crack="unknown")
-    motion = record(2.5 * given.static_multiplier * 9.80665)
-    meant = rocking.assess(motion, given)
-    exists = rocking.assess(motion, replace(given, crack="known"))
-    assert (meant.verdict, meant.overturning_members) == (exists.verdict, exists.overturning_members)
-    assert np.array_equal(meant.rotation_ratios, exists.rotation_ratios)
-    open_place = rocking.assess(motion, others)
-    assert open_place.overturning_members > meant.overturning_members
-    assert meant.statics.ensemble.overturning_members == open_place.overturning_members
-    assert f"should the {open_place.crack} form instead" in meant.why
-    assert exists.statics_crack == "" and "should" not in exists.why
+def test_a_crack_that_is_known_decides_and_what_falls_beside_it_is_told():
+    """Hinged at mid-height the wall stands where it falls with the hinge that statics chooses.
+
+    Its members are those of that mechanism alone; typed without being known it takes no other one away.
+    """
+    typed = Wall.hinged_at(6.0, 3.0, 0.4)
+    motion = record(1.2 * typed.mechanism().uplift_multiplier * 9.80665)
+    known = rocking.assess(motion, replace(typed, crack="known"))
+    alone = rocking.assess(motion, typed.mechanism())
+    assert (known.verdict, known.overturning_members) == (alone.verdict, alone.overturning_members)
+    assert np.array_equal(known.rotation_ratios, alone.rotation_ratios)
+    of_typed, of_statics = (rocking.assess(motion, each) for each in (typed, Wall.of_size(6.0, 0.4)))
+    assert of_typed.overturning_members >= of_statics.overturning_members > known.overturning_members
+    assert of_typed.verdict is of_statics.verdict
+    assert of_typed.verdict.badness > known.verdict.badness
+    assert known.statics.ensemble.overturning_members == of_typed.overturning_members
+    assert known.statics_crack == of_typed.crack
+    assert [each.kind for each in known.decision.doubts] == [Kind.OTHER_CRACK_WORSE]
+    assert of_typed.decision.doubts == ()
+
+
+@pytest.mark.parametrize("fidelity", ["full", "auto"])
+def test_a_single_run_of_a_typed_crack_that_rests_says_nothing_of_the_others(fidelity):
+    """Without an ensemble, too: what statics chooses lifts below it."""
+    lifts = WALL.mechanism().uplift_multiplier
+    motion = record(0.5 * (lifts + WALL.static_multiplier) * 9.80665)
+    settings = AssessmentSettings(fidelity=fidelity, ensemble=EnsembleSettings(members=0))
+    result = Assessor(settings).assess("r", [motion], on_the_ground({"wall": WALL}))
+    (station,) = result.stations
+    assert station.decision.word is not Verdict.STANDS
+    known = Assessor(settings).assess("r", [motion], on_the_ground({"wall": replace(WALL, crack="known")}))
+    assert known.stations[0].decision.word is Verdict.STANDS
 
 
 def test_auto_rests_only_where_every_crack_does():
-    """As typed the wall rests; the hinge that statics chooses lifts. It decides where none is meant."""
-    given = WALL.mechanism().uplift_multiplier
-    assert WALL.static_multiplier < 0.999 * given
-    motion = record(0.5 * (given + WALL.static_multiplier) * 9.80665)
+    """As typed the wall rests; the hinge that statics chooses lifts. It decides where none is known."""
+    typed = WALL.mechanism().uplift_multiplier
+    assert WALL.static_multiplier < 0.999 * typed
+    motion = record(0.5 * (typed + WALL.static_multiplier) * 9.80665)
     settings = AssessmentSettings(fidelity="auto")
     rest = "the ground never reaches the uplift acceleration"
-    for crack, rests in (("unknown", False), ("given", True)):
+    for crack, rests in ((None, False), ("known", True)):
         wall = replace(WALL, crack=crack)
         case = compute_case(CaseInputs(motion=Motion((motion,)), structure=wall, settings=settings))
         assert (case.answer.reason == rest) is rests
@@ -220,7 +237,7 @@ def test_a_row_of_the_comparison_speaks_of_the_crack_that_governs_alone(several,
     assert station.rotation_ratio == rows[0].integrated_rotation_ratio
 
 
-@pytest.mark.parametrize("crack", ["known", "unknown"])
+@pytest.mark.parametrize("crack", ["known", None])
 def test_a_wall_falls_as_it_bulges_below_the_tie_that_holds_it_for_good(crack):
     """About its foot it stands. The same wall between supports, hinged where statics puts it, is the oracle."""
     front = Facade(

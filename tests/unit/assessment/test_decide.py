@@ -163,15 +163,15 @@ def test_6_cracks_whose_words_differ_have_a_range():
     assert alike.interval == (30 / 64, 30 / 64)
 
 
-def test_6_a_given_crack_decides_alone_and_a_worse_one_is_a_doubt_beside_it():
+def test_6_a_known_crack_decides_alone_and_a_worse_one_is_a_doubt_beside_it():
     upper = crack(64, name="upper", counts=False)
     decision = decide(Facts(cracks=(crack(0), upper)))
     assert (str(decision.word), decision.share) == ("stands", 0.0)
     assert kinds(decision.doubts) == [Kind.OTHER_CRACK_WORSE]
-    assert "as given; should the upper form instead, 64 of 64 do" in decision.why
+    assert "the known crack; with the upper 64 of 64 would" in decision.why
 
 
-def test_6_a_bulge_counts_beside_a_given_crack():
+def test_6_a_bulge_counts_beside_a_known_crack():
     """It forms wherever the wall is cracked, so that the worse of the two is that of the wall, in whatever order."""
     bulge, stands = (replace(crack(each, name="bulge"), bulges=True) for each in (64, 0))
     beside = crack(64, name="upper", counts=False)
@@ -391,7 +391,7 @@ def drawn(chance):
         falls = min(one_of(0, 1, members, int(chance() * members)), members - failed)
         farthest = one_of(0.0, 0.2, 0.3, 0.8)
         cracks.append(crack(falls, members, failed, farthest, f"crack {place}", slides=chance() < 0.1))
-    if chance() < 0.2:  # one is given, beside which a bulge may count
+    if chance() < 0.2:  # one is known, beside which a bulge may count
         cracks = [replace(each, counts=not place or chance() < 0.3) for place, each in enumerate(cracks)]
     if cracks and chance() < 0.2:
         bulge = int(chance() * len(cracks))

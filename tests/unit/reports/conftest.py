@@ -122,7 +122,7 @@ def example() -> RecordReport:
     structures = {
         "block 4 m": Block.of_size(1.0, 4.0),
         "block 1 m": Block.of_size(0.2, 1.0),
-        "wall 3 m": Wall(1.6, 1.4, 0.4),
+        "wall 3 m": Wall(1.6, 1.4, 0.4, crack="known"),
         "arch 20 m": Arch(10.0, 1.5, np.radians(157.5)),
         "squat block": Block.of_size(2.0, 2.5),
     }

@@ -17,7 +17,7 @@ from rocking.reports import printing
 from rocking.reports.pages import RecordPage, Table, TableCell
 from rocking.reports.printing import MEASURED, compile_document
 from rocking.reports.record import RecordReport, failure_page
-from rocking.structures import Arch, ArchOnPiers, Block, Facade, LoadedWall, Spire
+from rocking.structures import Arch, ArchOnPiers, Block, Facade, LoadedWall, Spire, Wall
 from rocking.tables import cell
 
 from .conftest import HOSTILE, assessed, detailed, of_structures, pages, shaken
@@ -364,7 +364,8 @@ def test_a_report_in_g_and_centimetres_prints_the_same_numbers_in_them(example):
 @pytest.mark.process
 def test_the_report_says_what_to_do_and_by_how_much_the_record_may_be_stronger():
     """The courses of a spire that rocks may be thrown, which contact dynamics tells."""
-    structures = {"spire": Spire(3.0, 15.0, 0.25, crack_height=5.0), "block": Block.of_size(1.0, 4.0)}
+    spire = Spire(3.0, 15.0, 0.25, crack_height=5.0, crack="known")
+    structures = {"spire": spire, "block": Block.of_size(1.0, 4.0)}
     shaking = [shaken("NS", scale_factor=3.0), shaken("EW", scale_factor=2.0)]
     unasked = assessed("two", shaking, structures, fidelity="auto")
     data = unasked.page()
@@ -379,9 +380,26 @@ def test_the_report_says_what_to_do_and_by_how_much_the_record_may_be_stronger()
     assert data.advice == [], "contact dynamics was asked"
     (block,) = (row for row in report.tables.verdicts if row.structure == "block")
     reserves = {row.name: row.reserve for row in data.page_one.rows}
-    assert reserves.block.startswith(printing.number(block.reserve_low, 2))
+    assert reserves["block"].startswith(printing.number(block.reserve_low, 2))
     first = "".join(word[4] for word in pages(report.pdf())[0])
-    assert reserves.block in first
+    assert reserves["block"] in first
+
+
+@pytest.mark.process
+def test_page_one_says_that_a_crack_is_known_and_how_many_members_another_one_would_let_fall():
+    wall = Wall.of_size(6.0, 0.4, 3.0)
+    both = {"known": replace(wall, crack="known"), "typed": wall}
+    report = assessed("one", [shaken("NS").scaled(0.5)], both)
+    rows = {row.structure: row for row in report.tables.verdicts}
+    below = {row.name: row.below for row in report.page().page_one.rows}
+    other = rows["known"]
+    assert other.statics_overturning_members > 0
+    falls = f"{other.statics_overturning_members} of {other.statics_members}"
+    assert below["known"] == f"crack known at 3 m (survey); {other.statics_crack}: {falls} fall"
+    assert below["typed"] == ""
+    assert rows["typed"].verdict.badness > rows["known"].verdict.badness
+    first = " ".join(word[4] for word in pages(report.pdf())[0])
+    assert "crack known at 3 m (survey);" in first
 
 
 @pytest.mark.process

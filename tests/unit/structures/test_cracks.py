@@ -5,10 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rocking.errors import DoesNotStandError, StructureError
 from rocking.motion import Members, integrate_members
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
-from rocking.structures import Block, Facade, LoadedWall, Spire, Wall
+from rocking.structures import Arch, Block, Facade, LoadedWall, Spire, Wall
 from rocking.structures.structure_list import structure_from_config
 
 
@@ -89,26 +90,65 @@ def test_a_facade_may_open_at_the_foot_of_every_storey_and_between():
     assert {each.structure.crack_position for each in facade.candidates(11)} == set(places)
     weakest = facade.candidates(11)[0]
     assert (weakest.position, weakest.structure.crack_storey) == (3.5, 2)
-    given = Facade((3.5, 3.0), (0.6, 0.2), 20e3, crack_height=1.0)
-    assert given.crack_is_given and given.candidates(11)[0].position == 1.0
+    known = Facade((3.5, 3.0), (0.6, 0.2), 20e3, crack_height=1.0, crack="known")
+    assert known.candidates(11)[0].position == 1.0
 
 
 @pytest.mark.parametrize(
-    ("unknown", "typed"),
+    ("plain", "typed"),
     [
         (Facade((3.5, 3.0), (0.6, 0.2), 20e3), {"crack_storey": 1}),
-        (Facade((3.5, 3.0), (0.6, 0.2), 20e3), {"crack_height": 0.0}),
-        (Spire(3.0, 15.0, wall_thickness=0.25), {"crack_height": 0.0}),
+        (Facade((3.5, 3.0), (0.6, 0.2), 20e3), {"crack_height": 1.1}),
+        (Spire(3.0, 15.0, wall_thickness=0.25), {"crack_height": 5.0}),
+        (
+            LoadedWall.of_size(3.2, 0.25, 20e3, top_load=30e3, top_slab="flat"),
+            {"lower_height": 1.6, "upper_height": 1.6},
+        ),
+        (Wall.of_size(3.2, 0.25), {"lower_height": 1.6, "upper_height": 1.6}),
+        (Arch(5.0, 0.8, np.radians(150)), {"hinge_angles": tuple(np.radians([0.0, 40.0, 100.0, 150.0]))}),
     ],
 )
-def test_a_crack_that_is_typed_at_the_foot_is_given(unknown, typed):
-    """The value that would be taken where nothing is typed says where it cracks once it is."""
-    given = replace(unknown, **typed)
-    assert not unknown.crack_is_given and given.crack_is_given
-    assert given.mechanism().uplift_multiplier == unknown.mechanism().uplift_multiplier
-    first, *beside = given.candidates()
-    assert first.position == 0 and first.counts and beside and not any(each.counts for each in beside)
-    assert all(each.counts for each in unknown.candidates())
-    again = structure_from_config(given.described.entry)
-    assert again == given and again.crack_is_given
-    assert not structure_from_config(unknown.described.entry).crack_is_given
+def test_a_crack_that_is_typed_is_one_more_candidate_and_decides_only_where_it_is_known(plain, typed):
+    """It takes none of the others away, whatever key types it: the first is that of least λ, and every one counts."""
+    at_a_place = replace(plain, **typed)
+    places = {each.description for each in at_a_place.candidates()}
+    without = {each.description for each in plain.candidates()}
+    assert places - without <= {at_a_place.crack_in_words}, (
+        "but for the place that is typed they are the same"
+    )
+    assert at_a_place.crack_in_words in places
+    if not isinstance(
+        plain, Wall | LoadedWall
+    ):  # of which the place of statics is the one of their description
+        assert without <= places
+    assert all(each.counts for each in at_a_place.candidates())
+    assert at_a_place.candidates()[0].multiplier == min(each.multiplier for each in at_a_place.candidates())
+    assert at_a_place.static_multiplier == pytest.approx(plain.static_multiplier, rel=1e-12)
+
+    known = replace(at_a_place, crack="known")
+    first, *beside = known.candidates()
+    assert first.counts and beside and not any(each.counts for each in beside)
+    assert first.description == at_a_place.crack_in_words and first.structure is known
+    assert first.multiplier == at_a_place.mechanism().uplift_multiplier
+    assert known.static_multiplier == pytest.approx(first.multiplier, rel=1e-12)
+    if isinstance(plain, Arch):
+        return  # no file states the angles of hinges
+    for each in (at_a_place, known):
+        again = structure_from_config(each.described.entry)
+        assert again == each and again.crack_is_known is each.crack_is_known
+
+
+@pytest.mark.parametrize("word", ["given", "unknown"])
+def test_a_crack_is_known_or_nothing_is_said_of_it(word):
+    entry = {"type": "wall", "height_m": 3.2, "thickness_m": 0.25, "hinge_height_m": 1.6, "crack": word}
+    with pytest.raises(StructureError, match=f"crack is '{word}', but must be known"):
+        structure_from_config(entry)
+
+
+def test_a_known_crack_stands_where_another_one_would_not():
+    """The upper storey, pushed outwards, falls at rest about its own foot; about the ground the whole stands."""
+    pushed = {"thrust": 1e3, "thrust_height": 6.5}
+    with pytest.raises(DoesNotStandError):
+        Facade((3.5, 3.0), (0.6, 0.2), 20e3, **pushed)
+    known = Facade((3.5, 3.0), (0.6, 0.2), 20e3, **pushed, crack="known")
+    assert all(each.structure.mechanism().uplift_multiplier > 0 for each in known.candidates())

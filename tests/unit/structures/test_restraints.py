@@ -58,7 +58,7 @@ def test_a_light_floor_does_not_hold_the_top():
 @pytest.mark.parametrize("slab", ["hinged", "flat"])
 def test_the_top_slips_first_where_it_needs_more_than_it_gets_and_nowhere_else(slab):
     """R ≤ F if and only if λ of the bulge ≤ λ of the wall that slips, for any friction."""
-    wall = replace(WALL, top_slab=slab, crack="unknown").cracked_by_statics()
+    wall = replace(WALL, top_slab=slab).cracked_by_statics()
     (held,) = wall.restraints()
     for friction in (0.2, 0.99 * held.needed / FLOOR, 1.01 * held.needed / FLOOR, 3.0):
         (top,) = wall.with_friction(friction).restraints()
@@ -109,7 +109,7 @@ def test_the_word_is_that_of_the_wall_that_slips():
     pulse = rocking.Pulse(1.6 * slips.multiplier * GRAVITY, 2.0, 0.2)
     assert 1.6 * slips.multiplier < held
     record = rocking.Accelerogram(pulse.acceleration(np.arange(900) * 0.01), 0.01)
-    falls = rocking.assess(record, replace(wall, crack="unknown").cracked_by_statics())
+    falls = rocking.assess(record, wall.cracked_by_statics())
     assert falls.verdict is rocking.Verdict.OVERTURNS
     assert "its top slips: it needs " in falls.why
     assert rocking.assess(record, replace(wall, top_friction=5.0)).verdict is rocking.Verdict.STANDS

@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rocking import Block, DesignSpectrum, Facade, check
+from rocking import Block, DesignSpectrum, Facade, Wall, check
 from rocking.assessment.cracks import mechanisms_of
 from rocking.assessment.decide import Decision, Verdict
 from rocking.assessment.reserve import Reserve
@@ -24,6 +24,7 @@ from rocking.motion.response import ModelCheck
 from rocking.remarks import Kind, Remark
 from rocking.reports.explore import explore_page
 from rocking.reports.pages import Fact
+from rocking.reports.sentences import Sentences
 from rocking.reports.structures import CheckedStructure, structures_data
 from rocking.reports.summary import summary_data
 from rocking.study.checks import write_checks
@@ -345,6 +346,24 @@ def test_a_structure_that_only_its_tie_holds_says_so():
     bare = tied.without_ties()
     assert not bare.tie_heights and bare.mechanism().positive.ties == ()
     assert bare == Facade((3.0,), (0.5,), unit_weight=20e3)
+
+
+@pytest.mark.usefixtures("undrawn")
+@pytest.mark.parametrize("language", ["en", "it"])
+def test_a_page_says_that_a_crack_is_known_and_what_the_check_would_be_were_it_not(language):
+    spectrum = DesignSpectrum.ntc(0.2 * 9.80665, 2.4, 0.35)
+    wall = Wall.of_size(3.2, 0.25, 1.6, crack="known")
+    words = Sentences(language)
+    told = {}
+    for each in (wall, replace(wall, crack=None)):
+        page = CheckedStructure(name="wall", structure=each, checked=check(each, spectrum))
+        (told[each.crack],) = structures_data([page], spectrum, Settings(language=language).for_pages).sheets
+    known = words("crack known at", height=words.number(1.6))
+    assert f"{known[:1].upper()}{known[1:]}." in told["known"].answers[0].assumptions
+    assert not any(known in line.lower() for line in told[None].answers[0].assumptions)
+    (other,) = (each for each in told["known"].details if words.number(0.888) in each)
+    assert "C8.7.1.2.1.8" in other
+    assert told["known"].met and not told[None].met
 
 
 @pytest.mark.usefixtures("undrawn")
