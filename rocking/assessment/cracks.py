@@ -332,8 +332,8 @@ def screened(
 
     Each meets three members of the ensemble of statics, or of the crack that is known: the two that rotate most, and
     the middle one. One that turns beyond IN_DOUBT of its critical rotation there, or cannot be followed, is left in
-    doubt; one without ties whose block stays FAR_FROM_DOUBT is not. Where all members rest, only what lifts below `lifted_at`, the
-    λ of the first crack, may rock.
+    doubt; one without ties whose block stays FAR_FROM_DOUBT is not. Where all members rest, only what lifts below
+    `lifted_at`, the λ of the first crack, may rock.
     """
     if np.all(of_statics.rotation_ratios == 0):
         others = [each for each in others if each.mechanism.uplift_multiplier < lifted_at]

@@ -416,7 +416,7 @@ def _assumptions(page: CheckedStructure, mechanism: LocalMechanism, words: Sente
         position = structure.crack_position
         known = words("crack known")
         if math.isfinite(position):
-            known = words("crack known at", height=words.number(position))
+            known = words("crack known at", height=words.plain(position))
         lines.append(f"{known[:1].upper()}{known[1:]}.")
     lines.append(words("assumed rigid"))
     if getattr(structure, "compressive_strength", None) is None:

@@ -36,7 +36,7 @@ TopSlab = Annotated[
 
 _SAME = 1e-6
 """Share of the height within which a joint is one at which something changes."""
-_LEAST_STIFFNESS = 1e-12
+LEAST_STIFFNESS = 1e-12
 """The least stiffness of a tie, N/m²: below it the rotation at which it yields is no number any more."""
 
 
@@ -496,8 +496,8 @@ class Tied(CrackedAtHeight):
         strength = self.tie_strength
         for height in self.tie_heights:
             check_inside("tie_heights", height, self.height)
-        if 0 < stiffness < _LEAST_STIFFNESS:
-            said = f", but must be 0 or at least {_LEAST_STIFFNESS!r} N/m², below which a tie holds nothing."
+        if 0 < stiffness < LEAST_STIFFNESS:
+            said = f", but must be 0 or at least {LEAST_STIFFNESS!r} N/m², below which a tie holds nothing."
             raise SizeError.of("tie_stiffness", repr(stiffness), said)
         if strength is not None and strength < pretension:
             raise SizeError.of(

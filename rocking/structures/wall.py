@@ -50,7 +50,14 @@ from rocking.structures.stack import (
     slab,
 )
 from rocking.structures.structure import CrackedAtHeight
-from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity
+from rocking.structures.tied import (
+    LEAST_STIFFNESS,
+    Eccentricity,
+    Tied,
+    TopSlab,
+    UnitWeight,
+    check_eccentricity,
+)
 
 _GRIPS = 1e-3
 """Movement back over which the friction at a top that has slipped comes to nothing, m."""
@@ -637,7 +644,7 @@ class LoadedWall(CrackedWall, Tied):
             # What a top slips under stays behind: it is carried, and not moved.
             stays = self.load_held or bool(slip)
             hung.append(self._load(bearing, self._part_at(self.height), self.top_load, stays))
-        if self._friction and slip * outwards > 0:
+        if self._friction >= LEAST_STIFFNESS * _GRIPS and slip * outwards > 0:
             # It resists from the first movement on, until the wall has left what lies on it.
             slides = Tie(self._friction / _GRIPS, self._friction, self._friction, self.thickness)
             start = complex(outwards * half, self.height)

@@ -358,7 +358,7 @@ def test_a_page_says_that_a_crack_is_known_and_what_the_check_would_be_were_it_n
     for each in (wall, replace(wall, crack=None)):
         page = CheckedStructure(name="wall", structure=each, checked=check(each, spectrum))
         (told[each.crack],) = structures_data([page], spectrum, Settings(language=language).for_pages).sheets
-    known = words("crack known at", height=words.number(1.6))
+    known = words("crack known at", height=words.plain(1.6))
     assert f"{known[:1].upper()}{known[1:]}." in told["known"].answers[0].assumptions
     assert not any(known in line.lower() for line in told[None].answers[0].assumptions)
     (other,) = (each for each in told["known"].details if words.number(0.888) in each)
