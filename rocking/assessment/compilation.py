@@ -10,6 +10,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
+from llvmlite import binding
 
 from rocking.contacts.dynamics import follow_stack
 from rocking.errors import RockingError
@@ -61,8 +62,6 @@ def load_all() -> None:
 
 def _processor() -> str:
     """The processor and the Python for which numba keeps what it compiled."""
-    from llvmlite import binding  # numba has imported it
-
     features = sha256_of_bytes(binding.get_host_cpu_features().flatten().encode())
     return f"{binding.get_host_cpu_name()}-{features[:8]}.{sys.implementation.cache_tag}"
 

@@ -25,6 +25,7 @@ from rocking.assessment.cracks import (
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
 from rocking.assessment.inputs import CaseInputs, PairInputs, PulseInputs, ReserveInputs
+from rocking.assessment.ladder import reserve
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.motions import (
     AS_IT_IS,
@@ -37,7 +38,7 @@ from rocking.assessment.motions import (
     processed,
     pulses_of,
 )
-from rocking.assessment.reserve import Reserve, reserve
+from rocking.assessment.reserve import Reserve
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import RockingError
 from rocking.motion.integration import Members, integrate, integrate_members, strict

@@ -11,6 +11,7 @@ from functools import cache, lru_cache
 from itertools import chain
 
 import numpy as np
+import pywt
 
 from rocking.errors import PulseError
 from rocking.pulses.pulse import Pulse
@@ -232,8 +233,6 @@ def _late(velocity: np.ndarray, pulse: np.ndarray) -> bool:
 
 @cache
 def _table() -> tuple[np.ndarray, np.ndarray]:
-    import pywt  # here, as scipy below, because a record of one component needs neither
-
     _, wavelet, places = pywt.Wavelet("db4").wavefun(level=10)
     return places, wavelet
 

@@ -1,8 +1,4 @@
-"""Study: many records against one list of structures, from the settings to the finished folder.
-
-Here stand the doors by which a file of such a folder could change what runs: they are closed before the libraries
-behind them are imported.
-"""
+"""Study: many records against one list of structures, from the settings to the finished folder."""
 
 import os
 from pathlib import Path
@@ -18,9 +14,11 @@ _READ_BY = {
 
 
 def close_doors(folder: Path = Path()) -> None:
-    """Let Python import nothing from the folder that it stands in, in this process's children, and check `folder`.
+    """Keep what lies in the folder of a study, which somebody else may have sent, from changing what runs.
 
-    Raises ConfigurationError where a file stands in it from which a library would take its own configuration.
+    PYTHONSAFEPATH lets Python, in children of this process, import no module from the folder that it stands in. A file
+    from which a library would take its configuration as it is imported is refused, so that this comes before these
+    imports: ConfigurationError.
     """
     os.environ["PYTHONSAFEPATH"] = "1"
     for name, takes in _READ_BY.items():

@@ -3,22 +3,20 @@
 from collections.abc import Callable
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from rocking.assessment.case import Failure
 from rocking.assessment.rows import FailedCase, FailureRow
 from rocking.errors import fault_in_words
 from rocking.reports.pages import Part, PlainPage
+from rocking.reports.printing import Figures, write_document
+from rocking.reports.style import new_figure, svg
 from rocking.study.terminal import log_error
 from rocking.tables import Row, write_whole
 from rocking.tables.workbook import workbook
 
-if TYPE_CHECKING:
-    from rocking.reports.printing import Figures
-
 
 def made_or_told(
-    path: Path, make: Callable[[], object], faults: list[Row], log: Path | str, figures: "Figures" = "none"
+    path: Path, make: Callable[[], object], faults: list[Row], log: Path | str, figures: Figures = "none"
 ) -> None:
     """Let `make` write the document `path`; where it cannot, write a page there that says why, and add it to `faults`.
 
@@ -35,21 +33,17 @@ def made_or_told(
         write_reason(path, [sentence], figures)
 
 
-def write_reason(path: Path, sentences: list[str], figures: "Figures" = "none") -> None:
+def write_reason(path: Path, sentences: list[str], figures: Figures = "none") -> None:
     """Write a document that holds nothing but why it could not be made."""
     if path.suffix == ".html":
         items = "".join(f"<p>{escape(sentence)}</p>" for sentence in sentences)
         write_whole(path, f"<!DOCTYPE html><title>{escape(path.stem)}</title>{items}\n".encode())
     elif path.suffix == ".svg":
-        from rocking.reports.style import new_figure, svg  # as below
-
         write_whole(path, svg(new_figure(20)).encode())
     elif path.suffix == ".xlsx":
         rows = [FailureRow.of(FailedCase("", "", "", Failure("document", each))) for each in sentences]
         write_whole(path, workbook({FailureRow: rows}))
     else:
-        from rocking.reports.printing import write_document  # matplotlib takes half a second to import
-
         parts = (Part(sentences=tuple(sentences)),)
         title = path.stem.capitalize()
         page = PlainPage(title=title, subtitle="It could not be made.", parts=parts)

@@ -10,6 +10,7 @@ from rocking.errors import ConfigurationError, RecordError, RockingError
 from rocking.quantities import four_digits
 from rocking.records import Accelerogram, CatalogueRecord, load_catalogue
 from rocking.records.catalogue import COLUMNS, catalogue_text, read_rows
+from rocking.reports.panels import svg_of
 from rocking.study.job import Study
 from rocking.study.plan import check_config_file, config_file
 from rocking.study.settings import Settings, read_settings
@@ -125,8 +126,6 @@ def write_selection(folder: Path, output: Path | None = None) -> list[str]:
         selection, reasons = select_for(Study({}, settings), load_catalogue(catalogue))
         write_whole(target, _catalogue_of(selection, catalogue).encode())
         image = target.with_suffix(".svg")
-        from rocking.reports.panels import svg_of  # matplotlib takes half a second to import
-
         write_whole(image, svg_of(selection))
     lines = [f"{name}: not used, {reason}" for name, reason in reasons.items()]
     factors = selection.factors[selection.chosen]

@@ -15,6 +15,7 @@ from rocking.errors import ConfigurationError
 from rocking.quantities import counted, shown
 from rocking.records import Accelerogram, load_catalogue
 from rocking.records.sample import Sample
+from rocking.reports.panels import svg_of
 from rocking.strengthening import Strengthening, Tried, sizes, strengthen_scene
 from rocking.structures.fields import Field, article
 from rocking.structures.structure_list import nearest
@@ -172,8 +173,6 @@ def write_strengthening(
             store=store,
             tell=tell,
         )
-        from rocking.reports.panels import svg_of  # matplotlib takes half a second to import
-
         table = place / f"{name}.csv"
         image = place / f"{name}.svg"
         with written_together():

@@ -38,6 +38,8 @@ from rocking.assessment.scene import variants_of
 from rocking.errors import ConfigurationError, RockingError, one_structure
 from rocking.records import Accelerogram, CatalogueRecord
 from rocking.records.sample import Sample
+from rocking.reports.printing import Figures, faults_in_words, write_document
+from rocking.reports.style import new_figure, svg
 from rocking.structures import Mechanism, Structure
 from rocking.study.documents import made_or_told, write_reason
 from rocking.study.job import Job, Study, costs_no_other
@@ -60,7 +62,6 @@ if TYPE_CHECKING:
     from rocking.fragility.curves import Fragility
     from rocking.fragility.hazard import Hazard
     from rocking.reports.pages import Strip
-    from rocking.reports.printing import Figures
 
 PROVENANCE = "provenance.json"
 """In the folder of the summary: what the results were made from and with."""
@@ -269,7 +270,6 @@ def _report(
 
     spectra: of the components, where there is a design level. strips: of the variants.
     """
-    from rocking.reports.printing import write_document  # as above
     from rocking.reports.summary import summary_data
     from rocking.reports.trade import trade_picture
 
@@ -282,8 +282,7 @@ def _report(
 
 def _scatter(path: Path, rows: Mapping[type[Row], Sequence[Row]]) -> None:
     """Write the figure of every case of the tables."""
-    from rocking.reports.scatter import prediction_scatter  # as above
-    from rocking.reports.style import svg
+    from rocking.reports.scatter import prediction_scatter  # it loads the kernels and scipy
 
     scatter = prediction_scatter(rows_of(ComparisonRow, rows), rows_of(PulseRow, rows))
     write_whole(path, svg(scatter).encode())
@@ -407,15 +406,12 @@ def _curves_of(
 
 
 def write_beside(
-    write: Callable[[Path, Path, "Figures"], None] | None, pdf: Path, image: Path, job: Job, faults: list[Row]
+    write: Callable[[Path, Path, Figures], None] | None, pdf: Path, image: Path, job: Job, faults: list[Row]
 ) -> None:
     """Let `write` set a document over all records as the files `pdf` and `image` (SVG).
 
     None has nothing to show. In both that case and that of a fault, of which `faults` gets a row, the page says why.
     """
-    from rocking.reports.printing import faults_in_words  # as above
-    from rocking.reports.style import new_figure, svg
-
     figures = job.study.settings.figures
     if write:
         with costs_no_other(faults, job.log, pdf.name):

@@ -15,7 +15,8 @@ from threading import Thread
 from types import TracebackType
 from typing import TYPE_CHECKING, BinaryIO, TextIO, TypeVar
 
-from rocking.assessment.case import SceneResult
+from tqdm import tqdm
+
 from rocking.assessment.conclusion import conclusion_in_words, conclusions, falls_in_words, worst_of_each
 from rocking.assessment.decide import ORDER, Verdict, worst_first
 from rocking.assessment.methods import rocks
@@ -33,8 +34,8 @@ from rocking.quantities import counted, escaped, listed
 from rocking.study.folder import new_log
 from rocking.tables import read_table
 
-if TYPE_CHECKING:
-    from tqdm import tqdm
+if TYPE_CHECKING:  # else planning a study would load numba
+    from rocking.assessment.case import SceneResult
 
 T = TypeVar("T")
 
@@ -54,7 +55,7 @@ _LONGEST = 1000
 """Characters of a line: what the system writes to a pipe at once, by whatever process, is at least 4096 bytes."""
 
 
-def record_line(scenes: Iterable[SceneResult], failures: Iterable[FailureRow]) -> str:
+def record_line(scenes: Iterable["SceneResult"], failures: Iterable[FailureRow]) -> str:
     """Say in one line what came of a record: "overturns: pier (100 %); uncertain: wall (19 %); stands: arch 0.31".
 
     The numbers are the shares that overturn, or of what stands the largest rotation over the critical one of the worst
@@ -250,8 +251,6 @@ def bar(things: Iterable[T], what: str, total: int | None = None) -> "tqdm[T]":
 
     what: one of them, "file". total: how many there are; None asks `things`. The bar is gone at the end.
     """
-    from tqdm import tqdm  # which few verbs show
-
     tqdm.monitor_interval = 0  # no thread of its own
     shape = f"{{n:.0f}} of {{total:.0f}} {what}s {{bar}} {{remaining}} left"
     # None: not where nobody looks. The stream itself, for that of the command writes no control characters.
@@ -336,8 +335,6 @@ class Progress:
             text = fitting(escaped(line), self._stream)
             print(self._back + text, file=self._stream, flush=True)
         if self._back and self._done < self._total:
-            from tqdm import tqdm  # as in `bar`
-
             shown = tqdm.format_meter(
                 self._done,
                 self._total,

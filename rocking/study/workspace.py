@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator
 from functools import partial
 from itertools import chain
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from rocking.assessment.case import StationResult
 from rocking.assessment.rows import CapacityRow, StructureRow, capacity_rows, structure_rows
 from rocking.assessment.scene import load_scenes, placed
 from rocking.errors import ConfigurationError, RecordError
@@ -18,11 +18,13 @@ from rocking.records.folder import catalogue_of_folder
 from rocking.records.formats.layouts import NAME
 from rocking.records.listing import listing_text
 from rocking.records.read import read
-from rocking.study.job import Study, assess_catalogued, rows_of, write_report
 from rocking.study.plan import workflow_folder
 from rocking.study.settings import Settings, first_yaml, settings_sha256
 from rocking.study.terminal import bar
 from rocking.tables import Row, write_tables, write_whole, written_together
+
+if TYPE_CHECKING:  # as in `assess_file`
+    from rocking.assessment.case import StationResult
 
 
 def start(folder: Path) -> list[Path]:
@@ -122,6 +124,9 @@ def assess_file(
     output: a folder for report.pdf and the tables, laid out like the results of a study. Raises RecordError or
     ConfigurationError before anything is written.
     """
+    # It loads numba, for which who starts a study or catalogues a folder would wait as well.
+    from rocking.study.job import Study, assess_catalogued, rows_of, write_report
+
     all_scenes = load_scenes(structures)
     if name not in (None, *all_scenes):
         names = ", ".join(all_scenes)
@@ -143,7 +148,7 @@ def assess_file(
     return lines + [f"not assessed: {each.structure or each.stage}: {each.message}" for each in rows.failures]
 
 
-def _told(station: StationResult, scale_factor: float) -> Iterator[str]:
+def _told(station: "StationResult", scale_factor: float) -> Iterator[str]:
     """Yield the verdict on a structure with its count and reason, then what each component does by itself."""
     decision = station.decision
     share = f" ({decision.share_in_words})" if decision.share_in_words else ""

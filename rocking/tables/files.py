@@ -6,6 +6,7 @@ import os
 import stat
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar
 from pathlib import Path
@@ -115,8 +116,6 @@ def _put_in_place(written: Mapping[Path, Path]) -> None:
     if len(written) == 1:
         _sync(*written.values())
     elif written:
-        from concurrent.futures import ThreadPoolExecutor  # of which few readers of tables have need
-
         try:
             with ThreadPoolExecutor(len(written)) as threads:
                 list(threads.map(_sync, written.values()))

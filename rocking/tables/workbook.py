@@ -6,6 +6,8 @@ from datetime import datetime
 from io import BytesIO
 from typing import Any
 
+from xlsxwriter import Workbook
+
 from rocking.described import Described
 from rocking.quantities import escaped
 from rocking.tables.rows import Row
@@ -29,8 +31,6 @@ def workbook(
     more rows than a sheet holds is left out, and the first sheet says so. opens_on: the table that is shown first; None
     for the sheet of the columns.
     """
-    from xlsxwriter import Workbook  # takes 0.1 s, and few commands write a workbook
-
     content = BytesIO()
     book = Workbook(
         content, {"constant_memory": True, "strings_to_formulas": False, "strings_to_urls": False}

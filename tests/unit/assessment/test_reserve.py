@@ -10,8 +10,9 @@ import rocking
 from rocking.assessment.assessor import Assessor
 from rocking.assessment.case import StationResult
 from rocking.assessment.ensemble import CAUSES, lattice
+from rocking.assessment.ladder import Stage, _Ladder, reserve
 from rocking.assessment.motions import GroundMotions
-from rocking.assessment.reserve import Reserve, Stage, _Ladder, reserve
+from rocking.assessment.reserve import Reserve
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.assessment.store import RecordStore

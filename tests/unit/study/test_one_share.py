@@ -8,13 +8,13 @@ import pytest
 
 import rocking
 from rocking.assessment.decide import Verdict
-from rocking.assessment.rows import ExpectedFallsRow, RecordRow, VerdictRow
+from rocking.assessment.rows import ExpectedFallsRow, RecordRow
 from rocking.records import load_catalogue
 from rocking.strengthening import sizes, strengthen_scene
 from rocking.study.checks import write_checks
 from rocking.study.job import Study
 from rocking.study.plan import make_plan
-from rocking.study.results import outcomes_of
+from rocking.study.results import outcomes_of, verdicts_of
 from rocking.study.summary import write_summary
 from rocking.tables import read_table
 from tests.made_pools import DESIGN
@@ -58,7 +58,7 @@ def test_four_tables_say_one_share_of_a_pinnacle_whose_stacks_fall(folder: Path,
     worked(catalogue, study, folder / "results")
     outcomes = list(outcomes_of(folder / "results", catalogue))
     write_summary(outcomes, study.structures, folder / "summary", False)
-    verdicts = read_table(VerdictRow, folder / "summary")
+    verdicts = verdicts_of(folder / "results", catalogue)
 
     # The summary: of each record the larger of two counts, that of the members and that of the stacks.
     assert len(verdicts) == len(PERIODS)
