@@ -207,7 +207,7 @@ def picture(browser) -> str:
 def test_it_begins_with_a_case_that_moves_and_a_cell_opens_its_case(page):
     assert len(page("button[aria-pressed='true']")) == 1
     assert page("#histories #rotation")[0].get_attribute("points")
-    assert "2 records, 7 structures" in page("header")[0].text and HOSTILE in page("h1")[0].text
+    assert "1 record, 7 structures" in page("header")[0].text and HOSTILE in page("h1")[0].text
     cell = moving(page)
     assert cell.get_attribute("aria-pressed") == "true"
     assert page("#title")[0].text.startswith("wall (") and "synthetic_00000" in page("#title")[0].text

@@ -8,6 +8,7 @@ import pytest
 from rocking import DesignSpectrum, check
 from rocking.assessment.rows import RecordRows
 from rocking.codes.rows import CodeCheckRow, code_check_rows
+from rocking.reports.pages import Footer
 from rocking.reports.printing import compile_document
 
 from .conftest import SETTINGS, Word, detailed, of_structures, pages, summarised, summary_report
@@ -63,7 +64,8 @@ def test_no_table_goes_on_over_a_page_after_one_row(count, tmp_path):
     table = {"heads": ["Name", "Value"], "widths": ["1", "1"], "alignments": ["l", "r"], "rows": rows}
     torn = 0
     for above in range(150, 245, 8):
-        document = compile_document(tmp_path / "one.typ", {"table": table, "above": str(above)})
+        content = {"table": table, "above": str(above), "footer": Footer(), "language": "en"}
+        document = compile_document(content, tmp_path / "one.typ")
         counts = [sum(word[4].startswith("row") for word in page) for page in pages(document)]
         counts = [many for many in counts if many]
         assert sum(counts) == count

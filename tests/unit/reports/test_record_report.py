@@ -369,7 +369,7 @@ def test_the_report_says_what_to_do_and_by_how_much_the_record_may_be_stronger()
     shaking = [shaken("NS", scale_factor=3.0), shaken("EW", scale_factor=2.0)]
     unasked = assessed("two", shaking, structures, fidelity="auto")
     data = unasked.page()
-    assert data.advice == [f"To learn more of spire: {Remark(Kind.CONTACT_DYNAMICS)}."]
+    assert data.advice == (f"To learn more of spire: {Remark(Kind.CONTACT_DYNAMICS)}.",)
     remarks = {row.name: row.remark for row in data.page_one.rows}
     assert remarks["spire"] == Remark(Kind.CONTACT_DYNAMICS).brief
     first = "".join(word[4] for word in pages(unasked.pdf())[0])
@@ -377,7 +377,7 @@ def test_the_report_says_what_to_do_and_by_how_much_the_record_may_be_stronger()
 
     report = assessed("two", shaking, structures)
     data = report.page()
-    assert data.advice == [], "contact dynamics was asked"
+    assert data.advice == (), "contact dynamics was asked"
     (block,) = (row for row in report.tables.verdicts if row.structure == "block")
     reserves = {row.name: row.reserve for row in data.page_one.rows}
     assert reserves["block"].startswith(printing.number(block.reserve_low, 2))
