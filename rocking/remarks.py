@@ -908,6 +908,12 @@ class Kind(StrEnum):
         "{about}: the file {before} is now {now}, by its content; the row names it.",
         "{about}: il file {before} è ora {now}, secondo il suo contenuto; la riga lo nomina.",
     )
+    FILE_APART = auto(), Sentence("{about}: {why}", "{about}, a parte: {why}")
+    FILE_WITHOUT_RECORD = auto(), Sentence("{about} is not used: {why}", "{about} non è usato: {why}")
+    SIBLING_NOT_USED = auto(), Sentence(
+        "{other}, beside {about}, is a component of the same station and is not used: give it too.",
+        "{other}, accanto a {about}, è una componente della stessa stazione e non è usato: indicarlo anch'esso.",
+    )
     ROWS_TO_JOIN = auto(), Sentence(
         "{files} are components of one station: name them all in the row {rows} to join them.",
         "{files} sono componenti di una stessa stazione: nominarle tutte nella riga {rows} per unirle.",

@@ -203,8 +203,8 @@ def scenes_schema_file() -> str:
     return result
 
 
-def load_scenes(path: str | Path) -> dict[str, Scene]:
-    """Return the scenes that a file lists, by name, in its order.
+def load_scenes(path: str | Path, content: bytes | None = None) -> dict[str, Scene]:
+    """Return the scenes that a file lists, by name, in its order; content: of a list in YAML that lies in no file.
 
     A YAML file is a list of mappings, each with a `name` of its own; those of type support carry others, which name
     them by `stands_on`. The variants of a structure follow it, each as "structure: variant". A CSV file has an entry a
@@ -213,7 +213,8 @@ def load_scenes(path: str | Path) -> dict[str, Scene]:
     """
     defects: list[str] = []
     path = Path(path)
-    entries = _rows(path, defects) if path.suffix.lower() == ".csv" else _entries(path, defects)
+    is_table = content is None and path.suffix.lower() == ".csv"
+    entries = _rows(path, defects) if is_table else _entries(path, defects, content)
     places: dict[str, Place | None] = {}
     scenes: dict[str, Scene] = {}
     names: list[object] = []
@@ -282,9 +283,9 @@ class _Entry(NamedTuple):
     base: str = ""
 
 
-def _entries(path: Path, defects: list[str]) -> list[_Entry]:
+def _entries(path: Path, defects: list[str], content: bytes | None) -> list[_Entry]:
     """The entries of a structure list, the variants of each behind it. What is no variant is added to the defects."""
-    entries, node = read_yaml(path, ConfigurationError, "structure list")
+    entries, node = read_yaml(path, ConfigurationError, "structure list", content=content)
     if entries == []:
         raise ConfigurationError(f"{path}: the list is empty, but must hold one structure at least.")
     if not isinstance(entries, list):

@@ -228,7 +228,7 @@ def load_catalogue(path: str | Path) -> tuple[CatalogueRecord, ...]:
     told: dict[str, list[str]] = {}
     for line, row in rows:
         try:
-            records.append(_record(row, path.parent))
+            records.append(record_of_row(row, path.parent))
         except RockingError as error:
             told.setdefault(str(error), []).append(f"line {line} ({row.get('id') or 'no id'})")
     defects = [f"{few(places)}: {defect}" for defect, places in told.items()]
@@ -268,7 +268,8 @@ _NUMBERS = (
 """Columns in which a comma can only be a decimal sign."""
 
 
-def _record(row: Mapping[str, str], folder: Path) -> CatalogueRecord:
+def record_of_row(row: Mapping[str, str], folder: Path) -> CatalogueRecord:
+    """Return the record of a row of a catalogue in `folder`. Raises CatalogueError at its first defect."""
     values: dict[str, Any] = {"id": "", "file": "", "folder": folder}
     for name, each in described_values(CatalogueRecord).items():
         if cell := (row.get(each.key) or "").strip():

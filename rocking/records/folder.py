@@ -89,7 +89,7 @@ def catalogue_of_folder(
     readings = Readings(folder, layouts, is_kept=keeps_readings)
     listed = []
     signatures = []
-    for path in watched(list(_files(folder))):
+    for path in watched(list(files_in(folder))):
         own = _declared_in(rows_of.get(path.relative_to(folder).as_posix()), declared)
         reading = readings.of(path, own)
         listed.append(listed_file(reading, path, folder, own))
@@ -110,7 +110,7 @@ def catalogue_of_folder(
     by_answer = {file.record: file.channels[0].answer for file in listed if file.channels and not file.blanks}
     for row in rows:
         _clear_filled(row, by_answer.get(row["id"], ""))
-    new = _new_rows(listed, {row["id"].lower() for row in rows})
+    new = rows_of_files(listed, (row["id"].lower() for row in rows))
     of_store = [readings.remark] if readings.remark else []
     idle = [
         Remark.of(Kind.ANSWER_IDLE, NAME, line=each.line, answer=each.text)
@@ -207,8 +207,9 @@ def _clear_filled(row: Row, answer: str) -> None:
             return
 
 
-def _new_rows(listed: Sequence[ListedFile], ids: set[str]) -> list[Row]:
+def rows_of_files(listed: Sequence[ListedFile], taken: Iterable[str] = ()) -> list[Row]:
     """Return the rows of the files that stand in none yet, and note in each file which row it got, or why none."""
+    ids = set(taken)
     rows = []
     for group in stations([file for file in listed if not (file.refusal or file.record)]):
         channels = list(map(named_channel, group)) if len(group) > 1 else group[0].channels
@@ -225,7 +226,7 @@ def _new_rows(listed: Sequence[ListedFile], ids: set[str]) -> list[Row]:
     return rows
 
 
-def _files(folder: Path) -> Iterator[Path]:
+def files_in(folder: Path) -> Iterator[Path]:
     """Yield the files under `folder`, in the order of names, those of archives too; no hidden ones and catalogues."""
     for path in sorted(path for path in folder.rglob("*") if path.is_file()):
         if is_archive(path) and not path.name.startswith("."):
@@ -313,7 +314,7 @@ def unlisted(catalogue: Path) -> tuple[Remark, ...]:
             names = (name.strip() for _, row in read_rows(path) for name in row["file"].split(";"))
             catalogued |= {folder / name for name in names}
     records = []
-    for path in islice((path for path in _files(folder) if path not in catalogued), _LOOKED_AT):
+    for path in islice((path for path in files_in(folder) if path not in catalogued), _LOOKED_AT):
         with suppress(RecordError):
             form = recognise(bare_text(unpack(bytes_of(path), path.name)))
             records += [path.relative_to(folder).as_posix()] if form.name != "StationXML" else []

@@ -2,7 +2,7 @@
 
 import re
 import shutil
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
@@ -162,19 +162,30 @@ def _read_for_listing(
             return Reading(sha256, refusal=printable(told.beside(printable(path.name))))
     is_known = all(declared[name] for name in missing)
     is_unit_known = "unit" not in missing or bool(declared["unit"])
-    doubts: dict[Remark, list[str]] = {}
-    for channel in channels:
-        for remark in channel.warnings:
-            if is_unit_known or remark.kind not in _OF_UNIT:
-                doubts.setdefault(remark, []).append(channel.component)
-    remarks = [
-        remark if len(of) == len(channels) or remark.about else replace(remark, about=", ".join(of))
-        for remark, of in doubts.items()
-    ]
+    remarks = list(_doubts_of(channels, () if is_unit_known else _OF_UNIT))
     if not is_unit_known and channels[0].source.format in OF_COUNTS:
         remarks.append(Remark(Kind.COUNTS_WITHOUT_UNIT))
     listed = tuple(_without_samples(channel, is_known) for channel in channels)
     return Reading(sha256, listed, tuple(remarks), missing=missing, question=None if is_known else question)
+
+
+def reading_of(channels: Sequence[Accelerogram]) -> Reading:
+    """Return what the channels of one file give, which were read with all that it leaves open."""
+    listed = tuple(_without_samples(channel, is_known=True) for channel in channels)
+    return Reading(channels[0].source.sha256, listed, _doubts_of(channels))
+
+
+def _doubts_of(channels: Sequence[Accelerogram], passed_over: Collection[Kind] = ()) -> tuple[Remark, ...]:
+    """Return what is doubtful of the channels of a file, about the components where not all are concerned."""
+    doubts: dict[Remark, list[str]] = {}
+    for channel in channels:
+        for remark in channel.warnings:
+            if remark.kind not in passed_over:
+                doubts.setdefault(remark, []).append(channel.component)
+    return tuple(
+        remark if len(of) == len(channels) or remark.about else replace(remark, about=", ".join(of))
+        for remark, of in doubts.items()
+    )
 
 
 def _without_samples(record: Accelerogram, is_known: bool) -> ListedChannel:

@@ -16,6 +16,7 @@ from typing import Any, TextIO
 
 from rocking.errors import CatalogueError, ConfigurationError, RockingError, UnknownFormatError
 from rocking.quantities import GRAVITY, escaped
+from rocking.records.doors import through
 from rocking.study import close_doors
 
 
@@ -64,7 +65,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             with warnings.catch_warnings():
                 warnings.showwarning = _show
                 close_doors()
-                return options.run(options) or 0
+                with through("command"):
+                    return options.run(options) or 0
         except RockingError as error:
             lines = f"rocking: {error}".splitlines()
             print(*lines[:_MOST_LINES], sep="\n", file=sys.stderr)
@@ -90,10 +92,11 @@ def _parser() -> argparse.ArgumentParser:
         "--unit", help="unit of the numbers, where the file states none: m/s2, cm/s2, g, ..."
     )
     declarations.add_argument("--time-step", type=float, help="time step in s, where the file states none")
-    one_file = argparse.ArgumentParser(add_help=False, parents=[declarations])
-    one_file.add_argument("file", type=Path, help="file of an accelerogram, in any format that is read")
-    one_file.add_argument("--scale", type=float, default=1.0, help="factor on the accelerations (default: 1)")
-    channels = argparse.ArgumentParser(add_help=False, parents=[one_file])
+    of_files = argparse.ArgumentParser(add_help=False, parents=[declarations])
+    what = "files of accelerograms, in any format that is read, archives or folders of them, and their StationXML"
+    of_files.add_argument("files", type=Path, nargs="+", metavar="FILE", help=what)
+    of_files.add_argument("--scale", type=float, default=1.0, help="factor on the accelerations (default: 1)")
+    channels = argparse.ArgumentParser(add_help=False, parents=[of_files])
     channels.add_argument("--component", default="", help="component to use (default: every horizontal one)")
 
     parser = argparse.ArgumentParser(
@@ -126,15 +129,19 @@ def _parser() -> argparse.ArgumentParser:
     add = verb(_tables, "write the tables of single records of a finished study")
     add("results", type=Path, help="folder of the results of a study")
     add("record", nargs="+", help="identifier of a record in the catalogue")
-    add = verb(_assess, "assess structures under an accelerogram", channels)
-    add("structures", type=Path, help="YAML file that lists structures")
-    add("name", nargs="?", help="name of one structure in the list (default: all)")
+    add = verb(_assess, "assess structures under accelerograms", channels)
+    of_list = (
+        "list of structures: a file (YAML or CSV), - for what comes in, or '{type: block, breadth_m: 1, ...}'"
+    )
+    add("--structures", required=True, metavar="LIST", help=of_list)
+    add("--name", help="name of one structure in the list (default: all)")
+    add("--pdf", type=Path, help="file for the report of the record")
     add("--output", type=Path, help="folder for report.pdf and its tables")
-    add = verb(_read, "read an accelerogram and print its header and peak", one_file)
+    add = verb(_read, "read accelerograms and print their headers and peaks", of_files)
     of_each = "name what each reader looked for in a file that none recognised"
     add("--details", action="store_true", help=of_each)
-    verb(_pulse, "print the dominant sine pulse of an accelerogram", channels)
-    add = verb(_spectrum, "print the rocking spectrum of an accelerogram as CSV", channels)
+    verb(_pulse, "print the dominant sine pulse of accelerograms", channels)
+    add = verb(_spectrum, "print the rocking spectrum of accelerograms as CSV", channels)
     add("--restitution", type=float, default=0.9, help="velocity ratio of an impact, 0 to 1 (default: 0.9)")
     add("--output", type=Path, default=Path("spectrum.csv"), help="CSV file")
     add = verb(
@@ -219,77 +226,103 @@ def _tables(options: argparse.Namespace) -> None:
         print(open_results(options.results).write_record(record)[0].parent)
 
 
-def _read(options: argparse.Namespace) -> None:
-    from rocking.records import read
+def _read(options: argparse.Namespace) -> int:
     from rocking.records.plausibility import scaled
+    from rocking.study.own_files import read_files
 
     try:
-        records = read(options.file, unit=options.unit, time_step=options.time_step)
+        own = read_files(options.files, _declared(options))
     except UnknownFormatError as error:
         if options.details:
             print("\n".join(error.details))
         raise
-    for record in records:
-        accelerogram = record if options.scale == 1 else scaled(record, options.scale)
-        peak = accelerogram.peak_acceleration
-        print(
-            f"{accelerogram.source.format}: {accelerogram.event or 'event not named'}, "
-            f"{accelerogram.station or 'station not named'}, component {accelerogram.component or 'not named'}: "
-            f"{accelerogram.acceleration.size} samples every {accelerogram.time_step:g} s, "
-            f"peak {peak:.4g} m/s² = {peak / GRAVITY:.4g} g"
-        )
-        for sentence in (*accelerogram.processing, *accelerogram.warnings):
-            print(f"  {sentence}")
+    for path, records in own.channels.items():
+        if len(own.channels) > 1:
+            print(f"{path}:")
+        for record in records:
+            accelerogram = record if options.scale == 1 else scaled(record, options.scale)
+            peak = accelerogram.peak_acceleration
+            print(
+                f"{accelerogram.source.format}: {accelerogram.event or 'event not named'}, "
+                f"{accelerogram.station or 'station not named'}, component {accelerogram.component or 'not named'}: "
+                f"{accelerogram.acceleration.size} samples every {accelerogram.time_step:g} s, "
+                f"peak {peak:.4g} m/s² = {peak / GRAVITY:.4g} g"
+            )
+            for sentence in (*accelerogram.processing, *accelerogram.warnings):
+                print(f"  {sentence}")
+    return _refusals(own)
 
 
-def _pulse(options: argparse.Namespace) -> None:
+def _pulse(options: argparse.Namespace) -> int:
     from rocking.pulses import extract_pulses
 
-    for accelerogram in _accelerograms(options):
+    own, accelerograms = _accelerograms(options)
+    for accelerogram in accelerograms:
         analysis = extract_pulses(accelerogram)
         pulse = analysis.dominant
+        of = f"{accelerogram.station}, " if len(own.stations) > 1 and accelerogram.station else ""
         print(
-            f"component {accelerogram.component or 'not named'}: amplitude {pulse.amplitude:.4g} m/s² = "
+            f"{of}component {accelerogram.component or 'not named'}: amplitude {pulse.amplitude:.4g} m/s² = "
             f"{pulse.amplitude / GRAVITY:.4g} g, period {pulse.period:.4g} s, start {pulse.start_time:.3f} s, "
             f"explains {analysis.explained_energy:.0%} of the acceleration energy"
         )
         for sentence in (*analysis.flags, *accelerogram.processing):
             print(f"  {sentence}")
+    return _refusals(own)
 
 
-def _assess(options: argparse.Namespace) -> None:
-    from rocking.study.workspace import assess_file
+def _assess(options: argparse.Namespace) -> int:
+    from rocking.study.own_files import STDIN, assess_stations, scenes_of, stations_of
 
-    record, channels = _own_file(options)
-    lines = assess_file(record, channels, options.structures, options.name, options.output)
-    print(*lines, sep="\n")
-    if options.output is not None:
-        print(options.output / record.id / "report.pdf")
+    stdin = sys.stdin.buffer.read() if options.structures == STDIN else None
+    scenes = scenes_of(options.structures, stdin)
+    own = stations_of(options.files, _declared(options))
+    print(*assess_stations(own.stations, scenes, options.name, options.output, options.pdf), sep="\n")
+    written = [options.output / each.record.id / "report.pdf" for each in own.stations if options.output]
+    print(
+        *written,
+        *([options.pdf] if options.pdf else []),
+        sep="\n",
+        end="\n" if written or options.pdf else "",
+    )
+    return _refusals(own)
 
 
-def _spectrum(options: argparse.Namespace) -> None:
+def _spectrum(options: argparse.Namespace) -> int:
     import numpy as np
 
     from rocking.assessment.rows import SpectrumRow, spectrum_rows
     from rocking.tables import write_rows
 
     axes = np.geomspace(0.5, 10, 40), np.geomspace(0.02, 1, 40)  # p in rad/s, and uplift multiplier
-    rows = spectrum_rows(_accelerograms(options), *axes, options.restitution)
+    own, accelerograms = _accelerograms(options)
+    rows = spectrum_rows(accelerograms, *axes, options.restitution)
     write_rows(SpectrumRow, rows, options.output)
     print(options.output)
+    return _refusals(own)
 
 
 def _accelerograms(options: argparse.Namespace) -> Any:
-    """The horizontal components of the file, processed as a study would."""
+    """The files, and the horizontal components of their stations, processed as a study would."""
     from rocking.study.job import Study
+    from rocking.study.own_files import stations_of
 
-    return Study({}).open(*_own_file(options))[0]
+    own = stations_of(options.files, _declared(options))
+    opened = [Study({}).open(each.record, list(each.channels))[0] for each in own.stations]
+    return own, [accelerogram for horizontal in opened for accelerogram in horizontal]
 
 
-def _own_file(options: argparse.Namespace) -> Any:
-    from rocking.study.workspace import read_own
+def _declared(options: argparse.Namespace) -> Any:
+    from rocking.study.own_files import Declared
 
-    return read_own(options.file, options.unit, options.time_step, options.scale, options.component)
+    return Declared(options.unit, options.time_step, options.scale, getattr(options, "component", ""))
+
+
+def _refusals(own: Any) -> int:
+    """Print what there is to say of the files beside their records; 1 where one of them could not be read."""
+    for told in (*own.remarks, *own.refused):
+        print(f"rocking: {told}", file=sys.stderr)
+    return 1 if own.refused else 0
 
 
 if __name__ == "__main__":

@@ -1,30 +1,19 @@
 """A folder or a file of the user's own, apart from this package: start a study, catalogue records, assess one file."""
 
-import math
-import re
-from collections.abc import Iterable, Iterator
 from functools import partial
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from rocking.assessment.rows import CapacityRow, StructureRow, capacity_rows, structure_rows
-from rocking.assessment.scene import load_scenes, placed
 from rocking.errors import ConfigurationError, RecordError
 from rocking.quantities import counted
-from rocking.records import Accelerogram
-from rocking.records.catalogue import COLUMNS, CatalogueRecord, catalogue_text, read_rows
+from rocking.records.catalogue import COLUMNS, catalogue_text, read_rows
 from rocking.records.folder import catalogue_of_folder
 from rocking.records.formats.layouts import NAME
 from rocking.records.listing import listing_text
-from rocking.records.read import read
 from rocking.study.plan import workflow_folder
-from rocking.study.settings import Settings, first_yaml, settings_sha256
+from rocking.study.settings import Settings, first_yaml
 from rocking.study.terminal import bar
-from rocking.tables import Row, write_tables, write_whole, written_together
-
-if TYPE_CHECKING:  # as in `assess_file`
-    from rocking.assessment.case import StationResult
+from rocking.tables import write_whole
 
 
 def start(folder: Path) -> list[Path]:
@@ -88,83 +77,3 @@ def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: flo
     lost = [note.format(each["id"]) for each in of_folder if each["id"] not in records]
     count = f"{target}: {counted(len(standing) + len(rows), 'record')}, {len(rows)} of them new"
     return listing_text(files) + "\n".join(["", *map(str, found.remarks), *lost, *asked, count])
-
-
-def read_own(
-    path: Path, unit: str | None, time_step: float | None, scale_factor: float, component: str
-) -> tuple[CatalogueRecord, list[Accelerogram]]:
-    """Return the row that a catalogue would hold for a single file, and every channel of it; component: to use.
-
-    unit and time_step [s]: where the file does not say them. Raises RecordError.
-    """
-    channels = read(path, unit=unit, time_step=time_step)
-    name = re.sub(r"[^A-Za-z0-9._-]+", "_", path.stem).strip("._-")[:70]
-    record = CatalogueRecord(
-        id=f"{name}_record" if name.lower() in ("", "summary") else name,
-        file=path.resolve().name,
-        sha256=channels[0].source.sha256,
-        component=component,
-        unit=unit or "",
-        time_step=time_step,
-        scale_factor=scale_factor,
-        folder=path.resolve().parent,
-    )
-    return record, channels
-
-
-def assess_file(
-    record: CatalogueRecord,
-    channels: list[Accelerogram],
-    structures: Path,
-    name: str | None,
-    output: Path | None,
-) -> list[str]:
-    """Assess the structure `name` (None: all) of a list under one record and return lines of text.
-
-    output: a folder for report.pdf and the tables, laid out like the results of a study. Raises RecordError or
-    ConfigurationError before anything is written.
-    """
-    # It loads numba, for which who starts a study or catalogues a folder would wait as well.
-    from rocking.study.job import Study, assess_catalogued, rows_of, write_report
-
-    all_scenes = load_scenes(structures)
-    if name not in (None, *all_scenes):
-        names = ", ".join(all_scenes)
-        raise ConfigurationError(f"structure is {name!r}, but must be one of those in {structures}: {names}.")
-    chosen = {each: scene for each, scene in all_scenes.items() if name in (None, each)}
-    study = Study(chosen, Settings(), settings_sha256(Settings(), all_scenes))
-    result = assess_catalogued(record, study, study.open(record, channels))
-    rows = rows_of(result, record, study)
-    if output is not None:
-        of_structures: dict[type[Row], Iterable[Row]] = {
-            StructureRow: structure_rows(study.structures),
-            CapacityRow: capacity_rows(study.structures),
-        }
-        with written_together():
-            write_tables(rows.tables, output / record.id)
-            write_report(result, rows, study, output / record.id)
-            write_tables(of_structures, output / "summary")
-    lines = [line for station in result.worst_first for line in _told(station, record.scale_factor)]
-    return lines + [f"not assessed: {each.structure or each.stage}: {each.message}" for each in rows.failures]
-
-
-def _told(station: "StationResult", scale_factor: float) -> Iterator[str]:
-    """Yield the verdict on a structure with its count and reason, then what each component does by itself."""
-    decision = station.decision
-    share = f" ({decision.share_in_words})" if decision.share_in_words else ""
-    yield f"{placed(station.structure, station.support_period_s)}: {decision.word}{share}; {decision.why}"
-    for component, case in station.cases.items():
-        if case.answer is None:
-            continue
-        facts = [f"  {component or 'component not named'}: {case.answer.outcome}"]
-        if case.answer.reason:
-            facts.append(case.answer.reason)
-        if math.isfinite(case.integrated_rotation_ratio):  # overturning stands in the outcome
-            facts.append(f"largest rotation {case.integrated_rotation_ratio:.4g} of the critical one")
-        predicted = case.predicted_rotation_ratio
-        if case.prediction is not None:
-            words = "overturning" if math.isinf(predicted) else f"{predicted:.4g}"
-            facts.append(f"one pulse predicts {words} ({case.prediction.maximum.regime})")
-        if scale_factor != 1:
-            facts.append(f"the accelerations of the file were multiplied by {scale_factor:g}")
-        yield "; ".join(facts)

@@ -18,14 +18,20 @@ _DEEPEST = 8
 
 
 def read_yaml(
-    path: Path, error: type[RockingError], what: str, largest: int = LARGEST_YAML
+    path: Path,
+    error: type[RockingError],
+    what: str,
+    largest: int = LARGEST_YAML,
+    content: bytes | None = None,
 ) -> tuple[Any, Any]:
     """Return what the YAML file at `path` holds, and its node, None for an empty file. what: "structure list".
+
+    content: of a list that lies in no file, and is called as `path` says.
 
     1:30 and 011 are texts, and so are yes and no; 1e-6 is a number. Raises `error` for what no such file needs: another
     kind of file, more than `largest` bytes, anchors and aliases, deep nesting, a key given twice, tags.
     """
-    content = read_whole(path, largest, error)
+    content = read_whole(path, largest, error) if content is None else content
     try:
         loader = _StrictLoader(content.decode("utf-8-sig"))
         node = loader.get_single_node()

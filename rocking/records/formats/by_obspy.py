@@ -8,6 +8,7 @@ import io
 import re
 import struct
 import warnings
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from datetime import datetime
@@ -322,13 +323,7 @@ def _inventory(stats: Any, options: Options) -> Any:
         return _parse(options.inventory)
     if options.unit is not None or options.folder is None:
         return None
-    naming = []
-    for path in sorted(options.folder.glob("*.xml")):
-        with suppress(OSError):
-            state = path.stat()
-            codes = _codes_in(str(path), state.st_mtime_ns, state.st_size)
-            if ("Network", stats.network) in codes and ("Station", stats.station) in codes:
-                naming.append(path)
+    naming = _naming(stats, options.described) or _naming(stats, sorted(options.folder.glob("*.xml")))
     if len(naming) != 1:
         several = f"several do: {', '.join(p.name for p in naming)}" if naming else "none beside it does"
         missing = f"no single StationXML describes {stats.network}.{stats.station} ({several})"
@@ -336,6 +331,18 @@ def _inventory(stats: Any, options: Options) -> Any:
             f"{missing}; {advice('inventory')}; if the samples are acceleration, {advice('unit')}."
         )
     return _parse(naming[0])
+
+
+def _naming(stats: Any, paths: Sequence[Path]) -> list[Path]:
+    """Return those of XML files that name the network and the station of a trace."""
+    naming = []
+    for path in paths:
+        with suppress(OSError):
+            state = path.stat()
+            codes = _codes_in(str(path), state.st_mtime_ns, state.st_size)
+            if ("Network", stats.network) in codes and ("Station", stats.station) in codes:
+                naming.append(path)
+    return naming
 
 
 _CODE = re.compile(r'<(?:\w+:)?(Network|Station)\b[^>]*\bcode="([^"]*)"')

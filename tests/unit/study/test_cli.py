@@ -123,7 +123,7 @@ def test_a_terminal_of_few_letters_gets_the_others_escaped(record, blocks, monke
         received = io.BytesIO()
         monkeypatch.setattr("sys.stdout", io.TextIOWrapper(received, encoding))
         assert main(["read", str(record), "--unit", "g"]) == 0
-        assert main(["assess", str(record), str(blocks), "--unit", "g"]) == 0
+        assert main(["assess", str(record), "--structures", str(blocks), "--unit", "g"]) == 0
         sys.stdout.flush()
         assert written in received.getvalue()
 
@@ -155,7 +155,7 @@ def test_read_and_pulse_say_what_is_in_a_file(record, capsys):
 
 def test_assess_tells_overturning_from_no_uplift(record, blocks, capsys):
     """Peak 0.5 g: below the uplift at tan α = 1 of the squat block, far above that of the slender one (1/6)."""
-    assert main(["assess", str(record), str(blocks), "--unit", "g"]) == 0
+    assert main(["assess", str(record), "--structures", str(blocks), "--unit", "g"]) == 0
     lines = capsys.readouterr().out.splitlines()
     told = [line.split(": ")[1].split(";")[0] for line in lines]
     expected = ["overturns (100\u00a0%)", "overturns", "stands (0\u00a0%)", "no uplift"]
@@ -179,9 +179,10 @@ def test_terminal_tables_and_python_say_the_same_of_every_shipped_structure(
     entries = (ROOT / "workflow" / "structures.yaml").read_text(encoding="utf-8").splitlines()
     structures = tmp_path / "structures.yaml"
     structures.write_text("\n".join(line for line in entries if any(name in line for name in names)))
-    assert main(["assess", str(shipped), str(structures), "--output", str(tmp_path)]) == 0
+    assert main(["assess", str(shipped), "--structures", str(structures), "--output", str(tmp_path)]) == 0
     lines = capsys.readouterr().out.splitlines()
-    table = rows(tmp_path / "20161113_110259_WTMC_20" / "verdicts.csv")
+    (path,) = tmp_path.glob("*/verdicts.csv")
+    table = rows(path)
     first, second, _ = rocking.read(shipped)
     bodies = load_scenes(structures)
     assert {row["structure"] for row in table} == set(bodies)
@@ -208,7 +209,18 @@ def test_assess_opens_a_file_once_and_writes_report_and_tables_like_a_study(
     monkeypatch.setattr(
         os, "open", lambda path, *mode, **more: opened.append(path) or real(path, *mode, **more)
     )
-    arguments = ["assess", str(record), str(blocks), "squat", "--unit", "g", "--scale", "1.5"]
+    arguments = [
+        "assess",
+        str(record),
+        "--structures",
+        str(blocks),
+        "--name",
+        "squat",
+        "--unit",
+        "g",
+        "--scale",
+        "1.5",
+    ]
     assert main([*arguments, "--output", str(tmp_path / "out")]) == 0
     assert opened.count(record) == 1
     assert "multiplied by 1.5" in capsys.readouterr().out
@@ -277,7 +289,7 @@ def test_run_plans_a_study_in_its_own_folder(study, monkeypatch, capfd):
 
 def _bad_inputs():
     yield "no such file", ["read", "absent.AT2"], "absent.AT2"
-    yield "a folder", ["read", "."], "it is no regular file"
+    yield "a folder of no records", ["read", "nothing"], "it holds no record"
     yield "an empty file", ["read", "empty"], "empty"
     yield "an unknown format", ["read", "letter"], "no reader recognises"
     yield "a unit not declared", ["read", "record"], "unit is not declared"
@@ -286,10 +298,22 @@ def _bad_inputs():
     yield "a scale of nothing", ["pulse", "record", "--unit", "g", "--scale", "0"], "scale_factor"
     yield "a scale that is no number", ["pulse", "record", "--unit", "g", "--scale", "nan"], "scale_factor"
     yield "a component that is not there", ["pulse", "two", "--unit", "g", "--component", "X"], "'X'"
-    yield "a list that is not there", ["assess", "record", "absent.yaml", "--unit", "g"], "absent.yaml"
-    yield "a list that is no list", ["assess", "record", "letter", "--unit", "g"], "must hold a list"
-    yield "a structure that is not listed", ["assess", "record", "list", "tower", "--unit", "g"], "'tower'"
-    yield "no record to assess", ["assess", "empty", "list", "--output", "out"], "empty"
+    yield (
+        "a list that is not there",
+        ["assess", "record", "--structures", "absent.yaml", "--unit", "g"],
+        "absent.yaml",
+    )
+    yield (
+        "a list that is no list",
+        ["assess", "record", "--structures", "letter", "--unit", "g"],
+        "must hold a list",
+    )
+    yield (
+        "a structure that is not listed",
+        ["assess", "record", "--structures", "list", "--name", "tower", "--unit", "g"],
+        "'tower'",
+    )
+    yield "no record to assess", ["assess", "empty", "--structures", "list", "--output", "out"], "empty"
     yield "a restitution above 1", ["spectrum", "record", "--unit", "g", "--restitution", "2"], "restitution"
     yield "a folder without records", ["catalogue", "nothing"], "no accelerogram was read"
     yield "no folder", ["catalogue", "absent"], "this is no folder"
