@@ -193,15 +193,16 @@ def check_described(error: type[RockingError], made: Any) -> None:
     """
     kind = made.__class__
     for name, each in described_values(kind).items():
+        value = getattr(made, name)
         try:
-            object.__setattr__(made, name, each.checked(getattr(made, name)))
+            object.__setattr__(made, name, each.checked(value))
         except ValueError as wrong:
-            raise error(f"{name} is {wrong}") from None
+            raise error.naming(name, value, f"{name} is {wrong}") from None
     for name in parts_of(kind):
         part = getattr(made, name)
         expected = type(getattr(kind, name))
         if not isinstance(part, expected):
-            raise error(f"{name} is {shown(part)}, but must be a {expected.__name__}.")
+            raise error.naming(name, part, f"{name} is {shown(part)}, but must be a {expected.__name__}.")
 
 
 def read_described(

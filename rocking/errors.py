@@ -20,6 +20,7 @@ class RockingError(Exception):
 
     places: the record and the file that it is about, the outer one first, where those who raised it did not know them.
     remark: the sentence as a remark, which has it in every language; None of one that no page to sign repeats.
+    field, value: the parameter, key or column that was refused, and what it was; "" and None where it is not about one.
 
     >>> try:
     ...     rocking.Block.of_size(breadth=-1, height=3)
@@ -30,6 +31,16 @@ class RockingError(Exception):
 
     places: tuple[str, ...] = ()
     remark: Remark | None = None
+    field: str = ""
+    value: object = None
+
+    @classmethod
+    def naming(cls, field: str, value: object, sentence: str) -> Self:
+        """Return the error that the `value` of a field is refused; sentence: it, what is allowed and what to do."""
+        error = cls(sentence)
+        error.field = field
+        error.value = value
+        return error
 
     @classmethod
     def saying(cls, remark: Remark) -> Self:
@@ -79,12 +90,13 @@ class StructureError(RockingError):
 
 
 class SizeError(StructureError):
-    """A size that is not allowed: its name, its value as a sentence repeats it, and what the sentence says of it."""
+    """A size that is not allowed: its field, its value as a sentence repeats it, and what the sentence says of it."""
 
     def __init__(self, sentence: str, name: str = "", value: str = "", said: str = "") -> None:
         super().__init__(sentence)
-        self.name = name
+        self.field = name
         self.value = value
+        self.shown = value
         self.said = said
 
     @classmethod

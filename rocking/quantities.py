@@ -42,7 +42,9 @@ def instance(error: type[RockingError], name: str, value: object, kind: type) ->
     if not isinstance(value, kind):
         hint = "; give one of its items" if isinstance(value, list | tuple) else ""
         article = "an" if kind.__name__[0] in "AEIOU" else "a"
-        raise error(f"{name} is {kind_of(value)}, but must be {article} {kind.__name__}{hint}.")
+        raise error.naming(
+            name, value, f"{name} is {kind_of(value)}, but must be {article} {kind.__name__}{hint}."
+        )
 
 
 def escaped(text: str) -> str:
@@ -121,20 +123,24 @@ def acceleration_factor(unit: str) -> float:
     """Return the factor from `unit` to m/s². Raises RecordError when the unit is not known."""
     name = acceleration_unit(unit)
     if name is None:
-        raise RecordError(f"unit is {shown(unit)}, but must be one of {', '.join(ACCELERATION_UNITS)}.")
+        raise RecordError.naming(
+            "unit", unit, f"unit is {shown(unit)}, but must be one of {', '.join(ACCELERATION_UNITS)}."
+        )
     return ACCELERATION_UNITS[name]
 
 
 def finite(error: type[RockingError], field: str, value: float, unit: str = "") -> float:
     """Return `value` as a finite float, or raise `error` naming `field`."""
     if isinstance(value, bool | str | bytes):
-        raise error(f"{field} is {shown(value)}, but must be a number.")
+        raise error.naming(field, value, f"{field} is {shown(value)}, but must be a number.")
     try:
         number = float(value)
     except (TypeError, ValueError, OverflowError):
-        raise error(f"{field} is {shown(value)}, but must be a number.") from None
+        raise error.naming(field, value, f"{field} is {shown(value)}, but must be a number.") from None
     if not math.isfinite(number):
-        raise error(f"{field} is {shown(value)}, but must be a finite number{_in(unit)}.")
+        raise error.naming(
+            field, value, f"{field} is {shown(value)}, but must be a finite number{_in(unit)}."
+        )
     return number
 
 
@@ -142,7 +148,7 @@ def positive(error: type[RockingError], field: str, value: float, unit: str = ""
     """Return `value` as a finite float above zero, or raise `error` naming `field`."""
     number = finite(error, field, value, unit)
     if number <= 0:
-        raise error(f"{field} is {shown(value)}{_in(unit)}, but must be greater than 0.")
+        raise error.naming(field, value, f"{field} is {shown(value)}{_in(unit)}, but must be greater than 0.")
     return number
 
 
@@ -152,7 +158,9 @@ def within(
     """Return `value` as a float in [low, high], or raise `error` naming `field`."""
     number = finite(error, field, value, unit)
     if not low <= number <= high:
-        raise error(f"{field} is {shown(value)}{_in(unit)}, but must lie between {low:g} and {high:g}.")
+        raise error.naming(
+            field, value, f"{field} is {shown(value)}{_in(unit)}, but must lie between {low:g} and {high:g}."
+        )
     return number
 
 
@@ -164,7 +172,9 @@ def whole(field: str, value: float, low: float, high: float) -> int:
     """Return a whole number from `low` to `high`, or raise StructureError naming `field`."""
     number = finite(StructureError, field, value)
     if number != int(number) or not low <= number <= high:
-        raise StructureError(f"{field} is {number:g}, but must be a whole number from {low:g} to {high:g}.")
+        raise StructureError.naming(
+            field, value, f"{field} is {number:g}, but must be a whole number from {low:g} to {high:g}."
+        )
     return int(number)
 
 

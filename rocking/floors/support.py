@@ -57,26 +57,34 @@ class Mode:
     def __post_init__(self) -> None:
         period = finite(RecordError, "period", self.period, "s")
         if period < 0:
-            raise RecordError(
-                f"period is {self.period!r} s, but must be above 0, or 0 for a mode that is rigid."
+            raise RecordError.naming(
+                "period",
+                self.period,
+                f"period is {self.period!r} s, but must be above 0, or 0 for a mode that is rigid.",
             )
         if period > _LONGEST_PERIOD:
-            raise RecordError(
+            raise RecordError.naming(
+                "period",
+                self.period,
                 f"period is {self.period!r} s, but must be at most {_LONGEST_PERIOD:g} s, longer than that of "
-                "any building; give it in seconds."
+                "any building; give it in seconds.",
             )
         damping = finite(RecordError, "damping_ratio", self.damping_ratio)
         if not 0 <= damping < _LARGEST_DAMPING:
-            raise RecordError(
-                f"damping_ratio is {self.damping_ratio!r}, but must be a share of the critical one from 0 to below 1."
+            raise RecordError.naming(
+                "damping_ratio",
+                self.damping_ratio,
+                f"damping_ratio is {self.damping_ratio!r}, but must be a share of the critical one from 0 to below 1.",
             )
         object.__setattr__(self, "period", period)
         object.__setattr__(self, "damping_ratio", damping)
         participation = finite(RecordError, "participation", self.participation)
         if abs(participation) > _LARGEST_PARTICIPATION:
-            raise RecordError(
+            raise RecordError.naming(
+                "participation",
+                self.participation,
                 f"participation is {self.participation!r}, but must be from -{_LARGEST_PARTICIPATION:g} to "
-                f"{_LARGEST_PARTICIPATION:g}; give Γψ as a factor, and not in %."
+                f"{_LARGEST_PARTICIPATION:g}; give Γψ as a factor, and not in %.",
             )
         object.__setattr__(self, "participation", participation)
 
@@ -109,7 +117,9 @@ class Support:
     def __post_init__(self) -> None:
         modes = tuple(self.modes) if isinstance(self.modes, Sequence) else (self.modes,)
         if not modes or not all(isinstance(mode, Mode) for mode in modes):
-            raise RecordError(f"modes is {self.modes!r}, but must hold at least one Mode.")
+            raise RecordError.naming(
+                "modes", self.modes, f"modes is {self.modes!r}, but must hold at least one Mode."
+            )
         object.__setattr__(self, "modes", modes)
 
     def __str__(self) -> str:
@@ -241,17 +251,21 @@ def _check_alike(records: Sequence[Accelerogram]) -> None:
     step = records[0].time_step
     for each in records:
         if each.acceleration.size != size or abs(each.time_step / step - 1) > 1e-9:
-            raise RecordError(
+            raise RecordError.naming(
+                "records",
+                records,
                 f"the components hold {size} samples at {step:g} s and {each.acceleration.size} at "
-                f"{each.time_step:g} s, but a support needs the same ones; cut or resample one of them."
+                f"{each.time_step:g} s, but a support needs the same ones; cut or resample one of them.",
             )
 
 
 def _check_sampled(mode: Mode, time_step: float) -> None:
     if mode.period < 2 * time_step:
-        raise RecordError(
+        raise RecordError.naming(
+            "period",
+            mode.period,
             f"period of the support is {mode.period:g} s, but must be at least two samples of the record, "
-            f"{2 * time_step:g} s; give a finer record, or the period 0 for a support that is rigid."
+            f"{2 * time_step:g} s; give a finer record, or the period 0 for a support that is rigid.",
         )
 
 
@@ -273,9 +287,11 @@ def _grid(record: Accelerogram, ringing: Sequence[_Ringing]) -> tuple[int, int]:
     after = 1 + math.ceil(min(quiet, LONGEST_RINGING) / step)
     number = (record.acceleration.size + after) * finer
     if number > MOST_SAMPLES:
-        raise RecordError(
+        raise RecordError.naming(
+            "samples",
+            number,
             f"the motion of the support takes {number} samples, but may take {MOST_SAMPLES}; cut the record, or give a "
-            "longer period or more damping."
+            "longer period or more damping.",
         )
     return finer, after
 

@@ -56,8 +56,10 @@ def integrate_batch(
     """
     tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
     if not isinstance(structures, Sequence) or isinstance(structures, str):
-        raise MotionError(
-            f"structures is {kind_of(structures)}, but must be a list of structures; integrate follows one."
+        raise MotionError.naming(
+            "structures",
+            structures,
+            f"structures is {kind_of(structures)}, but must be a list of structures; integrate follows one.",
         )
     factors = Members(scale_factors).scale_factor
     forcing = forcing_of(record, vertical)
@@ -141,18 +143,22 @@ def rocking_spectrum(
     (3, 2)
     """
     if not isinstance(accelerogram, Accelerogram):
-        raise MotionError(
+        raise MotionError.naming(
+            "accelerogram",
+            accelerogram,
             f"accelerogram is {kind_of(accelerogram)}, but must be an Accelerogram; "
-            "pulse_spectrum takes a pulse."
+            "pulse_spectrum takes a pulse.",
         )
     frequencies = _positive("frequency_parameters", frequency_parameters)
     multipliers = _positive("uplift_multipliers", uplift_multipliers)
     restitution = within(MotionError, "restitution", restitution, 0, 1)
     step = accelerogram.time_step
     if frequencies.size and frequencies.max() * step > LARGEST_GROWTH:
-        raise MotionError(
+        raise MotionError.naming(
+            "frequency_parameters",
+            float(frequencies.max()),
             f"frequency_parameters reach {frequencies.max()!r} rad/s, but at a time step of {step!r} s "
-            f"must stay below {LARGEST_GROWTH / step:g}."
+            f"must stay below {LARGEST_GROWTH / step:g}.",
         )
     # The block of λ under the record responds as the one of λ = 1 under the record over λ.
     blocks = [EquivalentBlock(p, 1.0, 1.0, restitution) for p in frequencies.tolist()]
@@ -165,5 +171,7 @@ def rocking_spectrum(
 def _positive(field: str, values: Sequence[float] | np.ndarray) -> np.ndarray:
     array = np.array(values, dtype=float)
     if array.ndim != 1 or not array.size or not np.all(np.isfinite(array) & (array > 0)):
-        raise MotionError(f"{field} must be a one-dimensional array of finite numbers greater than 0.")
+        raise MotionError.naming(
+            field, array, f"{field} must be a one-dimensional array of finite numbers greater than 0."
+        )
     return array

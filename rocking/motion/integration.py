@@ -119,8 +119,10 @@ def integrate(
     leading = rotation or velocity
     side = (leading > 0) - (leading < 0)
     if side < 0 and getattr(structure, "one_sided", False):
-        raise MotionError(
-            "the initial state lies on the negative side, but a one-sided structure rocks to the positive only."
+        raise MotionError.naming(
+            "initial_rotation",
+            rotation,
+            "the initial state lies on the negative side, but a one-sided structure rocks to the positive only.",
         )
     start = abs(rotation), side * velocity, side
 
@@ -155,9 +157,11 @@ def reduce(structure: Rocking) -> Mechanism | EquivalentBlock:
     if isinstance(structure, Mechanism | EquivalentBlock):
         return structure
     if not hasattr(structure, "mechanism"):
-        raise MotionError(
+        raise MotionError.naming(
+            "structure",
+            structure,
             f"the structure is {kind_of(structure)}, but must be a Mechanism, an EquivalentBlock, "
-            "or have a mechanism() method."
+            "or have a mechanism() method.",
         )
     return structure.mechanism()
 
@@ -263,7 +267,11 @@ def _initial_arc(table: Table, start: Start) -> tuple[float, float]:
     side = table.sides[0 if sign > 0 else -1]
     arc = side.arc(rotation)
     if not arc < side.end:
-        raise MotionError(f"initial_rotation is {rotation!r} rad, but the mechanism ends before that.")
+        raise MotionError.naming(
+            "initial_rotation",
+            rotation,
+            f"initial_rotation is {rotation!r} rad, but the mechanism ends before that.",
+        )
     return arc, velocity / float(side.slope(np.array(arc)))
 
 
@@ -394,7 +402,9 @@ class Members:
         for name, array in arrays.items():
             shape = (size, 2) if name == "restitution" else (size,)
             if array.ndim != len(shape) or array.shape[0] not in (1, size) or array.shape[1:] != shape[1:]:
-                raise MotionError(f"{name} has the shape {array.shape}, but must hold one value or {size}.")
+                raise MotionError.naming(
+                    name, array, f"{name} has the shape {array.shape}, but must hold one value or {size}."
+                )
             object.__setattr__(self, name, np.array(np.broadcast_to(array, shape)))
         if restitution is None:
             object.__setattr__(self, "restitution", None)
@@ -406,7 +416,9 @@ class Members:
             values = arrays.get(name, np.ones(1))
             wrong = values[~(holds(values) & np.isfinite(values))]  # type: ignore[no-untyped-call]
             if wrong.size:
-                raise MotionError(f"{name} holds {wrong[0]!s}, but every value must {allowed}.")
+                raise MotionError.naming(
+                    name, float(wrong[0]), f"{name} holds {wrong[0]!s}, but every value must {allowed}."
+                )
 
     def __repr__(self) -> str:
         low = self.scale_factor.min()
@@ -467,7 +479,11 @@ def integrate_members(
     [False, False, True]
     """
     if not isinstance(members, Members):
-        raise MotionError(f"members is {kind_of(members)}, but must be Members, as Members([0.9, 1.0, 1.1]).")
+        raise MotionError.naming(
+            "members",
+            members,
+            f"members is {kind_of(members)}, but must be Members, as Members([0.9, 1.0, 1.1]).",
+        )
     tolerance = within(MotionError, "tolerance", tolerance, *TOLERANCES)
     forcing = forcing_of(motion, vertical)
     lift = np.where(members.vertical, members.scale_factor, 0.0) if forcing.vertical else None

@@ -60,29 +60,43 @@ def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Fo
     Raises MotionError when `motion` is neither or a pulse that is no full sine, or `vertical` does not fit its samples.
     """
     if not isinstance(motion, Accelerogram | Pulse):
-        raise MotionError(f"the ground motion is {kind_of(motion)}, but must be an Accelerogram or a Pulse.")
+        raise MotionError.naming(
+            "motion",
+            motion,
+            f"the ground motion is {kind_of(motion)}, but must be an Accelerogram or a Pulse.",
+        )
     if isinstance(motion, Pulse) and not motion.is_full_sine:
-        raise MotionError(
+        raise MotionError.naming(
+            "motion",
+            motion,
             f"the ground motion is {motion!r}, but of pulses one full sine alone is integrated as it stands; give its "
-            "samples: Accelerogram(pulse.acceleration(times), time_step)."
+            "samples: Accelerogram(pulse.acceleration(times), time_step).",
         )
     if vertical is None:
         return _forcing(motion, None)
     if isinstance(motion, Pulse):
-        raise MotionError(
-            "vertical is given with a pulse, but needs a record of the same samples; leave it out."
+        raise MotionError.naming(
+            "vertical",
+            vertical,
+            "vertical is given with a pulse, but needs a record of the same samples; leave it out.",
         )
     if not isinstance(vertical, Accelerogram):
-        raise MotionError(f"vertical is {kind_of(vertical)}, but must be an Accelerogram.")
+        raise MotionError.naming(
+            "vertical", vertical, f"vertical is {kind_of(vertical)}, but must be an Accelerogram."
+        )
     if vertical.acceleration.size != motion.acceleration.size:
-        raise MotionError(
+        raise MotionError.naming(
+            "vertical",
+            vertical,
             f"vertical has {vertical.acceleration.size} samples, but must have the {motion.acceleration.size} of the "
-            "horizontal component; cut or resample it first."
+            "horizontal component; cut or resample it first.",
         )
     if abs(vertical.time_step - motion.time_step) > 1e-9 * motion.time_step:
-        raise MotionError(
+        raise MotionError.naming(
+            "vertical",
+            vertical,
             f"vertical has a time step of {vertical.time_step!r} s, but must have the {motion.time_step!r} s of the "
-            "horizontal component; resample it first."
+            "horizontal component; resample it first.",
         )
     return _forcing(motion, vertical)
 

@@ -115,9 +115,11 @@ class PulseSettings:
     def __post_init__(self) -> None:
         check_described(PulseError, self)
         if self.highest_frequency <= self.lowest_frequency:
-            raise PulseError(
+            raise PulseError.naming(
+                "highest_frequency",
+                self.highest_frequency,
                 f"highest_frequency is {self.highest_frequency:g} Hz, but must be above lowest_frequency "
-                f"({self.lowest_frequency:g} Hz)."
+                f"({self.lowest_frequency:g} Hz).",
             )
 
 

@@ -106,13 +106,17 @@ def largest_velocity_pulse(accelerogram: Accelerogram) -> tuple[float, float]:
 def _searched(accelerations: np.ndarray, step: float) -> tuple[np.ndarray, np.ndarray]:
     """The velocities of components (c, n), m/s, and the scales that are searched in them; raises PulseError."""
     if accelerations.shape[1] > MOST_SAMPLES:
-        raise PulseError(
+        raise PulseError.naming(
+            "samples",
+            accelerations.shape[1],
             f"The motion holds {accelerations.shape[1]} samples, but a velocity pulse is sought in at most "
-            f"{MOST_SAMPLES}; cut the record to its earthquake."
+            f"{MOST_SAMPLES}; cut the record to its earthquake.",
         )
     if not np.any(accelerations):
-        raise PulseError(
-            "The motion is zero throughout, but a velocity pulse needs one that moves; check the file."
+        raise PulseError.naming(
+            "acceleration",
+            0.0,
+            "The motion is zero throughout, but a velocity pulse needs one that moves; check the file.",
         )
     velocities = np.array([integral(acceleration, step) for acceleration in accelerations])
     return velocities, searched_scales(step, velocities.shape[1])
@@ -135,9 +139,11 @@ def searched_scales(time_step: float, count: int) -> np.ndarray:
     step = math.ceil((LONGEST_PERIOD / PERIOD_OF_SCALE / time_step - lowest) / SCALES)
     scales = lowest + step * np.arange(SCALES + 1)
     if SUPPORT * lowest > count:
-        raise PulseError(
+        raise PulseError.naming(
+            "samples",
+            count,
             f"The components hold {count} samples of {time_step:g} s, but a velocity pulse of {SHORTEST_PERIOD:g} s "
-            f"needs {math.ceil(SUPPORT * lowest)}; give a longer record."
+            f"needs {math.ceil(SUPPORT * lowest)}; give a longer record.",
         )
     return scales
 

@@ -124,8 +124,10 @@ class Accelerogram(Drawn):
             object.__setattr__(self, "scale_factor", finite(RecordError, "scale_factor", self.scale_factor))
             whole = isinstance(self.smooth_steps, int) and not isinstance(self.smooth_steps, bool)
             if not (whole and self.smooth_steps >= 1):
-                raise RecordError(
-                    f"smooth_steps is {self.smooth_steps!r}, but must be a whole number from 1 on."
+                raise RecordError.naming(
+                    "smooth_steps",
+                    self.smooth_steps,
+                    f"smooth_steps is {self.smooth_steps!r}, but must be a whole number from 1 on.",
                 )
         doubts = []
         if not SHORTEST_STEP <= self.time_step <= LONGEST_STEP:

@@ -68,9 +68,9 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
         structure: Structure = form.construct(**arguments)
     except SizeError as error:
         # By the key of the file, and as it was typed; of a list it is the one value that is wrong.
-        key = next((key for key, field in form.keys.items() if field.name == error.name), error.name)
+        key = next((key for key, field in form.keys.items() if field.name == error.field), error.field)
         typed = values.get(key)
-        value = error.value if typed is None or isinstance(typed, list | tuple) else shown(typed)
+        value = error.shown if typed is None or isinstance(typed, list | tuple) else shown(typed)
         raise SizeError.of(key, value, error.said) from None
     remember_as_typed(
         structure, form, values, {key: typed_text(value) for key, value in values.items()} | dict(texts or {})

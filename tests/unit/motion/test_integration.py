@@ -10,6 +10,7 @@ from rocking.motion import integrate, integrate_batch
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import Block, Facade, Outcome
+from tests.refusals import refused
 
 BLOCK = Block(1.0, 0.25, restitution=0.85)
 RECORD = noise(1, 300, 0.01, 1.6 * g * BLOCK.mechanism().uplift_multiplier)
@@ -21,7 +22,7 @@ def test_tolerance_outside_its_bounds_is_refused(tolerance):
         lambda: integrate(BLOCK, RECORD, tolerance),
         lambda: integrate_batch([BLOCK], RECORD, tolerance=tolerance),
     ):
-        with pytest.raises(MotionError, match=r"tolerance is .* but must"):
+        with refused(MotionError, "tolerance", tolerance):
             follow()
 
 
@@ -29,23 +30,24 @@ STILL, SLOW = Accelerogram(np.zeros(299), 0.01), Accelerogram(np.zeros(300), 0.0
 
 
 @pytest.mark.parametrize(
-    "structure, motion, settings, words",
+    "structure, motion, settings, field",
     [
-        (BLOCK, RECORD, {"vertical": STILL}, "vertical has 299 samples, but must have the 300"),
-        (BLOCK, RECORD, {"vertical": SLOW}, "vertical has a time step of 0.02 s"),
-        (BLOCK, Pulse(3.0, 6.0), {"vertical": STILL}, "vertical is given with a pulse"),
-        (BLOCK, RECORD, {"vertical": [0.0]}, "vertical is a list"),
+        (BLOCK, RECORD, {"vertical": STILL}, "vertical"),
+        (BLOCK, RECORD, {"vertical": SLOW}, "vertical"),
+        (BLOCK, Pulse(3.0, 6.0), {"vertical": STILL}, "vertical"),
+        (BLOCK, RECORD, {"vertical": [0.0]}, "vertical"),
         (BLOCK, RECORD, {"initial_rotation": np.nan}, "initial_rotation"),
         (BLOCK, RECORD, {"initial_velocity": np.nan}, "initial_velocity"),
-        (MECHANISMS["one side"], RECORD, {"initial_rotation": -0.01}, "one-sided"),
-        (BLOCK, RECORD, {"initial_rotation": 2.0}, r"initial_rotation is 2\.0 rad, but the mechanism ends"),
+        (MECHANISMS["one side"], RECORD, {"initial_rotation": -0.01}, "initial_rotation"),
+        (BLOCK, RECORD, {"initial_rotation": 2.0}, "initial_rotation"),
         (BLOCK, RECORD, {"sensitivity": True, "fragility_change": 0.9}, "fragility_change"),
-        ("a block", RECORD, {}, "the structure is a str"),
-        (BLOCK, 3.0, {}, "the ground motion is a float"),
+        ("a block", RECORD, {}, "structure"),
+        (BLOCK, 3.0, {}, "motion"),
     ],
 )
-def test_what_cannot_be_followed_is_refused_in_words(structure, motion, settings, words):
-    with pytest.raises(MotionError, match=words):
+def test_what_cannot_be_followed_is_refused(structure, motion, settings, field):
+    values = {"structure": structure, "motion": motion} | settings
+    with refused(MotionError, field, values[field]):
         integrate(structure, motion, **settings)
 
 

@@ -11,6 +11,7 @@ from rocking.motion.batch import rocking_spectrum
 from rocking.pulses.pulse import Pulse
 from rocking.records.accelerogram import Accelerogram
 from rocking.structures import Block, EquivalentBlock
+from tests.refusals import refused
 
 RECORD, VERTICAL = noise(5, 600, 0.01, 4.0), noise(6, 600, 0.01, 2.0)
 BLOCKS = {name: mechanism.equivalent_block() for name, mechanism in MECHANISMS.items()}
@@ -126,17 +127,17 @@ def test_a_member_that_fails_says_why():
 
 
 @pytest.mark.parametrize(
-    "fields, words",
+    "fields, value",
     [
-        ({"scale_factor": [1.0, 0.0]}, r"scale_factor holds 0.0, but every value must be greater than 0"),
-        ({"scale_factor": [np.nan]}, "scale_factor holds nan"),
-        ({"polarity": [2]}, r"polarity holds 2.0, but every value must be 1 or -1"),
-        ({"restitution": [0.5, 1.2]}, r"restitution holds 1.2, but every value must lie between 0 and 1"),
-        ({"scale_factor": [1.0, 2.0], "polarity": [1, 1, 1]}, r"scale_factor has the shape \(2,\), but must"),
+        ({"scale_factor": [1.0, 0.0]}, 0.0),
+        ({"scale_factor": [np.nan]}, np.nan),
+        ({"polarity": [2]}, 2.0),
+        ({"restitution": [0.5, 1.2]}, 1.2),
+        ({"scale_factor": [1.0, 2.0], "polarity": [1, 1, 1]}, [1.0, 2.0]),
     ],
 )
-def test_members_are_checked_at_birth(fields, words):
-    with pytest.raises(MotionError, match=words):
+def test_members_are_checked_at_birth(fields, value):
+    with refused(MotionError, next(iter(fields)), value):
         Members(**fields)
 
 
@@ -164,17 +165,17 @@ def test_spectrum_equals_the_responses():
 
 
 @pytest.mark.parametrize(
-    "settings, words",
+    "settings, field, value",
     [
-        (([0.0], [0.2], 0.9), "frequency_parameters must be"),
-        (([[1.0]], [0.2], 0.9), "frequency_parameters must be"),
-        (([2.0], [np.nan], 0.9), "uplift_multipliers must be"),
-        (([2.0], [0.2], 1.5), r"restitution is 1\.5, but must lie between 0 and 1"),
-        (([6000.0], [0.2], 0.9), "must stay below 5000"),
+        (([0.0], [0.2], 0.9), "frequency_parameters", [0.0]),
+        (([[1.0]], [0.2], 0.9), "frequency_parameters", [[1.0]]),
+        (([2.0], [np.nan], 0.9), "uplift_multipliers", [np.nan]),
+        (([2.0], [0.2], 1.5), "restitution", 1.5),
+        (([6000.0], [0.2], 0.9), "frequency_parameters", 6000.0),
     ],
 )
-def test_a_spectrum_refuses_what_has_none(settings, words):
-    with pytest.raises(MotionError, match=words):
+def test_a_spectrum_refuses_what_has_none(settings, field, value):
+    with refused(MotionError, field, value):
         rocking_spectrum(SHAKING, *settings)
 
 

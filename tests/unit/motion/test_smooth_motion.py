@@ -12,6 +12,7 @@ from rocking.motion import Members, integrate, integrate_members
 from rocking.motion.table import CURVE_ERROR, forcing_of
 from rocking.records import Accelerogram
 from rocking.structures import Block, Wall
+from tests.refusals import refused
 
 STEP = 0.01
 TIMES = np.arange(300) * STEP
@@ -101,5 +102,5 @@ def test_members_on_a_floor_are_the_single_runs():
 
 @pytest.mark.parametrize("steps", [0, -1, 1.5, math.nan, True, "8"])
 def test_smooth_steps_are_a_whole_number(steps):
-    with pytest.raises(RecordError, match="smooth_steps"):
+    with refused(RecordError, "smooth_steps", steps):
         Accelerogram(np.zeros(9), 0.01, smooth_steps=steps)

@@ -12,6 +12,7 @@ from rocking.errors import PulseError
 from rocking.pulses import Pulse, PulseSettings, extract_pulses
 from rocking.records.accelerogram import Accelerogram, Source
 from rocking.remarks import Kind, Remark
+from tests.refusals import refused
 
 STEP = 0.01
 TIMES = np.arange(2000) * STEP
@@ -75,9 +76,9 @@ def test_phase_tells_a_sine_from_a_cosine(turn):
 
 def test_a_record_that_does_not_move_is_refused():
     dead = Accelerogram(np.full(1000, 0.3), STEP, source=Source(path="dead.at2"))
-    with pytest.raises(PulseError, match=r"dead\.at2 holds 1000 samples that all equal"):
+    with refused(PulseError, "acceleration", 0.3):
         extract_pulses(dead)
-    with pytest.raises(PulseError, match="no motion that a cycle within it could explain"):
+    with refused(PulseError, "acceleration"):
         extract_pulses(Accelerogram(np.append(np.zeros(999), 1.0), STEP))
 
 
@@ -98,24 +99,25 @@ def test_a_record_too_coarse_for_the_upper_frequency_says_so():
 
 
 @pytest.mark.parametrize(
-    ("change", "words"),
+    "change",
     [
-        ({"lowest_frequency": 0}, "lowest_frequency is 0"),
-        ({"highest_frequency": 0.1}, "highest_frequency is 0.1 Hz"),
-        ({"frequencies_per_octave": 2.5}, "frequencies_per_octave is 2.5"),
-        ({"candidates": 0}, "candidates is 0"),
-        ({"pursuit": True}, "pursuit is True"),
-        ({"overlap": float("nan")}, "overlap is nan"),
+        {"lowest_frequency": 0},
+        {"highest_frequency": 0.1},
+        {"frequencies_per_octave": 2.5},
+        {"candidates": 0},
+        {"pursuit": True},
+        {"overlap": float("nan")},
     ],
 )
-def test_impossible_settings_are_refused(change, words):
-    with pytest.raises(PulseError, match=words):
+def test_impossible_settings_are_refused(change):
+    ((field, value),) = change.items()
+    with refused(PulseError, field, value):
         PulseSettings(**change)
 
 
 @pytest.mark.parametrize("size", [1e-200, 1e200])
 def test_a_peak_beyond_numbers_is_refused(record, size):
-    with pytest.raises(PulseError, match="check its unit"):
+    with refused(PulseError, "peak_acceleration"):
         extract_pulses(Accelerogram(record.acceleration * size, STEP))
 
 

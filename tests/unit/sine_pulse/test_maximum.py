@@ -20,6 +20,7 @@ from rocking.sine_pulse import (
 )
 from rocking.structures import Outcome
 from rocking.structures.mechanism import EquivalentBlock
+from tests.refusals import ANY, refused
 
 BLOCK = EquivalentBlock(2.0, 0.25, 0.8, 0.9)
 
@@ -58,25 +59,29 @@ def spectrum(frequencies: list, amplitudes: list, restitution: float = 0.9) -> n
 
 
 @pytest.mark.parametrize(
-    ("call", "message"),
+    ("call", "field", "value"),
     [
-        (lambda: predict_maximum(BLOCK, Pulse(10.0, 1e15)), r"is 5\d+.0, but must lie between 1e-12 and"),
-        (lambda: predict_maximum(BLOCK, Pulse(1e200, 1.0)), r"amplitude over .* must be at most 1e\+12"),
-        (lambda: predict_maxima([BLOCK], [Pulse(1.0, 1e14)]), "circular_frequency over the block's"),
-        (lambda: predict_maxima([BLOCK], [Pulse(1e15, 1.0)]), "a_g/"),
-        (lambda: overturning_amplitudes([BLOCK], [1.0], 2), "polarity is 2, but must be 1 or -1"),
-        (lambda: overturning_amplitudes([BLOCK], [0.0]), "circular_frequencies must be"),
-        (lambda: spectrum([1.0, 0.0], [2.0]), r"frequency_ratios holds 0\.0, but every value must lie"),
-        (lambda: spectrum([1.0], [2.0, -1.0]), r"amplitude_ratios holds -1\.0, but every value must lie"),
-        (lambda: spectrum([[1.0]], [1.0]), r"frequency_ratios has the shape \(1, 1\)"),
-        (lambda: spectrum([1.0], [2.0], 1.5), r"restitution is 1\.5"),
-        (lambda: pulse_end_energy(0.0, 2.0), "frequency_ratio"),
-        (lambda: pulse_end_energy(math.nan, 2.0), "frequency_ratio"),
-        (lambda: pulse_end_energy("1", 2.0), "frequency_ratio"),
-        (lambda: pulse_end_energy(1.0, 1.0), "amplitude_ratio"),
-        (lambda: pulse_end_energy(1.0, math.inf), "amplitude_ratio"),
+        (
+            lambda: predict_maximum(BLOCK, Pulse(10.0, 1e15)),
+            "frequency_ratio",
+            1e15 / BLOCK.frequency_parameter,
+        ),
+        (lambda: predict_maximum(BLOCK, Pulse(1e200, 1.0)), "amplitude_ratio", ANY),
+        (lambda: predict_maxima([BLOCK], [Pulse(1.0, 1e14)]), "frequency_ratio", ANY),
+        (lambda: predict_maxima([BLOCK], [Pulse(1e15, 1.0)]), "amplitude_ratio", ANY),
+        (lambda: overturning_amplitudes([BLOCK], [1.0], 2), "polarity", 2),
+        (lambda: overturning_amplitudes([BLOCK], [0.0]), "circular_frequencies", [0.0]),
+        (lambda: spectrum([1.0, 0.0], [2.0]), "frequency_ratios", 0.0),
+        (lambda: spectrum([1.0], [2.0, -1.0]), "amplitude_ratios", -1.0),
+        (lambda: spectrum([[1.0]], [1.0]), "frequency_ratios", [[1.0]]),
+        (lambda: spectrum([1.0], [2.0], 1.5), "restitution", 1.5),
+        (lambda: pulse_end_energy(0.0, 2.0), "frequency_ratio", 0.0),
+        (lambda: pulse_end_energy(math.nan, 2.0), "frequency_ratio", math.nan),
+        (lambda: pulse_end_energy("1", 2.0), "frequency_ratio", "1"),
+        (lambda: pulse_end_energy(1.0, 1.0), "amplitude_ratio", 1.0),
+        (lambda: pulse_end_energy(1.0, math.inf), "amplitude_ratio", math.inf),
     ],
 )
-def test_what_no_structure_has_is_refused_with_the_bound(call, message: str) -> None:
-    with pytest.raises((PulseError, StructureError), match=message):
+def test_what_no_structure_has_is_refused(call, field: str, value: object) -> None:
+    with refused((PulseError, StructureError), field, value):
         call()
