@@ -598,12 +598,23 @@ class Kind(StrEnum):
         "soddisfatta da questo gruppo, ma non considerata soddisfatta: lo è per il {share_percent:.0f} % di "
         "{sets} gruppi, e ne occorre il {least_percent:.0f} %",
     )
+    OTHERS_TOO_FEW = auto(), Sentence(
+        "met by this set, but not called met by sets: {low_percent:.0f} to {high_percent:.0f} % of sets of other "
+        "stations meet it, to judge by {stations} stations of {earthquakes} earthquakes, and at least "
+        "{least_percent:.0f} % must (least_others); from about {needed} stations of as many earthquakes on, none of "
+        "which lets it fall, that can be shown",
+        "soddisfatta da questo gruppo, ma non considerata soddisfatta: lo è per il {low_percent:.0f}–"
+        "{high_percent:.0f} % dei gruppi di altre stazioni, per quanto ne dicono {stations} stazioni di {earthquakes} "
+        "terremoti, e ne occorre almeno il {least_percent:.0f} % (least_others); lo si può mostrare con circa {needed} "
+        "stazioni di altrettanti terremoti, nessuna delle quali la faccia cadere",
+    )
     OTHER_STATIONS = auto(), Sentence(
-        "That the check is met is no proof for other stations than the {stations} of the pool: even if it "
-        "falls at none of these, it may fall at up to {unseen_percent:.0f} % of all stations, and as few as "
-        "{least_percent:.0f} % of sets of other stations may meet the check, to judge by the stations and "
-        "earthquakes of the pool.",
-        "Che la verifica sia soddisfatta non prova nulla per stazioni diverse dalle {stations} disponibili: "
+        "That the check is met is no proof for other stations than the {stations} of the pool, of {earthquakes} "
+        "earthquakes: even if it falls at none of these, it may fall at up to {unseen_percent:.0f} % of all stations, "
+        "and as few as {least_percent:.0f} % of sets of other stations may meet the check, to judge by the stations "
+        "and earthquakes of the pool.",
+        "Che la verifica sia soddisfatta non prova nulla per stazioni diverse dalle {stations} disponibili, di "
+        "{earthquakes} terremoti: "
         "anche se nessuna di queste fa ribaltare la struttura, può farlo fino al {unseen_percent:.0f} % di "
         "tutte le stazioni, e dei gruppi di altre stazioni può soddisfarla anche solo il {least_percent:.0f} "
         "%, per quanto ne dicono le stazioni e i terremoti disponibili.",

@@ -38,7 +38,8 @@ def made_pool(stations, seed=0, duration=12.0, time_step=0.02):
             )
             times = np.arange(round(duration / time_step)) * time_step
             values = pulse(recipe, times) + noise(recipe, times.size)
-            components.append(Accelerogram(values, time_step, component=name, station=f"S{seed}-{number}"))
+            of_it = {"component": name, "station": f"S{seed}-{number}", "event": f"EQ {number}"}
+            components.append(Accelerogram(values, time_step, **of_it))
         pool[f"R{number}"] = components
     return pool
 

@@ -21,6 +21,8 @@ BEHAVIOUR_FACTOR = 2.0
 _LARGE_RATIO = 100.0
 """A ratio beyond which a reader learns nothing from its digits."""
 
+LEAST_OTHERS = 0.5
+"""Least share of the sets of other stations that must meet the dynamic check, by the lower end of its interval."""
 LEAST_SHARE = 0.95
 """Share of SETS sets or more that must meet the check for it to be called met."""
 
@@ -36,7 +38,8 @@ class CodeTerms:
     limit_state: SLD, SLV or SLC. confidence_factor: FC ≥ 1. support: the modes of what carries the structure above the
     ground. behaviour_factor: q ≥ 1 of the linear check. elastic_period: T_0 of a part free to vibrate, s; 0 where it is
     tied rigidly. support_loss: horizontal displacement of the control point at which what it carries falls, m; inf:
-    nothing does. Raises ConfigurationError for a value out of range.
+    nothing does. least_others: share of the sets of other stations that must meet the dynamic check at the least.
+    Raises ConfigurationError for a value out of range.
     """
 
     limit_state: str = "SLV"
@@ -45,6 +48,7 @@ class CodeTerms:
     behaviour_factor: float = BEHAVIOUR_FACTOR
     elastic_period: float = 0.0
     support_loss: float = math.inf
+    least_others: float = LEAST_OTHERS
 
     def __post_init__(self) -> None:
         if self.limit_state not in ("SLD", *LIMIT_STATES):
@@ -60,6 +64,8 @@ class CodeTerms:
                 raise ConfigurationError(f"{name} is {value!r}, but must be 1 or more.")
         if finite(ConfigurationError, "elastic_period", self.elastic_period, "s") < 0:
             raise ConfigurationError(f"elastic_period is {self.elastic_period!r} s, but must be 0 or more.")
+        if not 0 <= finite(ConfigurationError, "least_others", self.least_others) <= 1:
+            raise ConfigurationError(f"least_others is {self.least_others!r}, but must be from 0 to 1.")
         if self.support_loss != math.inf:
             positive(ConfigurationError, "support_loss", self.support_loss, "m")
 
@@ -125,9 +131,9 @@ class DynamicCheck(Check):
     """The dynamic check under the chosen set, and what the other sets say.
 
     capacity, demand: d of the limit state and the mean of the largest displacements, m; inf where one overturns.
-    exceeding: motions of the chosen set under which d_0 is exceeded. motions: how many it has. stations: of the pool
-    from which sets are drawn. sets: how many were drawn; share: of them that meet the check, with its 90 % interval for
-    sets of other stations, (2,).
+    exceeding: motions of the chosen set under which d_0 is exceeded. motions: how many it has. stations, earthquakes:
+    of the pool from which sets are drawn. sets: how many were drawn; share: of them that meet the check, with its 90 %
+    interval for sets of other stations, (2,).
 
     >>> (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
     >>> spectrum = rocking.DesignSpectrum.ntc(ag=0.5, f0=2.5, tc_star=0.4)
@@ -139,6 +145,7 @@ class DynamicCheck(Check):
     exceeding: int
     motions: int
     stations: int
+    earthquakes: int
     sets: int
     share: float
     interval: tuple[float, float]
@@ -169,6 +176,7 @@ class DynamicCheck(Check):
         return Remark.of(
             Kind.OTHER_STATIONS,
             stations=self.stations,
+            earthquakes=self.earthquakes,
             unseen_percent=100 * unseen,
             least_percent=100 * self.interval[0],
         )
@@ -269,4 +277,4 @@ class StructureCheck:
 
 
 def _is_open(check: Check) -> bool:
-    return check.refusal is not None and check.refusal.kind is Kind.SETS_TOO_FEW
+    return check.refusal is not None and check.refusal.kind in (Kind.SETS_TOO_FEW, Kind.OTHERS_TOO_FEW)

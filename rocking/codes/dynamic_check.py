@@ -16,6 +16,7 @@ import numpy as np
 from rocking.codes.check import (
     BEHAVIOUR_FACTOR,
     CONFIDENCE_FACTOR,
+    LEAST_OTHERS,
     LEAST_SHARE,
     CodeTerms,
     DynamicCheck,
@@ -47,17 +48,19 @@ def check(
     behaviour_factor: float = BEHAVIOUR_FACTOR,
     elastic_period: float = 0.0,
     support_loss: float = math.inf,
+    least_others: float = LEAST_OTHERS,
     records: Selection | None = None,
 ) -> StructureCheck:
     """Return the checks of `structure` at a limit state of the Italian code, each of the mechanism that decides it.
 
     The mechanism is the one that limit analysis finds between supports, and above cracks each that may open, to each
     side. spectrum: of the design level, for the limit state. limit_state: SLD, SLV or SLC. confidence_factor: FC ≥ 1.
-    support: the modes of what carries the structure above the ground. behaviour_factor:
-    q of the linear check. elastic_period: T_0 of a part free to vibrate, s; 0 where it is tied rigidly.
-    support_loss: horizontal displacement of the control point at which what it carries falls, m; inf: nothing does.
-    records: sets for the dynamic check, as rocking.select gives them. Masses are those of the structure.
-    Raises ConfigurationError for a value out of range, StructureError for a structure without capacity curve.
+    support: the modes of what carries the structure above the ground. behaviour_factor: q of the linear check.
+    elastic_period: T_0 of a part free to vibrate, s; 0 where it is tied rigidly. support_loss: horizontal displacement
+    of the control point at which what it carries falls, m; inf: nothing does. least_others: share of the sets of other
+    stations that must meet the dynamic check, by the lower end of its interval, for it to be called met. records: sets
+    for the dynamic check, as rocking.select gives them. Masses are those of the structure. Raises ConfigurationError
+    for a value out of range, StructureError for a structure without capacity curve.
 
     >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
     >>> checks = rocking.check(rocking.Block.of_size(breadth=0.6, height=2.0), spectrum)
@@ -77,14 +80,17 @@ def check(
         behaviour_factor=behaviour_factor,
         elastic_period=elastic_period,
         support_loss=support_loss,
+        least_others=least_others,
     )
     checked = kinematic_check(structure, spectrum, terms)
     if records is None or checked.nonlinear is None:
         return checked
-    return replace(checked, dynamic=_dynamic_check(checked, records, support))
+    return replace(checked, dynamic=_dynamic_check(checked, records, support, least_others))
 
 
-def _dynamic_check(by_formula: StructureCheck, records: Selection, support: Support | None) -> DynamicCheck:
+def _dynamic_check(
+    by_formula: StructureCheck, records: Selection, support: Support | None, least_others: float
+) -> DynamicCheck:
     state = LIMIT_STATES[by_formula.limit_state]
     together = [_Body.of(sides, state) for sides in _sides_together(by_formula.mechanisms)]
     bodies = [each for each in together if any(map(math.isfinite, each.limits))]
@@ -113,15 +119,16 @@ def _dynamic_check(by_formula: StructureCheck, records: Selection, support: Supp
         unit="m",
         exceeding=exceeding,
         motions=int(motions[records.chosen].sum()),
-        stations=len(set(records.stations)),
+        stations=records.sample.count,
+        earthquakes=records.sample.earthquakes,
         sets=int(met.size),
         share=share,
         interval=_interval(use, falls, records, share),
     )
-    return replace(found, refusal=_refusal(found))
+    return replace(found, refusal=_refusal(found, least_others, records.chosen.size))
 
 
-def _refusal(found: DynamicCheck) -> Remark | None:
+def _refusal(found: DynamicCheck, least_others: float, size: int) -> Remark | None:
     if found.exceeding:
         return Remark.of(Kind.DISPLACEMENT_EXCEEDED, exceeding=found.exceeding, motions=found.motions)
     if not found.met_by_the_set:
@@ -135,7 +142,33 @@ def _refusal(found: DynamicCheck) -> Remark | None:
             sets=found.sets,
             least_percent=100 * LEAST_SHARE,
         )
+    low, high = found.interval
+    if low < least_others:
+        return Remark.of(
+            Kind.OTHERS_TOO_FEW,
+            low_percent=100 * low,
+            high_percent=100 * high,
+            stations=found.stations,
+            earthquakes=found.earthquakes,
+            least_percent=100 * least_others,
+            needed=stations_for(least_others, size),
+        )
     return None
+
+
+_MOST_STATIONS = 2000
+"""Stations up to which it is said from how many on a share of other sets can be shown."""
+
+
+def stations_for(least_share: float, size: int) -> int:
+    """Return from how many stations on, each of another earthquake and none of which fails, at least such a share of
+    the sets of `size` of other stations is shown to meet a check; no more than 2000 are told.
+    """
+    for number in range(size, _MOST_STATIONS):
+        _, most = _elsewhere(np.arange(number), np.zeros(number, dtype=bool), np.zeros(number, dtype=bool))
+        if _none_of(number, most, size) >= least_share:
+            return number
+    return _MOST_STATIONS
 
 
 def _met(use: np.ndarray, falls: np.ndarray, sets: np.ndarray) -> np.ndarray:
@@ -147,34 +180,37 @@ def _met(use: np.ndarray, falls: np.ndarray, sets: np.ndarray) -> np.ndarray:
 
 
 def _interval(use: np.ndarray, falls: np.ndarray, records: Selection, share: float) -> tuple[float, float]:
-    """The 90 % interval of what sets of another pool of as many stations say: the widest of four.
+    """The 90 % interval of what sets of another pool of as many stations say: the widest of three.
 
-    Stations are drawn again, and earthquakes with all their stations, and with them the sets: two pools differ by √2
-    times what one does from the truth. That knows nothing of what no station of this pool does. So the stations that
-    fail a set alone are bounded too: k of n here, and of another n a number that is beta-binomial (with Jeffreys'
-    prior); a set then has none of them with a hypergeometric probability. So are the earthquakes of such stations.
+    Earthquakes are drawn again, and stations within each, and with them the sets: two pools differ by √2 times what one
+    does from the truth. That knows nothing of what no station of this pool does. So the stations that fail a set alone
+    are bounded too: k of n here, and of another n a number that is beta-binomial (with Jeffreys' prior); a set then has
+    none of them with a hypergeometric probability. So are the earthquakes of such stations. One earthquake says nothing
+    of the sets of others.
     """
+    if records.sample.earthquakes < 2:
+        return 0.0, 1.0
     alone = np.asarray((falls > 0).any(axis=0) | (use > records.chosen.size).any(axis=0))
-    names, of_record = np.unique(np.asarray(records.stations), return_inverse=True)
-    fails = np.bincount(of_record, weights=alone) > 0
-    lows, highs = [share], [share]
-    for groups in (records.stations, records.events):
-        rng = np.random.default_rng(0)
-        shares = []
-        for _ in range(BOOTSTRAPS):
-            sets = records.redrawn(groups, rng)
-            answered = sets[(~np.isnan(use[:, sets])).all(axis=(0, 2))]
-            if len(answered):
-                shares.append(float(_met(use, falls, answered).mean()))
-        if not shares:
-            return 0.0, 1.0
-        low, high = share + math.sqrt(2) * (np.quantile(shares, INTERVAL) - share)
+    sample = records.sample
+    fails = np.bincount(sample.of_record, weights=alone) > 0
+    rng = np.random.default_rng(0)
+    shares = []
+    for drawn in sample.redrawn(BOOTSTRAPS):
+        sets = records.redrawn(drawn, rng)
+        answered = sets[(~np.isnan(use[:, sets])).all(axis=(0, 2))]
+        if len(answered):
+            shares.append(float(_met(use, falls, answered).mean()))
+    if not shares:
+        return 0.0, 1.0
+    low, high = share + math.sqrt(2) * (np.quantile(shares, INTERVAL) - share)
+    lows, highs = [share, low], [share, high]
+    for groups in (sample.stations, sample.events):
         fewest, most = _elsewhere(np.asarray(groups), alone, fails)
         here, best, worst = (
-            _none_of(names.size, each, records.chosen.size) for each in (fails.sum(), fewest, most)
+            _none_of(sample.count, each, records.chosen.size) for each in (fails.sum(), fewest, most)
         )
-        lows += [low, share * worst / here if here else 0.0]
-        highs += [high, share * best / here if here else best]
+        lows.append(share * worst / here if here else 0.0)
+        highs.append(share * best / here if here else best)
     return float(np.clip(min(lows), 0, share)), float(np.clip(max(highs), share, 1))
 
 

@@ -7,7 +7,6 @@ would have said.
 """
 
 import math
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -20,6 +19,7 @@ from rocking.errors import ConfigurationError
 from rocking.quantities import positive
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.measures import response_spectrum
+from rocking.records.sample import Sample, earthquakes_of, stations_of
 from rocking.remarks import Kind, Remark
 
 STATIONS = 20
@@ -33,9 +33,6 @@ BELOW = 0.10
 ABOVE = 0.30
 """The allowed deviation above it (the same place)."""
 
-_LETTERS = 4
-"""First letters in which the names of one earthquake are alike, whatever follows: Northridge-01, NORTHRIDGE EQ."""
-
 _PATIENCE = 100_000
 """Sets none of which lay within the limits after which no more are drawn."""
 
@@ -47,7 +44,8 @@ _PERIODS_PER_DOUBLING = 8
 class ScaledPool:
     """Records, each with the factor that brings it nearest to a design spectrum.
 
-    names, stations: (m,) of the pool. pairs: its horizontal components, unscaled. factors: (m,), by which each is
+    names, stations: (m,) of the pool. each_unnamed: whether records that name no earthquake are of one each, not all of
+    one. pairs: its horizontal components, unscaled. factors: (m,), by which each is
     scaled. periods: (k,) s. target: (k,) m/s². spectra: (m, k) m/s², of each scaled pair the mean of its components,
     5 % damping or that of the design spectrum.
     """
@@ -59,6 +57,13 @@ class ScaledPool:
     periods: np.ndarray = field(repr=False)
     target: np.ndarray = field(repr=False)
     spectra: np.ndarray = field(repr=False)
+    each_unnamed: bool = field(default=False, repr=False, kw_only=True)
+
+    @cached_property
+    def sample(self) -> Sample:
+        """The stations and the earthquakes of the records."""
+        firsts = [first for first, *_ in self.pairs]
+        return Sample.of(firsts, self.stations, each_unnamed=self.each_unnamed)
 
     def scaled(self, place: int) -> tuple[Accelerogram, ...]:
         """Return the components of a record of the pool, scaled."""
@@ -102,35 +107,27 @@ class Selection(ScaledPool, Drawn):
         """The records of the chosen set."""
         return tuple(self.names[place] for place in self.chosen)
 
-    @cached_property
-    def events(self) -> tuple[str, ...]:
-        """The earthquake of each record, by the first letters of its name; its station where it has none."""
-        firsts = (re.findall("[a-z]+", pair[0].event.lower()) for pair in self.pairs)
-        names = ("".join(each)[:_LETTERS] for each in firsts)
-        return tuple(name or station for name, station in zip(names, self.stations, strict=True))
-
     def redrawn(
-        self, groups: Sequence[str], rng: np.random.Generator, tries: int = 4000, most: int = SETS
+        self, drawn: np.ndarray, rng: np.random.Generator, tries: int = 4000, most: int = SETS
     ) -> np.ndarray:
-        """Return sets (s, n), s up to `most`, within the limits, where groups of the pool are drawn again.
+        """Return sets (s, n), s up to `most`, within the limits, where the stations of the pool are drawn again.
 
-        groups: the station of each record, or its earthquake, with which all its stations come. As often as one is
-        drawn again its stations count as others; fewer of them than a set has make no set.
+        drawn: how often each station of `sample` is. As often as one is drawn it counts as another; fewer of them than
+        a set has make no set.
         """
-        names, of_record = np.unique(np.asarray(groups), return_inverse=True)
-        _, of_station = np.unique(np.asarray(self.stations), return_inverse=True)
-        again = rng.integers(0, names.size, names.size)
-        drawn_again = [np.flatnonzero(of_record == each) for each in again]
-        places = np.concatenate(drawn_again)
-        turns = np.repeat(np.arange(names.size), [each.size for each in drawn_again])
-        labels = turns * len(self.stations) + of_station[places]
+        turns = [
+            (record, turn * self.sample.count + station)
+            for record, station in enumerate(self.sample.of_record.tolist())
+            for turn in range(int(drawn[station]))
+        ]
+        places, labels = np.array(turns, dtype=int).reshape(-1, 2).T
         if np.unique(labels).size < self.chosen.size:
             return np.empty((0, self.chosen.size), dtype=int)
         ratios = self.spectra / self.target
         found = []
         number = 0
-        for drawn in random_sets(labels, self.chosen.size, tries, rng):
-            sets = places[drawn]
+        for own in random_sets(labels, self.chosen.size, tries, rng):
+            sets = places[own]
             means = ratios[sets].mean(axis=1)
             allowed = (means.min(axis=1) >= 1 - self.below) & (means.max(axis=1) <= 1 + self.above)
             found.append(sets[allowed])
@@ -145,7 +142,7 @@ class Selection(ScaledPool, Drawn):
         low, high = self.deviations
         factors = self.factors[self.chosen]
         return (
-            f"{self.chosen.size} records of as many stations out of {len(self.names)} of {len(set(self.stations))}; "
+            f"{self.chosen.size} records of as many stations out of {len(self.names)} of {self.sample.words}; "
             f"the mean spectrum lies between {100 * low:+.0f} and {100 * high:+.0f} % of the target from "
             f"{self.periods[0]:.3g} to {self.periods[-1]:.3g} s; factors from {factors.min():.3g} to "
             f"{factors.max():.3g}, median {np.median(factors):.3g}; {len(self.sets)} other sets within the limits, "
@@ -165,6 +162,7 @@ def select(
     sets: int = SETS,
     tries: int = 1_000_000,
     seed: int = 0,
+    each_unnamed: bool = False,
 ) -> Selection:
     """Return sets of `stations` records whose mean spectrum lies within the limits about `spectrum`.
 
@@ -172,7 +170,8 @@ def select(
     the shorter name goes, do not meet in a set. periods: shortest and longest of the range that counts, s; the
     longest should be twice the secant period of the structure where that is more than 2 s. factors: least and
     largest. below, above: shares. sets: how many are drawn beside the chosen one. tries: most sets that are drawn.
-    seed: the same one gives the same sets.
+    seed: the same one gives the same sets. each_unnamed: whether records that name no earthquake are of one each, not
+    all of one.
     Raises ConfigurationError for fewer stations than asked for, a range or limits that are none, and where no set meets
     the limits: it says how near the best one came.
 
@@ -188,7 +187,8 @@ def select(
     pool = scaled_pool(records, spectrum, periods, factors)
     draws = random_sets(np.array(pool.stations), stations, tries, np.random.default_rng(seed))
     found, chosen, drawn = search(pool.spectra / pool.target, draws, below, above, sets)
-    return Selection(**vars(pool), sets=found, chosen=chosen, drawn=drawn, below=below, above=above)
+    told = vars(pool) | {"each_unnamed": each_unnamed}
+    return Selection(**told, sets=found, chosen=chosen, drawn=drawn, below=below, above=above)
 
 
 def scaled_pool(
@@ -237,34 +237,17 @@ def _mean_spectrum(pair: Sequence[Accelerogram], periods: np.ndarray, damping: f
 
 
 def _stations(records: Mapping[str, Sequence[Accelerogram]], spectra: np.ndarray) -> tuple[str, ...]:
-    """The identities of the stations of a pool: network and code as the files give them, else the name of the record.
+    """The identities of the stations of a pool, as `stations_of` has them; the name of a record that names none.
 
-    Catalogues differ in how much they add to a name. Of two records of one earthquake, alike in its first letters,
-    those are of one station whose names begin with the same words, as far as the shorter one goes; so are two whose
-    spectra (m, k) are the same, as the motion is.
+    Two whose spectra (m, k) are the same are one, too, as the motion is.
     """
-    told: list[tuple[str, list[str], str]] = []
+    firsts = [first for first, *_ in records.values()]
+    named = stations_of(firsts, earthquakes_of(firsts), list(records))
     of_motion: dict[bytes, str] = {}
-    identities = []
-    for (name, (first, *_)), spectrum in zip(records.items(), spectra, strict=True):
-        event = "".join(re.findall(r"[a-z]+", first.event.lower()))[:_LETTERS]
-        words = re.findall(r"\w+", first.station.lower())
-        identity = f"{first.network}.{first.station}".strip(".") or name
-        if event and words:
-            alike = (
-                earlier
-                for of_event, of_station, earlier in told
-                if of_event == event and _begin_alike(of_station, words)
-            )
-            identity = next(alike, identity)
-            told.append((event, words, identity))
-        identities.append(of_motion.setdefault(np.round(np.log(spectrum), 9).tobytes(), identity))
-    return tuple(identities)
-
-
-def _begin_alike(one: Sequence[str], other: Sequence[str]) -> bool:
-    """Whether the longer list of words begins with the shorter one."""
-    return all(first == second for first, second in zip(one, other, strict=False))
+    return tuple(
+        of_motion.setdefault(np.round(np.log(spectrum), 9).tobytes(), name)
+        for name, spectrum in zip(named, spectra, strict=True)
+    )
 
 
 # One loop draws, judges and remembers: a reader has to see all it carries from draw to draw.

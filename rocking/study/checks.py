@@ -68,6 +68,7 @@ def write_checks(
         limit_state=design.limit_state,
         confidence_factor=design.confidence_factor,
         behaviour_factor=design.behaviour_factor,
+        least_others=design.least_others,
         records=selection,
     )
     pages = []

@@ -45,6 +45,7 @@ def select_for(study: Study, records: tuple[CatalogueRecord, ...]) -> tuple[Sele
         periods=(design.shortest_period, design.longest_period),
         factors=(design.least_factor, design.largest_factor),
         seed=design.seed,
+        each_unnamed=study.settings.unnamed_events == "each",
     )
     return selection, reasons
 

@@ -78,6 +78,13 @@ class StudyDesign:
     )
     longest_period: float = described(2.0, "longest period at which it must fit", "s", gt=0, le=10)
     seed: int = described(0, "random seed of the sets", ge=0)
+    least_others: float = described(
+        0.5,
+        "least share of the sets of other stations that must meet the dynamic check, by the lower end of its interval, "
+        "for it to be called met",
+        ge=0,
+        le=1,
+    )
     pool: str | None = described(
         None, "catalogue from which sets of records are drawn; null: that of the study"
     )

@@ -21,6 +21,7 @@ from rocking import (
 )
 from rocking.codes import dynamic_check
 from rocking.records import Accelerogram
+from rocking.records.sample import Sample
 from rocking.remarks import Kind, Remark
 from tests.made_pools import made_answers, made_pool
 
@@ -111,7 +112,7 @@ def test_the_confidence_factor_divides_weight_and_ties_alike(elongation):
 
 
 def test_stout_blocks_meet_it_and_slender_ones_do_not(records):
-    stout = rocking.check(Block.of_size(2.5, 3.0), SPECTRUM, records=records).dynamic
+    stout = rocking.check(Block.of_size(2.5, 3.0), SPECTRUM, records=records, least_others=0.4).dynamic
     assert stout.passed and stout.share == 1 and stout.demand == 0
     # None of S stations lets it fall: with p of Beta(½, S + ½) as many of S others do as 95 % of draws have at most.
     rng = np.random.default_rng(3)
@@ -130,7 +131,7 @@ def test_what_one_set_meets_is_not_called_met_where_others_do_not(records):
     """Between blocks that all sets pass and that none passes, there is one that some pass, and it is refused."""
     between = []
     for breadth in (0.4, 0.5, 0.6):
-        found = rocking.check(Block.of_size(breadth, 3.0), SPECTRUM, records=records).dynamic
+        found = rocking.check(Block.of_size(breadth, 3.0), SPECTRUM, records=records, least_others=0).dynamic
         between.append(found)
         assert found.passed == (
             found.demand <= found.capacity and not found.exceeding and found.share >= 0.95
@@ -212,7 +213,8 @@ def test_it_is_called_met_from_ninety_five_sets_of_a_hundred_on(records, monkeyp
         monkeypatch.setattr(
             dynamic_check, "_met", lambda use, falls, sets, met=met: np.arange(len(sets)) < met
         )
-        found = rocking.check(block, SPECTRUM, records=replace(records, sets=records.sets[:200])).dynamic
+        sets = replace(records, sets=records.sets[:200])
+        found = rocking.check(block, SPECTRUM, records=sets, least_others=0.4).dynamic
         assert found.share == met / 200 and found.passed is is_called
 
 
@@ -223,11 +225,11 @@ class Pool:
     """A pool of single records in place of a selection: sets of any of its stations, drawn with them again."""
 
     def __init__(self, stations, events, size):
-        self.stations, self.events = stations, events
+        self.sample = Sample(stations, events)
         self.chosen = np.arange(size)
 
-    def redrawn(self, groups, rng):
-        return np.array([rng.choice(len(self.stations), self.chosen.size, False) for _ in range(400)])
+    def redrawn(self, drawn, rng):
+        return np.array([rng.choice(self.sample.count, self.chosen.size, False) for _ in range(400)])
 
 
 def other_pools(failing, stations, size, per_group, groups):
@@ -274,3 +276,21 @@ def test_a_station_that_fails_no_set_alone_bounds_nothing():
     assert dynamic_check._interval(just, falls, pool, 1.0) == dynamic_check._interval(still, falls, pool, 1.0)
     just[0, 3] = size + 1e-6
     assert dynamic_check._interval(just, falls, pool, 1.0) != dynamic_check._interval(still, falls, pool, 1.0)
+
+
+@pytest.mark.parametrize(("least", "is_met"), [(0.4, True), (0.5, False)])
+def test_it_is_called_met_from_the_least_share_of_other_sets_on(records, least, is_met):
+    """Of 30 others up to two may fail where none does here, and a set of ten has neither with 20·19/(30·29)."""
+    found = rocking.check(Block.of_size(2.5, 3.0), SPECTRUM, records=records, least_others=least)
+    assert found.dynamic.interval[0] == pytest.approx(20 * 19 / (30 * 29))
+    assert found.dynamic.passed is is_met
+    if not is_met:
+        assert found.dynamic.refusal.kind is Kind.OTHERS_TOO_FEW
+        assert found.decisive is not found.dynamic
+        needed = next(n for n in range(20, 99) if (n - 10) * (n - 11) >= 0.5 * n * (n - 1))
+        assert found.dynamic.refusal["needed"] == needed
+
+
+def test_a_pool_of_one_earthquake_says_nothing_of_others():
+    pool = Pool(tuple(map(str, range(30))), ("one",) * 30, 5)
+    assert dynamic_check._interval(np.zeros((1, 30)), np.zeros((1, 30), dtype=int), pool, 1.0) == (0.0, 1.0)

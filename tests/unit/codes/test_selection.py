@@ -138,6 +138,6 @@ def test_the_nearest_set_is_the_one_whose_excess_is_least():
 def test_its_words_say_the_periods_that_were_asked_for_and_the_factors(pool):
     own = select(pool, SPECTRUM, 10, periods=(0.2, 1.5), sets=2, seed=3, **LIMITS)
     used = [own.factors[place] for place in own.chosen]
-    assert own.words.startswith("10 records of as many stations out of 30 of 30; ")
+    assert own.words.startswith("10 records of as many stations out of 30 of 30 stations of 30 earthquakes; ")
     assert "of the target from 0.2 to 1.5 s; " in own.words
     assert f"factors from {min(used):.3g} to {max(used):.3g}, median {np.median(used):.3g}; " in own.words

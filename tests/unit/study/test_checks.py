@@ -191,7 +191,8 @@ def found(passed, exceeding=0, **others):
         "clause": "C8.7.1.2.1.9", "limit_state": "SLV", "capacity": 0.1, "demand": 0.05 if passed else 0.2,
         "mechanism": "as given", "unit": "m", "refusal": None if passed else Remark(Kind.CHECK_NOT_MET),
         "exceeding": exceeding,
-        "motions": 40, "stations": 57, "sets": 200, "share": 1.0 if passed else 0.1, "interval": (0.0, 1.0),
+        "motions": 40, "stations": 57,
+        "earthquakes": 20, "sets": 200, "share": 1.0 if passed else 0.1, "interval": (0.0, 1.0),
     }  # fmt: skip
     return DynamicCheck(**values | others)
 
