@@ -6,7 +6,9 @@ Each verb imports what it calls, so that help and refusals come at once.
 import argparse
 import contextlib
 import io
+import os
 import sys
+import tempfile
 import warnings
 from collections.abc import Sequence
 from importlib.metadata import version
@@ -15,6 +17,7 @@ from shlex import quote
 from typing import Any, TextIO
 
 from rocking.errors import CatalogueError, ConfigurationError, RockingError, UnknownFormatError
+from rocking.hashes import sha256_of_bytes
 from rocking.quantities import GRAVITY, escaped
 from rocking.records.doors import through
 from rocking.study import close_doors
@@ -65,6 +68,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             with warnings.catch_warnings():
                 warnings.showwarning = _show
                 close_doors()
+                if options.run in (_run, _trade) and " " in sys.executable and os.name == "posix":
+                    _start_without_blanks(arguments)
                 with through("command"):
                     return options.run(options) or 0
         except RockingError as error:
@@ -76,9 +81,44 @@ def main(arguments: Sequence[str] | None = None) -> int:
         except KeyboardInterrupt:
             print("rocking: stopped.", file=sys.stderr)
             return 130
+        except ModuleNotFoundError as error:
+            if error.name != _OF_UNIX and _OF_UNIX not in str(error):
+                raise
+            print(f"rocking: {_NOT_HERE}", file=sys.stderr)
+            return 1
         except OSError as error:
             print(f"rocking: {error.filename or 'file'}: {error.strerror or error}.", file=sys.stderr)
             return 1
+
+
+_OF_UNIX = "fcntl"
+"""The module of the standard library that locks files, which Windows lacks."""
+_NOT_HERE = (
+    "this command needs Linux or macOS; on Windows run it in WSL, or use `rocking read` and the functions of "
+    "`import rocking`, which work without."
+)
+
+
+def _start_without_blanks(arguments: Sequence[str] | None) -> None:
+    """Go on as a process whose Python has no blank in its path, which snakemake parts there: by a link to its folder.
+
+    Raises ConfigurationError where there is no place for such a link, or a program called this with `arguments`.
+    """
+    python = Path(sys.executable)
+    prefix = Path(sys.prefix)
+    link = Path(tempfile.gettempdir()) / f"rocking-python-{os.getuid()}-{sha256_of_bytes(bytes(prefix))[:12]}"
+    told = f"the path of Python, {str(python)!r}, has a blank, at which snakemake parts it"
+    if arguments is not None or " " in str(link) or not python.is_relative_to(prefix):
+        raise ConfigurationError(f"{told}; make the environment in a folder without one.")
+    with contextlib.suppress(FileExistsError):
+        link.symlink_to(prefix, target_is_directory=True)
+    if link.lstat().st_uid != os.getuid() or not link.is_symlink() or link.readlink() != prefix:
+        raise ConfigurationError(
+            f"{told}, and {link} is another's; make the environment in a folder without one."
+        )
+    plain = str(link / python.relative_to(prefix))
+    sys.stdout.flush()
+    os.execv(plain, [plain, "-m", "rocking.study.cli", *sys.argv[1:]])
 
 
 def _show(message: Warning | str, *_: object, **__: object) -> None:

@@ -1,0 +1,75 @@
+"""What a system lacks, or a path holds, is a sentence or no hindrance, and never a traceback."""
+
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from rocking.study.cli import main
+
+ROOT = Path(__file__).parents[3]
+RECORD = ROOT / "records" / "synthetic_strong_pulse.AT2"
+WITHOUT = "import sys\nsys.modules['fcntl'] = None\n"
+
+
+def python(code: str, *arguments: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, "-c", code, *arguments], capture_output=True, text=True, cwd=ROOT)
+
+
+@pytest.mark.process
+@pytest.mark.parametrize("verb", [
+    ["run", "."], ["trade", "."], ["catalogue", "records", "--output", "/nowhere/c.csv"], ["pulse", str(RECORD)],
+    ["assess", str(RECORD), "--structures", "{type: free_wall, height_m: 2, thickness_m: 0.3}"],
+])  # fmt: skip
+def test_without_locks_a_command_says_where_it_works(verb: list[str]) -> None:
+    done = python(f"{WITHOUT}from rocking.study.cli import main\nraise SystemExit(main(sys.argv[1:]))", *verb)
+    assert done.returncode == 1 and done.stderr.count("\n") == 1 and "WSL" in done.stderr
+
+
+@pytest.mark.process
+def test_without_locks_files_are_read_and_structures_assessed() -> None:
+    read = python(
+        f"{WITHOUT}from rocking.study.cli import main\nraise SystemExit(main(sys.argv[1:]))",
+        "read",
+        str(RECORD),
+    )
+    assert read.returncode == 0 and "PEER AT2" in read.stdout
+    code = f"import rocking\nrecord = rocking.read({str(RECORD)!r})\n"
+    code += "print(rocking.assess(record, rocking.Wall.of_size(3.2, 0.25)).verdict)"
+    assert python(WITHOUT + code).stdout.strip()
+
+
+@pytest.mark.process
+def test_a_python_in_a_folder_with_a_blank_runs_a_study(tmp_path: Path) -> None:
+    """As one in a home folder of two words is, where snakemake ended without a cause."""
+    environment = tmp_path / "two words"
+    environment.symlink_to(sys.prefix, target_is_directory=True)
+    study = tmp_path / "study"
+    assert main(["start", str(study)]) == 0
+    (study / "structures.yaml").write_text("- {name: a, type: block, breadth_m: 0.5, height_m: 3.0}\n")
+    (study / "records" / RECORD.name).write_bytes(RECORD.read_bytes())
+    assert main(["catalogue", str(study / "records")]) == 0
+    command = [str(environment / "bin" / "python"), "-m", "rocking.study.cli", "run", str(study)]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT)
+    assert done.returncode == 0, done.stderr
+    assert (study / "results" / "synthetic_strong_pulse" / "report.pdf").exists()
+
+
+def test_a_program_that_runs_a_study_is_told_of_the_blank(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(sys, "executable", f"{sys.prefix}/two words/python")
+    assert main(["run", str(tmp_path)]) == 2
+    told = capsys.readouterr().err
+    assert "has a blank" in told and told.count("\n") == 1
+
+
+def test_the_package_names_the_systems_that_it_runs_on() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert "Operating System :: POSIX :: Linux" in project["classifiers"]
+    assert not any("Windows" in each for each in project["classifiers"])
+    for page in ("README.md", "docs/pages/installing.md"):
+        text = (ROOT / page).read_text(encoding="utf-8")
+        assert all(name in text for name in ("Linux", "macOS", "WSL"))
