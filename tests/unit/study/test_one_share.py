@@ -10,6 +10,7 @@ import rocking
 from rocking.assessment.decide import Verdict
 from rocking.assessment.rows import ExpectedFallsRow, RecordRow
 from rocking.records import load_catalogue
+from rocking.records.sample import Sample
 from rocking.strengthening import sizes, strengthen_scene
 from rocking.study.checks import write_checks
 from rocking.study.job import Study
@@ -94,8 +95,8 @@ def test_four_tables_say_one_share_of_a_pinnacle_whose_stacks_fall(folder: Path,
     scene = study.scenes["pinnacle"]
     (side,) = (each for each in sizes(scene.structure) if each.name == "width")
     motions = [rocking.read(folder / f"{each.id}.txt", unit="m/s2")[0] for each in catalogue]
-    found = strengthen_scene(
-        motions, scene, side, (1.5, 2.0), 0.1, [each.id for each in catalogue], study.assessment
-    )
+    names = tuple(each.id for each in catalogue)
+    sample = Sample(names, names)
+    found = strengthen_scene(motions, scene, side, (1.5, 2.0), 0.1, sample, study.assessment)
     assert found.given.untold == 0
     assert found.given.share == pytest.approx(shares.mean())
