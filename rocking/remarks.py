@@ -519,6 +519,19 @@ class Kind(StrEnum):
         "{about} di tipo wall: si assume trattenuta a pavimento e soffitto; una parete libera in sommità, "
         "come un muro di cinta, è una free_wall.",
     )
+    TIES_ALL_ALONG = auto(), Sentence(
+        "Its ties are taken to hold it all along: give their tie_spacing and the unit_length of the masonry, or "
+        "held_between: floor where a stiff floor or a ring beam holds it between them.",
+        "Si assume che le catene trattengano la parete per tutta la lunghezza: vanno assegnati l'interasse "
+        "(tie_spacing) e la lunghezza dei blocchi (unit_length), oppure held_between: floor se un solaio rigido o un "
+        "cordolo la trattiene fra di esse.",
+    )
+    RODS_SPREAD = auto(), Sentence(
+        "Rods of {diameter_mm:g} mm, {length_m:g} m long, every {spacing_m:g} m are spread over the metre: "
+        "E A/(L s) = {stiffness_kN_m2:.4g} kN/m per m, f_y A/s = {strength_kN_m:.4g} kN/m.",
+        "Le catene da {diameter_mm:g} mm, lunghe {length_m:g} m e poste ogni {spacing_m:g} m, sono ripartite al metro: "
+        "E A/(L s) = {stiffness_kN_m2:.4g} kN/m per m, f_y A/s = {strength_kN_m:.4g} kN/m.",
+    )
     FLOORS_BEHIND = auto(), Sentence(
         "It rocks inwards as freely as outwards, although the floors that it carries or is tied to are behind"
         " it; behind: floors or cross_walls, with the restitution of its impact on them, prevents this. "

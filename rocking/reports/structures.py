@@ -427,9 +427,13 @@ def _assumptions(page: CheckedStructure, mechanism: LocalMechanism, words: Sente
     if math.isfinite(mechanism.support_loss):
         lines.append(words("assumed loss", displacement=words.quantity(mechanism.support_loss, "m")))
     checked = page.checked
-    ties = [tie.tie for each in checked.mechanisms for tie in each.static.side.ties] if checked else []
-    if any(math.isinf(tie.strength) for tie in ties):
+    ties = (
+        [tie.tie.strength for each in checked.mechanisms for tie in each.static.side.ties] if checked else []
+    )
+    held = [each.ties for each in checked.restraints] if checked else []
+    if any(map(math.isinf, (*ties, *held))):
         lines.append(words("assumed ties"))
+    lines += [words.of(each) for each in structure.assumptions]
     if page.support is not None:
         modes = [
             words("mode", period=words.number(mode.period), participation=words.number(mode.participation))

@@ -275,6 +275,7 @@ class Facade(Tied):
             ((thrust_height, self.thrust),) if self.thrust else (),
             backed=self.behind == "cross_walls" or bool(self.behind is None and self.one_sided),
             strength=self.compressive_strength,
+            ties_apart=self.ties_apart,
         )
 
     def _slab_edge(self, storey: int, load: float) -> float:
@@ -294,7 +295,8 @@ class Facade(Tied):
 
     def opened(self, opening: Opening) -> "Facade":
         cracked = self._cracked_there_only.cracked_at(opening.foot)
-        return cracked if opening.hinge is None else replace(cracked, opening=opening)
+        as_one_body = opening.hinge is None and not opening.between
+        return cracked if as_one_body else replace(cracked, opening=opening)
 
     def _part_at(self, height: float) -> int:
         """The part, from 0, to which what acts at `height` [m] belongs, or STILL."""

@@ -20,7 +20,16 @@ from rocking.errors import SizeError, StructureError
 from rocking.quantities import LENGTHS, finite, shown
 from rocking.remarks import Kind, Remark
 
-_SI = {"°": np.pi / 180, "kN": 1e3, "kN/m": 1e3, "kN/m²": 1e3, "kN/m³": 1e3, "MPa": 1e6}
+_SI = {
+    "°": np.pi / 180,
+    "kN": 1e3,
+    "kN/m": 1e3,
+    "kN/m²": 1e3,
+    "kN/m³": 1e3,
+    "MPa": 1e6,
+    "GPa": 1e9,
+    "mm": 1e-3,
+}
 """The value of a unit of the file in SI; units that are not here are SI."""
 _MOST = 1e9
 """The most that a number may be in the unit of the file where nothing less is stated: beyond it the powers of numbers,
@@ -31,10 +40,11 @@ of which inertias are made, are no numbers any more."""
 class Value:
     """The declaration of a parameter beside its type.
 
-    example: of a structure that stands. unit: of the file; lengths m, angles °, forces kN. usual: plausible range in
-    that unit; beyond it a remark, not a refusal. letter: in drawings. phrase: how the description says it, of {name}
-    and {value}, which has its unit. bounds: any of ge, gt, le, lt. names: of what may stand in place of a number.
-    dimension: the line of a drawing that measures it, where that has another name than the parameter.
+    example: of a structure that stands; None of what stands in place of other parameters. unit: of the file; lengths m,
+    angles °, forces kN. usual: plausible range in that unit; beyond it a remark, not a refusal. letter: in drawings.
+    phrase: how the description says it, of {name} and {value}, which has its unit. bounds: any of ge, gt, le, lt.
+    names: of what may stand in place of a number. dimension: the line of a drawing that measures it, where that has
+    another name than the parameter.
     """
 
     meaning: str
@@ -215,6 +225,11 @@ class Form:
     def keys(self) -> dict[str, Field]:
         """The fields by key."""
         return {each.key: each for each in self.fields}
+
+    @property
+    def example(self) -> dict[str, object]:
+        """An entry by key, without what only stands in place of other keys, and so has no example."""
+        return {each.key: each.value.example for each in self.fields if each.value.example is not None}
 
     @property
     def required(self) -> tuple[str, ...]:

@@ -204,6 +204,8 @@ class Opening:
     flat keeps the upper body from turning while it moves out. upright: what stands above the hold stays upright and
     rises; otherwise it turns with the upper body. outwards: the side of the forcing and of the
     fall. forwards: whether the lower part moves to that side; otherwise it kicks back, and the upper one falls.
+    between: it falls between two ties of a row, where these hold nothing (theory: section 13.2). As one body it is a
+    triangle: it turns about the line on its face from its foot, midway between the ties, to each of them at `hold`.
     """
 
     foot: float
@@ -212,6 +214,12 @@ class Opening:
     upright: bool = False
     outwards: bool = True
     forwards: bool = True
+    between: bool = False
+
+    @property
+    def is_triangle(self) -> bool:
+        """Whether it is the triangle between two ties."""
+        return self.between and self.hinge is None
 
     @property
     def kinks(self) -> tuple[tuple[float, float], ...]:
@@ -283,7 +291,8 @@ class HeldWall:
     """Masonry, what bears and pushes on it, and what holds it.
 
     storeys: from the ground up. thrusts: height [m] and force outwards [N/m]. backed: cross walls stand behind it, so
-    that nothing moves inwards. strength: f_c at which the edges of joints crush, Pa; or None.
+    that nothing moves inwards. strength: f_c at which the edges of joints crush, Pa; or None. ties_apart: whether its
+    ties stand so far apart along the wall that it may fall between them.
     """
 
     storeys: tuple[Storey, ...]
@@ -292,6 +301,7 @@ class HeldWall:
     thrusts: tuple[tuple[float, float], ...] = ()
     backed: bool = False
     strength: float | None = None
+    ties_apart: bool = False
 
     @property
     def height(self) -> float:
@@ -358,8 +368,41 @@ class HeldWall:
 
     def multiplier(self, opening: Opening) -> float:
         """λ of an opening by limit analysis; inf where a tie without a strength keeps it shut."""
-        restoring, pushed = self.virtual_work(opening.kinks)
+        if opening.is_triangle:
+            works = [
+                (share, *self._between_ties.virtual_work(replace(opening, foot=foot).kinks))
+                for foot, share in self._strips(opening)
+            ]
+            restoring = sum(share * lifted for share, lifted, _ in works)
+            pushed = sum(share * along for share, _, along in works)
+        else:
+            restoring, pushed = (self._between_ties if opening.between else self).virtual_work(opening.kinks)
         return restoring / abs(pushed)
+
+    @cached_property
+    def _between_ties(self) -> "HeldWall":
+        """The wall as it is midway between two ties of a row, which hold nothing there; a top by its friction alone."""
+        holds = [each for each in self.holds if each.kind != "tie"]
+        # What a top holds inwards is what ties do not give.
+        left = [each._replace(outwards=each.inwards) if each.kind == "top" else each for each in holds]
+        return replace(self, holds=tuple(left), ties_apart=False)
+
+    def _strips(self, opening: Opening) -> list[tuple[float, float]]:
+        """The upright strips of a triangle between two ties: the height at which each one turns, m, and its share.
+
+        The triangle moves as u = φ (z − z_f), where the line about which it turns lies at z_f; every strip is a wall
+        that turns about its own foot there. Works and inertias are cubic in z_f between two heights at which something
+        changes, for which two points of Gauss are exact.
+        """
+        assert opening.hold is not None
+        changes = {each.z for each in self.loads} | {each.low for each in self.storeys}
+        inner = sorted(height for height in changes if opening.foot < height < opening.hold)
+        strips = []
+        for low, high in pairwise([opening.foot, *inner, opening.hold]):
+            middle, half = (low + high) / 2, (high - low) / 2
+            share = half / (opening.hold - opening.foot)
+            strips += [(middle + sign * half / np.sqrt(3), share) for sign in (-1, 1)]
+        return strips
 
     def admits(self, kinks: Sequence[tuple[float, float]]) -> bool:
         """Whether what stands behind the wall lets it move so."""
@@ -395,6 +438,19 @@ class HeldWall:
                 stands_above = hold is not None and hold < self.height * (1 - _SAME)
                 for upright in (False, True) if stands_above else (False,):
                     yield from self._ways(Opening(foot, hinge, hold, upright))
+        if self.ties_apart:
+            yield from self._openings_between_ties(joints, feet)
+
+    def _openings_between_ties(self, joints: Sequence[float], feet: Sequence[float]) -> Iterator[Opening]:
+        """The triangle below the uppermost ties, or, below a top that is held all along, the wall without its ties."""
+        ties = [hold.height for hold in self.holds if hold.kind == "tie"]
+        if any(hold.kind == "top" for hold in self.holds):
+            for opening in self._between_ties.openings(joints, feet):
+                apart = replace(opening, between=True)
+                if opening.outwards and self.multiplier(apart) < self.multiplier(opening):
+                    yield apart
+            return
+        yield from (Opening(foot, hold=max(ties), between=True) for foot in feet if foot < max(ties))
 
     def _ways(self, opening: Opening) -> Iterator[Opening]:
         """The opening with its lower part outwards and inwards, each to the side to which the ground pushes it."""
@@ -438,6 +494,9 @@ class HeldWall:
         the other way as one body, or as two where something else stops these higher up.
         """
         back = replace(opening, outwards=not opening.outwards)
+        if opening.is_triangle:
+            stopped = self.backed or any(hold.inwards and hold.height > opening.foot for hold in self.holds)
+            return None if stopped else back
         whole = Opening(opening.foot, outwards=back.outwards)
         stops = [hold.height for hold in self.holds if hold.both_ways]
         higher = [
@@ -452,6 +511,10 @@ class HeldWall:
         """Return what it does, in words."""
         below = self._kind_at(opening.foot)
         side = "" if opening.outwards else "inwards"
+        if opening.is_triangle:
+            return "falls between two ties of a row"
+        if opening.between:
+            return f"{self._between_ties.name(replace(opening, between=False))}, between ties of a row"
         if opening.hinge is None:
             highest = max((hold.height for hold in self.holds if hold.outwards), default=np.inf)
             if opening.foot == 0:
@@ -505,6 +568,8 @@ class HeldWall:
             ]
         least: dict[tuple[str, bool], tuple[Opening, float]] = {}
         for opening in self.openings(heights, feet):
+            if not len(joints) and opening.hinge not in stops and self._is_near_its_hold(opening):
+                continue
             multiplier = self.multiplier(opening)
             kind = self.name(opening), opening.outwards
             if np.isfinite(multiplier) and (kind not in least or multiplier < least[kind][1] * (1 - _SAME)):
@@ -523,12 +588,19 @@ class HeldWall:
         ]
         return tuple(sorted(listed, key=lambda each: each[1]))
 
+    def _is_near_its_hold(self, opening: Opening) -> bool:
+        """Whether its hinge lies beyond HIGHEST_SHARE of the span."""
+        if opening.hinge is None:
+            return False
+        top = self.height if opening.hold is None else opening.hold
+        return opening.hinge - opening.foot > HIGHEST_SHARE * (top - opening.foot)
+
     def _sharpened(
         self, opening: Opening, multiplier: float, heights: Sequence[float]
     ) -> tuple[Opening, float]:
         """The opening with its hinge where λ is least between the joints on either side of it.
 
-        Beyond the last joint it goes to HIGHEST_SHARE of the span, as the hinge of a wall between supports does.
+        It goes up to HIGHEST_SHARE of the span, as the hinge of a wall between supports does.
         """
         from scipy.optimize import minimize_scalar  # slow to import, and needed here only
 
@@ -537,9 +609,8 @@ class HeldWall:
         place = heights.index(opening.hinge)
         top = self.height if opening.hold is None else opening.hold
         margin = (1 - HIGHEST_SHARE) * (top - opening.foot)
-        below, above = heights[place - 1], (*heights, self.height)[place + 1]
-        low = below if below > opening.foot else opening.foot + margin
-        high = above if above < top else top - margin
+        low = max(heights[place - 1], opening.foot + margin)
+        high = min((*heights, self.height)[place + 1], top - margin)
         if not low < high:
             return opening, multiplier
 
@@ -587,6 +658,8 @@ class HeldWall:
         """
         moving = [each for each in self.pieces(cut) if each.low >= cut.foot]
         sign = 1.0 if opening.outwards else -1.0
+        if opening.is_triangle:
+            return self._triangle(opening, moving, hung)
         weights = np.array([each.weight * (each.high - each.low) for each in moving])
         centres = [complex(sign * (each.left + each.right), each.low + each.high) / 2 for each in moving]
         inertias = [
@@ -610,6 +683,45 @@ class HeldWall:
             forwards=opening.forwards,
             guided=guided,
         )
+
+    def _triangle(self, opening: Opening, moving: Sequence[Storey], hung: Sequence[Hung]) -> Linkage:
+        """The triangle between two ties as a body that turns about its foot; per metre between the ties.
+
+        Each of its parts has the mass, the centre and the inertia of its strips, each seen from its own foot. What the
+        halves on either side of the middle press on each other is left out, and that they turn along the wall, too.
+        """
+        turn = 1.0 if opening.outwards else -1.0
+        corner = self._edge(opening.foot, turn)
+        moments = np.zeros((len(moving) + len(hung), 3), dtype=complex)
+        for foot, share in self._strips(opening):
+            shift = corner - self._edge(foot, turn)
+            for place, each in enumerate(moving):
+                low = max(each.low, foot)
+                if low < each.high:
+                    centre = complex(each.left + each.right, low + each.high) / 2 + shift
+                    mass = share * each.weight * (each.high - low)
+                    own = ((each.high - low) ** 2 + (each.right - each.left) ** 2) / 12
+                    moments[place] += mass, mass * centre, mass * (abs(centre - corner) ** 2 + own)
+            for place, load in enumerate(hung, start=len(moving)):
+                if load.start.imag > foot and not load.tie:
+                    start = complex(turn * load.start.real, load.start.imag) + shift
+                    moments[place] += share, share * start, share * abs(start - corner) ** 2
+        shares = moments[:, 0].real
+        centres = moments[:, 1] / np.where(shares > 0, shares, 1.0)
+        inertias = moments[:, 2].real - shares * np.abs(centres - corner) ** 2
+        seen = turn * centres.real + 1j * centres.imag
+
+        masonry = len(moving)
+        bodies = [(shares[place], seen[place], inertias[place]) for place in range(masonry)]
+        pulls = []
+        for place, load in enumerate(hung, start=masonry):
+            if load.mass and shares[place]:
+                bodies.append((load.mass * shares[place], seen[place], load.mass * inertias[place]))
+            elif load.force and shares[place]:
+                force = load.force * shares[place]
+                pulls.append(load._replace(start=complex(seen[place]), part=0, force=force))
+        parts = Parts(*(np.array(each) for each in zip(*bodies, strict=True)))
+        return Turning(complex(turn * corner.real, corner.imag), parts, pulls)
 
     def _edge(self, height: float, turn: float) -> complex:
         """The edge about which the joint at `height` [m] opens: the outer one where what is above turns outwards."""

@@ -186,8 +186,8 @@ class Structure(ABC):
 
     @property
     def cautions(self) -> tuple[Remark, ...]:
-        """What its model leaves out beside every verdict on it, and a typed restitution unlike that of the geometry."""
-        cautions = [] if self._leaves_out is None else [self._leaves_out]
+        """What its model leaves out or takes for granted, and a typed restitution unlike that of the geometry."""
+        cautions = [*([] if self._leaves_out is None else [self._leaves_out]), *self.assumptions]
         typed = self._given_restitution
         has_balance = not self.one_sided and isinstance(self._usual_restitution, str)
         if has_balance and isinstance(typed, float):
@@ -198,6 +198,11 @@ class Structure(ABC):
             elif typed - most > TYPED_ABOVE:
                 cautions.append(Remark.of(Kind.RESTITUTION_ABOVE, typed=typed, own=max(most, 0.0)))
         return tuple(cautions)
+
+    @property
+    def assumptions(self) -> tuple[Remark, ...]:
+        """What is taken for granted where its description says nothing of it."""
+        return ()
 
     @property
     def _leaves_out(self) -> Remark | None:

@@ -155,7 +155,5 @@ def _definition(kind: str, form: Form, more: Mapping[str, object]) -> dict[str, 
             **properties,
             **more,
         },
-        "examples": [
-            {"name": f"my {kind}", "type": kind, **{each.key: each.value.example for each in form.fields}}
-        ],
+        "examples": [{"name": f"my {kind}", "type": kind, **form.example}],
     }

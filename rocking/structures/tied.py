@@ -12,10 +12,19 @@ from numpy.typing import ArrayLike
 
 from rocking.errors import DoesNotStandError, SizeError, StructureWarning
 from rocking.quantities import GRAVITY
+from rocking.remarks import Kind, Remark
 from rocking.structures.drawing import Mark, plane
 from rocking.structures.fields import OneSided, Value
 from rocking.structures.held_wall import Chain, HeldWall, Opening
-from rocking.structures.linkage import STILL, Hung, Linkage, MotionState, Reaction, Restraint
+from rocking.structures.linkage import (
+    STILL,
+    Hung,
+    Linkage,
+    MotionState,
+    Reaction,
+    Restraint,
+    UnknownContacts,
+)
 from rocking.structures.mechanism import Tie
 from rocking.structures.structure import Candidate, CrackedAtHeight
 
@@ -38,6 +47,11 @@ _SAME = 1e-6
 """Share of the height within which a joint is one at which something changes."""
 LEAST_STIFFNESS = 1e-12
 """The least stiffness of a tie, N/m²: below it the rotation at which it yields is no number any more."""
+
+
+FAR_APART = 3.0
+"""Lengths of a unit between two ties beyond which the wall may fall between them: in limit analysis in three dimensions
+the least λ is that of a wall held all along up to there, and goes down to that of the triangle beyond."""
 
 
 def check_eccentricity(value: float, thickness: float) -> None:
@@ -67,6 +81,10 @@ class Tied(CrackedAtHeight):
     N/m, None for elastic ties, and tie_plastic_elongation, m, by which they yield before they break. A tie pulls
     inwards only; one that is tightened needs a structure that cannot rock inwards.
     one_sided: it leans on cross walls and rocks outwards only; restitution must then be a number.
+    tie_spacing: of the ties of a row along the wall, m, with the unit_length of the masonry, m, or held_between:
+    "floor" where a stiff floor or a ring beam holds all along; without a spacing they are taken to. rod_diameter,
+    rod_length, m, rod_yield_stress and rod_modulus, Pa, rod_pretension, N: of each rod, in place of the stiffness
+    E A/(L s), the strength f_y A/s and the pretension T/s.
     compressive_strength: of the masonry, Pa; None: the edges of its joints do not crush.
     opening: of one of its `mechanisms()`, in which alone it moves; files do not give it.
     """
@@ -100,8 +118,96 @@ class Tied(CrackedAtHeight):
             "By how much each tie yields at its strength before it breaks; 0 is brittle", 0.05, "m", (0, 0.5)
         ),
     ] = field(default=0.0, kw_only=True)
+    tie_spacing: Annotated[
+        float | None,
+        Value(
+            "Distance between the ties of a row along the wall; beyond three times the unit_length it may fall between "
+            "them. Left out: they are taken to hold it all along",
+            2.0,
+            "m",
+            (0.3, 12),
+            phrase="ties every {value}",
+            bounds={"ge": 0.05, "le": 1000},
+        ),
+    ] = field(default=None, kw_only=True)
+    unit_length: Annotated[
+        float | None,
+        Value(
+            "Length of the units of the masonry along the wall; needed with a tie_spacing",
+            0.4,
+            "m",
+            (0.1, 1.5),
+            bounds={"ge": 0.01, "le": 100},
+        ),
+    ] = field(default=None, kw_only=True)
+    held_between: Annotated[
+        Literal["floor"] | None,
+        Value(
+            "What holds the wall between its ties: floor, a stiff floor or a ring beam at their height",
+            "floor",
+            phrase="a {value} between its ties",
+        ),
+    ] = field(default=None, kw_only=True)
+    rod_diameter: Annotated[
+        float | None,
+        Value(
+            "Diameter of a steel rod, in place of stiffness, strength and pretension per metre; needs rod_length and "
+            "tie_spacing",
+            None,
+            "mm",
+            (10, 60),
+            bounds={"ge": 1, "le": 1000},
+        ),
+    ] = field(default=None, kw_only=True)
+    rod_length: Annotated[
+        float | None,
+        Value("Free length of a rod between its anchors", None, "m", (1, 40), bounds={"ge": 0.1, "le": 1000}),
+    ] = field(default=None, kw_only=True)
+    rod_yield_stress: Annotated[
+        float | None,
+        Value(
+            "Stress at which a rod yields; elastic without it",
+            None,
+            "MPa",
+            (150, 600),
+            bounds={"ge": 1, "le": 5000},
+        ),
+    ] = field(default=None, kw_only=True)
+    rod_modulus: Annotated[
+        float,
+        Value("Modulus of elasticity of a rod", None, "GPa", (60, 210), bounds={"ge": 1, "le": 1000}),
+    ] = field(default=200e9, kw_only=True)
+    rod_pretension: Annotated[
+        float, Value("Force of a rod at rest; needs one_sided", None, "kN", (0, 200))
+    ] = field(default=0.0, kw_only=True)
     one_sided: OneSided = field(default=False, kw_only=True)
     opening: Opening | None = field(default=None, kw_only=True)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self._spread_rods()
+
+    def _spread_rods(self) -> None:
+        """Take stiffness, strength and pretension per metre from the rods, where these are described."""
+        rods = {"rod_diameter": self.rod_diameter, "rod_length": self.rod_length}
+        if not any((*rods.values(), self.rod_yield_stress, self.rod_pretension)):
+            return
+        for name, value in (rods | {"tie_spacing": self.tie_spacing}).items():
+            if value is None:
+                said = ", but a rod needs rod_diameter, rod_length and the tie_spacing; give it."
+                raise SizeError.of(name, "missing", said)
+        assert self.rod_diameter and self.rod_length and self.tie_spacing
+        area = math.pi * self.rod_diameter**2 / 4
+        per_metre: dict[str, float | None] = {
+            "tie_stiffness": self.rod_modulus * area / (self.rod_length * self.tie_spacing),
+            "tie_strength": self.rod_yield_stress and self.rod_yield_stress * area / self.tie_spacing,
+            "tie_pretension": self.rod_pretension / self.tie_spacing,
+        }
+        for name, value in per_metre.items():
+            given = getattr(self, name)
+            if given and (value is None or not math.isclose(given, value, rel_tol=1e-9)):
+                raise SizeError.of(name, repr(given), ", but follows from the rods; leave it out.")
+            object.__setattr__(self, name, value)
 
     @property
     def side_names(self) -> tuple[str, str]:
@@ -126,7 +232,38 @@ class Tied(CrackedAtHeight):
             tie_pretension=0.0,
             tie_strength=None,
             tie_plastic_elongation=0.0,
+            tie_spacing=None,
+            unit_length=None,
+            held_between=None,
+            rod_diameter=None,
+            rod_length=None,
+            rod_yield_stress=None,
+            rod_pretension=0.0,
         )
+
+    @property
+    def ties_apart(self) -> bool:
+        """Whether its ties stand so far apart along the wall that it may fall between them (theory: section 13.2)."""
+        if self.tie_spacing is None or self.unit_length is None or self.held_between:
+            return False
+        return self.tie_spacing > FAR_APART * self.unit_length
+
+    @property
+    def assumptions(self) -> tuple[Remark, ...]:
+        """What is taken for granted of how far apart its ties stand, and how rods are spread over the metre."""
+        assumed = []
+        if self.tie_heights and self.tie_spacing is None and not self.held_between:
+            assumed.append(Remark(Kind.TIES_ALL_ALONG))
+        if self.rod_diameter and self.rod_length and self.tie_spacing:
+            rods: dict[str, float] = {
+                "diameter_mm": self.rod_diameter * 1e3,
+                "length_m": self.rod_length,
+                "spacing_m": self.tie_spacing,
+                "stiffness_kN_m2": self.tie_stiffness / 1e3,
+                "strength_kN_m": (self.tie_strength or math.inf) / 1e3,
+            }
+            assumed.append(Remark.of(Kind.RODS_SPREAD, "", **rods))
+        return (*super().assumptions, *assumed)
 
     @property
     @abstractmethod
@@ -172,7 +309,7 @@ class Tied(CrackedAtHeight):
             if opening is None:
                 continue
             bulges_elsewhere = opening.hinge is not None and (opening.foot, opening.hold) != span
-            if bulges_elsewhere or self.held_wall.slip(opening):
+            if bulges_elsewhere or opening.between or self.held_wall.slip(opening):
                 bulges.append(each)
         return tuple(bulges)
 
@@ -199,8 +336,10 @@ class Tied(CrackedAtHeight):
         """
         cracked = [self._limited(each) for each in super()._ranked_candidates(count)]
         followed = [each for each in self._bulges if not each.refusal]
-        slipping = [each for each in followed if self._slips(each)][:1]
-        bulging = [each for each in followed if not self._slips(each)][:1]
+        between = [each for each in followed if self._falls_between_ties(each)][:1]
+        at_ties = [each for each in followed if not self._falls_between_ties(each)]
+        slipping = [each for each in at_ties if self._slips(each)][:1]
+        bulging = [each for each in at_ties if not self._slips(each)][:1]
         counting = [each for each in cracked if each.counts]
         beside = [each for each in cracked if not each.counts and math.isfinite(each.uplift_multiplier)]
         if not self.crack_is_known:
@@ -209,16 +348,20 @@ class Tied(CrackedAtHeight):
         if not followed:
             return (*counting, *beside)
         if not self.crack_is_known and any(
-            each.structure.mechanism().can_overturn for each in (*bulging, *slipping)
+            each.structure.mechanism().can_overturn for each in (*bulging, *slipping, *between)
         ):
             counting = [each for each in counting if each.structure.mechanism().can_overturn]
         if slipping and not self.crack_is_known:
             slips_at = slipping[0].uplift_multiplier
             counting = [each for each in counting if each.uplift_multiplier <= slips_at]
-        for bulge in (*bulging, *slipping):
+        for bulge in (*bulging, *slipping, *between):
             is_weakest = all(bulge.uplift_multiplier < each.uplift_multiplier for each in counting)
             counting.insert(0 if is_weakest else len(counting), bulge)
         return (*counting, *beside)
+
+    def _falls_between_ties(self, candidate: Candidate) -> bool:
+        """Whether it falls between two ties of a row."""
+        return isinstance(candidate.structure, Tied) and candidate.structure._opens.between
 
     def _slips(self, candidate: Candidate) -> bool:
         """Whether it is its top that slips."""
@@ -255,7 +398,7 @@ class Tied(CrackedAtHeight):
                 opened = self.opened(opening)
             sign = 1 if opening.outwards else -1
             name = wall.name(opening)
-            is_named = opening.hinge is not None or wall.slip(opening) != 0
+            is_named = opening.hinge is not None or opening.between or wall.slip(opening) != 0
             words = f"{what} at {place:.4g} m" + (f" ({name})" if is_named else "")
             family.append(Candidate(words, place, opened, name, multiplier, sign))
         return tuple(family)
@@ -362,13 +505,16 @@ class Tied(CrackedAtHeight):
     def _holds_back(self, height: float, candidate: Candidate) -> bool:
         """Whether what holds the wall at `height` [m] stops the upper body of a mechanism that falls outwards."""
         wall = candidate.structure
-        holds = isinstance(wall, Tied) and wall._opens.outwards and wall._opens.hold == height
-        return holds and not candidate.refusal
+        if not isinstance(wall, Tied) or wall._opens.is_triangle:
+            return False
+        return wall._opens.outwards and wall._opens.hold == height and not candidate.refusal
 
     def _held_back(self, state: MotionState, mirrored: bool) -> list[Reaction]:
         """What each hold gives on one side, in the order of `held_wall.holds`."""
         wall = self.held_wall
         way = self._way(mirrored)
+        if way and way.is_triangle:
+            raise UnknownContacts("what the ties take as the wall falls between them is not known.")
         linkage: Linkage = self.linkages[-1 if mirrored else 0]
         if way is None and isinstance(self._described_opening, Opening):
             way = replace(self._described_opening, outwards=not mirrored)
@@ -428,9 +574,9 @@ class Tied(CrackedAtHeight):
     def _tie_on(self, height: float, mirrored: bool) -> Tie | None:
         """The tie at `height` [m] where it pulls on one side: inwards it goes slack, and a hold does not move."""
         way = self._way(mirrored)
-        stays = False
+        stays = way is not None and way.between
         if way is not None and way.hold is not None:
-            stays = height == way.hold or (way.upright and height > way.hold)
+            stays |= height == way.hold or (way.upright and height > way.hold)
         return None if mirrored or stays else self._tie
 
     @cached_property
@@ -467,11 +613,13 @@ class Tied(CrackedAtHeight):
         mirrored = rotation < 0
         size = 0.15 * self.height
         marks = []
+        apart = (self._way(mirrored) or self._opens).between
         anchorage = float(np.vstack(self.outline())[:, 0].min()) - 2 * size
         for each in self._hung(mirrored):
             if each.kind == "friction":
                 continue
-            shift = 0j if each.part == STILL else linkage.carried(each.part, each.start, motion).moved
+            stays = each.part == STILL or (apart and each.kind == "tie")  # the ties stand beside the section
+            shift = 0j if stays else linkage.carried(each.part, each.start, motion).moved
             head = plane(np.asarray(each.start + shift), mirrored)
             tail = {"load": [0.0, size], "thrust": [-size, 0.0], "tie": [anchorage - head[0], 0.0]}[each.kind]
             text = f"{(abs(each.force) + each.mass) / 1e3:.6g} kN/m"
@@ -515,6 +663,16 @@ class Tied(CrackedAtHeight):
                 repr(self.tie_plastic_elongation),
                 " m, but needs a tie_strength at which the tie yields; give it.",
             )
+        for name in ("tie_spacing", "unit_length", "held_between"):
+            if getattr(self, name) is not None and not self.tie_heights:
+                said = f", but {name} says how ties hold the wall along its length, and tie_heights is empty; give it."
+                raise SizeError.of(name, repr(getattr(self, name)), said)
+        if self.tie_spacing is not None and self.unit_length is None and self.held_between is None:
+            said = ", but a tie_spacing needs the length of the units of the masonry, or held_between: floor; give it."
+            raise SizeError.of("unit_length", "missing", said)
+        if self.unit_length is not None and self.tie_spacing is None:
+            said = ", but a unit_length needs the distance between the ties of a row; give it."
+            raise SizeError.of("tie_spacing", "missing", said)
         if (stiffness or pretension) and not self.tie_heights:
             raise SizeError.of("tie_heights", "empty", ", but must say where the ties are; give it.")
         if self.tie_heights and not (stiffness or pretension):

@@ -201,6 +201,14 @@ class LoadedWallOptions(TypedDict, total=False):
     tie_pretension: float
     tie_strength: float | None
     tie_plastic_elongation: float
+    tie_spacing: float | None
+    unit_length: float | None
+    held_between: Literal["floor"] | None
+    rod_diameter: float | None
+    rod_length: float | None
+    rod_yield_stress: float | None
+    rod_modulus: float
+    rod_pretension: float
     one_sided: bool
     restitution_range: float | None
     compressive_strength: float | None
@@ -552,6 +560,7 @@ class LoadedWall(CrackedWall, Tied):
             (*holds, Hold(top, "top", friction + at_top, friction)),
             backed=self.one_sided,
             strength=self.compressive_strength,
+            ties_apart=self.ties_apart,
         )
 
     def with_friction(self, coefficient: float) -> Self:

@@ -1,0 +1,274 @@
+"""Ties with a distance between them: the triangle that falls between two of a row, in statics, motion and check."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from bonded import BondedWall
+
+import rocking
+from rocking.assessment.cracks import cracks, mechanisms_of
+from rocking.codes.static_check import kinematic_check
+from rocking.errors import RockingError, StructureError
+from rocking.remarks import Kind
+from rocking.structures import Facade, LoadedWall
+
+G = 9.80665
+TRIANGLE = "falls between two ties of a row"
+FRONT = Facade(
+    (3.2,),
+    (0.4,),
+    18e3,
+    floor_loads=(5e3,),
+    restitution=0.6,
+    behind="cross_walls",
+    tie_heights=(3.2,),
+    tie_stiffness=2e7,
+    tie_spacing=6.0,
+    unit_length=0.5,
+)
+SPECTRUM = rocking.DesignSpectrum.ntc(0.15 * G, 2.5, 0.35, "B")
+
+
+def triangle(wall):
+    return next(each for each in wall.mechanisms() if each.name == TRIANGLE)
+
+
+@pytest.mark.parametrize(("held", "expected"), [(True, 0.268880), (False, 0.162855)])
+def test_triangle_is_that_of_hand(held, expected):
+    """Section 13.2: λ, u_cr and p² of a wall of 3.2 × .4 m with 5 kN/m; W and N of half a span, per metre of span."""
+    t, height = 0.4, 3.2
+    w, n = 18e3 * t * height / 2, 5e3
+    by_hand = 1.5 * t / height * ((1 + n / w) if held else (w + n) / (w + 1.5 * n))
+    assert by_hand == pytest.approx(expected, abs=5e-7)
+    found = triangle(replace(FRONT, loads_held=held))
+    side = found.side
+    assert found.uplift_multiplier == pytest.approx(by_hand, rel=1e-12)
+    assert side.uplift_multiplier == pytest.approx(by_hand, rel=1e-12)
+    farthest = t / 2 * (w + n) / (w / 3 + n / 2)
+    assert height * np.tan(side.critical_rotation) == pytest.approx(farthest, rel=1e-9)
+    # p² = (d G/dφ at rest)/I of small turns; the thickness adds its own inertia, t²/3, to the formula's
+    stiffness = (w / 3 + n / 2) * height
+    inertia = (w * height**2 / 6 + w * t**2 / 3 + (0.0 if held else n * (height**2 / 3 + t**2 / 4))) / G
+    slope = -side.at("gravity_slope", 0.0) * G / side.at("inertia", 0.0)
+    assert slope == pytest.approx(stiffness / inertia, rel=1e-9)
+    (checked,) = (
+        each
+        for each in kinematic_check(replace(FRONT, loads_held=held), SPECTRUM).mechanisms
+        if each.description == TRIANGLE
+    )
+    assert checked.onset_multiplier == pytest.approx(by_hand, rel=1e-12)
+    if not held:  # one weight each of the triangle and its load, whose middles move by u/3 and u/2
+        one_weight = (w / 3 + n / 2) ** 2 / ((w + n) * (w / 9 + n / 4))
+        assert checked.participating_mass_ratio == pytest.approx(one_weight, rel=1e-12)
+
+
+def turned(levels, thicknesses, loads, weight, foot, top, half):
+    """λ of the prism above the line from (0, foot) to (half, top) on the outer face, by turning a cloud of points.
+
+    In three dimensions, with Rodrigues' formula, by a turn so small that its square is rounding.
+    """
+    along = np.linspace(0, half, 801)[:-1] + half / 1600
+    axis = np.array([half, 0.0, top - foot])
+    axis /= np.linalg.norm(axis)
+    if axis[0] < 0:
+        axis = -axis
+    lifted = pushed = 0.0
+
+    def count(x, depth, z, weights):
+        nonlocal lifted, pushed
+        arms = np.column_stack([x, np.full_like(x, -depth), z - foot])
+        moved = -np.cross(np.broadcast_to(axis, arms.shape), arms)
+        lifted += weights @ moved[:, 2]
+        pushed += weights @ moved[:, 1]
+
+    line = foot + (top - foot) * along / half
+    for (low, high), thickness in zip(pairwise(levels), thicknesses, strict=True):
+        start = np.maximum(line, low)
+        inside = start < high
+        strip = weight * thickness * (high - start[inside]) / along.size
+        count(along[inside], thickness / 2, (start[inside] + high) / 2, strip)
+    for level, thickness, load in loads:
+        inside = line < level
+        count(
+            along[inside],
+            thickness / 2,
+            np.full(inside.sum(), level),
+            np.full(inside.sum(), load / along.size),
+        )
+    return lifted / pushed
+
+
+def test_triangle_of_a_hundred_fronts_is_that_of_three_dimensions():
+    """Storeys of unlike thickness and floors; the weakest foot of those at which a storey stands."""
+    draw = np.random.default_rng(66)
+    for _ in range(100):
+        storeys = int(draw.integers(1, 4))
+        heights = draw.uniform(2.4, 4.2, storeys)
+        thicknesses = np.sort(draw.uniform(0.25, 0.7, storeys))[::-1]
+        floors = draw.uniform(0, 20e3, storeys)
+        levels = np.array([0.0, *np.cumsum(heights)])
+        tie = levels[-1] - float(draw.choice([0.0, 0.4]))
+        spacing = float(draw.uniform(2, 8))
+        wall = replace(
+            FRONT,
+            storey_heights=tuple(heights.tolist()),
+            thicknesses=tuple(thicknesses.tolist()),
+            floor_loads=tuple(floors.tolist()),
+            tie_heights=(tie,),
+            tie_spacing=spacing,
+            behind=str(draw.choice(["floors", "cross_walls"])),
+        )
+        loads = list(zip(levels[1:], thicknesses, floors, strict=True))
+        feet = [level for level in levels[:-1] if level < tie]
+        expected = min(turned(levels, thicknesses, loads, 18e3, foot, tie, spacing / 2) for foot in feet)
+        assert triangle(wall).uplift_multiplier == pytest.approx(expected, rel=1e-3)
+        assert wall.static_multiplier <= triangle(wall).uplift_multiplier
+
+
+@pytest.mark.process
+@pytest.mark.parametrize(("thickness", "load"), [(0.4, 5.0), (0.3, 12.0)])
+def test_triangle_is_on_the_safe_side_of_a_bonded_wall(thickness, load):
+    """Units of 1 × .4 m, ties every 3 m that stand half a spacing from the free ends, λ between triangle and bulge."""
+    wall = BondedWall(6.0, 3.2, thickness, (1.0, 0.4), 18.0, load, (1.5, 4.5))
+    apart = replace(FRONT, thicknesses=(thickness,), floor_loads=(load * 1e3,), loads_held=True)
+    bulge = replace(apart, held_between="floor").static_multiplier
+    # the courses of .4 m place the hinge of the bulge to a few percent
+    assert triangle(apart).uplift_multiplier < wall.multiplier() < bulge * 1.03
+    wall.held = True
+    assert wall.multiplier() == pytest.approx(bulge, rel=0.03)
+
+
+def test_triangle_joins_where_ties_stand_farther_apart_than_three_units():
+    near, far = replace(FRONT, tie_spacing=1.5), replace(FRONT, tie_spacing=1.51)
+    floor = replace(FRONT, held_between="floor", unit_length=None)
+    assert TRIANGLE not in {each.name for each in (*near.mechanisms(), *floor.mechanisms())}
+    assert near.static_multiplier == floor.static_multiplier == pytest.approx(0.513077, abs=5e-7)
+    assert far.static_multiplier == triangle(far).uplift_multiplier
+    followed = {each.description: each for each in cracks(far)}
+    assert followed[f"crack at 0 m ({TRIANGLE})"].bulges
+    assert TRIANGLE in {each.name for each in mechanisms_of(far)}
+    unsaid = replace(FRONT, tie_spacing=None, unit_length=None)
+    kinds = [[each.kind for each in wall.cautions] for wall in (unsaid, near, floor)]
+    assert [Kind.TIES_ALL_ALONG in each for each in kinds] == [True, False, False]
+
+
+def test_wall_between_supports_falls_between_its_ties_as_without_them():
+    values = {"top_load": 5e3, "one_sided": True, "restitution": 0.5}
+    bare = LoadedWall.of_size(3.2, 0.25, 18e3, **values)
+    ties = {"tie_heights": (1.6,), "tie_stiffness": 2e7, "tie_spacing": 4.0, "unit_length": 0.5}
+    tied = LoadedWall.of_size(3.2, 0.25, 18e3, **values, **ties)
+    first = tied.candidates()[0]
+    assert first.uplift_multiplier == pytest.approx(bare.static_multiplier, rel=1e-6)
+    assert first.critical_rotation == pytest.approx(bare.mechanism().critical_rotation, rel=1e-4)
+    assert replace(tied, held_between="floor").static_multiplier > 2 * bare.static_multiplier
+
+
+def test_closer_and_stronger_ties_are_never_worse():
+    """The least λ of 200 fronts: a closer spacing, a stronger tie, more thickness."""
+    draw = np.random.default_rng(67)
+    compared = 0
+    while compared < 200:
+        height, thickness, load = draw.uniform([2.6, 0.3, 0], [4.0, 0.6, 15e3])
+        strength = float(draw.uniform(2e3, 3e4))
+        try:
+            wall = replace(
+                FRONT,
+                storey_heights=(float(height),),
+                thicknesses=(float(thickness),),
+                floor_loads=(float(load),),
+                tie_heights=(float(height) - float(draw.choice([0.0, 0.3])),),
+                tie_strength=strength,
+                tie_spacing=float(draw.uniform(0.5, 6)),
+            )
+        except RockingError:
+            continue
+        compared += 1
+        for better in (
+            replace(wall, tie_spacing=wall.tie_spacing * float(draw.uniform(0.2, 1))),
+            replace(wall, tie_strength=strength * float(draw.uniform(1, 3))),
+            replace(wall, held_between="floor"),
+        ):
+            assert better.static_multiplier >= wall.static_multiplier * (1 - 1e-9)
+        # A tie that yields holds less of a heavier wall: thickness alone is on the safe side where it does not.
+        lasts = replace(wall, tie_strength=None)
+        thicker = replace(lasts, thicknesses=(float(thickness) * float(draw.uniform(1, 1.3)),))
+        assert thicker.static_multiplier >= lasts.static_multiplier * (1 - 1e-9)
+
+
+def test_front_that_stands_held_all_along_falls_between_its_ties():
+    times = np.arange(0, 6, 0.005)
+    motion = rocking.Accelerogram(0.48 * G * np.sin(2 * np.pi * times) * (times < 2), 0.005)
+    all_along = rocking.assess(motion, replace(FRONT, held_between="floor"))
+    apart = rocking.assess(motion, FRONT)
+    assert all_along.verdict is rocking.Verdict.STANDS
+    assert apart.verdict.badness >= rocking.Verdict.PROBABLY_OVERTURNS.badness
+    assert TRIANGLE in apart.crack
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"unit_length": None}, "unit_length is missing, but a tie_spacing needs the length of the units"),
+        ({"tie_spacing": None}, "tie_spacing is missing, but a unit_length needs the distance"),
+        ({"tie_spacing": 0.0}, "tie_spacing is 0"),
+        ({"held_between": "beam"}, "held_between is 'beam'"),
+        (
+            {"tie_heights": (), "tie_stiffness": 0.0, "unit_length": None},
+            "tie_spacing is 6.0, but tie_spacing says how ties hold",
+        ),
+    ],
+)
+def test_what_is_said_of_a_spacing_hangs_together(values, words):
+    with pytest.raises(StructureError, match=words):
+        replace(FRONT, **values)
+
+
+RODS = {"rod_diameter": 0.024, "rod_length": 6.0, "rod_yield_stress": 235e6}
+
+
+def test_rods_are_spread_over_the_metre():
+    """24 mm every 2 m, 6 m long: A = 452.389 mm², E A/(L s) = 7 540 kN/m per m, f_y A/s = 53.16 kN/m, T/s = 5 kN/m."""
+    rods = replace(
+        FRONT,
+        tie_stiffness=0.0,
+        tie_spacing=2.0,
+        held_between="floor",
+        **RODS,
+        rod_pretension=10e3,
+        one_sided=True,
+    )
+    area = np.pi * 0.024**2 / 4
+    assert area == pytest.approx(452.389e-6, rel=1e-5)
+    assert rods.tie_stiffness == pytest.approx(200e9 * area / 12, rel=1e-12)
+    assert rods.tie_strength == pytest.approx(235e6 * area / 2, rel=1e-12)
+    assert rods.tie_pretension == 5e3
+    spread = replace(
+        FRONT,
+        tie_spacing=2.0,
+        held_between="floor",
+        tie_stiffness=rods.tie_stiffness,
+        tie_strength=rods.tie_strength,
+        tie_pretension=5e3,
+        one_sided=True,
+    )
+    assert rods.static_multiplier == spread.static_multiplier
+    (said,) = (each for each in rods.assumptions if each.kind is Kind.RODS_SPREAD)
+    assert said["stiffness_kN_m2"] == pytest.approx(7540, rel=1e-3)
+    assert replace(rods, floor_loads=(6e3,)).tie_stiffness == rods.tie_stiffness
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"rod_length": None}, "rod_length is missing"),
+        ({"rod_diameter": None}, "rod_diameter is missing"),
+        ({"tie_spacing": None, "unit_length": None}, "tie_spacing is missing"),
+        ({"tie_stiffness": 2e7}, "tie_stiffness is 20000000.0, but follows from the rods"),
+        ({"tie_strength": 2e4}, "tie_strength is 20000.0, but follows from the rods"),
+    ],
+)
+def test_rods_are_described_once_and_whole(values, words):
+    with pytest.raises(StructureError, match=words):
+        replace(FRONT, **({"tie_stiffness": 0.0} | RODS | values))
