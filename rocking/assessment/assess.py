@@ -173,7 +173,7 @@ def assess(
         ("settings", settings, AssessmentSettings, "AssessmentSettings"),
     ):
         if not isinstance(value, allowed):
-            raise ConfigurationError(f"{name} is {kind_of(value)}, but must be {words}.")
+            raise ConfigurationError.naming(name, value, f"{name} is {kind_of(value)}, but must be {words}.")
     number = settings.ensemble.members if members is None else members
     varied = replace(settings.ensemble, members=number or EnsembleSettings().members)
     fidelity: Literal["full", "contact"] = "contact" if settings.fidelity == "contact" else "full"
@@ -202,4 +202,4 @@ def _checked_records(record: object) -> list[Accelerogram]:
         wrong = f"holds {len(records)} accelerograms, but must hold one or two horizontal ones"
     else:
         return list(records)
-    raise ConfigurationError(f"record {wrong}.")
+    raise ConfigurationError.naming("record", record, f"record {wrong}.")

@@ -79,8 +79,10 @@ class DesignSpectrum(ABC):
         if ag is None or f0 is None or tc_star is None:
             values = {"ag": ag, "f0": f0, "tc_star": tc_star}
             missing = [name for name, value in values.items() if value is None]
-            raise ConfigurationError(
-                f"{', '.join(missing)} of the design spectrum is missing; give it as the code has it for the site."
+            raise ConfigurationError.naming(
+                ", ".join(missing),
+                None,
+                f"{', '.join(missing)} of the design spectrum is missing; give it as the code has it for the site.",
             )
         _check_level("ag", ag)
         return NtcSpectrum(damping=damping, ag=ag, f0=f0, tc_star=tc_star, soil=soil, topography=topography)
@@ -151,11 +153,15 @@ class DesignSpectrum(ABC):
     def _checked(self, period: ArrayLike) -> np.ndarray:
         periods = np.asarray(period, dtype=float)
         if not (np.isfinite(periods) & (periods >= 0)).all():
-            raise ConfigurationError("a period is negative or no number, but must be 0 s or more.")
+            raise ConfigurationError.naming(
+                "period", periods, "a period is negative or no number, but must be 0 s or more."
+            )
         if periods.size and periods.max() > self.longest_period:
-            raise ConfigurationError(
+            raise ConfigurationError.naming(
+                "period",
+                float(periods.max()),
                 f"a period of {periods.max():.4g} s is asked for, but the spectrum ends at "
-                f"{self.longest_period:.4g} s; give one that goes on to longer periods."
+                f"{self.longest_period:.4g} s; give one that goes on to longer periods.",
             )
         return periods
 
@@ -181,7 +187,9 @@ class NtcSpectrum(DesignSpectrum):
         for name, number in numbers.items():
             object.__setattr__(self, name, number)
         if self.soil not in SOILS:
-            raise ConfigurationError(f"soil is {self.soil!r}, but must be one of {', '.join(SOILS)}.")
+            raise ConfigurationError.naming(
+                "soil", self.soil, f"soil is {self.soil!r}, but must be one of {', '.join(SOILS)}."
+            )
 
     @property
     def level(self) -> float:
@@ -322,9 +330,11 @@ class PointSpectrum(DesignSpectrum):
 def _check_level(name: str, level: float) -> None:
     """Refuse a level that stands in another unit."""
     if positive(ConfigurationError, name, level, "m/s²") > LARGEST_LEVEL:
-        raise ConfigurationError(
+        raise ConfigurationError.naming(
+            name,
+            level,
             f"{name} is {level:g} m/s², which is {level / GRAVITY:.3g} g, but must be {LARGEST_LEVEL:.3g} m/s² or "
-            "less; check the unit."
+            "less; check the unit.",
         )
 
 

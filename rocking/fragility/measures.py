@@ -280,8 +280,10 @@ def of_openquake(name: str) -> tuple[str, float]:
         return "AvgSA", 1.0
     measure = intensity_measure(name)
     if not measure.openquake:
-        raise ConfigurationError(
-            f"intensity_measure is {name!r}, which OpenQuake lacks; take another, such as pgv."
+        raise ConfigurationError.naming(
+            "intensity_measure",
+            name,
+            f"intensity_measure is {name!r}, which OpenQuake lacks; take another, such as pgv.",
         )
     return measure.openquake, measure.openquake_scale
 
@@ -300,7 +302,11 @@ def _parsed(name: str) -> tuple[str, tuple[float, ...]]:
     if inside is None and (stem in INTENSITY_MEASURES or stem in _BY_OPENQUAKE or stem in WITH_PERIODS):
         return stem, ()
     if stem not in WITH_PERIODS:
-        raise ConfigurationError(f"intensity_measure is {name!r}, but must be one of {', '.join(SPELLINGS)}.")
+        raise ConfigurationError.naming(
+            "intensity_measure",
+            name,
+            f"intensity_measure is {name!r}, but must be one of {', '.join(SPELLINGS)}.",
+        )
     count = WITH_PERIODS[stem][0]
     try:
         periods = [float(each) for each in (inside or "").split(",")]
@@ -309,8 +315,10 @@ def _parsed(name: str) -> tuple[str, tuple[float, ...]]:
     is_range = all(0 < period <= LONGEST_PERIOD for period in periods) and periods == sorted(set(periods))
     if len(periods) != count or not is_range:
         must = "a period in s" if count == 1 else "two ascending periods in s, parted by a comma,"
-        raise ConfigurationError(
-            f"intensity_measure is {name!r}, but {stem} must have {must} above 0 and up to {LONGEST_PERIOD:g}."
+        raise ConfigurationError.naming(
+            "intensity_measure",
+            name,
+            f"intensity_measure is {name!r}, but {stem} must have {must} above 0 and up to {LONGEST_PERIOD:g}.",
         )
     return stem, tuple(periods)
 
@@ -319,9 +327,11 @@ def _from_structure(stem: str, mechanism: Mechanism | None) -> IntensityMeasure:
     """AvgSA or FIV3 at the periods that follow from a structure alone, to three digits."""
     count, made = WITH_PERIODS[stem]
     if mechanism is None or stem not in FROM_STRUCTURE:
-        raise ConfigurationError(
+        raise ConfigurationError.naming(
+            "intensity_measure",
+            stem,
             f"intensity_measure is {stem!r}, but must say its {'period' if count == 1 else 'periods'} here, as in "
-            f"{stem}({'0.5' if count == 1 else '0.2,2.0'})."
+            f"{stem}({'0.5' if count == 1 else '0.2,2.0'}).",
         )
     period = 2 * math.pi / mechanism.equivalent_block("rest").frequency_parameter
     shares = RANGE_BY_PERIOD if stem == "AvgSA" else (FIV3_BY_PERIOD,)

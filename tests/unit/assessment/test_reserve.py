@@ -20,6 +20,7 @@ from rocking.errors import ConfigurationError
 from rocking.floors.place import place_from_config
 from rocking.records import Accelerogram
 from rocking.structures import Block
+from tests.refusals import refused
 
 STEP = 0.01
 TIMES = np.arange(0, 20, STEP)
@@ -145,7 +146,7 @@ def test_a_setting_turns_it_off_and_a_result_has_it():
     assert isinstance(rocking.assess(record, BLOCK).reserve, Reserve)
     off = AssessmentSettings(ensemble=EnsembleSettings(reserve=0.0))
     assert rocking.assess(record, BLOCK, settings=off).reserve is None
-    with pytest.raises(ConfigurationError, match="reserve"):
+    with refused(ConfigurationError, "reserve", -1.0):
         EnsembleSettings(reserve=-1.0)
 
 

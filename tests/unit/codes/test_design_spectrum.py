@@ -9,6 +9,7 @@ from rocking import DesignSpectrum
 from rocking.errors import ConfigurationError
 from rocking.floors.spectrum import damping_factor
 from rocking.quantities import GRAVITY
+from tests.refusals import refused
 
 ROUNDING = 1e-12
 
@@ -140,33 +141,33 @@ def test_a_file_that_is_no_spectrum_is_refused_in_a_sentence(tmp_path, text, sen
 
 
 @pytest.mark.parametrize(
-    ("values", "sentence"),
+    "values",
     [
-        ({"soil": "F"}, "soil is 'F', but must be one of A, B, C, D, E."),
-        ({"ag": -1.0}, "ag is -1.0 m/s², but must be greater than 0."),
-        ({"ag": 150.0}, "ag is 150 m/s², which is 15.3 g, but must be 29.4 m/s² or less; check the unit."),
-        ({"f0": "2.5"}, "f0 is '2.5', but must be a number."),
-        ({"tc_star": 0}, "tc_star is 0 s, but must be greater than 0."),
-        ({"topography": 2.0}, "topography is 2.0, but must lie between 1 and 1.4."),
-        ({"damping": 5}, "damping is 5, but must lie between 0 and 0.5."),
+        {"soil": "F"},
+        {"ag": -1.0},
+        {"ag": 150.0},
+        {"f0": "2.5"},
+        {"tc_star": 0},
+        {"topography": 2.0},
+        {"damping": 5},
     ],
 )
-def test_parameters_out_of_range_are_refused_in_a_sentence(values, sentence):
-    with pytest.raises(ConfigurationError) as error:
+def test_parameters_out_of_range_are_refused(values):
+    ((field, value),) = values.items()
+    with refused(ConfigurationError, field, value):
         DesignSpectrum.ntc(**{"ag": 2.0, "f0": 2.5, "tc_star": 0.3} | values)
-    assert str(error.value) == sentence
 
 
 def test_a_period_beyond_the_points_or_below_zero_is_refused(tmp_path):
     spectrum = DesignSpectrum.read(write(tmp_path, "period_s,acceleration_g\n0,0.2\n2,0.1\n"))
-    with pytest.raises(ConfigurationError, match=r"2.5 s is asked for, but the spectrum ends at 2 s"):
+    with refused(ConfigurationError, "period", 2.5):
         spectrum.displacement(2.5)
-    with pytest.raises(ConfigurationError, match="negative or no number"):
+    with refused(ConfigurationError, "period", [-1.0]):
         spectrum.acceleration([-1.0])
 
 
 def test_what_the_code_has_of_a_site_is_asked_for():
-    with pytest.raises(ConfigurationError, match=r"^f0 of the design spectrum is missing; give it"):
+    with refused(ConfigurationError, "f0", None):
         DesignSpectrum.ntc(ag=1.5, tc_star=0.3)
-    with pytest.raises(ConfigurationError, match=r"^ag, f0, tc_star of the design spectrum is missing"):
+    with refused(ConfigurationError, "ag, f0, tc_star", None):
         DesignSpectrum.ntc()

@@ -8,6 +8,7 @@ import pytest
 from rocking import DesignSpectrum, select
 from rocking.codes.selection import random_sets, search
 from rocking.errors import ConfigurationError
+from rocking.remarks import Kind
 from tests.made_pools import made_pool
 from tests.oracles.oscillator import spectral_acceleration
 
@@ -131,8 +132,12 @@ def test_what_cannot_be_met_is_refused_in_a_sentence(pool, options, sentence):
 def test_the_nearest_set_is_the_one_whose_excess_is_least():
     """Of four records in sets of three the mean of 1, 1 and 1.2 lies nearest to nothing above 5 %."""
     ratios = np.array([[1.0], [1.0], [1.2], [2.0]])
-    with pytest.raises(ConfigurationError, match=r"nearest lies between \+7 and \+7 %"):
+    with pytest.raises(ConfigurationError) as none_near:
         search(ratios, random_sets(np.array(list("abcd")), 3, 2000, np.random.default_rng(0)), 0.05, 0.05)
+    remark = none_near.value.remark
+    assert remark.kind is Kind.NO_SET_WITHIN
+    # (1 + 1 + 1.2)/3 − 1
+    assert remark["low_percent"] == remark["high_percent"] == pytest.approx(100 * 0.2 / 3)
 
 
 def test_its_words_say_the_periods_that_were_asked_for_and_the_factors(pool):

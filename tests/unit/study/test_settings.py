@@ -28,6 +28,7 @@ from rocking.study.settings import (
     read_settings,
     schema_file,
 )
+from tests.refusals import refused
 
 ROOT = Path(__file__).parents[3]
 SCHEMA = Draft7Validator(json_schema())
@@ -66,7 +67,7 @@ def test_the_names_of_settings_are_those_of_the_codes_and_the_measures() -> None
     assert measure.default == next(iter(INTENSITY_MEASURES))
     for spelling in SPELLINGS:
         StudyFragility(intensity_measure=spelling.replace("T1,T2", "0.2,2.0").replace("(T)", "(0.5)"))
-    with pytest.raises(ConfigurationError, match="intensity_measure is 'pulse', but must be one of pgv"):
+    with refused(ConfigurationError, "intensity_measure", "pulse"):
         StudyFragility(intensity_measure="pulse")
     assert measure.meaning.endswith(MEASURES_IN_WORDS)
 
