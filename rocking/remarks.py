@@ -532,6 +532,15 @@ class Kind(StrEnum):
         "Le catene da {diameter_mm:g} mm, lunghe {length_m:g} m e poste ogni {spacing_m:g} m, sono ripartite al metro: "
         "E A/(L s) = {stiffness_kN_m2:.4g} kN/m per m, f_y A/s = {strength_kN_m:.4g} kN/m.",
     )
+    REMARKS_MORE = auto(), Sentence(
+        "{number} more remarks on the study stand in summary/remarks.csv.",
+        "altre {number} osservazioni sullo studio stanno in summary/remarks.csv.",
+    )
+    VERTICAL_MISSING = auto(), Sentence(
+        "the settings ask for the vertical component (vertical: true), but the record has none, and none acts",
+        "le impostazioni richiedono la componente verticale (vertical: true), ma la registrazione non ne ha: nessuna "
+        "agisce",
+    )
     FLOORS_BEHIND = auto(), Sentence(
         "It rocks inwards as freely as outwards, although the floors that it carries or is tied to are behind"
         " it; behind: floors or cross_walls, with the restitution of its impact on them, prevents this. "

@@ -9,7 +9,6 @@ defects stand in one message, and each size is remembered as it was typed.
 import json
 import math
 import re
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import groupby
@@ -20,10 +19,10 @@ import yaml
 
 from rocking.assessment.decide import Verdict
 from rocking.described import kind_in_words
-from rocking.errors import ConfigurationError, StructureError, StructureWarning
+from rocking.errors import ConfigurationError, StructureError
 from rocking.floors.place import GROUND, TYPE_NAME, Place, place_from_config, place_schema
 from rocking.quantities import finite, shown
-from rocking.remarks import Kind
+from rocking.remarks import Kind, Remark
 from rocking.structures import Mechanism, Structure
 from rocking.structures.alone import as_structure
 from rocking.structures.structure_list import (
@@ -100,6 +99,25 @@ class Scene:
     place: Place = GROUND
     terms: CheckTerms = field(default_factory=CheckTerms)
     variant_of: str = ""
+
+    @property
+    def remarks(self) -> tuple[Remark, ...]:
+        """What there is to say of it before it meets a record: sizes that are unusual, and what it is taken for.
+
+        A restitution below that of the geometry is none of them: both are followed, and reported where it matters.
+        """
+        sizes = [
+            replace(each, about=f"{self.name}: {each.about}") for each in self.structure.described.remarks
+        ]
+        above = [
+            replace(each, about=self.name)
+            for each in self.structure.cautions
+            if each.kind is Kind.RESTITUTION_ABOVE
+        ]
+        heavy = self.place.warning(self.name) if self.place.supports else None
+        is_wall = self.structure.type_name == "wall"
+        held = Remark(Kind.HELD_AT_CEILING, self.name) if is_wall else None
+        return (*sizes, *above, *filter(None, (heavy, held)))
 
 
 def variants_of(scenes: Mapping[str, Scene]) -> dict[str, list[str]]:
@@ -208,8 +226,8 @@ def load_scenes(path: str | Path, content: bytes | None = None) -> dict[str, Sce
 
     A YAML file is a list of mappings, each with a `name` of its own; those of type support carry others, which name
     them by `stands_on`. The variants of a structure follow it, each as "structure: variant". A CSV file has an entry a
-    row, without variants; see `_rows`. Raises ConfigurationError with every defect at once, one a line; warns with a
-    StructureWarning of a size beyond its plausible range.
+    row, without variants; see `_rows`. What there is to say of one is its `Scene.remarks`. Raises ConfigurationError
+    with every defect at once, one a line.
     """
     defects: list[str] = []
     path = Path(path)
@@ -245,7 +263,7 @@ def load_scenes(path: str | Path, content: bytes | None = None) -> dict[str, Sce
                 places[str(name)] = None  # known, though it has a defect of its own
                 places[str(name)] = place_from_config(entry)
             else:
-                scene = scenes[str(name)] = _scene(str(name), entry, texts, places, where)
+                scene = scenes[str(name)] = _scene(str(name), entry, texts, places)
                 if base and base in scenes and replace(scene, name=base) == scenes[base]:
                     defects.append(
                         f"{where}: it changes nothing; give a key with another value, or remove it."
@@ -376,12 +394,8 @@ def _scene(
     entry: Any,
     texts: Mapping[str, str],
     places: Mapping[str, Place | None],
-    where: str,
 ) -> Scene:
-    """The scene of an entry, which is no support. places: by name; None for one that has a defect of its own.
-
-    Warns of each size beyond its plausible range, and of a structure that is heavy for its support.
-    """
+    """The scene of an entry, which is no support. places: by name; None for one that has a defect of its own."""
     of_scene = {}
     if isinstance(entry, Mapping):
         of_scene = {key: entry[key] for key in ("stands_on", *CHECK_KEYS) if entry.get(key) is not None}
@@ -399,14 +413,7 @@ def _scene(
             f"stands_on is {shown(stands_on)}, but no support of the list has this name{nearest(stands_on, places)}; "
             f"{use}, or add the support."
         )
-    place = known[stands_on] or GROUND
-
-    heavy = place.warning(name) if place.supports else None
-    # What lies below that of the geometry is followed beside it, and reported where it matters.
-    above = [each for each in structure.cautions if each.kind is Kind.RESTITUTION_ABOVE]
-    for remark in filter(None, (*structure.described.remarks, *above, heavy)):
-        warnings.warn(f"{where}: {remark}", StructureWarning, stacklevel=3)
-    return Scene(name, structure, place, terms)
+    return Scene(name, structure, known[stands_on] or GROUND, terms)
 
 
 def _texts(node: yaml.Node) -> dict[str, str]:

@@ -4,7 +4,7 @@ import base64
 import json
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from html import escape
 from pathlib import Path
@@ -18,7 +18,7 @@ from rocking.assessment.conclusion import conclusion_in_words, worst_cases
 from rocking.assessment.cracks import cracked
 from rocking.assessment.decide import Verdict, worse, worst_first
 from rocking.assessment.methods import NEGLIGIBLE
-from rocking.assessment.rows import ComparisonRow, RecordRows
+from rocking.assessment.rows import ComparisonRow, RecordRows, RemarkRow
 from rocking.assessment.scene import placed
 from rocking.errors import FaultError, one_structure
 from rocking.motion.response import Response
@@ -80,7 +80,7 @@ def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[s
     pga, pgv = np.max(peaks, axis=0) if peaks else (math.nan, math.nan)
     return {
         "id": result.record,
-        "warnings": warnings_of(rows),
+        "warnings": list(warnings_of(rows)),
         "pga": _number(pga),
         "pgv": _number(pgv),
         "motions": {
@@ -92,17 +92,28 @@ def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[s
     }
 
 
+def _remarks_of(name: str, structures: Collection[str], remarks: Iterable[RemarkRow]) -> list[str]:
+    """The remarks on one structure, and those on the settings, which are about no structure."""
+    told = []
+    for row in remarks:
+        about = row.about.partition(": ")[0]
+        if about == name or about not in structures:
+            told.append(row.sentence)
+    return told
+
+
 def explore_page(
     records: Iterable[Content],
     structures: Mapping[str, Structure],
     title: str = "",
     checked: "Sequence[CodeConclusion]" = (),
     strips: Sequence[Strip] = (),
+    remarks: Sequence[RemarkRow] = (),
 ) -> bytes:
     """Return the page as UTF-8 HTML that loads nothing; it stands beside the folders of the records.
 
     records: their `record_content`, in the order of the catalogue. title: of the study. checked: the conclusions at its
-    design level, where it has one. strips: of the variants of structures.
+    design level, where it has one. strips: of the variants of structures. remarks: on the study itself.
     """
     of_records = list(records)
     by_code = {each.structure: f"By the code, at the design level: {each}." for each in checked}
@@ -112,6 +123,7 @@ def explore_page(
             "size": structure.described.size,
             "type": structure.described.type_name,
             "code": by_code.get(name, ""),
+            "remarks": _remarks_of(name, structures, remarks),
             "frames": _frames(name, structure),
         }
         for name, structure in structures.items()

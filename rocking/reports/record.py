@@ -21,6 +21,7 @@ from rocking.assessment.rows import (
     PulseRow,
     RecordRow,
     RecordRows,
+    RemarkRow,
     StructureRow,
     VerdictRow,
     structure_rows,
@@ -57,6 +58,7 @@ from rocking.reports.pages import (
 from rocking.reports.panels import rotation_ratios
 from rocking.reports.printing import (
     MEASURED,
+    TO_CHECK,
     Column,
     chip,
     columns_of,
@@ -69,6 +71,7 @@ from rocking.reports.printing import (
     remainder,
     strong,
     table_of,
+    to_check,
     words,
 )
 from rocking.reports.record_figures import History
@@ -122,6 +125,7 @@ class RecordReport:
 
     Every number of a table is a cell of `tables`, the rows of `result`, or of the structures table, rounded.
     structures: by name. level: the design level; None where the study has none.
+    of_study: the remarks on the study itself, beside those on the record in `tables`.
     """
 
     result: RecordResult
@@ -129,6 +133,7 @@ class RecordReport:
     structures: Mapping[str, Structure]
     settings: PageSettings
     level: "DesignSpectrum | None" = None
+    of_study: Sequence[RemarkRow] = ()
 
     def pdf(self) -> bytes:
         """Return the document."""
@@ -179,6 +184,11 @@ class RecordReport:
         if would_crush:
             concerned[Remark(Kind.CRUSHING_WOULD_TELL)] = [self.called(each) for each in would_crush]
         return {remark: list(dict.fromkeys(names)) for remark, names in concerned.items()}
+
+    @property
+    def remarks(self) -> list[RemarkRow]:
+        """What there is to say of the study and of the record."""
+        return [*self.of_study, *self.tables.remarks]
 
     @cached_property
     def conclusions(self) -> list[Conclusion]:
@@ -497,9 +507,6 @@ def _known(report: RecordReport) -> list[Topic]:
             depends.append(report.called(station.structure))
     depends = list(dict.fromkeys(depends))
     remark = f"The processing of the record decides whether these overturn: {listed(depends)}."
-    scenes = (each.scene for each in report.result.carried)
-    warnings = (scene.place.warning(scene.name) for scene in scenes)
-    heavy = dict.fromkeys(str(each) for each in warnings if each)
     carried = sorted(report.result.carried, key=lambda scene: scene.worst.severity, reverse=True)
     topics = {
         "Dominant sine": _pulse_doubts(report),
@@ -507,12 +514,17 @@ def _known(report: RecordReport) -> list[Topic]:
         "Supports": [
             *(f"{scene.sentence}." for scene in carried[:MOST_DRAWN]),
             *(floor_sentences(report.support_panels) if carried else []),
-            *heavy,
+            *_said(report.remarks, Kind.HEAVY_ON_SUPPORT),
         ],
         "Contacts": _contacts(report),
-        "Models": [str(replace(each, about=listed(names))) for each, names in report.left_out.items()],
+        "Models": [
+            *(str(replace(each, about=listed(names))) for each, names in report.left_out.items()),
+            *_held_at_ceiling(report.remarks),
+        ],
         "Processing": [remark] if depends else [],
-        "Warnings": warnings_of(report.tables),
+        "Warnings": [
+            sentence for sentence, kind in warnings_of(report.tables).items() if kind not in TO_CHECK
+        ],
     }
     return [Topic(topic, tuple(texts)) for topic, texts in topics.items() if texts]
 
@@ -572,14 +584,24 @@ def _advice(report: RecordReport) -> list[str]:
     ]
 
 
-def warnings_of(tables: RecordRows) -> list[str]:
-    """Return what file and integrations warn of, each once."""
-    of_files = [each for row in tables.record for each in row.warnings]
-    return list(dict.fromkeys([*of_files, *(row.warning for row in tables.comparison if row.warning)]))
+def warnings_of(tables: RecordRows) -> dict[str, Kind]:
+    """Return what file and integrations warn of, each once, with its kind."""
+    return {row.sentence: row.kind for row in tables.remarks}
+
+
+def _said(remarks: Iterable[RemarkRow], kind: Kind) -> list[str]:
+    """The remarks of one kind in words."""
+    return [row.sentence for row in remarks if row.kind is kind]
+
+
+def _held_at_ceiling(remarks: Iterable[RemarkRow]) -> list[str]:
+    """What walls are taken for, in one sentence on all of them."""
+    walls = [row.about for row in remarks if row.kind is Kind.HELD_AT_CEILING]
+    return [str(Remark(Kind.HELD_AT_CEILING, listed(walls, _MOST_NAMED)))] if walls else []
 
 
 def _notices(report: RecordReport) -> list[Notice]:
-    """Return the warnings that stand above everything: nothing moves, scale factor, what failed."""
+    """Return the warnings that stand above everything: nothing moves, scale factor, what to check, what failed."""
     tables = report.tables
     notices: list[Notice] = []
     if tables.comparison and all(station.rotation_ratio == 0 for station in report.result.worst_first):
@@ -603,7 +625,7 @@ def _notices(report: RecordReport) -> list[Notice]:
         told[MOST_NOTICED - 1 :] = [
             f"Another {counted(len(told) - MOST_NOTICED + 1, 'failure')} in failures.csv."
         ]
-    return [*notices, *map(Notice, told)]
+    return [*notices, *to_check(report.remarks), *map(Notice, told)]
 
 
 def _pulse_doubts(report: RecordReport) -> list[str]:

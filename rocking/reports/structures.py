@@ -44,7 +44,7 @@ from rocking.reports.pages import (
     Sure,
     Table,
 )
-from rocking.reports.printing import displaying, strong, table, unit_of
+from rocking.reports.printing import TO_CHECK, displaying, strong, table, unit_of
 from rocking.reports.printing import words as or_a_dash
 from rocking.reports.sentences import Sentences
 from rocking.reports.structure_figures import bars_figure, basis_figure, selection_figure
@@ -73,7 +73,7 @@ class CheckedStructure:
     which nothing lifts it. verdicts: stations by the worst verdict on it there, and doubts: what may make
     one worse than said. reserves: under each record of the study under which one was sought; reserve_doubts: the kinds
     of doubt for which they may be too high. mechanisms: all in which it may fall. peaks: the least and the largest peak
-    acceleration of the records of the study as they act, m/s².
+    acceleration of the records of the study as they act, m/s². remarks: on the structure and on the design level.
     """
 
     name: str
@@ -97,6 +97,7 @@ class CheckedStructure:
     reserve_doubts: Sequence[Kind] = ()
     mechanisms: Sequence["ListedMechanism"] = ()
     peaks: tuple[float, float] = (math.nan, math.nan)
+    remarks: Sequence[Remark] = ()
 
     @property
     def period(self) -> float | None:
@@ -299,6 +300,7 @@ def _conclusion(
                 words("without tie met" if untied.passed else "without tie not met", clause=untied.clause)
             )
     details += _were_it_unknown(checked, words)
+    details += [words.of(each) for each in page.remarks if each.kind in TO_CHECK]
     if finding := _finding(page, conclusion, spectrum, words):
         details.append(finding)
     return headline, tuple(details)
@@ -418,6 +420,7 @@ def _assumptions(page: CheckedStructure, mechanism: LocalMechanism, words: Sente
         if math.isfinite(position):
             known = words("crack known at", height=words.plain(position))
         lines.append(f"{known[:1].upper()}{known[1:]}.")
+    lines += [words.of(each) for each in page.remarks if each.kind not in TO_CHECK]
     lines.append(words("assumed rigid"))
     if getattr(structure, "compressive_strength", None) is None:
         lines.append(words("assumed crushing"))

@@ -20,6 +20,7 @@ from rocking.assessment.rows import (
     FailureRow,
     PulseRow,
     RecordRow,
+    RemarkRow,
     StructureRow,
     SupportRow,
     VerdictRow,
@@ -149,7 +150,7 @@ def _page(
         by_code=by_code,
         checks=checks,
         matrix=matrix(made, records, pulses),
-        notices=tuple(_notices(records, comparison, len(failures))),
+        notices=(*_notices(records, comparison, len(failures)), *printing.to_check(rows_of(RemarkRow, rows))),
         outcomes=pictures(
             outcomes_figure,
             shown if many else (),

@@ -72,6 +72,7 @@ def write_checks(
         records=selection,
     )
     pages = []
+    level = [each for each in (design.remark,) if each]
     for name, scene in study.scenes.items():
         own = [each for each in verdicts if each.structure == name]
         for support in scene.place.axis:
@@ -81,6 +82,7 @@ def write_checks(
                 _checked(scene, support, check_at, there, names),
                 worst=worst.get(name),
                 peaks=peaks,
+                remarks=(*level, *scene.remarks),
             )
             of_scene = [
                 each for each in mechanisms if (each.structure, each.support_period_s) == (name, period)

@@ -26,6 +26,7 @@ from rocking.assessment.rows import (
     FailureRow,
     HistoryRow,
     RecordRows,
+    RemarkRow,
     history_rows,
     rows_of_record,
 )
@@ -43,7 +44,7 @@ from rocking.structures import Structure
 from rocking.study.contents import ContentHashes
 from rocking.study.folder import locked
 from rocking.study.made_from import TABLE, records_of
-from rocking.study.plan import JOBS, plan_of_job, scenes_of
+from rocking.study.plan import JOBS, plan_of_job, scenes_of, study_remarks
 from rocking.study.results import case_timings_of, cases_of, outcome_of, write_outcome
 from rocking.study.seals import Seals
 from rocking.study.settings import Settings, settings_sha256
@@ -75,6 +76,11 @@ class Study:
     def structures(self) -> dict[str, Structure]:
         """The structures of the scenes, by name."""
         return {name: scene.structure for name, scene in self.scenes.items()}
+
+    @cached_property
+    def remarks(self) -> list[RemarkRow]:
+        """The rows of what there is to say of settings and structures before they meet a record."""
+        return RemarkRow.of_study(study_remarks(self.settings, self.scenes))
 
     @cached_property
     def assessment(self) -> AssessmentSettings:
@@ -333,7 +339,9 @@ def write_report(result: RecordResult, rows: RecordRows, study: Study, folder: P
 
     if rows.comparison:
         level = study.settings.design_spectrum.spectrum()
-        page: Page = RecordReport(result, rows, study.structures, study.settings.for_pages, level).page()
+        page: Page = RecordReport(
+            result, rows, study.structures, study.settings.for_pages, level, study.remarks
+        ).page()
     else:
         page = failure_page(result.record, " ".join(failure.message for failure in rows.failures))
     write_document(folder / "report.pdf", page, study.settings.figures)
@@ -357,4 +365,5 @@ def assess_catalogued(
 def rows_of(result: RecordResult, record: CatalogueRecord, study: Study) -> RecordRows:
     """Return what the tables of a study hold of a record."""
     friction = study.settings.friction_coefficient
-    return rows_of_record(result, study.settings_sha256, record.licence, friction)
+    vertical = study.settings.vertical
+    return rows_of_record(result, study.settings_sha256, record.licence, friction, vertical)

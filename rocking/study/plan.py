@@ -33,11 +33,20 @@ T = TypeVar("T")
 JOBS = REMEMBERED / "rocking_jobs.lock"
 """Held by every job of a study while it works, in the folder of the study."""
 _NAMED = 8
-"""Structures that a remark names."""
+"""Remarks on settings and structures that the terminal tells; remarks.csv holds all."""
+_ON_PAGES = (Kind.HELD_AT_CEILING,)
+"""Remarks on what a structure is taken for, which stand on its pages and ask nothing of who starts a run."""
 _MOST_BATCHES = 8
 _MANY = 200
 _FEW = 24
 """Records worth a batch: the start of a process costs as much as twenty records without reports."""
+
+
+def study_remarks(settings: Settings, scenes: Mapping[str, Scene]) -> tuple[Remark, ...]:
+    """Return what there is to say of the settings and the structures of a study before it meets a record."""
+    level = settings.design_spectrum.remark
+    of_scenes = [remark for scene in scenes.values() for remark in scene.remarks]
+    return (*([level] if level else []), *of_scenes)
 
 
 @dataclass(frozen=True)
@@ -57,14 +66,13 @@ class Plan:
     def doubts(self) -> tuple[Remark, ...]:
         """The warnings before the run; folders of records that left the catalogue too."""
         results = Path(self.settings.results)
+        of_study = [each for each in study_remarks(self.settings, self.scenes) if each.kind not in _ON_PAGES]
+        more = len(of_study) - _NAMED
         names = {*self.records, "summary", "fragility"}
         folders = (report.parent for report in sorted(results.glob("*/report.pdf")))
-        walls = [name for name, scene in self.scenes.items() if scene.structure.type_name == "wall"]
-        named = ", ".join(walls[:_NAMED]) + f" and {len(walls) - _NAMED} more" * (len(walls) > _NAMED)
-        level = self.settings.design_spectrum.remark
         return (
-            *([Remark(Kind.HELD_AT_CEILING, named)] if walls else []),
-            *([level] if level else []),
+            *of_study[:_NAMED],
+            *([Remark.of(Kind.REMARKS_MORE, number=more)] if more > 0 else []),
             *repeated(self.records.values()),
             *unlisted(Path(self.settings.catalogue)),
             *self._outdated,

@@ -21,6 +21,7 @@ from rocking.assessment.rows import (
     FailureRow,
     PulseRow,
     RecordRow,
+    RemarkRow,
     StructureRow,
     TimingRow,
     TradeRow,
@@ -92,6 +93,7 @@ def summarise(job: Job) -> list[Path]:
         instead,
         faults,
         study.settings.unnamed_events == "each",
+        study.remarks,
     )
     paths: dict[type[Row], str | list[str]] = {each: each.table.file_name for each in SUMMARY_TABLES}
     write_whole(target / "datapackage.json", data_package("rocking-study", paths))
@@ -155,7 +157,9 @@ def _documents(
     page, book = target / "study.html", target / WORKBOOK
     made_or_told(
         page,
-        lambda: write_whole(page, explore_page(pages, study.structures, title, checked, drawn)),
+        lambda: write_whole(
+            page, explore_page(pages, study.structures, title, checked, drawn, study.remarks)
+        ),
         untold,
         job.log,
     )
@@ -178,13 +182,14 @@ def write_summary(
     variants: Collection[str] = (),
     faults: Collection[Row] = (),
     each_unnamed: bool = False,
+    remarks: Collection[Row] = (),
 ) -> tuple[dict[type[Row], list[Row]], list[dict[str, Any]], list[Sequence[float]]]:
     """Write the tables of the summary into `target`, record by record.
 
     reports: whether the rows, and what the page to explore and the spectra show of each record, are returned as well:
     of thousands of records, which have no reports, they would fill the memory. variants: names of structures that
     stand for another one. faults: of what else stands over all records. each_unnamed: whether records that name no
-    earthquake are of one each.
+    earthquake are of one each. remarks: on the study itself.
     """
     kept: dict[type[Row], list[Row]] = {each: [] for each in SUMMARY_TABLES}
     pages: list[dict[str, Any]] = []
@@ -211,6 +216,8 @@ def write_summary(
             if reports:
                 pages.append(outcome.page)
                 spectra += outcome.spectra.values()
+        write[RemarkRow](remarks)
+        kept[RemarkRow] += remarks if reports else ()
         told = [*faults]
         for name, structure in structures.items():
             for each, make in ((StructureRow, structure_rows), (CapacityRow, capacity_rows)):

@@ -28,6 +28,7 @@ from rocking.assessment.rows.of_record import HistoryRow as HistoryRow
 from rocking.assessment.rows.of_record import MechanismRow as MechanismRow
 from rocking.assessment.rows.of_record import OfStructure as OfStructure
 from rocking.assessment.rows.of_record import RecordRows as RecordRows
+from rocking.assessment.rows.of_record import RemarkRow as RemarkRow
 from rocking.assessment.rows.of_record import SupportRow as SupportRow
 from rocking.assessment.rows.of_record import TimedStage as TimedStage
 from rocking.assessment.rows.of_record import TimingRow as TimingRow

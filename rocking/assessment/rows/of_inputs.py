@@ -210,9 +210,6 @@ class RecordRow(ComponentRow[ReadComponent]):
     processing: tuple[str, ...] = of_accelerogram(
         "Steps applied to the numbers of the file, in order", lambda read: read.processing
     )
-    warnings: tuple[str, ...] = of_accelerogram(
-        "Warnings of the reader about the file", lambda read: tuple(map(str, read.warnings))
-    )
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,7 @@ from rocking.assessment.rows.of_inputs import (
 )
 from rocking.errors import RockingError, one_structure
 from rocking.floors.place import FloorMeasures
-from rocking.remarks import Kind
+from rocking.remarks import Kind, Remark
 from rocking.sine_pulse import Regime
 from rocking.structures.linkage import Reaction
 from rocking.structures.structure import Candidate
@@ -126,7 +126,7 @@ _FIRST = (
 class ComparisonRow(DecidedRow[ComparedCase]):
     """One row per structure: the closed form under the dominant pulse beside the integration of the whole record.
 
-    The columns from the impacts to the warning are those of the integration.
+    The columns from the impacts on are those of the integration.
     """
 
     predicted_rotation_ratio: float = of_case(
@@ -207,10 +207,6 @@ class ComparisonRow(DecidedRow[ComparedCase]):
     )
     ties: str = of_check(
         "Which ties yield or break on the way to the largest rotation", lambda check: check.ties
-    )
-    warning: str = of_response(
-        "Warning about what the model leaves out; or empty",
-        lambda response: str(response.warning) if response.warning else "",
     )
     answer_reason: str = of_case(
         "Reason why that method sufficed, with fidelity: auto",
@@ -665,6 +661,35 @@ class FailureRow(AnyCaseRow[FailedCase]):
 
 
 @dataclass(frozen=True)
+class Remarked:
+    """A remark in a study. record: under which; "" of the study itself. about: what the table says it is about."""
+
+    record: str
+    about: str
+    remark: Remark
+
+
+of_remark = Columns(Remarked)
+
+
+@row("remarks")
+class RemarkRow(RowOf[Remarked]):
+    """One row per remark on a record, a structure or a setting; those of the study itself name no record."""
+
+    record: str = of_remark(f"{RECORD}; empty: of the study itself", lambda told: told.record)
+    about: str = of_remark(
+        "What it is about: a component, a structure, a size of it or a setting", lambda told: told.about
+    )
+    kind: Kind = of_remark("Kind of the remark", lambda told: told.remark.kind)
+    sentence: str = of_remark("The remark in words", lambda told: str(told.remark))
+
+    @classmethod
+    def of_study(cls, remarks: Iterable[Remark]) -> "list[RemarkRow]":
+        """Return the rows of what there is to say of a study before it meets a record."""
+        return [cls.of(Remarked("", each.about, each)) for each in remarks]
+
+
+@dataclass(frozen=True)
 class TimedStage:
     """The CPU time of one stage of a record, s."""
 
@@ -696,6 +721,7 @@ class RecordRows:
     comparison: Sequence[ComparisonRow] = ()
     variations: Sequence[VariationRow] = ()
     failures: Sequence[FailureRow] = ()
+    remarks: Sequence[RemarkRow] = ()
     timings: Sequence[TimingRow] = ()
     verdicts: Sequence[VerdictRow] = ()
     supports: Sequence[SupportRow] = ()
@@ -712,6 +738,7 @@ class RecordRows:
             MechanismRow: self.mechanisms,
             SupportRow: self.supports,
             FailureRow: self.failures,
+            RemarkRow: self.remarks,
             TimingRow: self.timings,
             VerdictRow: self.verdicts,
         }
@@ -738,12 +765,36 @@ def _told(failures: list[FailedCase], identity: Identity, station: "StationResul
         failures.append(of_case)
 
 
+def _remarked(result: "RecordResult", vertical: bool) -> list[Remarked]:
+    """The remarks on the files of a record and on what was integrated under it, each once."""
+    record = result.record
+    told = [
+        Remarked(record, remark.about or name, remark)
+        for name, each in zip(result.names, result.accelerograms, strict=True)
+        for remark in each.warnings
+    ]
+    if vertical and result.components and not any(each.vertical for each in result.components):
+        told.append(Remarked(record, "vertical", Remark(Kind.VERTICAL_MISSING, record)))
+    told += [
+        Remarked(record, structure, response.warning)
+        for (_, structure, _), response in result.responses.items()
+        if response.warning
+    ]
+    first = {(each.about, str(each.remark)): each for each in reversed(told)}
+    return [each for each in told if first[each.about, str(each.remark)] is each]
+
+
 def rows_of_record(
-    result: "RecordResult", settings_sha256: str = "", licence: str = "", friction_coefficient: float = 0.6
+    result: "RecordResult",
+    settings_sha256: str = "",
+    licence: str = "",
+    friction_coefficient: float = 0.6,
+    vertical: bool = False,
 ) -> RecordRows:
     """Return what the tables hold of a record.
 
     settings_sha256: names settings, structures and package. friction_coefficient: beyond which a contact slides.
+    vertical: whether its vertical component is asked for.
     """
     record = result.record
     identities = [
@@ -790,6 +841,7 @@ def rows_of_record(
         comparison=comparison,
         variations=variations,
         failures=[FailureRow.of(each) for each in failures],
+        remarks=[RemarkRow.of(each) for each in _remarked(result, vertical)],
         timings=[TimingRow.of(TimedStage(record, *each)) for each in result.durations.items()],
         verdicts=verdicts,
         mechanisms=mechanisms,

@@ -374,6 +374,7 @@ SUMMARY_TABLES: tuple[type[Row], ...] = (
     inputs.StructureRow,
     inputs.CapacityRow,
     rows.FailureRow,
+    rows.RemarkRow,
     rows.TimingRow,
 )
 """The rows of the tables of the summary folder."""

@@ -2,7 +2,6 @@
 
 import csv
 import pickle
-import warnings
 from itertools import pairwise
 from pathlib import Path
 
@@ -16,7 +15,7 @@ from rocking.assessment.case import CaseResult
 from rocking.assessment.decide import Verdict
 from rocking.assessment.scene import load_scenes, periods_in_words, placed
 from rocking.assessment.settings import AssessmentSettings
-from rocking.errors import ConfigurationError, StructureWarning
+from rocking.errors import ConfigurationError
 from rocking.floors.place import GROUND, PERIODS, place_from_config
 from rocking.remarks import Kind
 
@@ -168,11 +167,9 @@ def test_a_sentence_repeats_the_begin_of_a_long_name(tmp_path, lines):
 
 def test_a_heavy_structure_is_warned_of(tmp_path):
     roof = "name: roof, type: support, period_s: 0.3, participation: 1.3, mass_ratio: {}"
-    with pytest.warns(StructureWarning, match=r"a has 0\.05 of the mass of roof"):
-        listed(tmp_path, f"name: a, {BLOCK}, stands_on: roof", roof.format(0.05))
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        listed(tmp_path, f"name: a, {BLOCK}, stands_on: roof", roof.format(0.01))
+    (heavy,) = listed(tmp_path, f"name: a, {BLOCK}, stands_on: roof", roof.format(0.05))["a"].remarks
+    assert (heavy.kind, heavy.about, heavy["ratio"]) == (Kind.HEAVY_ON_SUPPORT, "a", 0.05)
+    assert not listed(tmp_path, f"name: a, {BLOCK}, stands_on: roof", roof.format(0.01))["a"].remarks
 
 
 FRONT = (
@@ -257,9 +254,10 @@ def test_a_restitution_above_that_of_the_geometry_is_told(tmp_path):
     path = tmp_path / "list.yaml"
     sizes = "type: block, breadth_m: 0.6, height_m: 3"
     path.write_text(f"- {{name: a, {sizes}, restitution: 0.99}}\n- {{name: b, {sizes}, restitution: 0.7}}\n")
-    with pytest.warns(StructureWarning, match=r"above the 0\.94") as told:
-        scenes = load_scenes(path)
-    assert len(told) == 1
+    scenes = load_scenes(path)
+    (told,) = (remark for scene in scenes.values() for remark in scene.remarks)
+    assert (told.kind, told.about) == (Kind.RESTITUTION_ABOVE, "a")
+    assert told["own"] == pytest.approx(0.9423, abs=1e-4)
     kinds = [each.structure.cautions[-1].kind for each in scenes.values()]
     assert kinds == [Kind.RESTITUTION_ABOVE, Kind.RESTITUTION_TYPED]
     own = scenes["b"].structure.cautions[-1]["own"]

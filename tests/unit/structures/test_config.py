@@ -1,7 +1,6 @@
 """Structures from mappings and files: degrees at the door, nearest key named, all defects at once."""
 
 import dataclasses
-import warnings
 from pathlib import Path
 
 import jsonschema
@@ -10,8 +9,9 @@ import pytest
 import yaml
 
 from rocking.assessment.scene import load_scenes, scenes_schema, scenes_schema_file
-from rocking.errors import ConfigurationError, StructureError, StructureWarning
+from rocking.errors import ConfigurationError, StructureError
 from rocking.floors.place import PERIODS
+from rocking.remarks import Kind
 from rocking.structures import Arch, Block, Facade, Frame, Spire, Wall, structure_from_config
 
 WORKFLOW = Path(__file__).parents[3] / "workflow"
@@ -206,12 +206,11 @@ def test_a_list_is_asked_for_in_brackets_and_an_angle_by_its_key(load):
         ("type: wall, height_m: 0.6, thickness_m: 0.7", "thickness_m is 0.7 m and height_m 0.6 m"),
     ],
 )
-def test_a_body_that_is_broader_than_tall_gets_a_remark(load, sizes, told):
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        load(f"- {{name: w, {sizes}}}")
-    said = [str(each.message) for each in caught]
-    assert not told if not said else told in said[-1]
+def test_a_body_that_is_broader_than_tall_gets_a_remark(tmp_path, sizes, told):
+    path = tmp_path / "list.yaml"
+    path.write_text(f"- {{name: w, {sizes}}}\n")
+    said = [str(each) for each in load_scenes(path)["w"].remarks if each.kind is Kind.BROADER_THAN_TALL]
+    assert [told in each for each in said] == ([True] if told else [])
 
 
 def test_a_file_in_other_letters_says_how_to_save_it(tmp_path):
@@ -249,13 +248,13 @@ def test_sizes_are_said_as_they_were_typed(load):
     assert moved.description.startswith("breadth 1.19"), "a copy with other sizes is described anew"
 
 
-def test_what_is_not_usual_is_a_warning_and_not_a_refusal(load):
+def test_what_is_not_usual_is_a_remark_and_not_a_refusal(tmp_path):
     text = "- {name: w, type: wall, height_m: 3200, hinge_height_m: 1600, thickness_m: 250}"
-    with pytest.warns(StructureWarning) as caught:
-        assert list(load(text)) == ["w"]
-    said = [str(each.message) for each in caught]
+    path = tmp_path / "list.yaml"
+    path.write_text(text)
+    said = [str(each) for each in load_scenes(path)["w"].remarks if each.kind is Kind.SIZE_UNUSUAL]
     assert len(said) == 3
-    assert "structure 1 (w): height_m is 3200 m, but is usually between 0.5 and 60 m" in said[0]
+    assert "w: height_m is 3200 m, but is usually between 0.5 and 60 m" in said[0]
 
 
 @pytest.mark.parametrize(

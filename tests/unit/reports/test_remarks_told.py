@@ -1,0 +1,151 @@
+"""Remarks on sizes, levels and settings: rows of one table, which every document of a study reads."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rocking import Block, DesignSpectrum, check
+from rocking.assessment.case import RecordResult
+from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, RecordRows, RemarkRow, rows_of_record
+from rocking.assessment.scene import Scene, on_the_ground
+from rocking.errors import RockingError
+from rocking.quantities import GRAVITY
+from rocking.remarks import Kind
+from rocking.reports.explore import explore_page
+from rocking.reports.printing import TO_CHECK
+from rocking.reports.record import RecordReport
+from rocking.reports.structures import CheckedStructure, structures_data
+from rocking.reports.summary import summary_data
+from rocking.structures.structure_list import TYPES, structure_from_config
+from rocking.study.plan import study_remarks
+from rocking.study.settings import Settings, StudyDesign
+from rocking.tables.workbook import workbook
+
+from .conftest import SETTINGS, summarised
+
+TYPED_WRONGLY = 300
+UNITS = {"m": 1000.0, "°": np.pi / 180}
+"""What a size is multiplied by that is typed in millimetres, or an angle in radians."""
+
+
+def slips(count: int):
+    """Yield `count` entries of a list, or design levels, of usual sizes but one, typed in another unit; by a seed."""
+    chance = np.random.default_rng(62)
+    forms = [form for of_type in TYPES.values() for form in of_type if form.type_name != "capacity_curve"]
+    while count:
+        if chance.random() < 0.1:
+            level = float(chance.uniform(0.07, 0.35))
+            yield "design_spectrum.ag_g", {"ag": level * GRAVITY, "f0": 2.4, "tc_star": 0.35}
+            count -= 1
+            continue
+        form = forms[chance.integers(len(forms))]
+        values = {each.key: each.value.example for each in form.fields if each.required}
+        sizes = [
+            each
+            for each in form.fields
+            if each.value.unit in UNITS and each.value.usual and np.isscalar(each.value.example)
+        ]
+        size = sizes[chance.integers(len(sizes))]
+        low, high = size.value.usual
+        usual = np.exp(chance.uniform(np.log(max(low, high / 100)), np.log(high)))
+        yield size.key, {"type": form.type_name, **values, size.key: float(usual * UNITS[size.value.unit])}
+        count -= 1
+
+
+def study_of(key: str, entry: dict) -> tuple:
+    """The remarks on the study in which that was typed; None where it is refused."""
+    try:
+        if key.startswith("design_spectrum"):
+            return study_remarks(Settings(design_spectrum=StudyDesign(**entry)), {})
+        scene = Scene("front wall", structure_from_config(entry))
+    except RockingError:
+        return None
+    return study_remarks(Settings(), {scene.name: scene})
+
+
+def wall_in_millimetres(height: float):
+    """A wall of that height, and 300 thick, as somebody types it who thinks in millimetres."""
+    return structure_from_config({"type": "wall", "height_m": height, "thickness_m": 300.0})
+
+
+def notices(remarks) -> list[str]:
+    """What stands above page one of a record."""
+    of_study = RemarkRow.of_study(remarks)
+    report = RecordReport(RecordResult(record="r"), RecordRows(), {}, SETTINGS, of_study=of_study)
+    return [each.text for each in report.page().notices]
+
+
+@pytest.mark.filterwarnings("ignore:restitution by momentum balance")
+def test_a_size_or_a_level_in_another_unit_stands_on_page_one_or_is_refused():
+    """300 studies with one slip each: millimetres for metres, radians for degrees, m/s² for g."""
+    silent = []
+    refused = 0
+    for key, entry in slips(TYPED_WRONGLY):
+        remarks = study_of(key, entry)
+        if remarks is None:
+            refused += 1
+            continue
+        told = [each for each in remarks if each.kind in TO_CHECK and each.about.endswith(key)]
+        if not told:
+            silent.append((key, entry))
+        page = notices(remarks)
+        assert all(any(str(each) in notice for notice in page) for each in told[:2]), (key, entry)
+    assert not silent, silent
+    assert refused < TYPED_WRONGLY / 2
+
+
+@pytest.mark.filterwarnings("ignore:restitution by momentum balance")
+def test_of_many_slips_page_one_tells_the_first_in_full_and_how_many_more_of_what():
+    scenes = {f"wall {place}": wall_in_millimetres(2200.0 + place) for place in range(150)}
+    remarks = study_remarks(Settings(), on_the_ground(scenes))
+    to_check = [each for each in remarks if each.kind in TO_CHECK]
+    assert len(to_check) == 300
+    *first, rest = notices(remarks)[-3:]
+    assert first == [str(each) for each in to_check[:2]]
+    assert "298 values" in rest and "wall 1, wall 2, " in rest and "remarks.csv" in rest
+
+
+@pytest.mark.usefixtures("undrawn")
+@pytest.mark.filterwarnings("ignore:restitution by momentum balance")
+def test_every_document_of_a_study_reads_the_same_remarks(example):
+    """Page one, summary, page to sign, page to explore and workbook; both tables are outputs of their rules."""
+    settings = Settings(design_spectrum=StudyDesign(ag=1.96, f0=2.4, tc_star=0.35))
+    wall = wall_in_millimetres(2200.0)
+    scene = Scene("A", wall)
+    remarks = study_remarks(settings, {"A": scene})
+    rows = RemarkRow.of_study(remarks)
+    told = [row.sentence for row in rows if row.kind in TO_CHECK]
+    assert [row.about for row in rows] == ["design_spectrum.ag_g", "A: height_m", "A: thickness_m", "A"]
+    assert [row.kind for row in rows][-1] is Kind.HELD_AT_CEILING
+    assert RemarkRow in RECORD_TABLES and RemarkRow in SUMMARY_TABLES
+
+    report = replace(example, of_study=rows)
+    page = report.page()
+    assert told == [each.text for each in page.notices if each.text in told]
+    (models,) = (topic.texts for topic in page.known if topic.topic == "Models")
+    assert rows[-1].sentence in models
+
+    tables = summarised(example.tables, example.structures) | {RemarkRow: rows}
+    assert told == [each.text for each in summary_data(tables, SETTINGS).notices if each.text in told]
+
+    spectrum = DesignSpectrum.ntc(1.96 * GRAVITY, 2.4, 0.35)
+    block = Block.of_size(0.6, 2.0)
+    signed = CheckedStructure(name="A", structure=block, checked=check(block, spectrum), remarks=remarks)
+    (sheet,) = structures_data([signed], spectrum, settings.for_pages).sheets
+    assert told == [each for each in sheet.details if each in told]
+    assert rows[-1].sentence in sheet.answers[0].assumptions
+
+    html = explore_page([], {"A": block}, remarks=rows).decode()
+    assert all(row.sentence in html for row in rows)
+    assert RemarkRow.table.file_name == "remarks.csv"
+    assert len(workbook(tables)) > 0
+
+
+def test_a_vertical_component_that_is_asked_for_and_missing_is_told(example):
+    asked, unasked = (rows_of_record(example.result, vertical=each).remarks for each in (True, False))
+    assert [row.kind for row in asked if row not in unasked] == [Kind.VERTICAL_MISSING]
+    (row,) = (each for each in asked if each.kind is Kind.VERTICAL_MISSING)
+    assert (row.record, row.about) == (example.result.record, "vertical")
+    report = replace(example, tables=replace(example.tables, remarks=asked))
+    assert row.sentence in [each.text for each in report.page().notices]
