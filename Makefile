@@ -18,7 +18,7 @@ ENGINE := openquake-engine==3.26.2
 # Tests start many processes, and each would compile the whole package again to bytecode.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: all run setup slurm openquake test test-runs test-all bench trace check schema paper documentation wheel release lock clean
+.PHONY: all run setup slurm openquake test test-runs test-all bench trace check schema measured paper documentation wheel release lock clean
 
 all: run
 
@@ -86,6 +86,10 @@ schema: setup
 	$(BIN)/python -c "from rocking.study.settings import EXAMPLE, commented_yaml as text; print(text(EXAMPLE), end='')" \
 	  > workflow/config.yaml
 
+# The measured figures whose code has changed since in meaning.
+measured: setup
+	$(BIN)/python -m docs.site.measured
+
 paper: setup
 	$(BIN)/snakemake --workflow-profile workflow/profiles/default paper
 
@@ -97,10 +101,11 @@ wheel: setup
 	.ci/wheel $(VENV)
 
 # The same of a version that stands in pyproject.toml and, with its date, in the changelog.
-release:
+release: setup
 	version=$$(sed -n 's/^version = "\(.*\)"/\1/p' pyproject.toml) && \
 	  grep -Eq "^## $$version - [0-9]{4}-[0-9]{2}-[0-9]{2}$$" CHANGELOG.md || \
 	  { echo "CHANGELOG.md has no entry like: ## $$version - 2026-01-31; date the one of this version."; exit 1; }
+	$(BIN)/python -m docs.site.measured --first-screen
 	$(MAKE) wheel
 
 lock:

@@ -1,4 +1,4 @@
-"""What holds, chosen on one half of the stations and stated once on the other, beside the least value that seems to.
+"""What holds, chosen on one half of the earthquakes and stated once on the other, beside the least value that seems to.
 
 The stations have no part in any fit of the package; each is scaled to one design spectrum. One half is drawn, once; the
 400 further halves show the spread alone, as they share their stations.
@@ -17,6 +17,7 @@ from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.selection import scaled_pool
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
+from rocking.records.sample import Sample
 from rocking.strengthening import Strengthening, Tried, strengthen
 from rocking.structures import Block, Facade, Structure, Wall
 
@@ -38,6 +39,8 @@ _FRONT = Facade(
 TRIED: Mapping[str, tuple[Structure, str, tuple[float, float]]] = {
     "parapet of 1.5 m, breadth": (Block.of_size(breadth=0.2, height=1.5), "breadth", (0.1, 0.8)),
     "wall of 3.2 m, thickness": (Wall.of_size(3.2, 0.2), "thickness", (0.06, 0.4)),
+    "chimney of 4 m, breadth": (Block.of_size(breadth=0.6, height=4.0), "breadth", (0.4, 2.5)),
+    "pier of 3 m, breadth": (Block.of_size(breadth=0.4, height=3.0), "breadth", (0.25, 1.6)),
     "front of 6 m, brittle tie": (_FRONT, "tie_strength", (1e3, 6e4)),
     "front of 6 m, tie that yields by 20 mm": (
         replace(_FRONT, tie_plastic_elongation=0.02),
@@ -72,27 +75,33 @@ def scores_of_halves(name: str, found: Strengthening) -> Iterator[Score]:
 
     A half that chooses nothing is right, and has neither value nor share.
     """
-    number = len(found.stations)
-    first = number // 2
     rng = np.random.default_rng(55)
-    once, *further = (rng.permutation(number) for _ in range(1 + HALVES))
+    once, *further = (split(found.sample, rng) for _ in range(1 + HALVES))
     for limit in TARGETS:
         for rule, choose in (("shown", shown), ("seems", seems)):
             part = f"{rule} to hold, target {limit:g}"
-            chosen = choose(found, once[:first], limit)
+            here, elsewhere = once
+            chosen = choose(found, here, limit)
             if chosen is not None:
-                sites = [found.stations[place] for place in once[first:]]
-                share = {"share of the other half": chosen.shares[once[first:]]}
+                sites = [found.stations[place] for place in elsewhere]
+                share = {"share of the other half": chosen.shares[elsewhere]}
                 yield from scored(name, part, share, sites)
-                yield _told(name, part, "value chosen (SI)", chosen.value, first)
+                yield _told(name, part, "value chosen (SI)", chosen.value, here.size)
             right = []
-            for each in further:
-                again = choose(found, each[:first], limit)
+            for own, other in further:
+                again = choose(found, own, limit)
                 if again is not None:
-                    right.append(float(again.shares[each[first:]].mean()) <= limit)
+                    right.append(float(again.shares[other].mean()) <= limit)
             if right:
                 measure = f"of {len(right)} further halves that choose, those that hold"
-                yield _told(name, part, measure, float(np.mean(right)), number)
+                yield _told(name, part, measure, float(np.mean(right)), len(found.stations))
+
+
+def split(sample: Sample, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    """Return the places of the stations of one half of the earthquakes, and those of the other."""
+    chosen = rng.permutation(sample.earthquakes)[: sample.earthquakes // 2]
+    here = np.isin(sample.of_station, chosen)
+    return np.flatnonzero(here), np.flatnonzero(~here)
 
 
 def shown(found: Strengthening, stations: np.ndarray, limit: float) -> Tried | None:

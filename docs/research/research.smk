@@ -56,8 +56,8 @@ TARGETS_OF_RESEARCH = {
         ["fronts.csv"],
     ),
     "halves": (
-        "Choose what holds on one half of the stations, and state it on the other",
-        REAL_RECORDS[1:],
+        "Choose what holds on one half of the earthquakes, and state it on the other",
+        REAL_RECORDS,
         [],
     ),
     "code_check": (

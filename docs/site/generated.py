@@ -151,6 +151,41 @@ def trade() -> str:
     return table(head, body)
 
 
+def earthquakes() -> str:
+    """What the intervals over earthquakes hold, the least and the largest of populations or of structures."""
+    with (MEASURED / "earthquakes.csv").open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    columns = (
+        ("median, made", "made", "median"),
+        ("median, real sites", "real", "median"),
+        ("annual rate, made", "made", "annual rate"),
+        ("annual rate, real sites", "real", "annual rate"),
+        ("upper bound of a share of 0.3", "made", "bound of a share of 0.3"),
+        ("expected falls", "made", "expected falls"),
+    )
+    body = []
+    for drawn in dict.fromkeys((row["earthquakes"], row["stations_each"]) for row in rows):
+        cells = [" × ".join(drawn)]
+        for _, truth, measure in columns:
+            own = [
+                row
+                for row in rows
+                if (row["earthquakes"], row["stations_each"]) == drawn
+                and (row["truth"], row["measure"]) == (truth, measure)
+            ]
+            held = _least_to_largest(row["held"] for row in own)
+            before = _least_to_largest(row["held_as_if_independent"] for row in own)
+            cells.append(f"{held} %" if drawn[1] == "1" else f"{held} % ({before})")
+        body.append(cells)
+    return table(("earthquakes × stations", *(name for name, _, _ in columns)), body)
+
+
+def _least_to_largest(shares: Iterable[str]) -> str:
+    percent = [f"{100 * float(share):.0f}" for share in shares]
+    least, largest = min(percent, key=int), max(percent, key=int)
+    return least if least == largest else f"{least}–{largest}"
+
+
 def pulse_shapes() -> str:
     """What each shape of pulse is worth on all records, with 90 % intervals."""
     scores: dict[str, dict[str, str]] = {}
@@ -170,7 +205,7 @@ GENERATED: Mapping[str, Callable[[], str]] = {
     part.__name__: part
     for part in (
         *(formats, units, settings, structures, tables, equations, pulse_methods, blocks, regimes),
-        *(what_follows, trade, pulse_shapes),
+        *(what_follows, trade, earthquakes, pulse_shapes),
     )
 } | {f"api_{topic}": partial(api, topic) for topic in TOPICS}
 """What may stand behind `generated:` in a page."""

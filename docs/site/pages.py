@@ -1,7 +1,8 @@
 """From the pages to a site that opens without a network: filled and illustrated by the code, then set by MkDocs.
 
 `<!-- generated: NAME -->` stands for what the function NAME of `generated` returns, `<!-- file: PATH -->` for a file
-of the repository, `<!-- figure: NAME. CAPTION -->` for the figure of the axes that the examples above left in `axes`.
+of the repository, `<!-- measured: NAME -->` within a line for a figure of docs/measured/figures.csv with its age, and
+`<!-- figure: NAME. CAPTION -->` for the figure of the axes that the examples above left in `axes`.
 """
 
 import io
@@ -18,6 +19,7 @@ from matplotlib.figure import Figure
 from docs.paper.report import equivalence_figures
 from docs.site.drawings import drawing, forms
 from docs.site.generated import GENERATED
+from docs.site.measured import measured
 from rocking.errors import ConfigurationError
 
 FOLDER = Path(__file__).parents[1] / "pages"
@@ -30,6 +32,7 @@ _RC: dict[str, object] = {
     "svg.hashsalt": "rocking",
 }
 _MARK = re.compile(r"^<!-- (generated|file): (\S+) -->$", re.M)
+_MEASURED = re.compile(r"<!-- measured: (\S+) -->")
 _EXAMPLE = re.compile(r"^```python\n(.*?)^```$|^<!-- figure: (\w+)\. (.*?) -->$", re.M | re.S)
 
 
@@ -99,7 +102,7 @@ def filled(text: str, name: str) -> str:
             raise ConfigurationError(f"{name}: generated part is {part!r}, but must be one of {names}.")
         return GENERATED[part]()
 
-    return _MARK.sub(content, text)
+    return _MEASURED.sub(lambda match: measured(match[1]), _MARK.sub(content, text))
 
 
 def illustrated(text: str, page: str) -> tuple[str, dict[str, str]]:

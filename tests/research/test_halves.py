@@ -1,9 +1,10 @@
-"""What holds on the other half of the stations: what each rule chooses, and what its scores count."""
+"""What holds on the other half of the earthquakes: what each rule chooses, and what its scores count."""
 
 import numpy as np
 import pytest
 
-from docs.research.halves import TARGETS, scores_of_halves, seems, shown
+from docs.research.halves import TARGETS, scores_of_halves, seems, shown, split
+from rocking.records.sample import Sample
 from rocking.strengthening import GRID, Strengthening, Tried, sizes
 from rocking.structures import Block
 
@@ -12,9 +13,9 @@ VALUES = np.geomspace(0.1, 1.0, GRID).tolist()
 
 
 def _found(shares: np.ndarray) -> Strengthening:
-    tried = tuple(Tried(value, row) for value, row in zip(VALUES, shares, strict=True))
-    names = tuple(f"station {k}" for k in range(shares.shape[1]))
-    return Strengthening(BREADTH, 0.1, names, tried, tried[0])
+    sample = Sample.scattered([f"station {k}" for k in range(shares.shape[1])])
+    tried = tuple(Tried(value, row, sample) for value, row in zip(VALUES, shares, strict=True))
+    return Strengthening(BREADTH, 0.1, sample, tried, tried[0])
 
 
 def test_the_value_that_is_shown_is_that_of_those_stations_alone():
@@ -52,3 +53,12 @@ def test_the_least_value_that_seems_to_hold_fails_on_half_of_the_halves():
     }
     assert scores["seems to hold, target 0.2", "of"] < 0.7
     assert scores["shown to hold, target 0.2", "of"] >= 0.9  # what its bound promises
+
+
+def test_no_earthquake_is_on_both_sides_of_a_split():
+    events = tuple(f"earthquake {k // 3}" for k in range(21))
+    sample = Sample(tuple(f"station {k}" for k in range(21)), events)
+    here, elsewhere = split(sample, np.random.default_rng(1))
+    assert sorted([*here, *elsewhere]) == list(range(21))
+    assert not {events[place] for place in here} & {events[place] for place in elsewhere}
+    assert len({events[place] for place in here}) == 3

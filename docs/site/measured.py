@@ -1,0 +1,214 @@
+"""Measured figures that know their age: each with what made it, and whether the code that it measures has changed
+since.
+
+`docs/measured/figures.csv` holds a row for each. A page prints one by `<!-- measured: NAME -->`. Run as a script it
+lists the figures whose code has changed since in meaning; `--first-screen` fails where one that a reader meets first is
+older, and `--renew` writes the hashes of the code as it is, for figures that were just measured again.
+"""
+
+import argparse
+import ast
+import csv
+import sys
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict, dataclass, fields, replace
+from pathlib import Path
+
+from rocking.errors import ConfigurationError
+from rocking.hashes import sha256_of_bytes
+from rocking.tables import write_whole
+
+ROOT = Path(__file__).parents[2]
+FIGURES = ROOT / "docs" / "measured" / "figures.csv"
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One measured figure.
+
+    name: by which a page prints it. value, interval: in words. sites, earthquakes: how many; 0 of made data. seed: of
+    the draws. records_sha256: of the lists of the records, "" of none. script: what measures it again, as it is called.
+    commit: at which it was measured. files: what of the code it measures, apart by blanks. code_sha256: the meaning of
+    these then. first_screen: "yes" of one that the first screen of the README or of a page shows.
+    """
+
+    name: str
+    value: str
+    interval: str
+    sites: str
+    earthquakes: str
+    seed: str
+    records_sha256: str
+    script: str
+    commit: str
+    files: str
+    code_sha256: str
+    first_screen: str
+
+    @property
+    def is_older(self) -> bool:
+        """Whether the code that it measures has changed since in meaning."""
+        return self.code_sha256 != code_sha256(self.files.split())
+
+    @property
+    def words(self) -> str:
+        """The figure as a page prints it: its value, interval, numbers and, where it is older than its code, its age."""
+        told = self.value
+        of = f"{self.sites} sites of {self.earthquakes} earthquakes" if self.sites != "0" else ""
+        if beside := "; ".join(filter(None, (self.interval, of))):
+            told += f" ({beside})"
+        return f"{told} [measured at {self.commit}, code changed since]" if self.is_older else told
+
+
+def figures(path: Path = FIGURES) -> dict[str, Figure]:
+    """Return all figures by name. Raises ConfigurationError for a table that is none, or a name that comes twice."""
+    with path.open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    found: dict[str, Figure] = {}
+    for line, row in enumerate(rows, start=2):
+        if list(row) != [each.name for each in fields(Figure)] or None in row.values():
+            raise ConfigurationError(f"{path}, line {line}, must hold the columns of a Figure; mend the row.")
+        if row["name"] in found:
+            raise ConfigurationError(f"{path}, line {line}, names {row['name']!r} again; leave one out.")
+        found[row["name"]] = Figure(**row)
+    return found
+
+
+def measured(name: str) -> str:
+    """Return a figure as a page prints it. Raises ConfigurationError for a name that the table does not hold."""
+    known = figures()
+    if name not in known:
+        raise ConfigurationError(f"measured figure is {name!r}, but must be one of {', '.join(known)}.")
+    return known[name].words
+
+
+def code_sha256(files: Iterable[str]) -> str:
+    """Return one hash of what the statements of some files of the repository mean.
+
+    Docstrings, comments, layout, types and the names that a file gives to its own variables and functions mean nothing;
+    names of attributes, of what is imported, and of what Python has do. A file that is not Python counts as it is, one
+    that is missing as nothing.
+    """
+    parts = []
+    for name in files:
+        path = ROOT / name
+        content = path.read_bytes() if path.is_file() else b""
+        parts.append(meaning(content.decode("utf-8")).encode() if path.suffix == ".py" else content)
+    return sha256_of_bytes(*parts)
+
+
+def meaning(source: str) -> str:
+    """Return the statements of a Python source without what changes none of its results."""
+    tree = _Plain().visit(ast.parse(source))
+    return ast.dump(_Renamed(tree).visit(tree))
+
+
+class _Plain(ast.NodeTransformer):
+    """Takes docstrings and types away."""
+
+    def visit(self, node: ast.AST) -> ast.AST:
+        self.generic_visit(node)
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+            node.body = [each for each in node.body if not _says_nothing(each)] or [ast.Pass()]
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            node.returns = None
+        if isinstance(node, ast.arg):
+            node.annotation = None
+        if isinstance(node, ast.AnnAssign) and node.value is not None:
+            return ast.Assign(targets=[node.target], value=node.value)
+        if isinstance(node, ast.AnnAssign):  # a field of a class, whose order counts
+            node.annotation = ast.Constant(None)
+        return node
+
+
+def _says_nothing(statement: ast.stmt) -> bool:
+    """Whether it is a text by itself, as a docstring is."""
+    is_text = isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
+    return is_text and isinstance(statement.value.value, str)  # type: ignore[attr-defined]
+
+
+class _Renamed(ast.NodeTransformer):
+    """Gives the names that a file gives itself the number of their first place instead.
+
+    Fields of a class, and arguments by which a function is called with their name, keep it.
+    """
+
+    def __init__(self, tree: ast.AST) -> None:
+        own: list[str] = []
+        kept: set[str] = set()
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+                own.append(node.id)
+            elif isinstance(node, ast.arg):
+                own.append(node.arg)
+            elif isinstance(node, ast.FunctionDef | ast.ClassDef):
+                own.append(node.name)
+            elif isinstance(node, ast.keyword) and node.arg:
+                kept.add(node.arg)
+            elif isinstance(node, ast.Attribute):
+                kept.add(node.attr)
+        names = (name for name in dict.fromkeys(own) if name not in kept)
+        self._numbers = {name: f"_{place}" for place, name in enumerate(names)}
+
+    def _of(self, name: str) -> str:
+        return self._numbers.get(name, name)
+
+    def visit_Name(self, node: ast.Name) -> ast.AST:
+        node.id = self._of(node.id)
+        return node
+
+    def visit_arg(self, node: ast.arg) -> ast.AST:
+        node.arg = self._of(node.arg)
+        return node
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
+        node.name = self._of(node.name)
+        return self.generic_visit(node)
+
+    def visit_ClassDef(self, node: ast.ClassDef) -> ast.AST:
+        node.name = self._of(node.name)
+        return self.generic_visit(node)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """List the figures that are older than their code; return 1 where one of the first screen is, and that is asked."""
+    parser = argparse.ArgumentParser(description=main.__doc__)
+    parser.add_argument(
+        "--first-screen", action="store_true", help="fail where one of the first screen is older"
+    )
+    parser.add_argument(
+        "--renew", nargs="*", metavar="NAME", help="figures that were measured again at --commit"
+    )
+    parser.add_argument("--commit", default="", help="at which they were")
+    options = parser.parse_args(arguments)
+    known = figures()
+    if options.renew is not None:
+        for name in options.renew or list(known):
+            figure = known[name]
+            known[name] = replace(
+                figure,
+                commit=options.commit or figure.commit,
+                code_sha256=code_sha256(figure.files.split()),
+            )
+        lines = [",".join(each.name for each in fields(Figure))]
+        lines += [",".join(_cell(cell) for cell in asdict(figure).values()) for figure in known.values()]
+        write_whole(FIGURES, ("\n".join(lines) + "\n").encode())
+    older = [figure for figure in known.values() if figure.is_older]
+    for figure in older:
+        print(
+            f"{figure.name}: measured at {figure.commit}, code changed since; measure it again: {figure.script}"
+        )
+    print(f"{len(known) - len(older)} of {len(known)} figures are of the code as it is.")
+    first = [figure.name for figure in older if figure.first_screen == "yes"]
+    if options.first_screen and first:
+        print(f"Of the first screen are older: {', '.join(first)}.", file=sys.stderr)
+        return 1
+    return 0
+
+
+def _cell(text: str) -> str:
+    return f'"{text}"' if "," in text else text
+
+
+if __name__ == "__main__":
+    sys.exit(main())

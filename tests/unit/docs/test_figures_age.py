@@ -1,0 +1,77 @@
+"""Figures that know their age: what changes the meaning of code, and what a page, a list and a release say of it."""
+
+import re
+from dataclasses import replace
+
+import pytest
+
+from docs.site import measured as module
+from docs.site.measured import FIGURES, ROOT, code_sha256, figures, main, meaning
+from docs.site.pages import filled, written_pages
+from rocking.errors import ConfigurationError
+
+SOURCE = '''"""A module."""
+import math
+
+def area(radius: float) -> float:
+    """Of a circle."""
+    squared: float = radius * radius  # m²
+    return math.pi * min(squared, 4.0)
+'''
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        SOURCE.replace("A module", "The module"),
+        SOURCE.replace("Of a circle", "What it covers"),
+        SOURCE.replace("  # m²", ""),
+        SOURCE.replace(": float", "").replace(" -> float", ""),
+        SOURCE.replace("squared", "square").replace("radius", "r").replace("area", "disc"),
+    ],
+)
+def test_docstrings_comments_types_and_names_of_its_own_mean_nothing(changed):
+    assert changed != SOURCE
+    assert meaning(changed) == meaning(SOURCE)
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [("4.0", "4.1"), ("min(", "max("), ("math.pi", "math.e"), ("radius * radius", "radius + radius")],
+)
+def test_numbers_operations_and_names_of_others_mean_something(before, after):
+    assert meaning(SOURCE.replace(before, after)) != meaning(SOURCE)
+
+
+def test_a_figure_says_that_its_code_has_changed_since(monkeypatch, tmp_path, capsys):
+    name, figure = next(iter(figures().items()))
+    path = tmp_path / "figures.csv"
+    monkeypatch.setattr(module, "FIGURES", path)
+    head = FIGURES.read_text(encoding="utf-8").splitlines()[0]
+    for older, first in ((False, "yes"), (True, ""), (True, "yes")):
+        sha256 = "0" * 64 if older else code_sha256(figure.files.split())
+        row = replace(figure, code_sha256=sha256, first_screen=first)
+        cells = (getattr(row, each) for each in head.split(","))
+        path.write_text(head + "\n" + ",".join(f'"{each}"' for each in cells) + "\n", encoding="utf-8")
+        (told,) = figures(path).values()
+        assert told.is_older is older and ("code changed since" in told.words) is older
+        monkeypatch.setattr(module, "figures", lambda path=path, told=told: {name: told})
+        assert main(["--first-screen"]) == int(older and first == "yes")
+        assert (f"{name}: measured at" in capsys.readouterr().out) is older
+
+
+def test_every_page_prints_figures_that_there_are_and_every_figure_names_files_that_there_are():
+    known = figures()
+    for page in written_pages():
+        for name in re.findall(r"<!-- measured: (\S+) -->", page.read_text(encoding="utf-8")):
+            assert name in known, f"{page.name}: {name}"
+    for figure in known.values():
+        assert all((ROOT / file).is_file() for file in figure.files.split()), figure.name
+        assert figure.script and figure.commit
+
+
+def test_a_page_prints_a_figure_within_its_line():
+    name, figure = next(iter(figures().items()))
+    assert filled(f"It is <!-- measured: {name} -->.", "page") == f"It is {figure.words}."
+    with pytest.raises(ConfigurationError, match="measured figure is 'nothing'"):
+        filled("<!-- measured: nothing -->", "page")
