@@ -52,7 +52,7 @@ class Figure:
 
     @property
     def words(self) -> str:
-        """The figure as a page prints it: its value, interval, numbers and, where it is older than its code, its age."""
+        """The figure as a page prints it: value, interval, numbers and, where it is older than its code, its age."""
         told = self.value
         of = f"{self.sites} sites of {self.earthquakes} earthquakes" if self.sites != "0" else ""
         if beside := "; ".join(filter(None, (self.interval, of))):
