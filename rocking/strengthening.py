@@ -339,9 +339,13 @@ def strengthen(
     (nan, 22.0)
     """
     if isinstance(records, Accelerogram | str | bytes) or not isinstance(records, Sequence):
-        raise ConfigurationError(f"records is {kind_of(records)}, but must be a list of accelerograms.")
+        raise ConfigurationError.naming(
+            "records", records, f"records is {kind_of(records)}, but must be a list of accelerograms."
+        )
     if odd := [each for each in records if not isinstance(each, Accelerogram)]:
-        raise ConfigurationError(f"records hold a {type(odd[0]).__name__}, but must hold accelerograms.")
+        raise ConfigurationError.naming(
+            "records", odd[0], f"records hold a {type(odd[0]).__name__}, but must hold accelerograms."
+        )
     if not isinstance(structure, Structure):
         raise ConfigurationError(
             f"structure is {kind_of(structure)}, but must be a structure with sizes, as rocking.Block or "

@@ -190,9 +190,11 @@ class RigidBody(Crushable):
                 f" m, but must be above the centre of mass, at {self.centre_height!r} m.",
             )
         if self.compressive_strength is not None and self.section is None:
-            raise StructureError(
+            raise StructureError.naming(
+                "section",
+                None,
                 "section is missing, but must be given with a compressive_strength, for what presses on the edge "
-                "follows from it; give the volume per metre of that edge, m²."
+                "follows from it; give the volume per metre of that edge, m².",
             )
         self._stand_crushed()
 

@@ -277,9 +277,11 @@ class Structure(ABC):
         Raises StructureError for a side to which it does not rock, or fewer than two points.
         """
         if side not in (1, -1) or (side == -1 and self.mechanism().one_sided) or count < 2:
-            raise StructureError(
+            raise StructureError.naming(
+                "side",
+                (side, count),
                 f"side is {side!r} and count {count!r}, but side must be 1, or -1 where the structure rocks to both "
-                "sides, and count 2 or more."
+                "sides, and count 2 or more.",
             )
         return self.static_capacity(side).curve(count)
 

@@ -6,6 +6,7 @@ import pytest
 import rocking
 from rocking.errors import RockingError, StructureError
 from rocking.remarks import Kind
+from tests.refusals import refused
 
 TIED = {"tie_heights": (1.6,), "tie_strength": 4e3}
 
@@ -32,9 +33,7 @@ def test_a_pier_of_no_density_of_masonry_is_refused():
     piers = {"type": "arch_on_piers", "radius_m": 5, "thickness_m": 0.8, "embrace_angle_deg": 150}
     piers |= {"pier_width_m": 2.0, "pier_height_m": 3.0}
     rocking.structure_from_config(piers)
-    with pytest.raises(
-        StructureError, match=r"pier_density_ratio is 1e.308, but must be a number from 0.001 to 1000"
-    ):
+    with refused(StructureError, "pier_density_ratio", "1e+308"):
         rocking.structure_from_config(piers | {"pier_density_ratio": 1e308})
 
 

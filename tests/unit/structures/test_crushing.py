@@ -12,6 +12,7 @@ from rocking.quantities import GRAVITY
 from rocking.structures import Arch, ArchOnPiers, Block, Facade, Frame, LoadedWall, RigidBody, Spire, Wall
 from rocking.structures.building_parts import PARTS
 from rocking.structures.held_wall import Opening
+from tests.refusals import refused
 
 FC = 1.5e6
 SOFT = {"compressive_strength": FC, "unit_weight": 18e3}
@@ -196,9 +197,7 @@ def test_strength_without_end_changes_nothing():
 
 def test_what_is_typed_wrong_is_said_in_a_sentence():
     assert "check the unit" in repr(Block.of_size(0.9, 5.0, compressive_strength=1e9, unit_weight=18e3))
-    with pytest.raises(
-        StructureError, match="unit_weight is missing, but must be given with a compressive_strength"
-    ):
+    with refused(StructureError, "unit_weight"):
         Block.of_size(0.9, 5.0, compressive_strength=2e6)
     for make in (
         lambda: Block.of_size(0.9, 5.0, compressive_strength=2e3, unit_weight=18e3),  # kPa for Pa
@@ -239,9 +238,9 @@ def test_chimney_and_gable_turn_about_points_within_their_feet(flue):
     gable = PARTS["gable"].construct(height=4.0, thickness=0.4, **masonry)
     aside = 18e3 * 0.4 * 4.0 / 2 / (1.7 * 1.2e6)
     assert gable.mechanism().uplift_multiplier == pytest.approx((0.2 - aside) / (4.0 / 3), rel=1e-9)
-    with pytest.raises(StructureError, match="unit_weight is missing"):
+    with refused(StructureError, "unit_weight"):
         PARTS["gable"].construct(height=4.0, thickness=0.4, compressive_strength=1.2e6)
-    with pytest.raises(StructureError, match="section is missing"):
+    with refused(StructureError, "section"):
         RigidBody(0.4, 0.4, 1.5, 1.0, **masonry)
 
 
