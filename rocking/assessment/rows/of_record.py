@@ -668,6 +668,11 @@ class Remarked:
     about: str
     remark: Remark
 
+    @property
+    def sentence(self) -> str:
+        """The remark in words."""
+        return str(self.remark)
+
 
 of_remark = Columns(Remarked)
 
@@ -681,7 +686,7 @@ class RemarkRow(RowOf[Remarked]):
         "What it is about: a component, a structure, a size of it or a setting", lambda told: told.about
     )
     kind: Kind = of_remark("Kind of the remark", lambda told: told.remark.kind)
-    sentence: str = of_remark("The remark in words", lambda told: str(told.remark))
+    sentence: str = of_remark("The remark in words", lambda told: told.sentence)
 
     @classmethod
     def of_study(cls, remarks: Iterable[Remark]) -> "list[RemarkRow]":
