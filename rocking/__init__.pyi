@@ -3,6 +3,7 @@ from .assessment.assess import assess as assess
 from .assessment.decide import Decision as Decision
 from .assessment.decide import Verdict as Verdict
 from .assessment.reserve import Reserve as Reserve
+from .assessment.scene import read_structures as read_structures
 from .assessment.trade import trade as trade
 from .codes.check import Check as Check
 from .codes.check import DynamicCheck as DynamicCheck

@@ -9,6 +9,7 @@ defects stand in one message, and each size is remembered as it was typed.
 import json
 import math
 import re
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import groupby
@@ -19,9 +20,9 @@ import yaml
 
 from rocking.assessment.decide import Verdict
 from rocking.described import kind_in_words
-from rocking.errors import ConfigurationError, StructureError
+from rocking.errors import ConfigurationError, StructureError, StructureWarning
 from rocking.floors.place import GROUND, TYPE_NAME, Place, place_from_config, place_schema
-from rocking.quantities import finite, shown
+from rocking.quantities import finite, listed, shown
 from rocking.remarks import Kind, Remark
 from rocking.structures import Mechanism, Structure
 from rocking.structures.alone import as_structure
@@ -283,6 +284,30 @@ def load_scenes(path: str | Path, content: bytes | None = None) -> dict[str, Sce
     return scenes
 
 
+def read_structures(path: str | Path) -> dict[str, Structure]:
+    """Return the structures that a file lists in YAML or CSV, by name, in its order, each as it stands on the ground.
+
+    Raises ConfigurationError with every defect. Those that stand on a support, whose motion they would lose, are left
+    out with a StructureWarning.
+
+    >>> import warnings
+    >>> with warnings.catch_warnings():
+    ...     warnings.simplefilter("ignore")
+    ...     structures = rocking.read_structures("workflow/structures.yaml")
+    >>> list(structures)[:2]
+    ['arch 10 m', 'arch 15 m']
+    """
+    scenes = load_scenes(path)
+    if carried := [name for name, scene in scenes.items() if scene.place != GROUND]:
+        warnings.warn(
+            f"{path}: left out is what stands on a support, {listed(carried)}: a structure alone does not hold the "
+            "motion there, which rocking.Support gives.",
+            StructureWarning,
+            stacklevel=2,
+        )
+    return {name: scene.structure for name, scene in scenes.items() if scene.place == GROUND}
+
+
 def _repeated(name: object) -> str:
     """The name of an entry as a sentence repeats it: without quotes, and of a long one only the begin."""
     is_short = isinstance(name, str) and len(name) <= LONGEST_KEY
@@ -348,6 +373,10 @@ def _entries(path: Path, defects: list[str], content: bytes | None) -> list[_Ent
     return found
 
 
+_NOTE = "note"
+"""The column of a structure list in CSV for what its writer wants to remember, as # is in YAML."""
+
+
 def _rows(path: Path, defects: list[str]) -> list[_Entry]:
     """The entries of a structure list in CSV: a row each, keys as columns; an empty cell is not given.
 
@@ -360,11 +389,11 @@ def _rows(path: Path, defects: list[str]) -> list[_Entry]:
     of_support = place_schema(NAME)["properties"]
     assert isinstance(of_support, dict)
     keys = ("name", "type", *(each.key for each in of_types), *of_support, "stands_on", *CHECK_KEYS)
-    columns = [key for key in dict.fromkeys(keys) if key != "modes"]
+    columns = [key for key in dict.fromkeys(keys) if key != "modes"] + [_NOTE]
     numbers = [key for key in columns if key not in texts]
     found = []
     for line, row in read_edited(path, ConfigurationError, columns, ("name", "type"), numbers):
-        cells = {key: cell.strip() for key, cell in row.items() if cell.strip()}
+        cells = {key: cell.strip() for key, cell in row.items() if cell.strip() and key != _NOTE}
         if not cells:
             continue
         name = cells.get("name")

@@ -7,7 +7,7 @@ loader, the checks at birth, the JSON schema and the documentation follow from t
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache, reduce
-from inspect import Parameter, signature
+from inspect import Parameter, Signature, signature
 from operator import or_
 from types import NoneType
 from typing import Annotated, Any, Literal, NamedTuple, get_args, get_origin, get_type_hints
@@ -56,6 +56,21 @@ class Value:
     bounds: Mapping[str, float] = field(default_factory=lambda: {"ge": 0})
     names: tuple[str, ...] = ()
     dimension: str = ""
+
+    def __repr__(self) -> str:
+        """What `help` shows of it beside its type."""
+        return ", ".join(filter(None, (self.meaning, self.unit)))
+
+
+class PlainSignature:
+    """The signature of a class by the types of its parameters alone, without what is declared beside them."""
+
+    def __get__(self, _: object, kind: type) -> Signature:
+        """Return the signature by which `help` shows the class."""
+        of_init = signature(kind.__init__)  # type: ignore[misc]
+        hints = get_type_hints(kind.__init__)  # type: ignore[misc]
+        _self, *parameters = of_init.parameters.values()
+        return Signature([each.replace(annotation=hints.get(each.name, Any)) for each in parameters])
 
 
 def length(meaning: str, example: float, usual: tuple[float, float], letter: str = "", **more: Any) -> Value:

@@ -20,6 +20,7 @@ from rocking.structures.fields import (
     CompressiveStrength,
     Description,
     Given,
+    PlainSignature,
     Value,
     constructor,
     forms,
@@ -75,6 +76,7 @@ class Structure(ABC):
     _contacts_unknown: why no contact forces are known; "" where the moving parts tell them.
     """
 
+    __signature__ = PlainSignature()
     type_name: ClassVar[str] = ""
     _described_as: ClassVar[dict[str, str]] = {}
     crack_name: ClassVar[str] = ""

@@ -238,7 +238,7 @@ class Results:
 
 
 def open_results(folder: Path | str) -> Results:
-    """Return the tables of the results of a study in `folder`. Raises RockingError where there is no such folder.
+    """Return the tables of the results of a study in `folder`. Raises RockingError where it holds no results.
 
     >>> try:
     ...     rocking.open_results("nowhere")
@@ -249,4 +249,14 @@ def open_results(folder: Path | str) -> Results:
     path = Path(folder)
     if not path.is_dir():
         raise RockingError(f"{path} is no folder; name the folder of a study's results.")
+    if not _holds_results(path):
+        inner = path / "results"
+        hint = f"name {inner}" if _holds_results(inner) else "name the folder of a study's results"
+        raise RockingError(f"{path} holds no results, neither a summary nor tables of a record; {hint}.")
     return Results(path)
+
+
+def _holds_results(folder: Path) -> bool:
+    """Whether a folder has a summary, or below it the tables of records that were assessed one by one."""
+    names = {table.table.file_name for table in RECORD_TABLES}
+    return (folder / "summary").is_dir() or any(path.name in names for path in folder.glob("*/*.csv"))

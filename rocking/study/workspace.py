@@ -21,9 +21,10 @@ def start(folder: Path) -> list[Path]:
 
     Raises ConfigurationError, before anything is written, when one of the files stands there already.
     """
+    shipped = workflow_folder() / "workflow"
     contents = {
-        folder / "config.yaml": first_yaml(Settings()).encode(),
-        folder / "structures.yaml": (workflow_folder() / "workflow" / "structures.yaml").read_bytes(),
+        folder / "config.yaml": _with_schema("config", first_yaml(Settings()).encode()),
+        folder / "structures.yaml": _with_schema("structures", (shipped / "structures.yaml").read_bytes()),
     }
     for path in contents:
         if path.exists():
@@ -32,6 +33,12 @@ def start(folder: Path) -> list[Path]:
         write_whole(path, content)
     (folder / "records").mkdir(exist_ok=True)
     return list(contents)
+
+
+def _with_schema(name: str, content: bytes) -> bytes:
+    """Return a file of YAML below the line by which an editor finds the schema that completes and checks it."""
+    schema = (workflow_folder() / "workflow" / "schemas" / f"{name}.schema.yaml").resolve()
+    return f"# yaml-language-server: $schema={schema.as_uri()}\n".encode() + content
 
 
 def write_catalogue(folder: Path, target: Path, unit: str | None, time_step: float | None) -> str:

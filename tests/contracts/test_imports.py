@@ -268,7 +268,7 @@ def test_an_import_within_a_function_saves_a_command_a_tenth_of_a_second():
         "assert make_plan({'structures': 'workflow/structures.yaml'}).records",
         "from rocking.study.cli import main\n"
         "assert not main(['catalogue', RECORDS, '--output', RESULTS + '/catalogue.csv'])",
-        "import rocking\nrocking.open_results('records')",
+        "import os, rocking\nos.makedirs(RESULTS + '/summary')\nrocking.open_results(RESULTS)",
     ],
     ids=["plan", "catalogue", "open_results"],
 )

@@ -1,0 +1,55 @@
+"""What `help` shows of a structure fits on a screen, and a list is read from Python as the workflow reads it."""
+
+import inspect
+from pathlib import Path
+
+import pytest
+
+import rocking
+from rocking.assessment.scene import load_scenes
+from rocking.errors import RockingError, StructureWarning
+from rocking.floors.place import GROUND
+from rocking.structures.structure import Structure
+
+KINDS = [
+    kind
+    for name in dir(rocking)
+    if inspect.isclass(kind := getattr(rocking, name)) and issubclass(kind, Structure)
+]
+LIST = "workflow/structures.yaml"
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_signature_of_a_structure_is_its_parameters_and_their_types(kind: type[Structure]) -> None:
+    shown = inspect.signature(kind)
+    assert "Annotated" not in str(shown) and "Value(" not in str(shown)
+    assert all(len(str(each)) < 120 for each in shown.parameters.values())  # a line each
+    true = list(inspect.signature(kind.__init__).parameters.values())[1:]
+    assert [(each.name, each.default, each.kind) for each in shown.parameters.values()] == [
+        (each.name, each.default, each.kind) for each in true
+    ]
+    assert "meaning=" not in str(inspect.signature(kind.__init__))
+
+
+def test_a_list_is_read_from_python_without_what_stands_on_a_support() -> None:
+    scenes = load_scenes(LIST)
+    with pytest.warns(StructureWarning, match="left out is what stands on a support, parapet"):
+        structures = rocking.read_structures(LIST)
+    assert structures == {name: scene.structure for name, scene in scenes.items() if scene.place == GROUND}
+    assert len(scenes) > len(structures) > 3
+
+
+def test_a_list_in_csv_may_have_notes(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text(
+        "name,type,height_m,thickness_m,note\nwall 1,free_wall,2.2,0.3,see photo 12\n,,,,only a note\n"
+    )
+    assert list(rocking.read_structures(tmp_path / "a.csv")) == ["wall 1"]
+
+
+def test_a_wrong_folder_of_results_is_refused_at_once(tmp_path: Path) -> None:
+    (tmp_path / "results" / "summary").mkdir(parents=True)
+    with pytest.raises(RockingError, match=r"holds no results.*name .*results\."):
+        rocking.open_results(tmp_path)
+    assert rocking.open_results(tmp_path / "results")
+    with pytest.raises(RockingError, match="holds no results"):
+        rocking.open_results(tmp_path / "results" / "summary")
