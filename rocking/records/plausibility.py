@@ -395,7 +395,7 @@ def is_down_hole(place: str) -> bool:
 
 def site_warnings(place: str) -> tuple[Remark, ...]:
     """Return a warning when the `place` of an instrument is in a structure or below the ground."""
-    if _DOWN_HOLE.search(place):
+    if _DOWN_HOLE.search(place) and (is_down_hole(place) or not _DEPTH.search(place)):
         return (Remark.of(Kind.DOWN_HOLE, place=place),)
     if _STRUCTURE.search(place) and not _FREE.search(place):
         return (Remark.of(Kind.IN_A_STRUCTURE, place=place),)

@@ -503,7 +503,9 @@ def _known(report: RecordReport) -> list[Topic]:
             if row.processing
             and (row.structure, row.support_period_s) == (station.structure, station.support_period_s)
         ]
-        if any(map(math.isinf, ratios)) and any(map(math.isfinite, ratios)):
+        # What the network has corrected is not processed again.
+        corrected = all(each.processed for each in report.result.accelerograms)
+        if not corrected and any(map(math.isinf, ratios)) and any(map(math.isfinite, ratios)):
             depends.append(report.called(station.structure))
     depends = list(dict.fromkeys(depends))
     remark = f"The processing of the record decides whether these overturn: {listed(depends)}."

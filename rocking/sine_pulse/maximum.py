@@ -36,7 +36,7 @@ class Regime(StrEnum):
     """
 
     NO_UPLIFT = "no uplift"
-    PRINTED_EXACT = "Eq. 15 exact"
+    PRINTED_EXACT = "regime of Eq. 15"
     AFTER_FIRST_IMPACT = "maximum after the first impact"
     CONTACT_DURING_PULSE = "contact during the pulse"
     BEFORE_FIRST_IMPACT = "maximum before the first impact"

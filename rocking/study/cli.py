@@ -183,7 +183,7 @@ def _parser() -> argparse.ArgumentParser:
     verb(_pulse, "print the dominant sine pulse of accelerograms", channels)
     add = verb(_spectrum, "print the rocking spectrum of accelerograms as CSV", channels)
     add("--restitution", type=float, default=0.9, help="velocity ratio of an impact, 0 to 1 (default: 0.9)")
-    add("--output", type=Path, default=Path("spectrum.csv"), help="CSV file")
+    add("--output", type=Path, help="CSV file in place of the terminal")
     add = verb(
         _select, "select records for the design spectrum of a study, and write a catalogue with their factors"
     )
@@ -333,12 +333,16 @@ def _spectrum(options: argparse.Namespace) -> int:
 
     from rocking.assessment.rows import SpectrumRow, spectrum_rows
     from rocking.tables import write_rows
+    from rocking.tables.rows import csv_lines
 
     axes = np.geomspace(0.5, 10, 40), np.geomspace(0.02, 1, 40)  # p in rad/s, and uplift multiplier
     own, accelerograms = _accelerograms(options)
     rows = spectrum_rows(accelerograms, *axes, options.restitution)
-    write_rows(SpectrumRow, rows, options.output)
-    print(options.output)
+    if options.output is None:
+        print(*csv_lines(SpectrumRow, rows), sep="", end="")  # all of it, or the sentence of an error
+    else:
+        write_rows(SpectrumRow, rows, options.output)
+        print(options.output)
     return _refusals(own)
 
 

@@ -232,6 +232,16 @@ def test_assess_opens_a_file_once_and_writes_report_and_tables_like_a_study(
     assert rows(tmp_path / "out" / "summary" / "structures.csv")[0]["structure"] == "squat"
 
 
+def test_spectrum_is_printed_and_written_only_where_that_is_asked(record, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    before = {path.name for path in tmp_path.iterdir()}
+    assert main(["spectrum", str(record), "--unit", "g"]) == 0
+    printed = capsys.readouterr().out
+    assert {path.name for path in tmp_path.iterdir()} == before
+    assert main(["spectrum", str(record), "--unit", "g", "--output", "own.csv"]) == 0
+    assert (tmp_path / "own.csv").read_text() == printed
+
+
 def test_spectrum_agrees_with_the_integration_of_one_block(record, tmp_path):
     target = tmp_path / "spectrum.csv"
     assert main(["spectrum", str(record), "--unit", "g", "--output", str(target)]) == 0
