@@ -23,13 +23,11 @@ _SIZES = ("height", "thickness", "breadth", "wall_thickness")
 class BuildingPart(Form):
     """A row: a type that is described by its own sizes and made of a class.
 
-    arguments: those of `made_of` from the sizes. front: the shape seen from the front. others: what it is called as
-    well.
+    arguments: those of `made_of` from the sizes. front: the shape seen from the front.
     """
 
     arguments: Callable[[Sizes], Mapping[str, object]] = field(kw_only=True)
     front: Literal["rectangle", "triangle"] = field(default="rectangle", kw_only=True)
-    others: tuple[str, ...] = field(default=(), kw_only=True)
 
     def construct(self, **values: Any) -> Structure:
         """Return the structure of sizes and options by name, in SI; raises StructureError where it cannot stand."""
@@ -129,7 +127,6 @@ def _part(
     more: tuple[Field, ...] = (),
     crack: float | None = None,
     front: Literal["rectangle", "triangle"] = "rectangle",
-    others: tuple[str, ...] = (),
 ) -> BuildingPart:
     """Return a row; of each size an example and the usual range, m. Its options are those of the class.
 
@@ -164,7 +161,6 @@ def _part(
         "of_size" if made_of is Block else "",
         arguments=arguments,
         front=front,
-        others=others,
     )
 
 
@@ -186,7 +182,6 @@ PARTS: dict[str, BuildingPart] = {
             height=(2.0, 0.3, 20),
             thickness=(0.3, 0.05, 3),
             breadth=(3.0, 0.2, 200),
-            others=("boundary wall", "garden wall", "freestanding wall"),
         ),
         _part(
             "parapet",
@@ -196,7 +191,6 @@ PARTS: dict[str, BuildingPart] = {
             height=(1.0, 0.2, 4),
             thickness=(0.25, 0.05, 1),
             breadth=(3.0, 0.2, 200),
-            others=("balustrade", "battlement"),
         ),
         _part(
             "chimney",
@@ -208,7 +202,6 @@ PARTS: dict[str, BuildingPart] = {
             breadth=(0.9, 0.1, 5),
             breadth_meaning="Outer length across, of which the walls about the flue are a part; left out: square",
             more=(_FLUE,),
-            others=("chimney stack",),
         ),
         _part(
             "gable",
@@ -219,7 +212,6 @@ PARTS: dict[str, BuildingPart] = {
             thickness=(0.4, 0.05, 2),
             breadth=(7.0, 0.5, 40),
             front="triangle",
-            others=("gable wall", "pediment"),
         ),
         _part(
             "buttress",
@@ -229,7 +221,6 @@ PARTS: dict[str, BuildingPart] = {
             height=(5.0, 0.5, 40),
             thickness=(1.2, 0.1, 8),
             breadth=(0.8, 0.1, 8),
-            others=("counterfort",),
         ),
         _part(
             "pinnacle",
@@ -241,7 +232,6 @@ PARTS: dict[str, BuildingPart] = {
             breadth=(0.7, 0.1, 5),
             crack=1.0,
             front="triangle",
-            others=("finial",),
         ),
     )
 }

@@ -13,6 +13,7 @@ from rocking.errors import ConfigurationError, SizeError
 from rocking.quantities import shown
 from rocking.structures.building_parts import PARTS
 from rocking.structures.fields import Form, article, forms, remember_as_typed, typed_text
+from rocking.structures.other_names import answer
 from rocking.structures.structure import Structure
 
 _CLASSES = (
@@ -34,7 +35,8 @@ TYPES: dict[str, tuple[Form, ...]] = {
     **{name: (each,) for name, each in PARTS.items()},
 }
 """The forms of each `type` of a structure list."""
-_OTHER_NAMES = {other: name for name, each in PARTS.items() for other in each.others}
+_ALIKE = 0.8
+"""Likeness of the letters of two types from which one is taken for the other misspelt."""
 
 
 def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str] | None = None) -> Structure:
@@ -53,8 +55,8 @@ def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str
         )
     kind = mapping.get("type")
     if not isinstance(kind, str) or kind not in TYPES:
-        known = _OTHER_NAMES.get(str(kind).replace("_", " ").lower())
-        hint = f" (it is described as {article(known)}, type: {known})" if known else nearest(kind, TYPES)
+        known = answer(kind)
+        hint = f" ({known.words})" if known else nearest(kind, TYPES, _ALIKE)
         given = "missing" if kind is None else shown(kind)
         raise ConfigurationError(f"type is {given}, but must be one of {', '.join(TYPES)}{hint}.")
     values = {
@@ -115,8 +117,8 @@ LONGEST_KEY = 80
 """Characters of a key that is compared with those that exist, and repeated as it is."""
 
 
-def nearest(word: object, allowed: Iterable[str]) -> str:
-    nearest = get_close_matches(str(word)[:LONGEST_KEY], list(allowed), n=1, cutoff=0.5)
+def nearest(word: object, allowed: Iterable[str], likeness: float = 0.5) -> str:
+    nearest = get_close_matches(str(word)[:LONGEST_KEY], list(allowed), n=1, cutoff=likeness)
     return f" (did you mean {nearest[0]}?)" if nearest else ""
 
 

@@ -6,6 +6,7 @@ import pytest
 import rocking
 from rocking.errors import ConfigurationError, StructureError
 from rocking.structures.building_parts import PARTS
+from rocking.structures.other_names import OTHER_NAMES
 from rocking.structures.structure_list import TYPES
 
 SIZES = {"height_m": 3.0, "thickness_m": 0.6, "breadth_m": 0.9}
@@ -78,9 +79,36 @@ def test_a_boundary_wall_is_answered_with_a_free_wall(typed):
         part(typed)
 
 
-def test_what_it_is_called_besides_is_no_type():
-    others = [other for each in PARTS.values() for other in each.others]
-    assert len(others) == len(set(others)) and not set(others) & set(TYPES)
+def test_what_it_is_called_besides_is_no_type_and_is_answered_by_one_or_none():
+    assert not set(OTHER_NAMES) & {each.replace("_", " ") for each in TYPES} - {"capacity curve"}
+    for name, answered in OTHER_NAMES.items():
+        assert answered.type in TYPES or (not answered.type and answered.but), name
+        with pytest.raises(ConfigurationError) as refused:
+            part(name)
+        assert answered.words in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("typed", "words"),
+    [
+        ("column", "it is described as a block, type: block; it rocks in one piece"),
+        ("drum-column", "not modelled: drums open and slide"),
+        ("Vault", "type: arch; one metre of it"),
+        ("domes", "not modelled: a dome is held by its rings"),
+        ("retaining_wall", "not modelled: earth or water"),
+        ("cavity_wall", "give its outer leaf alone"),
+    ],
+)
+def test_a_name_is_answered_by_its_meaning(typed, words):
+    with pytest.raises(ConfigurationError, match=words):
+        part(typed)
+
+
+@pytest.mark.parametrize("typed", ["party wall", "archive", "wall tie", "wainscot"])
+def test_what_only_has_like_letters_is_not_guessed(typed):
+    with pytest.raises(ConfigurationError) as refused:
+        part(typed)
+    assert "did you mean wall" not in str(refused.value) and "described" not in str(refused.value)
 
 
 @pytest.mark.parametrize(
