@@ -227,7 +227,10 @@ _TOLD = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence in (
     (rb"(?s)\s*<(!doctype html|html|table|meta)(?=.{0,350}<(table|tr|td)\b|.{0,350}(excel|spreadsheet))",
      "this is a web page with a table, as some programs call .xls; open it in a spreadsheet, and save it as CSV."),
     (rb"\s*<(!doctype html|html|table)", "this is a web page, and no record: the download failed; fetch it again."),
-    (rb"%PDF|\x89HDF|7z\xbc\xaf|Rar!", "this is a PDF, an archive or a data base; export the record as text."),
+    (rb"\x89HDF", "this is an HDF5 file; of a workspace of gmprocess (ASDF) read each station through pyasdf: "
+     "of_station = pyasdf.ASDFDataSet(path).waveforms['NET.STA'], rocking.from_obspy(of_station[tag], unit='cm/s2') "
+     "of what is processed, or rocking.from_obspy(of_station[tag], inventory=of_station.StationXML) of raw counts."),
+    (rb"%PDF|7z\xbc\xaf|Rar!", "this is a PDF or an archive; export the record as text, or unpack it."),
 ))  # fmt: skip
 """Kinds of file that no reader takes, and what to do with each."""
 
