@@ -646,6 +646,7 @@ def _sentences(page: CheckedStructure, checked: StructureCheck, words: Sentences
     if checked.remark and checked.remark.kind is Kind.NO_DISPLACEMENT:
         lines.append(words.of(checked.remark))
     lines += [words.of(each.remark) for each in checked.restraints]
+    lines += [words.of(each.slides_out) for each in checked.restraints if each.slides_out]
     lines += _lowered(checked, page.untied, words)
     dynamic = checked.dynamic
     if dynamic is not None:

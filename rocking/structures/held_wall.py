@@ -16,6 +16,8 @@ import numpy as np
 
 from rocking.structures.drawing import rectangle
 from rocking.structures.linkage import (
+    FRICTION,
+    GRIPPED,
     HIGHEST_SHARE,
     STILL,
     Contacts,
@@ -317,12 +319,24 @@ class HeldWall:
         meeting = [each for each in self.storeys if each.low <= height <= each.high]
         inner = max(each.left for each in meeting)
         outer = min(each.right for each in meeting)
-        pressing = sum(each.weight * max(each.high - max(each.low, height), 0.0) for each in self.storeys)
-        pressing += sum(
+        aside = inset(self.pressing(height), self.strength, outer - inner)
+        return inner + aside, outer - aside
+
+    def pressing(self, height: float) -> float:
+        """Return what presses on the joint at `height` [m], N per metre."""
+        masonry = sum(each.weight * max(each.high - max(each.low, height), 0.0) for each in self.storeys)
+        return masonry + sum(
             load.weight for load in self.loads if load.z > height or (load.slab and load.z == height)
         )
-        aside = inset(pressing, self.strength, outer - inner)
-        return inner + aside, outer - aside
+
+    def grip(self, height: float) -> float:
+        """Return the most that the wall gives around an anchor at `height` [m] by friction, N per metre.
+
+        That of what lies above it, with the floor that bears there, and of the course of GRIPPED that it grips.
+        """
+        floor = sum(load.weight for load in self.loads if load.z == height and not load.slab)
+        storey = next(each for each in self.storeys if each.low < height <= each.high)
+        return FRICTION * (self.pressing(height) + floor + GRIPPED * storey.weight)
 
     def joint(self, height: float) -> tuple[float, float, float]:
         """Return M⁺ and M⁻, the moments of all weights above about the outer and the inner edge, and S of the masses.

@@ -493,6 +493,11 @@ def check_pressed(pressed: float, whole: float) -> None:
 
 FRICTION = 0.6
 """Coefficient of friction of joints where none is given."""
+IMPACTS = 2.8
+"""Largest force of a tie in motion over that at rest, as the wall strikes it: 10–90 % are 1.9 to 4.8 (theory: section
+12.4)."""
+GRIPPED = 0.2
+"""Height of the course that an anchor grips, m."""
 
 
 class Reaction(NamedTuple):
@@ -523,7 +528,8 @@ class Restraint:
     kind: "tie" or "top". holds: the mechanism that it holds back, in words. needed: the force that this asks for at
     rest, as it starts (theory: section 12.4). friction: that of what presses on it, by `coefficient`. ties: the force
     at which they yield, inf of such as have no strength. weight: of the wall per metre; 1 where that is not known, so
-    that `needed` is a share of it.
+    that `needed` is a share of it. grip: the most that the wall gives around a tie, by friction above and below the
+    course that it grips (theory: section 13.3); inf of what is no tie.
     """
 
     kind: str
@@ -534,6 +540,7 @@ class Restraint:
     coefficient: float = 0.0
     ties: float = 0.0
     weight: float = 1.0
+    grip: float = float("inf")
 
     @property
     def gives(self) -> float:
@@ -544,6 +551,18 @@ class Restraint:
     def lets_go(self) -> bool:
         """Whether it moves before the wall behind it does."""
         return self.needed > self.gives
+
+    @property
+    def slides_out(self) -> Remark | None:
+        """A remark where a tie may get more than the wall around it gives; None where not.
+
+        More is the force at which it yields, or else that of the impacts of the wall.
+        """
+        most = self.ties if self.ties < float("inf") else IMPACTS * self.needed
+        if not most > self.grip:
+            return None
+        facts = {"height_m": self.height, "most_kN_m": most / 1e3, "grip_kN_m": self.grip / 1e3}
+        return Remark.of(Kind.ANCHOR_SLIDES, self.holds, **facts)
 
     @property
     def remark(self) -> Remark:

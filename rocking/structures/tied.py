@@ -469,6 +469,7 @@ class Tied(CrackedAtHeight):
                     friction / reaction.pressing if reaction.pressing else 0.0,
                     of_ties,
                     sum(each.weight * (each.high - each.low) for each in wall.storeys),
+                    wall.grip(hold.height) if hold.kind == "tie" else math.inf,
                 )
             )
         return tuple(found)

@@ -146,3 +146,21 @@ def test_beside_a_known_crack_a_top_that_friction_holds_may_slip(friction):
     held = replace(WALL, top_friction=None, crack="known")
     assert not held.held_wall.top_may_slip
     assert [each.structure for each in held.mechanisms()] == [held]
+
+
+@pytest.mark.parametrize("below", [0.0, 1.2])
+def test_a_tie_gets_no_more_than_the_wall_around_its_anchor_gives(below):
+    """Section 13.3, by hand: .6 (what lies above and a course of .2 m); less than 2.8 R, or than the tie's force."""
+    values = {"behind": "cross_walls", "restitution": 0.7, "floor_loads": (4e3,), "tie_stiffness": 2e7}
+    front = Facade((HEIGHT,), (THICKNESS,), 18e3, tie_heights=(HEIGHT - below,), **values)
+    (tie,) = front.restraints()
+    by_hand = 0.6 * (4e3 + 18e3 * THICKNESS * (below + 0.2))
+    assert tie.grip == pytest.approx(by_hand, rel=1e-9)
+    assert (tie.slides_out is not None) is (2.8 * tie.needed > by_hand)
+    for factor in (0.9, 1.1):
+        (weak,) = replace(front, tie_strength=factor * by_hand).restraints()
+        said = weak.slides_out
+        assert (said is not None) is (factor > 1)
+        assert said is None or said["grip_kN_m"] == pytest.approx(by_hand / 1e3, rel=1e-9)
+    (top,) = WALL.restraints()
+    assert top.grip == math.inf and top.slides_out is None
