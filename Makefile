@@ -84,7 +84,7 @@ schema: setup
 	$(BIN)/python -c "from rocking.study.settings import schema_file as text; print(text(), end='')" \
 	  > workflow/schemas/config.schema.yaml
 	$(BIN)/python -c "from rocking.study.settings import EXAMPLE, commented_yaml as text; print(text(EXAMPLE), end='')" \
-	  > workflow/config.yaml
+	  > config/config.yaml
 
 # The measured figures whose code has changed since in meaning.
 measured: setup

@@ -2,7 +2,7 @@
 
 from snakemake.utils import min_version
 
-min_version("9.0")
+min_version("9.27")
 
 
 report: "workflow/report/study.rst"
@@ -20,26 +20,25 @@ rule all:
 # The five steps of every record, then what stands over all of them.
 include: "workflow/rules/record.smk"
 include: "workflow/rules/batch.smk"
-include: "workflow/rules/summary.smk"
 include: "workflow/rules/checks.smk"
 include: "workflow/rules/fragility.smk"
 include: "workflow/rules/trade.smk"
+include: "workflow/rules/summary.smk"
 include: "workflow/rules/paper.smk"
 include: "workflow/rules/documentation.smk"
 
 
 # The installed package does not carry it.
-if Path(workflow.basedir, "docs", "research").is_dir():
+if (HOME / "docs" / "research").is_dir():
 
     include: "docs/research/research.smk"
 
 
 # Not before: a dry run leaves the catalogue as it is.
 onstart:
-    begin(PLAN)
+    begin(PLAN, anew=workflow.dag_settings.forceall and not workflow.touch)
 
 
-# The tables stand all the same, and say why; but a study of which nothing could be read has not succeeded.
 onsuccess:
-    PLAN.contents.save()
-    check_any_read(Path(SUMMARY), PLAN.records)
+    if not workflow.touch:
+        end(PLAN)

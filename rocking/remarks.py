@@ -981,17 +981,15 @@ class Kind(StrEnum):
         "{files} files are not in the catalogue; rocking catalogue {folder} adds what is new.",
         "{files} file non sono nel catalogo; rocking catalogue {folder} aggiunge ciò che è nuovo.",
     )
-    RECORD_GONE = auto(), Sentence(
-        "{about} belongs to a record that is no longer in the catalogue; remove it if you do not need it.",
-        "{about} appartiene a una registrazione che non è più nel catalogo; toglierla se non serve.",
-    )
     OTHER_VERSION = auto(), Sentence(
         "The results are of another version of rocking; they are recomputed.",
         "I risultati sono di un'altra versione di rocking; sono ricalcolati.",
     )
     OUTDATED = auto(), Sentence(
-        "{about}: {why}; recompute it with: rocking run . {about}.",
-        "{about}: {why}; ricalcolarlo con: rocking run . {about}.",
+        "{about}: {why}, so that the summary leaves it out and its files go; measure it again: "
+        "rocking run . {about}.",
+        "{about}: {why}, per cui il riepilogo lo omette e i suoi file sono rimossi; per ricalcolarlo: "
+        "rocking run . {about}.",
     )
     # fmt: on
 

@@ -1,7 +1,7 @@
 """What was measured once for this package: tiers, ensembles, a shake table, other codes. Run each by its name."""
 
-RESEARCH = Path(workflow.basedir, "docs", "research")
-REAL_RECORDS = [f"{workflow.basedir}/records/{name}.csv" for name in ("near_fault", "fema_p695")]
+RESEARCH = HOME / "docs" / "research"
+REAL_RECORDS = [f"{HOME}/records/{name}.csv" for name in ("near_fault", "fema_p695")]
 # Each target: what it says it does, the catalogues that it reads, and what it writes beside its scores and its report.
 TARGETS_OF_RESEARCH = {
     "calibrate": ("Calibrate the tiers on real records", REAL_RECORDS, ["tiers.json"]),
@@ -42,7 +42,7 @@ TARGETS_OF_RESEARCH = {
     ),
     "stability": (
         "Hold the words of few members against the shares of thousands",
-        [REAL_RECORDS[1], REAL_RECORDS[0], f"{workflow.basedir}/records/catalogue.csv"],
+        [REAL_RECORDS[1], REAL_RECORDS[0], f"{HOME}/records/catalogue.csv"],
         ["stability.csv"],
     ),
     "floors": (
@@ -72,7 +72,7 @@ TARGETS_OF_RESEARCH = {
     ),
     "validate": (
         "Predict the overturning of two specimens on a shake table",
-        [f"{workflow.basedir}/records/shake_table.csv"],
+        [f"{HOME}/records/shake_table.csv"],
         ["predictions.csv"],
     ),
     "compare": ("Run the same cases through every code", REAL_RECORDS[:1], ["codes.csv"]),
@@ -92,9 +92,9 @@ for TARGET, (TELLS, CATALOGUES, FILES) in TARGETS_OF_RESEARCH.items():
                 for file in ("scores.csv", "datapackage.json", "report.pdf", *FILES)
             ],
         log:
-            f"{SUMMARY}/logs/{TARGET}.log",
+            f"{RESULTS}/summary/logs/{TARGET}.log",
         benchmark:
-            f"{SUMMARY}/benchmarks/{TARGET}.tsv"
+            f"{RESULTS}/summary/benchmarks/{TARGET}.tsv"
         params:
             structures_sha256=sha256_of(*structure_hashes(PLAN.scenes).items()),
             package_sha256=package_sha256(),

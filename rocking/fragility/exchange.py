@@ -56,6 +56,20 @@ def nrml(curves: Mapping[str, Curve], lognormal: bool) -> bytes:
     ElementTree.SubElement(model, "limitStates").text = state
     for name, curve in curves.items():
         _add_function(model, curve, name, state, lognormal)
+    return _written(root)
+
+
+def nrml_without(reason: str) -> bytes:
+    """Return a fragility model that holds no function, and whose description says why, NRML 0.5."""
+    root = ElementTree.Element("nrml", xmlns=_NRML)
+    model = ElementTree.SubElement(
+        root, "fragilityModel", id="rocking", assetCategory="buildings", lossCategory="structural"
+    )
+    ElementTree.SubElement(model, "description").text = f"No function: {reason}"
+    return _written(root)
+
+
+def _written(root: ElementTree.Element) -> bytes:
     ElementTree.indent(root)
     content: bytes = ElementTree.tostring(root, encoding="utf-8")
     return b"<?xml version='1.0' encoding='utf-8'?>\n" + content + b"\n"

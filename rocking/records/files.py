@@ -11,7 +11,7 @@ from urllib.parse import quote
 
 from rocking.errors import RecordError
 from rocking.hashes import sha256_of_bytes
-from rocking.records.archive import archive_of
+from rocking.records.archive import ENDING, archive_of
 from rocking.records.catalogue import CatalogueRecord, RecordFile, catalogue_text, load_catalogue, read_rows
 from rocking.records.formats.by_obspy import may_be_counts
 from rocking.records.formats.layouts import NAME, Layouts
@@ -67,6 +67,22 @@ def local_files(record: CatalogueRecord, mirror: str | Path | None = None) -> li
         if head.startswith(b"\x1f\x8b") or may_be_counts(head):
             beside += sorted(path.parent.glob("*.xml"))
     return paths + beside
+
+
+def files_by_name(record: CatalogueRecord) -> dict[str, str]:
+    """Return the files from which `record` is read as the catalogue names them, with the sha256 that it states.
+
+    Nothing is looked at: the files may lie on another machine. Those that obspy brings or that are downloaded are left
+    out. A member of an archive stands for the archive, whose name ends in .zip.
+    """
+    if record.example_name or record.is_remote:
+        return {}
+    named: dict[str, str] = {}
+    for file in record.files:
+        path = record.folder / file.name
+        archive = next((parent for parent in path.parents if parent.suffix.lower() == ENDING), path)
+        named[str(archive)] = named.get(str(archive), "") + file.sha256
+    return named
 
 
 def answers_of(record: CatalogueRecord, mirror: str | Path | None = None) -> dict[str, str]:

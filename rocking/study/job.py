@@ -6,7 +6,7 @@ import gc
 import signal
 import sys
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -43,11 +43,12 @@ from rocking.records.station import station_of
 from rocking.structures import Structure
 from rocking.study.contents import ContentHashes
 from rocking.study.folder import locked
-from rocking.study.made_from import TABLE, records_of
-from rocking.study.plan import JOBS, plan_of_job, scenes_of, study_remarks
-from rocking.study.results import case_timings_of, cases_of, outcome_of, write_outcome
-from rocking.study.seals import Seals
+from rocking.study.made_from import TABLE, made_from, records_of, what_changed
+from rocking.study.outputs import case_timings_of, cases_of, kept_of, outcome_of, sums_of
+from rocking.study.plan import JOBS, Plan, plan_of_job, scenes_of, study_remarks
+from rocking.study.results import Outcome, outcomes_written
 from rocking.study.settings import Settings, settings_sha256
+from rocking.study.task import Task
 from rocking.study.terminal import line_writer, log_error, record_line, tell, tell_error
 from rocking.tables import Row, write_rows, write_tables, written_together
 
@@ -148,56 +149,79 @@ def prepare(settings: Settings) -> None:
 
 @dataclass(frozen=True)
 class Job:
-    """The work on one product of a study, from what it was planned for to its seal.
+    """The work on one product of a study.
 
-    key: what `Seals.key` gave when the product was planned. study: of which the settings that the product is made from
-    can be read. records: those of the product, in catalogue order. log: of the job. tell: adds a line to the log, and
-    tells it to the one who waits.
+    plan: as the job reads it. study: of which the settings that the product is made from can be read. records: those of
+    the product, in catalogue order. log: of the job. tell: adds a line to the log, and tells it to the one who waits.
+    keep: keeps the outcome of a record for what stands over all records.
     """
 
-    product: str
-    key: str
+    task: Task
+    plan: Plan
     study: Study
     records: Sequence[CatalogueRecord]
-    seals: Seals
     log: Path
     tell: Callable[..., None]
+    keep: Callable[[str, Outcome], None] = lambda record, outcome: None
+
+    @property
+    def kind(self) -> str:
+        """The kind of the product, which is the name of its rule."""
+        return self.task.product.partition("/")[0]
 
     @property
     def results(self) -> Path:
         """The folder of the results."""
         return Path(self.study.settings.results)
 
-    def finish(self, files: Iterable[str | Path]) -> None:
-        """Seal the `files` of the product. Raises ConfigurationError where what it is made from changed meanwhile."""
-        self.seals.write(self.product, self.key, map(Path, files))
+    @property
+    def kept(self) -> Path:
+        """The file that keeps the rows of the product for the summary."""
+        return kept_of(self.results, self.task.product)
 
 
-def begin_job(config: Mapping[str, Any], params: Any, log: str) -> Job:
-    """Return the job of the product that `params` name, with the key that was planned for it.
+@contextlib.contextmanager
+def begin_job(task: Task) -> Iterator[Job]:
+    """Yield the job of a task, in the folder in which its files lie.
 
-    The next run waits for the end of this process, should its scheduler be killed. Raises ConfigurationError when what
-    the product is made from is not what it was then.
+    The next run waits for the end of this process, should its scheduler be killed. Raises ConfigurationError, at the
+    begin and at the end, when the product is made from something else than what was planned.
     """
-    gc.freeze()  # what was imported stays: to look for garbage in it takes a twelfth of a job
-    kind = params.product.partition("/")[0]
+    gc.freeze()  # where nothing was forked: see rocking.study.warm
+    kind = task.product.partition("/")[0]
     sys.excepthook = tell_error
-    tell_line = line_writer(Path(log), kind)
+    log = Path(task.log).absolute()
     with contextlib.suppress(OSError):
         locked(JOBS, fcntl.LOCK_SH)  # never closed: held to the end
         # Ctrl-C comes from the scheduler, as SIGTERM.
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         signal.signal(signal.SIGTERM, signal.default_int_handler)
-    plan = plan_of_job(config, params.product)
-    if plan.seals.key(params.product) != params.key:
+    with contextlib.chdir(task.folder or "."):
+        tell_line = line_writer(log, kind)
+        plan = _planned(task)
+        compile_all(partial(tell, "compile"))
+        settings = TABLE[kind].handed(plan.settings)
+        study = Study(plan.scenes, settings, settings_sha256(plan.settings, plan.scenes))
+        records = [plan.records[each] for each in records_of(task.product, plan)]
+        job = Job(task, plan, study, records, Path(task.log), tell_line)
+        if kind in ("record", "batch"):
+            batch = task.product.partition("/")[2] if kind == "batch" else ""
+            with outcomes_written(outcome_of(job.results, records[0].id, batch)) as keep:
+                yield replace(job, keep=keep)
+                _planned(task)
+        else:
+            yield job
+            _planned(task)
+
+
+def _planned(task: Task) -> Plan:
+    """The plan of a task, read again. Raises ConfigurationError when its product is made from something else now."""
+    plan = plan_of_job(task.config, task.product, task.by_name)
+    if changed := what_changed(task.made_from, made_from(task.product, plan)):
         raise ConfigurationError(
-            f"{params.product}: a file or a setting changed while the study ran; start the study again."
+            f"{task.product}: a file or a setting changed while the study ran ({changed}); start the study again."
         )
-    compile_all(partial(tell, "compile"))
-    settings = TABLE[kind].handed(plan.settings)
-    study = Study(plan.scenes, settings, settings_sha256(plan.settings, plan.scenes))
-    records = [plan.records[each] for each in records_of(params.product, plan)]
-    return Job(params.product, params.key, study, records, plan.seals, Path(log), tell_line)
+    return plan
 
 
 class Steps:
@@ -301,10 +325,10 @@ def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:
     study = job.study
     rows = rows_of(result, record, study)
     folder = job.results / record.id
-    page: Mapping[str, Any] = {}
+    page: dict[str, Any] = {}
     spectra: Mapping[str, Sequence[float]] = {}
     with written_together():
-        if job.product.startswith("records/"):
+        if job.kind == "record":
             write_tables(rows.tables, folder)
         if study.settings.reports:
             from rocking.reports.design_figure import component_spectra  # matplotlib takes a second to import
@@ -319,7 +343,10 @@ def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:
         if study.settings.histories:
             histories = history_rows(record.id, result.responses)
             write_rows(HistoryRow, histories, folder / HistoryRow.table.file_name)
-        write_outcome(outcome_of(job.results, record.id), rows.tables, page, spectra)
+    tables = {each: list(of_it) for each, of_it in rows.tables.items()}
+    tables = {each: list(of_it) for each, of_it in rows.tables.items()}
+    sums = sums_of(job.task.product, study.settings) if job.kind == "record" else {}
+    job.keep(record.id, Outcome(tables, page, spectra, sums))
     job.tell(f"{record.id}: {record_line(result.scenes.values(), rows.failures)}")
 
 

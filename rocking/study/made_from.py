@@ -1,8 +1,10 @@
 """What each product of a study is made from: the one table that says what depends on what.
 
-A product is a record ("records/a"), a batch of records without reports ("batches/00"), the summary, the checks, the
+A product is a record ("record/a"), a batch of records without reports ("batch/00"), the summary, the checks, the
 fragility or the trade. Its job is handed the settings that its line names, and no others. From the line follow the
-things that its seal holds; where one of them changes, the product is computed again.
+files that its rule declares as input, and the params of the rule: a line of text for each thing that it is made from,
+a setting with its value, the content of a file with its hash. Snakemake makes a product again where a param is another
+one than when it was made, and says which.
 """
 
 from collections.abc import Iterable, Mapping
@@ -11,26 +13,24 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from platform import python_version
-from typing import Protocol
+from typing import Any, Protocol
+from urllib.parse import quote
 
 from rocking.assessment.scene import Scene
+from rocking.assessment.settings import Heading
 from rocking.errors import RockingError
 from rocking.hashes import sha256_of
 from rocking.records.catalogue import CatalogueRecord, load_catalogue
-from rocking.records.files import with_hashes
 from rocking.study.contents import ContentHashes
-from rocking.study.seals import Seals
 from rocking.study.settings import (
     NUMBERS,
     Settings,
     StudyDesign,
     StudyFragility,
+    layout,
     package_sha256,
     structure_hashes,
 )
-
-Things = Mapping[str, str]
-"""What a product is made from: each thing in words, with its hash."""
 
 
 class Inputs(Protocol):
@@ -46,10 +46,8 @@ class Inputs(Protocol):
     def contents(self) -> ContentHashes: ...
     @property
     def batches(self) -> Mapping[str, tuple[str, ...]]: ...
-    @property
-    def seals(self) -> Seals: ...
-    def files(self, records: Iterable[str]) -> Mapping[str, str]: ...
     def files_of(self, record: CatalogueRecord) -> Mapping[str, str]: ...
+    def answers_of(self, record: CatalogueRecord) -> Mapping[str, str]: ...
 
 
 PLACES = ("catalogue", "structures", "results", "mirror")
@@ -58,6 +56,8 @@ _TOLD = ("study", "client", "project_number", "author", "date", "display_units")
 _LEVEL = tuple(f"design_spectrum.{name}" for name in StudyDesign.LEVEL)
 _CURVES = tuple(f"fragility.{each.name}" for each in fields(StudyFragility) if each.name != "in_every_run")
 """When the fragility is measured is no part of it."""
+_PLAIN = " ./,+=()[]'_-"
+"""Beside letters and digits, what a param holds as it is: --report prints params, and no text of a study is markup."""
 
 
 @dataclass(frozen=True)
@@ -65,16 +65,16 @@ class Line:
     """One line of the table.
 
     settings: names of settings and of whole sections; section.name is one setting of a section. files: settings that
-    name a file whose content counts. pool: whether the records count from which sets are drawn. terms: whether what the
-    structures say for the checks of a code counts. curves: whether the checks, the fragility and the trade that
-    stand beside it count. documents: whether it holds a document whatever the settings say.
+    name a file whose content counts. opens_records: whether it is made from the files of its records, rather than from
+    their outcomes. pool: whether the records count from which sets are drawn. terms: whether what the structures say
+    for the checks of a code counts. documents: whether it holds a document whatever the settings say.
     """
 
     settings: tuple[str, ...]
     files: tuple[str, ...] = ()
+    opens_records: bool = True
     pool: bool = False
     terms: bool = False
-    curves: bool = False
     documents: bool = True
 
     def handed(self, settings: Settings) -> Settings:
@@ -83,12 +83,12 @@ class Line:
 
 
 TABLE: Mapping[str, Line] = {
-    "records": Line(
+    "record": Line(
         (*NUMBERS, *_TOLD, "reports", "details", "figures", "histories", *_LEVEL),
         files=("design_spectrum.points",),
         documents=False,
     ),
-    "batches": Line((*NUMBERS, "reports", "histories"), documents=False),
+    "batch": Line((*NUMBERS, "reports", "histories"), documents=False),
     "summary": Line(
         (
             *NUMBERS,
@@ -102,7 +102,7 @@ TABLE: Mapping[str, Line] = {
             "trade",
         ),
         files=("design_spectrum.points",),
-        curves=True,
+        opens_records=False,
         documents=False,
     ),
     "checks": Line(
@@ -114,69 +114,138 @@ TABLE: Mapping[str, Line] = {
     "fragility": Line((*NUMBERS, *_CURVES, "figures"), files=("fragility.hazard",)),
     "trade": Line((*NUMBERS, "figures")),
 }
-"""By the kind of product. All are made from the records and their files, the structures in their order, this package
-and the libraries as well; a record and a batch from their own records alone, the others from all in their order."""
+"""By the kind of product, which is the name of its rule. All are made from the rows of the catalogue, the structures in
+their order, this package and the libraries as well; a record and a batch from their own records alone, the others from
+all in their order."""
 
 
-def things_of(product: str, plan: Inputs) -> Things:
-    """Return what a product is made from, each thing in words with its hash."""
+def made_from(product: str, plan: Inputs) -> tuple[str, ...]:
+    """Return what a product is made from, a line of text for each thing; of each kind of product as many lines."""
     line = TABLE[product.partition("/")[0]]
-    records = records_of(product, plan)
-    settings = plan.settings.told_in(line.settings)
-    things = {f"setting {key}": sha256_of(value) for key, value in settings.items()}
-    things |= {
-        "the package": package_sha256(reports=line.documents or plan.settings.reports),
-        "the libraries": sha256_of(sorted(versions().items())),
-        "the structures": sha256_of(*structure_hashes(plan.scenes).items()),
-        "the records": sha256_of(*(plan.records[each] for each in records)),
-        "the files of the records": sha256_of(*plan.files(records).items()),
+    records = [plan.records[each] for each in records_of(product, plan)]
+    files = _hashes(plan, records) if line.opens_records else {}
+    pool = _pool(plan) if line.pool else {}
+    return (*_common(line, plan), _named("catalogue", *records), _told("files", files), _told("pool", pool))
+
+
+def number_made_from(kind: str, plan: Inputs) -> int:
+    """Return how many lines of text `made_from` gives for a kind of product; no record is looked at."""
+    return len(_common(TABLE[kind], plan)) + 3
+
+
+def what_changed(before: Iterable[str], now: Iterable[str]) -> str:
+    """Return the names of the things that differ between two of `made_from`, as a list in words; "" for none."""
+    lines = set(before) ^ set(now)
+    return ", ".join(sorted({each.partition(" = ")[0].partition(": ")[0] for each in lines}))
+
+
+def inputs_of(product: str, plan: Inputs) -> dict[str, list[str]]:
+    """Return the files that a product is made from by what they are; those of records and of the pool are "files"."""
+    line = TABLE[product.partition("/")[0]]
+    settings = plan.settings
+    files: dict[str, None] = {}
+    if line.opens_records:
+        for record in records_of(product, plan):
+            files |= dict.fromkeys(plan.files_of(plan.records[record]))
+    if line.pool and settings.design_spectrum.pool:
+        files[settings.design_spectrum.pool] = None
+        for row in _rows_of_pool(plan):
+            files |= dict.fromkeys(plan.files_of(row))
+    named = [path for path in settings.told_in(line.files).values() if path]
+    return {
+        "catalogue": [settings.catalogue],
+        "structures": [settings.structures],
+        "files": [*named, *files],
     }
-    for key in line.files:
-        path = plan.settings.told_in([key])[key]
-        if path:
-            things[str(path)] = plan.contents.of(Path(path))
-    if line.terms:
-        things["the terms of the checks"] = sha256_of(
-            *((name, each.terms) for name, each in plan.scenes.items())
-        )
-    if line.pool and plan.settings.design_spectrum.pool:
-        things |= _pool(Path(plan.settings.design_spectrum.pool), plan)
-    if line.curves:
-        # By hand or in every run; of those made by hand, as they are when the summary is made.
-        design = plan.settings.design_spectrum
-        in_every_run = {
-            "checks": bool(design.ag or design.points),
-            "fragility": plan.settings.fragility.in_every_run,
-            "trade": plan.settings.trade.in_summary,
-        }
-        for each, always in in_every_run.items():
-            holds = always or not plan.seals.why_again(each)
-            key_of = plan.seals.key if always else plan.seals.contents_of
-            things[f"the {each}"] = key_of(each) if holds else ""
-    return things
 
 
 def records_of(product: str, plan: Inputs) -> tuple[str, ...]:
     """Return the identifiers of the records of a product: its own, or all of the study."""
     kind, _, name = product.partition("/")
-    if kind == "records":
+    if kind == "record":
         return (name,)
-    return plan.batches[name] if kind == "batches" else tuple(plan.records)
+    return plan.batches[name] if kind == "batch" else tuple(plan.records)
 
 
-def _pool(catalogue: Path, plan: Inputs) -> Things:
+def _common(line: Line, plan: Inputs) -> tuple[str, ...]:
+    """What all products of a kind are made from."""
+    settings = plan.settings
+    reports = line.documents or settings.reports
+    lines = [f"{key} = {_shown(key, value)}" for key, value in settings.told_in(line.settings).items()]
+    lines.append(_named("package", package_sha256(reports=reports)))
+    lines += [f"{library}: {installed}" for library, installed in sorted(versions().items())]
+    lines.append(_named("structures", *structure_hashes(plan.scenes).items()))
+    for key, path in settings.told_in(line.files).items():
+        lines.append(_told(f"file of {key}", {path: plan.contents.of(Path(path))} if path else {}))
+    if line.terms:
+        lines.append(_named("terms", *((name, each.terms) for name, each in plan.scenes.items())))
+    return tuple(lines)
+
+
+def _shown(key: str, value: Any) -> str:
+    """The value of a setting on one line; of what a study says about itself the hash."""
+    return sha256_of(value)[:16] if key in _about() else quote(repr(value), safe=_PLAIN)
+
+
+@cache
+def _about() -> frozenset[str]:
+    return frozenset(layout()[Heading.ABOUT])
+
+
+def _named(name: str, *values: object) -> str:
+    return f"{name}: {sha256_of(*values)[:16]}"
+
+
+def _told(name: str, hashes: Mapping[str, str]) -> str:
+    """The contents of files by their paths."""
+    shown = (f"{quote(path, safe=_PLAIN)} {sha256[:16] or 'missing'}" for path, sha256 in hashes.items())
+    text = "; ".join(shown)
+    return f"{name}: {text}" if len(hashes) <= _FEW else _named(f"{len(hashes)} {name}", text)
+
+
+_FEW = 8
+"""Files that are told one by one: each output of a product keeps what it was made from."""
+
+
+def _hashes(plan: Inputs, records: Iterable[CatalogueRecord]) -> dict[str, str]:
+    """The contents of the files of records, and the answers by which their tables are read."""
+    hashes: dict[str, str] = {}
+    for record in records:
+        hashes |= {**plan.files_of(record), **plan.answers_of(record)}
+    return dict(sorted(hashes.items()))
+
+
+def _pool(plan: Inputs) -> dict[str, str]:
     """The records of another catalogue, and their files; one that cannot be read is told when it is used."""
-    things = {str(catalogue): plan.contents.of(catalogue)}
+    catalogue = plan.settings.design_spectrum.pool
+    if not catalogue:
+        return {}
+    return {catalogue: plan.contents.of(Path(catalogue))} | _hashes(plan, _rows_of_pool(plan))
+
+
+def _rows_of_pool(plan: Inputs) -> tuple[CatalogueRecord, ...]:
     try:
-        rows = load_catalogue(catalogue)
+        return load_catalogue(plan.settings.design_spectrum.pool or "")
     except RockingError:
-        return things
-    mirror = plan.settings.mirror
-    hashes = [pair for row in rows for pair in plan.files_of(with_hashes(row, mirror)).items()]
-    return things | {"the files of the pool": sha256_of(*hashes)}
+        return ()
 
 
-_LIBRARIES = ("rocking", "obspy", "numpy", "scipy", "pandas", "matplotlib", "numba", "snakemake", "typst")
+_LIBRARIES = (
+    *(
+        "rocking",
+        "matplotlib",
+        "numba",
+        "numpy",
+        "obspy",
+        "openpyxl",
+        "pandas",
+        "pydantic",
+        "pywavelets",
+        "pyyaml",
+    ),
+    *("scipy", "snakemake", "typst", "xlsxwriter"),
+)
+"""All that this package declares, but for what loads, fetches and counts: none of these can change a result."""
 
 
 @cache

@@ -5,7 +5,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -15,16 +15,17 @@ from rocking.errors import ConfigurationError, RockingError
 from rocking.hashes import sha256_of_bytes
 from rocking.quantities import shown
 from rocking.records.catalogue import CatalogueRecord, load_catalogue, repeated
-from rocking.records.files import answers_of, fill_hashes, local_files, with_hashes
+from rocking.records.files import answers_of, files_by_name, fill_hashes, local_files, with_hashes
 from rocking.records.folder import unlisted
+from rocking.records.formats.layouts import NAME as ANSWERS
 from rocking.records.formats.layouts import Layouts
 from rocking.records.read import LARGEST_FILE
 from rocking.remarks import Kind, Remark
 from rocking.study.contents import ContentHashes
 from rocking.study.folder import REMEMBERED, check_own, results_folder, stands_inside
-from rocking.study.made_from import records_of, things_of
-from rocking.study.results import FORMER
-from rocking.study.seals import MADE_FROM, Seals
+from rocking.study.made_from import made_from, records_of, what_changed
+from rocking.study.outputs import FORMER, KEPT, kept_of, outcome_of
+from rocking.study.results import kept_made_from
 from rocking.study.settings import Settings, named_files, read_settings
 from rocking.tables.yaml_file import read_yaml
 
@@ -32,6 +33,10 @@ T = TypeVar("T")
 
 JOBS = REMEMBERED / "rocking_jobs.lock"
 """Held by every job of a study while it works, in the folder of the study."""
+OVER_ALL = ("checks", "fragility", "trade")
+"""The products over all records that the summary shows."""
+BY_HAND = ("fragility", "trade")
+"""Those that may be made by hand, in a study that does not make them in every run."""
 _NAMED = 8
 """Remarks on settings and structures that the terminal tells; remarks.csv holds all."""
 _ON_PAGES = (Kind.HELD_AT_CEILING,)
@@ -54,22 +59,22 @@ class Plan:
     """The work of a study before it begins.
 
     records: by identifier, in catalogue order. scenes: the structures by name, in the order of the list. contents: the
-    hashes of the files that are read.
+    hashes of the files that are read. by_name: whether the files of records are taken to be where the catalogue says,
+    with the hashes that it states, because they lie on another machine.
     """
 
     settings: Settings
     records: Mapping[str, CatalogueRecord]
     scenes: Mapping[str, Scene]
     contents: ContentHashes
+    by_name: bool = False
 
     @property
     def doubts(self) -> tuple[Remark, ...]:
-        """The warnings before the run; folders of records that left the catalogue too."""
+        """The warnings before the run."""
         results = Path(self.settings.results)
         of_study = [each for each in study_remarks(self.settings, self.scenes) if each.kind not in _ON_PAGES]
         more = len(of_study) - _NAMED
-        names = {*self.records, "summary", "fragility"}
-        folders = (report.parent for report in sorted(results.glob("*/report.pdf")))
         return (
             *of_study[:_NAMED],
             *([Remark.of(Kind.REMARKS_MORE, number=more)] if more > 0 else []),
@@ -77,19 +82,57 @@ class Plan:
             *unlisted(Path(self.settings.catalogue)),
             *self._outdated,
             *([Remark(Kind.OTHER_VERSION)] if any((results / former).exists() for former in FORMER) else []),
-            *(Remark(Kind.RECORD_GONE, str(folder)) for folder in folders if folder.name not in names),
         )
 
     @property
     def _outdated(self) -> list[Remark]:
-        """What was made by hand and does not hold any more; a run leaves it out."""
-        by_hand = {
-            "fragility": not self.settings.fragility.in_every_run,
-            "trade": not self.settings.trade.in_summary,
+        """What was made by hand and does not hold any more; a run leaves it out, and removes it."""
+        made = {each: self.changed_since(each) for each in BY_HAND if each not in self.products}
+        return [Remark.of(Kind.OUTDATED, each, why=f"changed: {why}") for each, why in made.items() if why]
+
+    @cached_property
+    def products(self) -> tuple[str, ...]:
+        """The products that a whole run makes, each by the name of its rule, and of its record or batch."""
+        settings = self.settings
+        kind, names = ("record", self.records) if self.makes_reports else ("batch", self.batches)
+        in_every_run = {
+            "checks": bool(settings.design_spectrum.ag or settings.design_spectrum.points),
+            "fragility": settings.fragility.in_every_run,
+            "trade": settings.trade.in_summary,
         }
-        made = [each for each, alone in by_hand.items() if alone and self.seals.path(each).exists()]
-        why = {each: self.seals.why_again(each) for each in made}
-        return [Remark.of(Kind.OUTDATED, each, why=why[each]) for each in made if why[each]]
+        return (
+            *(f"{kind}/{name}" for name in names),
+            *(each for each, is_in in in_every_run.items() if is_in),
+            "summary",
+        )
+
+    @cached_property
+    def beside_summary(self) -> tuple[str, ...]:
+        """The products over all records that the summary shows: of the plan, and by hand where they still hold."""
+        results = Path(self.settings.results)
+        by_hand = () if self.by_name else BY_HAND
+        standing = (
+            each
+            for each in by_hand
+            if kept_made_from(kept_of(results, each)) and not self.changed_since(each)
+        )
+        return tuple(dict.fromkeys([*(each for each in self.products if each in OVER_ALL), *standing]))
+
+    def changed_since(self, product: str) -> str:
+        """Return what has changed since a product over all records was made, as a list in words.
+
+        "" where nothing has, and where it does not stand.
+        """
+        before = kept_made_from(kept_of(Path(self.settings.results), product))
+        return what_changed(before, made_from(product, self)) if before else ""
+
+    def outcomes(self) -> dict[str, Path]:
+        """Return the file that keeps the outcome of each record, in catalogue order; a batch has one for all of it."""
+        results = Path(self.settings.results)
+        if self.makes_reports:
+            return {record: outcome_of(results, record) for record in self.records}
+        batch_of = {record: name for name, records in self.batches.items() for record in records}
+        return {record: outcome_of(results, record, batch_of[record]) for record in self.records}
 
     def fill_hashes(self) -> None:
         """Write the hashes that the catalogue leaves blank: the files are checked against them from now on.
@@ -100,15 +143,28 @@ class Plan:
             fill_hashes(self.settings.catalogue, self.settings.mirror)
 
     def files_of(self, record: CatalogueRecord) -> dict[str, str]:
-        """Return the sha256 of each file on this machine from which a record is read, and of the answers for tables."""
-        files = local_files(record, self.settings.mirror)
-        answers = answers_of(record, self.settings.mirror)
-        return {str(path): self.contents.of(path) for path in files} | answers
+        """Return the sha256 of each file from which a record is read.
 
-    def files(self, records: Iterable[str]) -> dict[str, str]:
-        """Return the sha256 of each file on this machine from which `records` are read."""
-        hashes = (pair for name in records for pair in self.files_of(self.records[name]).items())
-        return dict(sorted(hashes))
+        Raises ConfigurationError where the files lie on another machine, and the catalogue does not state theirs.
+        """
+        if self.by_name:
+            hashes = files_by_name(record)
+            if "" in hashes.values() or self.settings.mirror:
+                raise ConfigurationError(
+                    f"{self.settings.catalogue}: record {record.id} is read on another machine, so that its sha256 "
+                    "must stand in the catalogue, and its files beside it; run the study once where they lie, without "
+                    "mirror."
+                )
+            inventory = record.folder / record.inventory if record.inventory else None
+            return {**hashes, **({str(inventory): self.contents.of(inventory)} if inventory else {})}
+        return {str(path): self.contents.of(path) for path in local_files(record, self.settings.mirror)}
+
+    def answers_of(self, record: CatalogueRecord) -> dict[str, str]:
+        """Return the hash of the answer by which each table of a record is read."""
+        if self.by_name:
+            answers = record.folder / ANSWERS
+            return {str(answers): self.contents.of(answers)} if answers.is_file() else {}
+        return answers_of(record, self.settings.mirror)
 
     @property
     def makes_reports(self) -> bool:
@@ -120,15 +176,11 @@ class Plan:
         """The identifiers of each batch of records, by its name."""
         return batches_of(self.records, self.settings.records_per_job)
 
-    @cached_property
-    def seals(self) -> Seals:
-        """The seals of all products of the study."""
-        return Seals(Path(self.settings.results), partial(things_of, plan=self))
 
-
-def make_plan(config: Mapping[str, Any]) -> Plan:
+def make_plan(config: Mapping[str, Any], by_name: bool = False) -> Plan:
     """Check `config`, the catalogue with its layouts, and the structures it names; write nothing.
 
+    by_name: see Plan.
     Raises ConfigurationError with every defect of these, and of the place for the results, in one message.
     """
     defects: list[str] = []
@@ -152,8 +204,8 @@ def make_plan(config: Mapping[str, Any]) -> Plan:
     if defects:
         raise ConfigurationError("\n".join(defects))
     records = {record.id: with_hashes(record, settings.mirror) for record in catalogue}
-    contents = ContentHashes(Path(settings.results) / MADE_FROM / "contents.json", LARGEST_FILE)
-    return Plan(settings, records, scenes, contents)
+    contents = ContentHashes(Path(settings.results) / KEPT / "contents.json", LARGEST_FILE)
+    return Plan(settings, records, scenes, contents, by_name)
 
 
 def missing_files(settings: Settings) -> Iterator[tuple[str, str]]:
@@ -182,7 +234,7 @@ def missing_files(settings: Settings) -> Iterator[tuple[str, str]]:
         yield name, f"setting {name} is {shown(value)}, but no such file is in {Path.cwd()}; {hint}"
 
 
-def plan_of_job(config: Mapping[str, Any], product: str) -> Plan:
+def plan_of_job(config: Mapping[str, Any], product: str, by_name: bool = False) -> Plan:
     """Return the plan as the job of one product needs it: read again, and of no other record the files.
 
     Raises ConfigurationError or CatalogueError for what was edited since.
@@ -190,7 +242,7 @@ def plan_of_job(config: Mapping[str, Any], product: str) -> Plan:
     settings = read_settings(config)
     records = {record.id: record for record in load_catalogue(settings.catalogue)}
     contents = ContentHashes(None, LARGEST_FILE)
-    plan = Plan(settings, records, scenes_of(settings.structures, contents), contents)
+    plan = Plan(settings, records, scenes_of(settings.structures, contents), contents, by_name)
     own = records_of(product, plan)
     if gone := [name for name in own if name not in records]:
         raise ConfigurationError(
@@ -216,15 +268,9 @@ def _listed(path: str | Path, sha256: str) -> Mapping[str, Scene]:
     return load_scenes(path)
 
 
-def workflow_folder() -> Path:
-    """Return the folder that holds Snakefile and workflow/: inside an installed package, or the clone."""
-    package = Path(__file__).parents[1]
-    return package / "shipped" if (package / "shipped" / "Snakefile").is_file() else package.parent
-
-
 def config_file(folder: Path) -> Path | None:
     """Return the path of the settings of a study, in a clone of the shipped example; None where there are none."""
-    paths = (folder / "config.yaml", folder / "workflow" / "config.yaml")
+    paths = (folder / "config.yaml", folder / "config" / "config.yaml")
     return next((path for path in paths if os.path.lexists(path)), None)
 
 

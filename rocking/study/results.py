@@ -1,8 +1,8 @@
 """The results of a study: what is kept of each record for what stands over all records, and the tables read back."""
 
 import json
-import shutil
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+import zipfile
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
@@ -12,9 +12,7 @@ from typing import TYPE_CHECKING, Any, get_type_hints
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, TimingRow, TradeRow, VerdictRow
 from rocking.assessment.store import decoder, encoded
 from rocking.errors import RockingError
-from rocking.records import CatalogueRecord
-from rocking.study.seals import MADE_FROM
-from rocking.tables import Row, frame, read_whole, write_whole, written_together
+from rocking.tables import Row, frame, read_whole, regular_file, whole, write_whole, written_together
 from rocking.tables.rows import check_columns, readable, rows_of
 
 if TYPE_CHECKING:
@@ -23,8 +21,6 @@ if TYPE_CHECKING:
 _LARGEST = 200_000_000
 """Bytes of what is kept of a product that are read; of a record under ten structures some hundred thousand."""
 
-FORMER = ("summary/jobs", "summary/cases")
-"""Where former versions kept what now stands in MADE_FROM."""
 Rows = Mapping[type[Row], Iterable[Row]]
 """The rows of tables by their class."""
 
@@ -34,68 +30,83 @@ class Outcome:
     """What a record leaves: the rows of its tables, by their class, and what documents over all records show of it.
 
     page: what the page to explore shows. spectra: of the components, m/s², where there is a design level. Without
-    reports both are empty.
+    reports both are empty. sums: the sha256 of its report and its tables, by their paths from the folder of the
+    results, where the record has files of its own.
     """
 
     rows: Mapping[type[Row], list[Row]]
     page: dict[str, Any]
     spectra: Mapping[str, Sequence[float]]
+    sums: Mapping[str, str]
 
 
-def outcome_of(results: Path, record: str) -> Path:
-    """Return the file that keeps the outcome of a record."""
-    return results / MADE_FROM / "outcomes" / f"{record}.json"
+@contextmanager
+def outcomes_written(path: Path) -> Iterator[Callable[[str, Outcome], None]]:
+    """Yield what keeps the outcome of a record by its identifier, in one file that appears whole at the end.
+
+    In a file that ends in .zip, which holds those of a batch, each is a member; else the file is that of one record.
+    """
+    if path.suffix != ".zip":
+        yield lambda record, outcome: write_whole(path, _encoded_outcome(outcome))
+        return
+    with whole(path) as stream, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as batch:
+        # A member without a date: the same input gives the same bytes.
+        yield lambda record, outcome: batch.writestr(
+            zipfile.ZipInfo(record), _encoded_outcome(outcome), zipfile.ZIP_DEFLATED
+        )
 
 
-def kept_of(results: Path, product: str) -> Path:
-    """Return the file that keeps the rows of a product over all records: the checks, the fragility or the trade."""
-    return results / MADE_FROM / "rows" / f"{product}.json"
+def _encoded_outcome(outcome: Outcome) -> bytes:
+    content = {
+        "rows": encoded_rows(outcome.rows),
+        "page": outcome.page,
+        "spectra": outcome.spectra,
+        "sums": outcome.sums,
+    }
+    return json.dumps(content, separators=(",", ":")).encode()
 
 
-def cases_of(results: Path, record: str) -> Path:
-    """Return the file that keeps the results of the cases of a record, for the next run."""
-    return results / MADE_FROM / "cases" / f"{record}.json"
+def read_outcomes(files: Mapping[str, Path]) -> Iterator[Outcome]:
+    """Yield the outcome of each record, one at a time; files: by the identifier of the record that which keeps it.
+
+    Raises RockingError where one is not what this version writes.
+    """
+    for record, path in files.items():
+        with _undamaged(path):
+            content = json.loads(_kept_outcome(path, record))
+            rows = decoded_rows(content["rows"], RECORD_TABLES)
+            yield Outcome(rows, content["page"], content["spectra"], content["sums"])
 
 
-def case_timings_of(results: Path, record: str) -> Path:
-    """Return the file that keeps how long those results took, beside the other measurements of a run."""
-    return results / "summary" / "benchmarks" / "cases" / f"{record}.json"
+def _kept_outcome(path: Path, record: str) -> bytes:
+    if path.suffix != ".zip":
+        return read_whole(path, _LARGEST, RockingError)
+    with regular_file(path) as stream, zipfile.ZipFile(stream) as batch:
+        if batch.getinfo(record).file_size > _LARGEST:
+            raise ValueError(f"{record} is larger than {_LARGEST} bytes")
+        return batch.read(record)
 
 
-def remove_others(results: Path, records: Collection[str]) -> None:
-    """Remove what is kept of records that the study does not hold any more."""
-    for place in (outcome_of(results, ""), cases_of(results, ""), case_timings_of(results, "")):
-        for path in place.parent.glob("*.json"):
-            if path.stem not in records:
-                path.unlink(missing_ok=True)
-    for former in FORMER:
-        shutil.rmtree(results / former, ignore_errors=True)
-
-
-def write_outcome(
-    path: Path, rows: Rows, page: Mapping[str, Any], spectra: Mapping[str, Sequence[float]]
-) -> None:
-    """Keep the outcome of a record."""
-    content = {"rows": encoded_rows(rows), "page": page, "spectra": spectra}
-    write_whole(path, json.dumps(content, separators=(",", ":")).encode())
-
-
-def read_outcome(path: Path) -> Outcome:
-    """Return the outcome of a record. Raises RockingError where it is not what this version writes."""
-    with _undamaged(path):
-        content = json.loads(read_whole(path, _LARGEST, RockingError))
-        return Outcome(decoded_rows(content["rows"], RECORD_TABLES), content["page"], content["spectra"])
-
-
-def keep_rows(path: Path, rows: Rows) -> None:
-    """Keep the rows of a product over all records."""
-    write_whole(path, json.dumps(encoded_rows(rows), separators=(",", ":")).encode())
+def keep_rows(path: Path, rows: Rows, made_from: Sequence[str] = ()) -> None:
+    """Keep the rows of a product over all records, below what the product was made from."""
+    lines = (json.dumps(each, separators=(",", ":")).encode() for each in (made_from, encoded_rows(rows)))
+    write_whole(path, b"\n".join(lines))
 
 
 def kept_rows(path: Path, tables: Iterable[type[Row]]) -> dict[type[Row], list[Row]]:
     """Return the rows of some tables of a product. Raises RockingError where they are not what this version writes."""
     with _undamaged(path):
-        return decoded_rows(json.loads(read_whole(path, _LARGEST, RockingError)), tables)
+        _, _, rows = read_whole(path, _LARGEST, RockingError).partition(b"\n")
+        return decoded_rows(json.loads(rows), tables)
+
+
+def kept_made_from(path: Path) -> tuple[str, ...]:
+    """Return what the product was made from whose rows are kept; () where none are, or they are damaged."""
+    try:
+        with regular_file(path) as stream:
+            return tuple(map(str, json.loads(stream.readline(_LARGEST))))
+    except (OSError, ValueError, TypeError, RecursionError):
+        return ()
 
 
 @contextmanager
@@ -103,23 +114,16 @@ def _undamaged(path: Path) -> Iterator[None]:
     """Raise RockingError, which names the file, for what only a damaged one gives."""
     try:
         yield
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError, zipfile.BadZipFile) as error:
         raise RockingError(f"{path}: it is damaged ({error}); remove it and run the study again.") from None
 
 
-def outcomes_of(results: Path, records: Iterable[CatalogueRecord]) -> Iterator[Outcome]:
-    """Yield the outcome of each record, one at a time."""
-    for record in records:
-        yield read_outcome(outcome_of(results, record.id))
-
-
-def verdicts_of(results: Path, records: Iterable[CatalogueRecord]) -> list[VerdictRow]:
+def verdicts_of(files: Mapping[str, Path]) -> list[VerdictRow]:
     """Return what became of every structure under the records, from their outcomes: a table is print."""
     verdicts: list[VerdictRow] = []
-    for record in records:
-        path = outcome_of(results, record.id)
+    for record, path in files.items():
         with _undamaged(path):
-            content = json.loads(read_whole(path, _LARGEST, RockingError))
+            content = json.loads(_kept_outcome(path, record))
             verdicts += rows_of(VerdictRow, decoded_rows(content["rows"], [VerdictRow]))
     return verdicts
 

@@ -4,10 +4,11 @@ import contextlib
 import fcntl
 import os
 import re
+import shutil
 import signal
 import sys
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -17,14 +18,16 @@ from typing import Any, TextIO
 from rocking.assessment.rows import ComparisonRow, ExpectedFallsRow, FailureRow, TradeRow
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted, shown
-from rocking.records import CatalogueRecord
 from rocking.study import close_doors
+from rocking.study.apart import warm_up
+from rocking.study.flow import workflow_folder
 from rocking.study.folder import REMEMBERED, locked, new_log
-from rocking.study.fork_server import start as start_fork_server
-from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_plan, workflow_folder
+from rocking.study.outputs import CASES, PROVENANCE
+from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_plan
 from rocking.study.results import verdicts_of
 from rocking.study.terminal import (
     Progress,
+    check_any_read,
     closing_lines,
     fitting,
     lines_by_code,
@@ -80,8 +83,6 @@ def run(folder: Path, options: Sequence[str]) -> int:
     if any(_ANSWERS.fullmatch(option) for option in options):
         return _snakemake(arguments)
     hold(folder.resolve())
-    with contextlib.chdir(folder):
-        start_fork_server(plan.settings)  # beside the imports of snakemake
     results = folder / plan.settings.results
     log = results / "summary" / "logs" / "run.log"
     with contextlib.chdir(folder):
@@ -93,9 +94,15 @@ def run(folder: Path, options: Sequence[str]) -> int:
         sep="\n",
         flush=True,
     )
+    # Of which snakemake itself tells in a dry run alone.
+    forgotten = (
+        not any((folder / REMEMBERED / "metadata").glob("*")) and (log.parents[1] / PROVENANCE).exists()
+    )
     with _logged(log) as terminal:
         progress = Progress(len(plan.records), len(plan.batches), terminal)
         with progress.followed():
+            with contextlib.chdir(folder):
+                warm_up(plan.settings)  # beside the imports of snakemake; it writes where the jobs do
             status = _snakemake(arguments)
     if _STOPS:
         print(f"Stopped; what was finished stays. To go on: rocking run {folder}")
@@ -103,13 +110,15 @@ def run(folder: Path, options: Sequence[str]) -> int:
     if status:
         print(f"Not finished: {_why(progress, folder, log)}\nMend that, then go on: rocking run {folder}")
         return 1
+    if forgotten:
+        print(
+            f"{folder / REMEMBERED} was removed, and with it what the results were made from: those that were not made "
+            f"again may be older than an edit. To compute all anew: rocking run {folder} -- --forceall"
+        )
     if options and not options[0].startswith("-"):
         print(f"Finished: {options[0]}; what it wrote lies in {results}")
         return 0
-    design = plan.settings.design_spectrum
-    return _told_of(
-        results, plan.records.values(), plan.settings.reports, checked=bool(design.ag or design.points)
-    )
+    return _told_of(folder, plan)
 
 
 def run_trade(folder: Path) -> int:
@@ -137,19 +146,18 @@ def _why(progress: Progress, folder: Path, log: Path) -> str:
     return "; ".join(dict.fromkeys(_in_a_sentence(each, folder, log) for each in reasons))
 
 
-def _told_of(results: Path, records: Iterable[CatalogueRecord], reports: bool, checked: bool) -> int:
-    """Tell what came of a whole study, and return the exit status.
-
-    reports, checked: whether it makes reports, and has a design level.
-    """
+def _told_of(folder: Path, plan: Plan) -> int:
+    """Tell what came of a whole study, and return the exit status."""
+    results = folder / plan.settings.results
+    checked = "checks" in plan.products
     failures = read_table(FailureRow, results / "summary")
-    verdicts = verdicts_of(results, records)
+    verdicts = verdicts_of({record: folder / path for record, path in plan.outcomes().items()})
     comparison = read_rows(ComparisonRow, results / "summary" / ComparisonRow.table.file_name)
     falls = read_table(ExpectedFallsRow, results / "summary")
     told = [*closing_lines(verdicts, comparison, failures, falls)]
     if checked:
         told += lines_by_code(results / "summary")
-    for line in (*told, *paths_to_read(results, verdicts, reports, checked)):
+    for line in (*told, *paths_to_read(results, verdicts, plan.settings.reports, checked)):
         print(fitting(line, sys.stdout))
     return int(bool(failures))
 
@@ -233,15 +241,19 @@ def _logged(log: Path) -> Iterator[TextIO]:
                 os.close(copy)
 
 
-def begin(plan: Plan) -> None:
+def begin(plan: Plan, anew: bool = False) -> None:
     """Make sure that one process alone schedules the jobs of the study in this folder, and that it ends in order.
+
+    anew: whether nothing is to be taken from what is kept of the cases of a former run.
 
     Waits for jobs that outlived their scheduler. When the process is asked to stop, its jobs are, and no other starts;
     asked a second time, it ends at once, and its jobs with it.
     """
     hold(Path.cwd())
     os.close(locked(JOBS, fcntl.LOCK_EX))
-    start_fork_server(plan.settings)
+    if anew:
+        shutil.rmtree(Path(plan.settings.results, CASES), ignore_errors=True)
+    warm_up(plan.settings)
     # Of snakemake: starts no more jobs, and waits for those that work.
     graceful: Any = signal.getsignal(signal.SIGTERM)
 
@@ -277,6 +289,15 @@ def begin(plan: Plan) -> None:
         signal.signal(number, stop)
     plan.fill_hashes()
     plan.contents.save()
+
+
+def end(plan: Plan) -> None:
+    """Keep what was found of the contents of files. Raises RecordError when no record at all could be read.
+
+    The tables stand all the same, and say why; but a study of which nothing could be read has not succeeded.
+    """
+    plan.contents.save()
+    check_any_read(Path(plan.settings.results) / "summary", plan.records)
 
 
 @cache

@@ -408,8 +408,8 @@ def layout() -> dict[Heading, list[str]]:
     return by_heading
 
 
-EXAMPLE = Settings(structures="workflow/structures.yaml", trade=StudyTrade(in_summary=True))
-"""The settings of the shipped example, whose structures stand beside its rules, and whose summary shows the trade."""
+EXAMPLE = Settings(structures="config/structures.yaml", trade=StudyTrade(in_summary=True))
+"""The settings of the shipped example, whose structures stand beside it, and whose summary shows the trade."""
 
 
 def read_settings(config: Mapping[str, Any]) -> Settings:
@@ -523,8 +523,11 @@ def _meaning(description: Described) -> str:
 NUMBERS = tuple(Settings.changing_numbers())
 """The settings, and the sections of settings, that change a number of a table."""
 _SOURCE = {".py", ".csv", ".json", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
-_SPOKEN = {f"study/{name}.py" for name in ("cli", "run", "terminal", "workspace", "seals", "contents")}
-"""The files that start a study, talk about it and remember it: they change nothing that a job writes."""
+_SPOKEN = {
+    f"study/{name}.py"
+    for name in ("apart", "cli", "contents", "flow", "run", "terminal", "warm", "workspace")
+}
+"""The files that start a study and its jobs, and talk about it: they change nothing that a job writes."""
 
 
 def structure_hashes(scenes: Mapping[str, "Scene"]) -> dict[str, str]:

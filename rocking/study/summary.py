@@ -37,6 +37,7 @@ from rocking.assessment.rows import (
 )
 from rocking.assessment.scene import variants_of
 from rocking.errors import ConfigurationError, RockingError, one_structure
+from rocking.quantities import counted, listed
 from rocking.records import Accelerogram, CatalogueRecord
 from rocking.records.sample import Sample
 from rocking.reports.printing import Figures, faults_in_words, write_document
@@ -45,7 +46,8 @@ from rocking.structures import Mechanism, Structure
 from rocking.study.documents import made_or_told, write_reason
 from rocking.study.job import Job, Study, costs_no_other
 from rocking.study.made_from import versions
-from rocking.study.results import Outcome, kept_of, kept_rows, outcomes_of, remove_others
+from rocking.study.outputs import PROVENANCE, SUMS, former_files, kept_of, remove, sums_of
+from rocking.study.results import Outcome, kept_rows, read_outcomes
 from rocking.study.settings import package_sha256, structure_hashes
 from rocking.tables import (
     Row,
@@ -64,10 +66,10 @@ if TYPE_CHECKING:
     from rocking.fragility.hazard import Hazard
     from rocking.reports.pages import Strip
 
-PROVENANCE = "provenance.json"
-"""In the folder of the summary: what the results were made from and with."""
 SCATTER = "prediction_against_integration.svg"
 """The figure of every case of the tables."""
+_NAMED = 4
+"""Files that are removed which a line names."""
 WORKBOOK = "study.xlsx"
 """The tables of the summary in one file."""
 OPENQUAKE = "fragility.xml"
@@ -76,16 +78,16 @@ _NOT_IN_THE_WORKBOOK = (TimingRow, VariationRow)
 """The times differ from run to run; the variations of each case are ten times as many as the cases."""
 
 
-def summarise(job: Job) -> list[Path]:
-    """Write everything that stands over all records, in their order, and return the files."""
+# Whole on purpose: the list of what stands over all records, in the order in which one comes from the other.
+def summarise(job: Job) -> None:
+    """Write everything that stands over all records, in their order, and remove what no product owns any more."""
     study = job.study
     target = job.results / "summary"
-    files = [target / each.table.file_name for each in SUMMARY_TABLES]
-    outcomes = outcomes_of(job.results, job.records)
+    outcomes = read_outcomes(job.plan.outcomes())
     instead = [name for name, scene in study.scenes.items() if scene.variant_of]
     beside = _beside(job)
     faults = beside.pop(FailureRow, [])
-    shown, pages, spectra = write_summary(
+    shown, pages, spectra, sums = write_summary(
         outcomes,
         study.structures,
         target,
@@ -106,11 +108,26 @@ def summarise(job: Job) -> list[Path]:
     }
     text = json.dumps(provenance, indent=1, sort_keys=True, default=str)
     write_whole(target / PROVENANCE, (text + "\n").encode())
-    files += [target / "datapackage.json", target / PROVENANCE]
     if study.settings.reports:
-        files += _documents(job, target, shown, beside, pages, spectra)
-    remove_others(job.results, [record.id for record in job.records])
-    return files
+        _documents(job, target, shown, beside, pages, spectra)
+    for product in (*job.task.beside, "summary"):
+        sums |= sums_of(product, job.plan.settings)
+    lines = (f"{sha256}  {path}\n".encode() for path, sha256 in sorted(sums.items()))
+    write_whole(job.results / SUMS, lines)
+    if not job.task.by_name:  # else the results of other jobs lie elsewhere
+        _remove_former(job)
+
+
+def _remove_former(job: Job) -> None:
+    """Remove what no product of the study owns any more, and say so: it would stand for what the tables do not say."""
+    products = (*job.plan.products, *job.task.beside)
+    former = former_files(job.plan.settings, products, [record.id for record in job.records])
+    remove(job.results, former)
+    if former:
+        job.tell(
+            f"removed {counted(len(former), 'file')} of former runs, which this study does not make: "
+            f"{listed(list(map(str, former)), _NAMED)}"
+        )
 
 
 def _documents(
@@ -120,8 +137,8 @@ def _documents(
     beside: Mapping[type[Row], list[Row]],
     pages: Sequence[dict[str, Any]],
     spectra: Sequence[Sequence[float]],
-) -> list[Path]:
-    """Write report, figure, page to explore and workbook over all records, and return the files.
+) -> None:
+    """Write report, figure, page to explore and workbook over all records.
 
     shown, beside: the rows of the summary and of the other products. pages: of each record. spectra: of the components.
     """
@@ -166,12 +183,8 @@ def _documents(
     made_or_told(
         book, lambda: write_whole(book, workbook(sheets, title, opens_on=VerdictRow)), untold, job.log
     )
-    files = [pdf, scatter, page, book]
-    if figures != "none":
-        files.append(target / "summary_figures.zip")
     if untold:
         write_tables({FailureRow: [*parts.get(FailureRow, []), *untold]}, target)
-    return files
 
 
 def write_summary(
@@ -183,19 +196,21 @@ def write_summary(
     faults: Collection[Row] = (),
     each_unnamed: bool = False,
     remarks: Collection[Row] = (),
-) -> tuple[dict[type[Row], list[Row]], list[dict[str, Any]], list[Sequence[float]]]:
+) -> tuple[dict[type[Row], list[Row]], list[dict[str, Any]], list[Sequence[float]], dict[str, str]]:
     """Write the tables of the summary into `target`, record by record.
 
     reports: whether the rows, and what the page to explore and the spectra show of each record, are returned as well:
     of thousands of records, which have no reports, they would fill the memory. variants: names of structures that
     stand for another one. faults: of what else stands over all records. each_unnamed: whether records that name no
-    earthquake are of one each. remarks: on the study itself.
+    earthquake are of one each. remarks: on the study itself. Returned as the last are the hashes of the files of the
+    records.
     """
     kept: dict[type[Row], list[Row]] = {each: [] for each in SUMMARY_TABLES}
     pages: list[dict[str, Any]] = []
     spectra: list[Sequence[float]] = []
+    sums: dict[str, str] = {}
     falls_of_records: list[ExpectedFallsRow] = []
-    counted: list[ComparisonRow] = []
+    cases: list[ComparisonRow] = []
     read: list[RecordRow] = []
     of_records = [each for each in SUMMARY_TABLES if each in RECORD_TABLES]
     with written_together(), ExitStack() as stack:
@@ -210,7 +225,8 @@ def write_summary(
                     kept[each] += outcome.rows[each]
             read += rows_of(RecordRow, outcome.rows)[:1]
             verdicts = rows_of(VerdictRow, outcome.rows)
-            counted += counted_cases(rows_of(ComparisonRow, outcome.rows), verdicts)
+            cases += counted_cases(rows_of(ComparisonRow, outcome.rows), verdicts)
+            sums |= outcome.sums
             if falls := falls_under(verdicts, variants):
                 falls_of_records.append(falls)
             if reports:
@@ -228,9 +244,9 @@ def write_summary(
         names = named_records(read, each_unnamed)
         of_all = falls_over(falls_of_records, Sample.named(names[each.record] for each in falls_of_records))
         kept[ExpectedFallsRow] = [*falls_of_records, *([of_all] if of_all else [])]
-        kept[AgreementRow] = list(agreement_rows(counted, names))
+        kept[AgreementRow] = list(agreement_rows(cases, names))
         write_tables({each: rows for each, rows in kept.items() if each not in write}, target)
-    return kept, pages, spectra
+    return kept, pages, spectra, sums
 
 
 @contextmanager
@@ -244,24 +260,20 @@ def told_of_structure(faults: list[Row], name: str) -> Iterator[None]:
 
 
 def _beside(job: Job) -> dict[type[Row], list[Row]]:
-    """The rows of the other products over all records that the summary shows, as far as there are any, and their
-    faults."""
-    tables: dict[str, tuple[type[Row], ...]] = {}
+    """The rows of the other products over all records that the summary is handed, and their faults."""
+    tables: dict[str, tuple[type[Row], ...]] = {"trade": (TradeRow, FailureRow)}
     # The main job runs without the folder of the codes.
-    if job.study.settings.design_spectrum.spectrum() is not None and job.study.settings.reports:
+    if "checks" in job.task.beside:
         from rocking.codes.rows import CodeCheckRow
 
         tables["checks"] = (CodeCheckRow,)
-    if job.study.settings.trade.in_summary:
-        tables["trade"] = (TradeRow, FailureRow)
-    # One that was measured by hand is shown as well, with the next run.
-    if not job.seals.why_again("fragility"):
+    if "fragility" in job.task.beside:
         from rocking.fragility.rows import FragilitySummaryRow, IdaRow  # a quarter of a second
 
         tables["fragility"] = (FragilitySummaryRow, IdaRow, FailureRow)
     rows: dict[type[Row], list[Row]] = {}
-    for product, wanted in tables.items():
-        for each, of_it in kept_rows(kept_of(job.results, product), wanted).items():
+    for product in job.task.beside:
+        for each, of_it in kept_rows(kept_of(job.results, product), tables[product]).items():
             rows.setdefault(each, []).extend(of_it)
     return {each: of_it for each, of_it in rows.items() if of_it}
 
@@ -304,8 +316,8 @@ def write_fragility(
 ) -> tuple[dict[type[Row], list[Row]], list[str]]:
     """Write the fragility tables of `study` and their description into `folder`, and its curves for OpenQuake.
 
-    Returned are their rows, with those of faults, and what could not be used. No fragility.xml of a measure that
-    OpenQuake lacks.
+    Returned are their rows, with those of faults, and what could not be used. The fragility.xml of a measure that
+    OpenQuake lacks holds no function, and says why.
 
     A record that cannot be read, or lacks the intensity measure, costs no other, and a fault of a record or a structure
     neither. tell: takes a line for each structure, how many are done, and of how many. log: where faults are written.
@@ -429,17 +441,20 @@ def write_beside(
 
 
 def _for_openquake(curves: Mapping[tuple[str, float | None], "Fragility"], path: Path) -> list[str]:
-    """Write the curves, by structure and period of its support, as one model of OpenQuake; or say why it cannot be."""
-    from rocking.fragility.exchange import nrml  # as above
+    """Write the curves, by structure and period of its support, as one model of OpenQuake; or say why it cannot be.
+
+    The file always stands, since a rule declares it: without curves it says why it holds none.
+    """
+    from rocking.fragility.exchange import nrml, nrml_without  # as above
 
     if not curves:
-        path.unlink(missing_ok=True)  # of another run
+        write_whole(path, nrml_without("no structure has a curve."))
         return []
     named = {f"{name} at {period:g} s" if period else name: curve for (name, period), curve in curves.items()}
     try:
         write_whole(path, nrml(named, lognormal=False))
     except ConfigurationError as error:
-        path.unlink(missing_ok=True)  # of another measure
+        write_whole(path, nrml_without(str(error)))
         return [str(error)]
     return []
 

@@ -322,7 +322,7 @@ class Progress:
         if rule == "error":
             self.reasons.append(line)
             return
-        of_a_record = rule in ("records", "batches")
+        of_a_record = rule in ("record", "batch")
         self._done += of_a_record
         if total and not self._total:
             self._what = "part"

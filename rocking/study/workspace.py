@@ -10,21 +10,23 @@ from rocking.records.catalogue import COLUMNS, catalogue_text, read_rows
 from rocking.records.folder import catalogue_of_folder
 from rocking.records.formats.layouts import NAME
 from rocking.records.listing import listing_text
-from rocking.study.plan import workflow_folder
+from rocking.study.flow import OWN_SNAKEFILE, workflow_folder
 from rocking.study.settings import Settings, first_yaml
 from rocking.study.terminal import bar
 from rocking.tables import write_whole
 
 
 def start(folder: Path) -> list[Path]:
-    """Write config.yaml, structures.yaml and an empty records/ into `folder` and return what was written.
+    """Write config.yaml, structures.yaml, Snakefile and an empty records/ into `folder`; return what was written.
 
     Raises ConfigurationError, before anything is written, when one of the files stands there already.
     """
-    shipped = workflow_folder() / "workflow"
     contents = {
         folder / "config.yaml": _with_schema("config", first_yaml(Settings()).encode()),
-        folder / "structures.yaml": _with_schema("structures", (shipped / "structures.yaml").read_bytes()),
+        folder / "structures.yaml": _with_schema(
+            "structures", (workflow_folder() / "config" / "structures.yaml").read_bytes()
+        ),
+        folder / "Snakefile": OWN_SNAKEFILE.encode(),
     }
     for path in contents:
         if path.exists():

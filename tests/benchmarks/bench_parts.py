@@ -48,7 +48,7 @@ from rocking.structures.mechanism import Mechanism
 from rocking.study.job import Study, assess_catalogued, rows_of
 
 RATIOS = np.linspace(0.2, 12, 200)
-STRUCTURES = Path(__file__).parents[2] / "workflow" / "structures.yaml"
+STRUCTURES = Path(__file__).parents[2] / "config" / "structures.yaml"
 RECORDS = Path(__file__).parents[2] / "records"
 BLOCK = Block(3.0, 0.2, restitution=0.9)
 

@@ -57,14 +57,14 @@ def measure_suite(temporary: Path, mirror: str) -> None:
     example, suite = temporary / "example", temporary / "suite"
     for folder in (example, suite):
         shutil.copytree(ROOT / "records", folder / "records")
-        shutil.copytree(ROOT / "workflow", folder / "workflow")
+        shutil.copytree(ROOT / "config", folder / "config")
     run(example, "reports=true")  # compiles
     measure("shipped example", example, "reports=true")
     with (ROOT / "records" / "fema_p695.csv").open(encoding="utf-8", newline="") as stream:
         lines = list(csv.reader(stream))
     with (suite / "records" / "suite.csv").open("w", encoding="utf-8", newline="") as stream:
         csv.writer(stream).writerows(lines[: RECORDS + 1])
-    settings = {"catalogue": "records/suite.csv", "structures": "workflow/structures.yaml", "mirror": mirror}
+    settings = {"catalogue": "records/suite.csv", "structures": "config/structures.yaml", "mirror": mirror}
     (suite / "config.yaml").write_text(yaml.safe_dump(settings), encoding="utf-8")
     measure(f"{RECORDS} records without PDFs", suite, "reports=false")
     measure(f"{RECORDS} records with PDFs", suite, "reports=true")

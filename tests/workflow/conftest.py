@@ -22,7 +22,7 @@ from rocking.records.synthetic import SyntheticRecord, at2_text
 from tests.workflow.forked import run_snakemake
 
 ROOT = Path(__file__).parents[2]
-MEASURED = {"timings.csv", "trade.csv"}
+MEASURED = {"timings.csv", "trade.csv", "SHA256SUMS"}
 """The tables whose bytes may differ between two runs of the same input."""
 
 STRUCTURES = [
@@ -118,7 +118,7 @@ class SmallStudy:
             path.relative_to(self.results).as_posix(): path.read_bytes()
             for path in sorted(self.results.rglob("*"))
             if path.is_file() and path.suffix in {".csv", ".json"} and path.name not in MEASURED
-            if not {".made_from", "benchmarks"} & set(path.relative_to(self.results).parts)
+            if not {".kept", "benchmarks"} & set(path.relative_to(self.results).parts)
         }
 
     def rows_of(self, record: str) -> dict[str, list[bytes]]:
@@ -159,7 +159,7 @@ def tree(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A copy of the workflow and the package, with what is compiled already, which a test may edit."""
     folder = tmp_path_factory.mktemp("tree")
     shutil.copy2(ROOT / "Snakefile", folder)
-    for name in ("workflow", "rocking", "docs"):
+    for name in ("workflow", "config", "rocking", "docs"):
         shutil.copytree(ROOT / name, folder / name)
     return folder
 

@@ -10,16 +10,22 @@ from functools import cache
 from pathlib import Path
 
 _TIMEOUT_S = 900
+PLANNING = ("rocking.study.run", "rocking.study.made_from", "scipy.optimize", "pandas", "smart_open")
+"""What a plan alone imports besides snakemake."""
 
 
-def _serve() -> None:
+def _serve(*modules: str) -> None:
     """Answer each line of a request by the exit status of a child that is a fork of this process.
 
-    What is imported here is snakemake alone, with its plugins; nothing of this project, and no library with threads.
+    What is imported here is snakemake, with its plugins, and `modules`; no library with threads.
     """
+    import importlib
+
     import snakemake.cli
 
     snakemake.cli.get_argument_parser()  # which imports every plugin
+    for module in modules:
+        importlib.import_module(module)
     for line in sys.stdin:
         request = json.loads(line)
         child = os.fork()
@@ -51,12 +57,13 @@ def _become(arguments: list[str], cwd: str, env: dict[str, str], output: str) ->
 
 
 @cache
-def _server() -> subprocess.Popen[str]:
-    """The process that is forked, of which each worker has one; it ends with its standard input."""
-    command = [sys.executable, "-c", "from tests.workflow.forked import _serve; _serve()"]
+def _server(modules: tuple[str, ...]) -> subprocess.Popen[str]:
+    """The process that is forked, of which each worker has one for some `modules`; it ends with its standard input."""
+    names = ", ".join(map(repr, modules))
+    command = [sys.executable, "-c", f"from tests.workflow.forked import _serve; _serve({names})"]
     root = Path(__file__).parents[2]
     # Not by the folder it stands in, which a test may have closed (PYTHONSAFEPATH).
-    surroundings = os.environ | {"PYTHONPATH": str(root)}
+    surroundings = os.environ | {"PYTHONPATH": str(root), "OPENBLAS_NUM_THREADS": "1"}
     streams = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
     server = subprocess.Popen(command, cwd=root, env=surroundings, start_new_session=True, **streams)
     atexit.register(server.communicate)
@@ -64,13 +71,19 @@ def _server() -> subprocess.Popen[str]:
 
 
 def run_snakemake(
-    arguments: Sequence[str], output: Path, *, cwd: Path, env: Mapping[str, str]
+    arguments: Sequence[str],
+    output: Path,
+    *,
+    cwd: Path,
+    env: Mapping[str, str],
+    modules: tuple[str, ...] = (),
 ) -> tuple[int, str]:
     """Return exit status and text (output and errors) of snakemake with `arguments`.
 
-    output: a new file, which keeps the text.
+    output: a new file, which keeps the text. modules: of this project, whose workflow is not that of an edited copy,
+    that are imported already.
     """
-    server = _server()
+    server = _server(modules)
     output.touch()
     request = {"arguments": list(arguments), "cwd": str(cwd), "env": dict(env), "output": str(output)}
     server.stdin.write(json.dumps(request) + "\n")

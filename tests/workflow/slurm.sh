@@ -96,8 +96,8 @@ slurm_time=$(awk "BEGIN {print $(date +%s.%N) - $started}")
 grep -q "Trying to restart job" "$work/slurm.log" || { echo "the killed job was not noticed"; exit 1; }
 
 echo "== compare"
-# timings.csv and the benchmarks tell durations, the logs and .made_from say when: everything else must be equal byte for byte
-diff -r --brief --exclude timings.csv --exclude benchmarks --exclude logs --exclude .made_from "$work/local/results" "$work/slurm/results"
+# timings.csv and the benchmarks tell durations, the logs and .kept say when: everything else must be equal byte for byte
+diff -r --brief --exclude timings.csv --exclude benchmarks --exclude logs --exclude .kept --exclude SHA256SUMS "$work/local/results" "$work/slurm/results"
 run slurm slurm
 grep -q "Nothing to be done" "$work/slurm.log"
 echo "equal byte for byte; local $local_time s, Slurm $slurm_time s with one job killed and submitted again"

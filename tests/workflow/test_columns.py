@@ -10,11 +10,10 @@ from rocking.floors.place import Place
 from rocking.floors.support import Mode, Support
 from rocking.records.catalogue import CatalogueRecord
 from rocking.study.job import Study
-from rocking.study.results import outcomes_of
 from rocking.study.settings import Settings, StudyFragility
 from rocking.study.summary import write_fragility, write_summary
 from tests.unit.assessment.made_rows import Impossible
-from tests.unit.study.made_jobs import worked
+from tests.unit.study.made_jobs import outcomes_in, worked
 from tests.workflow.conftest import ROOT
 
 STRUCTURES = """
@@ -34,7 +33,7 @@ EMPTY = {("intensity_measures.csv", name) for name in ("p_value", "power", "slop
 def _write_tables(records: list[CatalogueRecord], study: Study, results: Path) -> None:
     worked(records, study, results)
     described = {name: each for name, each in study.structures.items() if name != "impossible"}
-    write_summary(outcomes_of(results, records), described, results / "summary", False)
+    write_summary(outcomes_in(results, records), described, results / "summary", False)
 
 
 def test_every_column_is_filled_somewhere(tmp_path: Path) -> None:
@@ -55,7 +54,7 @@ def test_every_column_is_filled_somewhere(tmp_path: Path) -> None:
     settings = Settings(reports=False, histories=True, vertical=True, fragility=fragility)
     study = Study(load_scenes(tmp_path / "structures.yaml"), settings, "made")
     worked(records, study, tmp_path)
-    write_summary(outcomes_of(tmp_path, records), study.structures, tmp_path / "summary", False)
+    write_summary(outcomes_in(tmp_path, records), study.structures, tmp_path / "summary", False)
     alone = replace(settings, fidelity="auto", histories=False, ensemble=EnsembleSettings(members=0))
     # On joints of half the friction the stocky block lifts before it slides, and needs more while it rocks.
     contact = replace(settings, fidelity="contact", histories=False, friction_coefficient=0.51)

@@ -21,9 +21,8 @@ from rocking.remarks import Kind, Remark
 from rocking.reports.explore import BINS, drawings, explore_page, extremes
 from rocking.sine_pulse import predict_maximum
 from rocking.study.job import Study
-from rocking.study.results import outcomes_of
 from rocking.study.settings import read_settings
-from tests.unit.study.made_jobs import worked
+from tests.unit.study.made_jobs import outcomes_in, worked
 from tests.workflow.write_study import write_study
 
 PATIENCE = 100
@@ -61,7 +60,7 @@ def _explored(folder: Path, structures: str) -> tuple[Path, Study, list]:
     worked(records, study, results)
     (results / "summary").mkdir(parents=True, exist_ok=True)
     page = results / "summary" / "study.html"
-    contents = [outcome.page for outcome in outcomes_of(results, records)]
+    contents = [outcome.page for outcome in outcomes_in(results, records)]
     page.write_bytes(explore_page(contents, study.structures, f"A study of {HOSTILE}"))
     return page, study, list(records)
 
@@ -155,7 +154,7 @@ def test_the_page_carries_the_closed_form_of_each_case_and_the_path_of_the_groun
 
 def test_the_page_tells_the_reserve_that_the_table_holds_and_what_it_leaves_out(content, study):
     """The factors of verdicts.csv stand in the words; those of a spire with what its mechanism does not follow."""
-    outcomes = outcomes_of(study[0].parent.parent, study[2])
+    outcomes = outcomes_in(study[0].parent.parent, study[2])
     rows = {row.structure: row for outcome in outcomes for row in outcome.rows[VerdictRow]}
     cases = content["records"][0]["cases"]
     assert cases

@@ -28,7 +28,7 @@ def without(tmp_path) -> Path:
     for each in (TREE / "rocking").iterdir():
         if each.name not in (*LATER, "__pycache__"):
             (package / each.name).symlink_to(each)
-    for name in ("Snakefile", "workflow", "docs"):
+    for name in ("Snakefile", "workflow", "config", "docs"):
         (tmp_path / name).symlink_to(TREE / name)
     study = tmp_path / "study"
     (study / "records").mkdir(parents=True)

@@ -11,10 +11,8 @@ import time
 from pathlib import Path
 
 import pytest
-import yaml
 
 from rocking.records.synthetic import SyntheticRecord, at2_text
-from rocking.study.plan import make_plan
 
 OTHER = at2_text(SyntheticRecord("other", 9, 4.0, 0.7, 1.0, 1.0, 6.0, 0.01)).encode()
 LONG_AGO, IN_TEN_YEARS = 1e9, time.time() + 3e8
@@ -81,24 +79,25 @@ def test_what_the_settings_ask_for_is_waited_for(finished) -> None:
     for rule in ("summary", "trade", "fragility"):
         assert re.search(rf"(?m)^{rule} +1 *$", told), told
     (reason,) = re.findall(r": Summary of all records\nReason: (.*)", told)
-    assert ".made_from/fragility.json" in reason, told
+    assert "results/fragility/fragility.csv" in reason, told
 
 
-def test_the_page_takes_up_fragility_where_it_was_measured(finished, tmp_path: Path, monkeypatch) -> None:
+@pytest.mark.slow
+def test_the_page_takes_up_what_was_measured_by_hand_until_it_does_not_hold(finished, tmp_path: Path) -> None:
+    """The trade: it stays through another title, and goes, which is told, with the numbers that it is of."""
     study = finished.copy_to(tmp_path / "study")
-    monkeypatch.chdir(study.folder)
-    table = study.results / "fragility" / "fragility.csv"
-    table.parent.mkdir()
-    table.write_text("measured since\n", encoding="utf-8")
-    assert study.planned() == [], "what nobody sealed may be anything"
-    seals = make_plan(yaml.safe_load(Path("config.yaml").read_text())).seals
-    seals.write("fragility", seals.key("fragility"), [Path("results/fragility/fragility.csv")])
-    assert study.planned() == ["summary"]
-    table.write_text("edited since\n", encoding="utf-8")
-    assert study.planned() == []
+    config = study.folder / "config.yaml"
+    before = config.read_text()
+    study.rocking("run", str(study.folder), "trade")
+    assert (study.results / "summary" / "trade.pdf").is_file() and study.planned() == ["summary"]
+    config.write_text(f"{before}study: A town\n")
+    study.run()
+    assert (study.results / "summary" / "trade.pdf").is_file() and study.planned() == []
+    config.write_text(f"{before}tolerance: 1.0e-7\n")
     told = study.rocking("run", str(study.folder)).stdout
-    why = "fragility: results/fragility/fragility.csv is not as it was written"
-    assert f"{why}; recompute it with: rocking run . fragility." in told
+    assert "trade: changed: tolerance, so that the summary leaves it out" in told
+    assert re.search(r"summary: removed \d+ files of former runs, .*results/\.kept/rows/trade\.json", told)
+    assert not list(study.results.rglob("trade*"))
 
 
 def test_a_record_that_changed_and_one_more_compute_their_own_jobs_only(finished, tmp_path: Path) -> None:

@@ -33,10 +33,10 @@ def write_study(folder: Path, records: int, duration: float = 20.0, time_step: f
         rows.append((name, f"{name}.AT2", "g", hashlib.sha256(content).hexdigest()))
     with (folder / "records" / "catalogue.csv").open("w", encoding="utf-8", newline="") as stream:
         csv.writer(stream).writerows([("id", "file", "unit", "sha256"), *rows])
-    shipped = yaml.safe_load((ROOT / "workflow" / "config.yaml").read_text(encoding="utf-8"))
+    shipped = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))
     changed = {"structures": "structures.yaml", "reports": False, "trade": {"in_summary": False}}
     (folder / "config.yaml").write_text(yaml.safe_dump(shipped | changed), encoding="utf-8")
-    (folder / "structures.yaml").write_bytes((ROOT / "workflow" / "structures.yaml").read_bytes())
+    (folder / "structures.yaml").write_bytes((ROOT / "config" / "structures.yaml").read_bytes())
 
 
 if __name__ == "__main__":

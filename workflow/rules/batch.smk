@@ -3,15 +3,17 @@
 
 rule batch:
     input:
-        unless_sealed("batches/{batch}"),
+        **lists_of("batch/{batch}"),
     output:
-        seal=seal_of("batches/{batch}"),
+        files_of("batch/{batch}"),
     log:
-        f"{SUMMARY}/logs/batches/{{batch}}.log",
+        log_file("batch/{batch}"),
+    resources:
+        mem_mb=2000,
+        runtime=240,
     params:
-        product=product_of("batches/{batch}"),
-        key=key_of("batches/{batch}"),
+        *params_of("batch/{batch}"),
     message:
         "Batch {wildcards.batch}"
-    script:
-        "../scripts/record.py"
+    run:
+        work(rule, wildcards, input, params, log)

@@ -3,21 +3,18 @@
 
 rule checks:
     input:
-        unless_sealed("checks"),
+        **lists_of("checks"),
         records=OF_RECORDS,
     output:
-        table=f"{SUMMARY}/code_checks.csv",
-        description=f"{SUMMARY}/code_checks.json",
-        pdf=f"{SUMMARY}/structures.pdf",
-        figures=f"{SUMMARY}/structures_figures.zip" if DRAWS else [],
-        rows=str(kept_of(Path(RESULTS), "checks")),
-        seal=seal_of("checks"),
+        files_of("checks"),
     log:
-        f"{SUMMARY}/logs/checks.log",
+        log_file("checks"),
+    resources:
+        mem_mb=2000,
+        runtime=120,
     params:
-        product="checks",
-        key=key_of("checks"),
+        *params_of("checks"),
     message:
         "Check the structures at the design level"
-    script:
-        "../scripts/checks.py"
+    run:
+        work(rule, wildcards, input, params, log)

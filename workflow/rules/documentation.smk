@@ -5,13 +5,13 @@ rule documentation:
     input:
         pages=sorted(
             str(path)
-            for path in Path(workflow.basedir, "docs").rglob("*")
+            for path in (HOME / "docs").rglob("*")
             if path.suffix in (".css", ".js", ".md", ".py", ".yml") and "research" not in path.parts
         ),
     output:
         directory(f"{RESULTS}/documentation"),
     log:
-        f"{SUMMARY}/logs/documentation.log",
+        f"{RESULTS}/summary/logs/documentation.log",
     params:
         package_sha256=package_sha256(),
     message:

@@ -3,14 +3,12 @@
 
 rule paper:
     input:
-        catalogue=f"{workflow.basedir}/records/near_fault.csv",
-        source=sorted(
-            str(path) for path in Path(workflow.basedir, "docs", "paper").iterdir() if path.is_file()
-        ),
+        catalogue=f"{HOME}/records/near_fault.csv",
+        source=sorted(str(path) for path in (HOME / "docs" / "paper").iterdir() if path.is_file()),
     output:
         directory(f"{RESULTS}/paper"),
     log:
-        f"{SUMMARY}/logs/paper.log",
+        f"{RESULTS}/summary/logs/paper.log",
     params:
         package_sha256=package_sha256(),
     message:

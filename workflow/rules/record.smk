@@ -3,29 +3,17 @@
 
 rule record:
     input:
-        unless_sealed("records/{record}"),
+        **lists_of("record/{record}"),
     output:
-        [f"{RESULTS}/{{record}}/{each.table.file_name}" for each in RECORD_TABLES],
-        [f"{RESULTS}/{{record}}/histories.csv"] if SETTINGS.histories else [],
-        report=(
-            report(
-                f"{RESULTS}/{{record}}/report.pdf",
-                caption="../report/record.rst",
-                category="Records",
-                labels={"record": "{record}", "document": "report"},
-            )
-            if SETTINGS.reports
-            else []
-        ),
-        figures=f"{RESULTS}/{{record}}/report_figures.zip" if SETTINGS.reports and DRAWS else [],
-        outcome=str(outcome_of(Path(RESULTS), "{record}")),
-        seal=seal_of("records/{record}"),
+        files_of("record/{record}"),
     log:
-        f"{SUMMARY}/logs/records/{{record}}.log",
+        log_file("record/{record}"),
+    resources:
+        mem_mb=2000,
+        runtime=60,
     params:
-        product=product_of("records/{record}"),
-        key=key_of("records/{record}"),
+        *params_of("record/{record}"),
     message:
         "Record {wildcards.record}"
-    script:
-        "../scripts/record.py"
+    run:
+        work(rule, wildcards, input, params, log)

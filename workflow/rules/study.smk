@@ -1,44 +1,40 @@
-"""What is studied: settings, records and structures, checked before the first job starts; and when a job runs again."""
+"""What is studied: settings, records and structures, checked before the first job starts; and what rules are made of."""
 
+import os
 import re
-import sys
+import time
+from functools import cache
 from pathlib import Path
 
 from rocking.study import close_doors
 
 close_doors()  # before the imports that open them
 
-from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES
 from rocking.hashes import sha256_of
-from rocking.study.fork_server import leave as leave_fork_server
-from rocking.study.fork_server import start as start_fork_server
+from rocking.study.apart import run_apart
+from rocking.study.flow import workflow_folder
+from rocking.study.made_from import inputs_of, made_from, number_made_from
+from rocking.study.outputs import log_of, outputs_of
 from rocking.study.plan import check_config_file, config_file, make_plan
-from rocking.study.results import kept_of, outcome_of
-from rocking.study.run import begin
+from rocking.study.run import begin, end
 from rocking.study.settings import package_sha256, structure_hashes
-from rocking.study.terminal import check_any_read
+from rocking.study.task import Task, folder_of
 from snakemake.utils import update_config
 
-# What the user writes (catalogue, records, StationXML, structures) is watched by its content, not as input: snakemake goes
-# by dates, and behind a file that is dated in the future it removes what a job wrote.
+HOME = workflow_folder()
 for FILE in workflow.overwrite_configfiles:
     check_config_file(Path(FILE))
-if not workflow.overwrite_configfiles:
+if not workflow.configfiles:
     # Not by `configfile:`, which an alias bomb or a pipe of that name would keep for ever. Else the shipped example.
-    FILE = config_file(Path()) or Path(workflow.basedir, "workflow", "config.yaml")
+    FILE = config_file(Path()) or HOME / "config" / "config.yaml"
     CONFIG = check_config_file(FILE)
     update_config(CONFIG, config)  # what --config says
     config.update(CONFIG)
-PLAN = make_plan(config)
-SEALS = PLAN.seals
+# Jobs that share no folder with this process are handed copies of the files that their rules declare.
+BY_NAME = workflow.storage_settings.default_storage_provider is not None
+PLAN = make_plan(config, BY_NAME)
 SETTINGS = PLAN.settings
-if not workflow.is_main_process:  # on another machine, or within limits of its own
-    leave_fork_server()
-    start_fork_server(SETTINGS)
 RESULTS = SETTINGS.results
-SUMMARY = f"{RESULTS}/summary"
-DRAWS = SETTINGS.figures != "none"
-CHECKS = SETTINGS.design_spectrum.ag or SETTINGS.design_spectrum.points
 
 
 wildcard_constraints:
@@ -46,48 +42,77 @@ wildcard_constraints:
     batch="|".join(PLAN.batches),
 
 
-def product_of(name):
-    """The product that a job makes, by the wildcards of its rule."""
-    return lambda wildcards: name.format(**wildcards)
+MADE_FROM = cache(lambda product: made_from(product, PLAN))
 
 
-def unless_sealed(name):
-    """No input, but a job runs again where the seal of what it makes does not hold (rocking.study.made_from)."""
+def lists_of(product):
+    """The inputs of a product, such as "record/{record}", by what they are: ancient, since their contents are params."""
 
-    def force(wildcards):
-        product = name.format(**wildcards)
-        if workflow.is_main_process and (why := SEALS.why_again(product)):
-            # As --forcerun does: the one trigger that snakemake does not remember, and that needs no file to be written.
-            workflow.dag.forcefiles.add(str(SEALS.path(product)))
-            if SEALS.path(product).exists():  # else nothing stands, which snakemake tells
-                print(f"{product}: {why}.", file=sys.stderr)
-        return []
+    def files(wildcards):
+        return dated(*inputs_of(product.format(**wildcards), PLAN)["files"])
 
-    return force
+    return {"catalogue": dated(SETTINGS.catalogue), "structures": dated(SETTINGS.structures), "files": files}
 
 
-def key_of(name):
-    """One hash for what a product is made from: --report prints params, so that no text of a study may be in them."""
-    return lambda wildcards: SEALS.key(name.format(**wildcards))
+def dated(*paths):
+    """The files that may be inputs; behind one that is dated in the future snakemake removes what a job wrote."""
+    now = time.time()
+    return [ancient(path) for path in paths if not os.path.exists(path) or os.stat(path).st_mtime <= now]
 
 
-def seal_of(name):
-    return str(SEALS.path(name))
+def params_of(product):
+    """What a product is made from, each thing by itself: snakemake tells those that changed."""
+
+    def thing(number):
+        return lambda wildcards: MADE_FROM(product.format(**wildcards))[number]
+
+    return map(thing, range(number_made_from(product.partition("/")[0], PLAN)))
 
 
-def in_report(name, caption, category, **labels):
-    """A file of the summary, with its place in the page that snakemake --report makes."""
-    return report(f"{SUMMARY}/{name}", caption=f"../report/{caption}.rst", category=category, labels=labels)
+def files_of(product):
+    """The outputs of a product, with the place of each in the page that snakemake --report makes."""
+    return [in_report(output, str(path)) for output, path in outputs_of(product, SETTINGS).items()]
 
 
-if PLAN.makes_reports:
-    OF_RECORDS = [str(outcome_of(Path(RESULTS), record)) for record in PLAN.records]
-else:
-    OF_RECORDS = [seal_of(f"batches/{batch}") for batch in PLAN.batches]
-TARGETS = [seal_of("summary")]
-if PLAN.makes_reports:
-    TARGETS += [f"{RESULTS}/{record}/report.pdf" for record in PLAN.records if SETTINGS.reports]
-if CHECKS:
-    TARGETS += [seal_of("checks")]
-if SETTINGS.fragility.in_every_run:
-    TARGETS += [seal_of("fragility")]
+def in_report(output, path):
+    if output.is_store and not BY_NAME:
+        return update(path)  # there again when the job starts the next time
+    if not output.label:
+        return path
+    labels = {"document": output.label}
+    if output.category == "Records":
+        labels = {"record": "{record}", **labels}
+    elif output.category == "Tables":
+        labels = {"table": Path(path).name, "content": output.label}
+    return report(path, caption=f"../report/{output.caption}.rst", category=output.category, labels=labels)
+
+
+def work(rule, wildcards, input, params, log):
+    """Do the job of a rule in a process of its own, which knows what it is handed here."""
+    product = "/".join([rule, *wildcards])
+    beside = [each for each in PLAN.beside_summary if input.get(each)]
+    folder = folder_of(*input.catalogue, SETTINGS.catalogue) if BY_NAME else ""
+    task = Task(product, dict(config), list(params), folder, log[0], beside, BY_NAME)
+    run_apart(f"rocking.study.jobs:{rule}", product, task)
+
+
+def log_file(product):
+    return f"{RESULTS}/{log_of(product)}"
+
+
+def beside(product):
+    """The files of a product over all records, where the summary shows it."""
+    return (
+        [str(path) for path in outputs_of(product, SETTINGS).values()]
+        if product in PLAN.beside_summary
+        else []
+    )
+
+
+OF_RECORDS = list(dict.fromkeys(map(str, PLAN.outcomes().values())))
+TARGETS = [
+    str(path)
+    for product in PLAN.products
+    for output, path in outputs_of(product, SETTINGS).items()
+    if not output.is_store
+]

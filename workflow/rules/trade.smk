@@ -3,21 +3,17 @@
 
 rule trade:
     input:
-        unless_sealed("trade"),
+        **lists_of("trade"),
     output:
-        table=f"{SUMMARY}/trade.csv",
-        description=f"{SUMMARY}/trade.json",
-        pdf=f"{SUMMARY}/trade.pdf",
-        svg=f"{SUMMARY}/trade.svg",
-        figures=f"{SUMMARY}/trade_figures.zip" if DRAWS else [],
-        rows=str(kept_of(Path(RESULTS), "trade")),
-        seal=seal_of("trade"),
+        files_of("trade"),
     log:
-        f"{SUMMARY}/logs/trade.log",
+        log_file("trade"),
+    resources:
+        mem_mb=2000,
+        runtime=120,
     params:
-        product="trade",
-        key=key_of("trade"),
+        *params_of("trade"),
     message:
         "Measure the error and the time of every method"
-    script:
-        "../scripts/trade.py"
+    run:
+        work(rule, wildcards, input, params, log)

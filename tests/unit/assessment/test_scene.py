@@ -264,7 +264,7 @@ def test_a_restitution_above_that_of_the_geometry_is_told(tmp_path):
     assert own == pytest.approx(1 - 1.5 * 0.36 / (0.36 + 9.0), rel=1e-9)
 
 
-SHIPPED = Path(__file__).parents[3] / "workflow" / "structures.yaml"
+SHIPPED = Path(__file__).parents[3] / "config" / "structures.yaml"
 FACADE = {
     "name": "front",
     "type": "facade",

@@ -183,7 +183,7 @@ def test_the_site_leaves_nothing_of_the_code_out(site):
     for each in (*RECORD_TABLES[:-3], *SUMMARY_TABLES):
         for column in each.table.columns:
             assert f"<code>{column.name}</code>" in site["tables.html"]
-    settings = yaml.safe_load(written(ROOT / "workflow" / "config.yaml"))
+    settings = yaml.safe_load(written(ROOT / "config" / "config.yaml"))
     for name, value in settings.items():
         names = [f"{name}.{inner}" for inner in value] if isinstance(value, dict) else [name]
         assert all(f"<code>{key}</code>" in site["settings.html"] for key in names)

@@ -189,7 +189,7 @@ def test_the_page_to_sign_says_it(report, decisions):
 @pytest.mark.parametrize("record", load_catalogue(ROOT / "records" / "catalogue.csv"), ids=lambda row: row.id)
 def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undrawn):
     """Each structure at each period of its support, in each table and on each page that names it."""
-    study = Study(load_scenes(ROOT / "workflow" / "structures.yaml"))
+    study = Study(load_scenes(ROOT / "config" / "structures.yaml"))
     result = assess_catalogued(record, study)
     tables = rows_of(result, record, study)
     decided = {(each.structure, each.support_period_s): each.decision for each in result.stations}

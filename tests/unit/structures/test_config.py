@@ -39,7 +39,7 @@ def test_the_schema_of_the_workflow_is_the_fields_own():
 
 
 def test_shipped_structures_stand_and_pass_the_schema():
-    path = WORKFLOW / "structures.yaml"
+    path = WORKFLOW.parent / "config" / "structures.yaml"
     jsonschema.validate(yaml.safe_load(path.read_text(encoding="utf-8")), SCHEMA)
     scenes = load_scenes(path)
     carried = [len(each.place.supports) for each in scenes.values() if each.place.supports]

@@ -1,30 +1,47 @@
 """Jobs of a study that no scheduler started."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from rocking.records import CatalogueRecord
+from rocking.study.contents import ContentHashes
 from rocking.study.job import Job, Study, steps_of
-from rocking.study.seals import Seals
+from rocking.study.outputs import outcome_of
+from rocking.study.plan import Plan
+from rocking.study.results import Outcome, outcomes_written, read_outcomes
+from rocking.study.task import Task
 
 
 def made_job(
     records: Sequence[CatalogueRecord],
     study: Study,
     results: Path,
-    product: str = "batches/all",
+    product: str = "batch/00000_of_00001",
     told: list[str] | None = None,
+    beside: Sequence[str] = (),
 ) -> Job:
     """A job on `records`, whose results lie in a folder; told: takes what it tells."""
     study = replace(study, settings=replace(study.settings, results=str(results)))
-    seals = Seals(results, lambda _: {})
+    plan = Plan(study.settings, {each.id: each for each in records}, study.scenes, ContentHashes())
     lines = [] if told is None else told
-    return Job(product, seals.key(product), study, list(records), seals, results / "made.log", lines.append)
+    task = Task(product, {}, (), beside=beside)
+    return Job(task, plan, study, list(records), results / "made.log", lines.append, partial(_keep, results))
+
+
+def _keep(results: Path, record: str, outcome: Outcome) -> None:
+    with outcomes_written(outcome_of(results, record)) as keep:
+        keep(record, outcome)
+
+
+def outcomes_in(results: Path, records: Sequence[CatalogueRecord]) -> Iterator[Outcome]:
+    """What the jobs on `records` left, in their order."""
+    yield from read_outcomes({each.id: outcome_of(results, each.id) for each in records})
 
 
 def take_steps(record: CatalogueRecord, job: Job) -> None:
-    """What `workflow/scripts/record.py` does with a record."""
+    """What `rocking.study.jobs.record` does with a record."""
     with steps_of(record, job) as step:
         motion = step.read()
         components = step.pulses(motion)
@@ -36,11 +53,12 @@ def worked(
     study: Study,
     results: Path,
     told: list[str] | None = None,
+    beside: Sequence[str] = (),
 ) -> Job:
-    """Assess `records`, each in a job of its own where the study makes reports or histories, and return the last."""
+    """Assess `records`, each in a job of its own where the study makes reports or histories; return the summary's."""
     own = study.settings.reports or study.settings.histories
     job = made_job(records, study, results, told=told)
     for record in records:
-        job = made_job([record], study, results, f"records/{record.id}" if own else job.product, told)
+        job = made_job([record], study, results, f"record/{record.id}", told) if own else job
         take_steps(record, job)
-    return made_job(records, study, results, "summary", told)
+    return made_job(records, study, results, "summary", told, beside)

@@ -176,7 +176,7 @@ def test_terminal_tables_and_python_say_the_same_of_every_shipped_structure(
     """
     monkeypatch.setattr("rocking.assessment.one_case.reserve", lambda *_: None)
     shipped = ROOT / "records" / "20161113_110259_WTMC_20.V2A"
-    entries = (ROOT / "workflow" / "structures.yaml").read_text(encoding="utf-8").splitlines()
+    entries = (ROOT / "config" / "structures.yaml").read_text(encoding="utf-8").splitlines()
     structures = tmp_path / "structures.yaml"
     structures.write_text("\n".join(line for line in entries if any(name in line for name in names)))
     assert main(["assess", str(shipped), "--structures", str(structures), "--output", str(tmp_path)]) == 0

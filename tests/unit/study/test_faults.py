@@ -15,10 +15,10 @@ from rocking.assessment.rows import (
     rows_of_record,
 )
 from rocking.structures import Block
-from rocking.study.results import outcomes_of
+from rocking.study.outputs import outputs_of
 from rocking.study.summary import summarise, write_summary
 from rocking.tables import csv_lines, read_rows
-from tests.unit.study.made_jobs import worked
+from tests.unit.study.made_jobs import outcomes_in, worked
 from tests.unit.study.test_job import _record, _study
 
 FUNCTIONS = {
@@ -51,7 +51,7 @@ def test_a_fault_in_one_structure_is_named_and_costs_no_other(
     """Predict, integrate, variations, reserve, rows and tables of the summary: the rows of the others are the same."""
     record = _record(tmp_path)
     alone = worked([record], _study(block=BLOCK), tmp_path / "alone")
-    (expected,) = outcomes_of(alone.results, [record])
+    (expected,) = outcomes_in(alone.results, [record])
     assert PIER.mechanism()
 
     owner = Block if module == "Block" else import_module(module)
@@ -64,7 +64,7 @@ def test_a_fault_in_one_structure_is_named_and_costs_no_other(
 
     monkeypatch.setattr(owner, name, fails)
     both = worked([record], _study(block=BLOCK, pier=PIER), tmp_path / "both")
-    outcomes = list(outcomes_of(both.results, [record]))
+    outcomes = list(outcomes_in(both.results, [record]))
     write_summary(outcomes, both.study.structures, both.results / "summary", False)
 
     for each in (ComparisonRow, VerdictRow):
@@ -99,7 +99,8 @@ def test_a_page_never_costs_a_summary(place, file, tmp_path: Path, monkeypatch) 
         raise KeyError("kind that_has_no_sentence")
 
     monkeypatch.setattr(place, fails)
-    files = summarise(job)
+    summarise(job)
+    files = list(outputs_of("summary", job.plan.settings).values())
     assert {path.name for path in files} >= {"summary.pdf", "study.html", "study.xlsx", "verdicts.csv", file}
     assert all(path.stat().st_size > 0 for path in files)
     (fault,) = read_rows(FailureRow, results / "summary" / "failures.csv")

@@ -54,7 +54,7 @@ def test_a_plain_folder_inside_is_allowed_by_whatever_path(study: Path, name: st
     "link",
     [
         ".snakemake", ".snakemake/rocking_run.lock", ".snakemake/rocking_jobs.lock", ".snakemake/log",
-        "results", "results/a", "results/summary", "results/.made_from", "results/.made_from/contents.json",
+        "results", "results/a", "results/summary", "results/.kept", "results/.kept/contents.json",
         "results/summary/logs/run.log", "results/summary/benchmarks/assess_00000_of_00001.tsv",
         "results/summary/record.csv",
     ],

@@ -212,7 +212,7 @@ def test_bad_input_is_refused_before_anything_is_written(tmp_path, count, hazard
 def test_openquake_gets_a_function_of_each_structure(tmp_path):
     """Its levels and probabilities are those of the table, of the crack that governs where several may form.
 
-    A measure that OpenQuake lacks leaves no model behind.
+    A measure that OpenQuake lacks leaves a model without functions behind, which says why.
     """
     out = tmp_path / "out"
     _, reasons = write_fragility(_records(tmp_path, 2), _study(), out)
@@ -230,7 +230,9 @@ def test_openquake_gets_a_function_of_each_structure(tmp_path):
     assert not any("OpenQuake" in reason for reason in reasons)
     _, reasons = write_fragility(_records(tmp_path, 2), _study(intensity_measure="p_pgv"), out)
     assert any("OpenQuake lacks" in reason for reason in reasons)
-    assert not (out / "fragility.xml").exists()
+    root = ElementTree.parse(out / "fragility.xml").getroot()
+    assert not root.findall(".//{*}fragilityFunction")
+    assert "OpenQuake lacks" in root.findtext(".//{*}description")
 
 
 def test_a_hazard_curve_gives_annual_rates(tmp_path):

@@ -30,13 +30,14 @@ from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SHIPPED, SyntheticRecord, at2_text
 from rocking.structures import Block
 from rocking.study.job import Study, assess_catalogued, rows_of
-from rocking.study.results import Results, keep_rows, kept_of, outcome_of, outcomes_of, read_outcome
+from rocking.study.outputs import kept_of, outcome_of
+from rocking.study.results import Results, keep_rows, read_outcomes
 from rocking.study.settings import Settings, StudyTrade
 from rocking.study.summary import summarise, write_summary
 from rocking.study.terminal import line_writer
 from rocking.tables import csv_lines, frame, read_rows, write_tables
 from tests.unit.assessment.made_rows import Impossible, filled
-from tests.unit.study.made_jobs import made_job, take_steps, worked
+from tests.unit.study.made_jobs import made_job, outcomes_in, take_steps, worked
 
 ROOT = Path(__file__).parents[3]
 CONTENT = at2_text(SyntheticRecord("made", 1, 4.0, 0.6, 1.0, 1.0, 6.0, 0.01)).encode()
@@ -109,7 +110,7 @@ def of_four(tmp_path: Path) -> tuple[Path, list[CatalogueRecord]]:
 
 def test_the_summary_holds_every_row_of_every_record_in_its_order(of_four) -> None:
     results, records = of_four
-    write_summary(outcomes_of(results, records), {}, results / "summary", False)
+    write_summary(outcomes_in(results, records), {}, results / "summary", False)
     for each in (PulseRow, ComparisonRow, FailureRow):
         found = [getattr(_rows(record, _study()), each.table.name) for record in records]
         lines = list(csv_lines(each, chain.from_iterable(found)))
@@ -120,7 +121,7 @@ def test_the_summary_holds_every_row_of_every_record_in_its_order(of_four) -> No
 def test_an_outcome_holds_the_rows_to_the_last_digit(of_four) -> None:
     results, records = of_four
     for record in records:
-        kept = read_outcome(outcome_of(results, record.id)).rows
+        kept = next(outcomes_in(results, [record])).rows
         computed = _rows(record, _study()).tables
         assert set(kept) == set(computed)
         for each in set(kept) - {TimingRow}:
@@ -132,7 +133,7 @@ def test_a_damaged_outcome_is_told_with_its_path(of_four, damaged) -> None:
     path = outcome_of(of_four[0], "one")
     path.write_bytes(damaged)
     with pytest.raises(RockingError, match=r"one\.json: it is damaged"):
-        read_outcome(path)
+        next(read_outcomes({"one": path}))
 
 
 @pytest.mark.parametrize("in_summary", [False, True])
@@ -147,7 +148,7 @@ def test_a_summary_draws_the_trade_where_its_study_measures_it(tmp_path, monkeyp
     results = tmp_path / "results"
     changed = {"reports": True, "trade": StudyTrade(in_summary), "results": str(results)}
     study = replace(_study(), settings=replace(_study().settings, **changed))
-    job = worked([_record(tmp_path)], study, results)
+    job = worked([_record(tmp_path)], study, results, beside=["trade"] * in_summary)
     row = filled(
         TradeRow,
         method=TradeMethod.MECHANISM,
@@ -168,7 +169,7 @@ def test_a_summary_draws_the_trade_where_its_study_measures_it(tmp_path, monkeyp
 
 def test_the_tables_of_one_record_are_those_that_it_has_alone(of_four, tmp_path: Path) -> None:
     results, records = of_four
-    write_summary(outcomes_of(results, records), {}, results / "summary", False)
+    write_summary(outcomes_in(results, records), {}, results / "summary", False)
     for record in records:
         written = Results(results).write_record(record.id, tmp_path / "copy" / record.id)
         assert [path.name for path in written] == [each.table.file_name for each in RECORD_TABLES]
@@ -199,11 +200,11 @@ def test_a_fault_of_this_package_costs_no_other_record_and_asks_to_be_reported(t
     """Whatever is raised becomes a row of its structure, and the traceback stands in the log that the row names."""
     results = tmp_path / "results"
     records = [_record(tmp_path, "first"), _record(tmp_path, "second")]
-    line_writer(results / "made.log", "batches")
+    line_writer(results / "made.log", "batch")
     job = made_job(records, _study(faulty=Faulty(1.0, 0.2)), results)
     take_steps(records[0], job)
     take_steps(records[1], replace(job, study=replace(job.study, scenes=_study().scenes)))
-    first, second = (outcome.rows for outcome in outcomes_of(results, records))
+    first, second = (outcome.rows for outcome in outcomes_in(results, records))
     assert {each.structure for each in first[FailureRow]} == {"faulty"}
     for failure in first[FailureRow]:
         assert "faulty (ZeroDivisionError: of the machine)" in failure.message
@@ -241,7 +242,8 @@ def test_a_job_reads_each_file_once_and_writes_all_from_what_it_has(tmp_path: Pa
     folder = tmp_path / "results" / "made"
     assert (folder / "report.pdf").read_bytes().startswith(b"%PDF")
     assert {each.table.file_name for each in RECORD_TABLES} <= {path.name for path in folder.iterdir()}
-    page = read_outcome(outcome_of(tmp_path / "results", "made")).page
+    (outcome,) = outcomes_in(tmp_path / "results", [record])
+    page = outcome.page
     assert page["cases"]["block"]["history"] and page["motions"]
 
 

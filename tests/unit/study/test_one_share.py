@@ -8,18 +8,17 @@ import pytest
 
 import rocking
 from rocking.assessment.decide import Verdict
-from rocking.assessment.rows import ExpectedFallsRow, RecordRow
+from rocking.assessment.rows import ExpectedFallsRow, RecordRow, VerdictRow
 from rocking.records import load_catalogue
 from rocking.records.sample import Sample
 from rocking.strengthening import sizes, strengthen_scene
 from rocking.study.checks import write_checks
 from rocking.study.job import Study
 from rocking.study.plan import make_plan
-from rocking.study.results import outcomes_of, verdicts_of
 from rocking.study.summary import write_summary
 from rocking.tables import read_table
 from tests.made_pools import DESIGN
-from tests.unit.study.made_jobs import worked
+from tests.unit.study.made_jobs import outcomes_in, worked
 
 STEP = 0.005
 PERIODS = (0.45, 0.5, 0.55, 0.6, 0.65, 0.7)
@@ -57,9 +56,9 @@ def test_four_tables_say_one_share_of_a_pinnacle_whose_stacks_fall(folder: Path,
     study = Study(plan.scenes, plan.settings)
     catalogue = load_catalogue(folder / "catalogue.csv")
     worked(catalogue, study, folder / "results")
-    outcomes = list(outcomes_of(folder / "results", catalogue))
+    outcomes = list(outcomes_in(folder / "results", catalogue))
     write_summary(outcomes, study.structures, folder / "summary", False)
-    verdicts = verdicts_of(folder / "results", catalogue)
+    verdicts = [row for each in outcomes for row in each.rows[VerdictRow]]
 
     # The summary: of each record the larger of two counts, that of the members and that of the stacks.
     assert len(verdicts) == len(PERIODS)

@@ -5,7 +5,6 @@ import os
 import shutil
 import time
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 from hypothesis import given
@@ -13,13 +12,15 @@ from hypothesis import strategies as st
 
 from rocking.errors import ConfigurationError
 from rocking.records import CatalogueRecord
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Kind
 from rocking.study import contents as contents_module
 from rocking.study import settings as settings_module
 from rocking.study.contents import ContentHashes
 from rocking.study.job import begin_job, prepare
+from rocking.study.made_from import made_from
 from rocking.study.plan import Plan, batches_of, make_plan, plan_of_job, study_remarks
 from rocking.study.settings import Settings, read_settings, settings_sha256
+from rocking.study.task import Task
 
 ROOT = Path(__file__).parents[3]
 SHA256 = "0" * 64
@@ -44,12 +45,12 @@ def _write(folder: Path, rows: str, structures: str = "", **settings: object) ->
 def test_a_job_takes_what_was_prepared_unless_the_list_was_edited(tmp_path: Path) -> None:
     settings = _write(tmp_path, "a,a.AT2,\n", "[{name: wall, type: wall, height_m: 3, thickness_m: 0.25}]")
     prepare(read_settings(settings))
-    wall = plan_of_job(settings, "records/a").scenes["wall"].structure
+    wall = plan_of_job(settings, "record/a").scenes["wall"].structure
     assert wall.__dict__["_candidates"], "it keeps its cracks"
-    assert plan_of_job(settings, "records/a").scenes["wall"].structure is wall
+    assert plan_of_job(settings, "record/a").scenes["wall"].structure is wall
     listed = tmp_path / "structures.yaml"
     listed.write_text(listed.read_text().replace("0.25", "0.35"))
-    assert plan_of_job(settings, "records/a").scenes["wall"].structure.thickness == 0.35  # type: ignore[attr-defined]
+    assert plan_of_job(settings, "record/a").scenes["wall"].structure.thickness == 0.35  # type: ignore[attr-defined]
     prepare(read_settings(settings | {"structures": str(tmp_path / "none.yaml")}))  # its jobs tell
 
 
@@ -67,9 +68,9 @@ def test_a_blank_hash_is_filled_in_and_checked_from_then_on(tmp_path: Path) -> N
     first = make_plan(settings)
     assert Path(str(settings["catalogue"])).read_bytes() == before, "a plan alone writes nothing"
     assert first.records["a"].sha256 == hashlib.sha256(b"one").hexdigest() and first.records["b"].sha256 == ""
-    key = first.seals.key("records/a")
+    planned = made_from("record/a", first)
     first.fill_hashes()
-    assert make_plan(settings).seals.key("records/a") == key, "what was planned before holds after"
+    assert made_from("record/a", make_plan(settings)) == planned, "what was planned before holds after"
     (tmp_path / "a.AT2").write_bytes(b"two")
     assert make_plan(settings).records["a"].sha256 == first.records["a"].sha256
 
@@ -102,19 +103,21 @@ def test_all_defects_of_all_three_files_stand_in_one_message(tmp_path: Path) -> 
 def test_what_was_edited_after_planning_stops_the_job(tmp_path: Path, name: str, old: str, new: str) -> None:
     settings = _write(tmp_path, f"a,a.AT2,{SHA256}\nb,b.AT2,{SHA256}\n", records_per_job=10)
     (batch,) = make_plan(settings).batches
-    product = f"batches/{batch}"
-    params = SimpleNamespace(product=product, key=make_plan(settings).seals.key(product))
+    product = f"batch/{batch}"
+    task = Task(product, settings, made_from(product, make_plan(settings)))
     path = Path(str(settings[name]))
     path.write_text("\n# a comment\n" * (name == "structures") + path.read_text())
-    assert [record.id for record in begin_job(settings, params, "log").records] == ["a", "b"]
-    path.write_text(path.read_text().replace(old, new, 1))
-    with pytest.raises(ConfigurationError, match="changed while the study ran"):
-        begin_job(settings, params, "log")
-    path.write_text(path.read_text().replace(f"a,a.AT2,{SHA256}\n", ""))
+    changed = f"changed while the study ran \\({name}\\)"
+    with pytest.raises(ConfigurationError, match=changed), begin_job(task) as job:
+        assert [record.id for record in job.records] == ["a", "b"]
+        path.write_text(path.read_text().replace(old, new, 1))
+    with pytest.raises(ConfigurationError, match=changed), begin_job(task):
+        pytest.fail("it begins")
     if name == "catalogue":
         (tmp_path / "catalogue.csv").write_text("id,file,sha256\nb,b.AT2,\n")
-        with pytest.raises(ConfigurationError, match="record a is not in it any more"):
-            begin_job(settings, SimpleNamespace(product="records/a", key=""), "log")
+        gone = Task("record/a", settings, ())
+        with pytest.raises(ConfigurationError, match="record a is not in it any more"), begin_job(gone):
+            pytest.fail("it begins")
 
 
 def test_what_changes_no_number_does_not_change_the_hash_of_the_settings(tmp_path: Path) -> None:
@@ -187,7 +190,7 @@ def _record(folder: Path, content: bytes = b"samples", **cells: object) -> Catal
 
 def _hash(record: CatalogueRecord, hashes: ContentHashes | None = None, **settings: object) -> str:
     made = hashes or ContentHashes(Path("nowhere"))
-    return repr(Plan(Settings(**settings), {"a": record}, {}, made).files("a"))
+    return repr(Plan(Settings(**settings), {"a": record}, {}, made).files_of(record))
 
 
 @pytest.mark.parametrize("when", [1e9, time.time() + 3e8], ids=["long ago", "in ten years"])
@@ -238,15 +241,6 @@ def test_a_file_that_stayed_is_not_read_again(tmp_path: Path, monkeypatch: pytes
     assert _hash(record, ContentHashes(store)) == _hash(record) != first
     store.write_text('{"damaged": 1}')
     assert _hash(record, ContentHashes(store)) == _hash(record)
-
-
-def test_results_whose_record_is_gone_are_told(tmp_path: Path) -> None:
-    settings = _write(tmp_path, f"a,a.AT2,{SHA256}\n")
-    for name in ("gone", "a"):
-        (tmp_path / "results" / name).mkdir(parents=True)
-        (tmp_path / "results" / name / "report.pdf").touch()
-    (left,) = make_plan(settings).doubts
-    assert left == Remark(Kind.RECORD_GONE, str(tmp_path / "results" / "gone"))
 
 
 def test_an_edit_of_the_reports_is_in_the_hash_of_the_package_and_not_in_that_of_its_numbers(

@@ -18,10 +18,11 @@ from rocking.assessment.rows import (
     VerdictRow,
 )
 from rocking.errors import RockingError
-from rocking.records import CatalogueRecord
 from rocking.remarks import Kind, Remark
 from rocking.study.cli import main
-from rocking.study.results import cases_of, outcome_of, remove_others, verdicts_of, write_outcome
+from rocking.study.outputs import cases_of, former_files, log_of, outcome_of, outputs_of, remove
+from rocking.study.results import Outcome, outcomes_written, verdicts_of
+from rocking.study.settings import Settings
 from rocking.tables import read_rows, write_rows
 from tests.unit.assessment.made_rows import case, station, verdicts
 
@@ -56,8 +57,11 @@ def test_an_outcome_keeps_the_decision_with_the_values_of_its_remarks(tmp_path: 
     (of_station,) = verdicts([station(case("EW", 0.3, falls=32))])
     row = replace(of_station, decision=decision, reserve=reserve)
     path = outcome_of(tmp_path, "a")
-    write_outcome(path, {each: [] for each in RECORD_TABLES} | {VerdictRow: [row]}, {}, {})
-    (kept,) = verdicts_of(tmp_path, [CatalogueRecord("a", "a.AT2")])
+    for place in (path, outcome_of(tmp_path, "a", "00000_of_00001")):
+        rows = {each: [] for each in RECORD_TABLES} | {VerdictRow: [row]}
+        with outcomes_written(place) as keep:
+            keep("a", Outcome(rows, {}, {}, {}))
+        (kept,) = verdicts_of({"a": place})
     assert kept.decision == decision
     assert repr(kept.reserve) == repr(reserve)
     assert repr(kept) == repr(row)
@@ -96,15 +100,34 @@ def test_the_tables_of_records_assessed_one_by_one_are_gathered(tmp_path: Path) 
     assert rocking.open_results(tmp_path).timings["record"].tolist() == ["a", "b"]
 
 
-def test_what_is_kept_of_other_records_is_removed_and_so_is_what_former_versions_kept(tmp_path: Path) -> None:
-    kept = [place(tmp_path, record) for place in (cases_of, outcome_of) for record in ("kept", "gone")]
-    former = tmp_path / "summary" / "jobs" / "00000_of_00001" / "record.csv"
-    for path in (*kept, former):
+# fmt: off
+OURS = (
+    "summary/structures.pdf", "summary/code_checks.csv", "gone/report.pdf", "gone/histories.csv", "kept/histories.csv",
+    "fragility/fragility.xml", "summary/logs/record/gone.log", ".kept/outcomes/00000_of_00001.zip",
+    "summary/jobs/00000_of_00001/record.csv", ".made_from/summary.json", "summary/logs/batches/00000_of_00001.log",
+)
+"""Files of products that the study does not make, of records that it does not hold, and of former versions."""
+OF_A_USER = (
+    "notes.txt", "summary/notes.pdf", "gone/notes.csv", "gone/deep/report.pdf", "summary/deep/record.csv",
+    "mine.pdf", "fragility/my.csv", ".kept/mine.json", "a b/report.pdf", "summary/logs/run.log",
+)
+# fmt: on
+
+
+def test_what_no_product_owns_any_more_goes_and_no_file_of_a_user_does(tmp_path: Path) -> None:
+    settings = Settings(results=str(tmp_path / "results"), figures="svg")
+    products = ["record/kept", "trade", "summary"]
+    owned = [path for product in products for path in outputs_of(product, settings).values()]
+    owned += [tmp_path / "results" / log_of(product) for product in products]
+    owned += [outcome_of(tmp_path / "results", "kept"), cases_of(tmp_path / "results", "other")]
+    ours, of_a_user = ([tmp_path / "results" / name for name in names] for names in (OURS, OF_A_USER))
+    for path in (*owned, *ours, *of_a_user):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.touch()
-    remove_others(tmp_path, ["kept"])
-    assert [path for path in kept if path.exists()] == [
-        cases_of(tmp_path, "kept"),
-        outcome_of(tmp_path, "kept"),
-    ]
-    assert not (tmp_path / "summary" / "jobs").exists()
+    former = former_files(settings, products, ["kept", "other"])
+    assert former == sorted(ours)
+    remove(tmp_path / "results", former)
+    left = {path for path in (tmp_path / "results").rglob("*") if path.is_file()}
+    assert left == {*owned, *of_a_user}
+    assert not (tmp_path / "results" / "summary" / "jobs").exists(), "a folder that is empty goes too"
+    assert (tmp_path / "results" / "gone" / "notes.csv").is_file()

@@ -73,9 +73,12 @@ def test_the_names_of_settings_are_those_of_the_codes_and_the_measures() -> None
 
 
 def test_the_shipped_files_are_those_that_the_tree_writes() -> None:
-    written = {"config.yaml": commented_yaml(EXAMPLE), "schemas/config.schema.yaml": schema_file()}
+    written = {
+        "config/config.yaml": commented_yaml(EXAMPLE),
+        "workflow/schemas/config.schema.yaml": schema_file(),
+    }
     for name, text in written.items():
-        assert (ROOT / "workflow" / name).read_text(encoding="utf-8") == text, "make schema"
+        assert (ROOT / name).read_text(encoding="utf-8") == text, "make schema"
 
 
 @pytest.mark.parametrize("settings", [Settings(), EXAMPLE])

@@ -159,7 +159,7 @@ def test_what_is_sent_stands_in_the_log_and_on_the_terminal(tmp_path: Path) -> N
     (tmp_path / "assess_a.log").write_text("of an older run\n")
     stream = io.StringIO()
     with Progress(2, 1, stream).followed():
-        line_writer(tmp_path / "assess_a.log", "records")("one: rests: pier")
+        line_writer(tmp_path / "assess_a.log", "record")("one: rests: pier")
         line_writer(tmp_path / "trade.log", "trade")("1 of 12: one, pier: 14 runs")
     line_writer(tmp_path / "trade.log", "trade")("first")  # nobody reads any more, and nobody waits for it
     assert (tmp_path / "assess_a.log").read_text() == "one: rests: pier\n"
@@ -189,7 +189,7 @@ def test_on_a_terminal_a_bar_says_how_far_it_has_come(monkeypatch: pytest.Monkey
     progress.tell_plan({"batch": 2, "summary": 1})
     assert re.search(r"\r\x1b\[K0 of 40 records .* \? left$", stream.getvalue())
     progress._began -= 600  # ten minutes for the first record
-    progress.tell_line("batches", "one: stands: pier")
+    progress.tell_line("batch", "one: stands: pier")
     *_, line, shown = stream.getvalue().split("\n")
     assert line.endswith("one: stands: pier")
     assert re.search(r"\r\x1b\[K1 of 40 records .* 6:30:0\d left$", shown)

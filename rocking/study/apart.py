@@ -1,0 +1,81 @@
+"""Jobs in processes of their own that start warm: forked from one that has imported and prepared what every job needs.
+
+A job of one record would otherwise import libraries and load kernels for longer than it computes. The process that is
+forked is the standard library's (multiprocessing, start method "forkserver"); where there is none, as on Windows, each
+job imports for itself.
+"""
+
+import importlib
+import multiprocessing
+import os
+import signal
+import sys
+import threading
+from multiprocessing import forkserver
+from multiprocessing.connection import wait
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rocking.study.settings import Settings
+
+_FORKS = "forkserver" in multiprocessing.get_all_start_methods()
+_ONE_AT_A_TIME = threading.Lock()
+"""Held to start a process and to take leave of it: what multiprocessing notes of them is not made for threads."""
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+"""Of linear algebra: a job is one core's work, and a process with further threads must not be forked."""
+PREPARED = "ROCKING_PREPARED"
+"""The variable of the environment by which the process that is forked is told the settings of the study, as YAML."""
+
+
+def warm_up(settings: "Settings") -> None:
+    """Start the process that jobs are forked from, unless it runs; it imports and prepares itself beside this one.
+
+    settings: of the study in this folder, whose structures it prepares.
+    """
+    if not _FORKS:
+        return
+    # Not above: a job that is forked imports this module as well.
+    from rocking.study.settings import commented_yaml
+
+    # A console script, which imports its `main`, is run again as a module in each process that is started.
+    script = getattr(vars(sys.modules["__main__"]).get("main"), "__module__", None)
+    forkserver.set_forkserver_preload(["rocking.study.warm", *([script] if script else [])])
+    before = dict(os.environ)
+    os.environ.update({PREPARED: commented_yaml(settings), **dict.fromkeys(_THREADS, "1")})
+    try:
+        forkserver.ensure_running()
+    finally:
+        os.environ.clear()
+        os.environ.update(before)
+
+
+def run_apart(work: str, name: str, *arguments: object) -> None:
+    """Run the function `work`, "module:name of the function", in a process of its own, and wait for its end.
+
+    name: what the error says that ended. Raises RuntimeError where the process did not end well.
+    """
+    context = multiprocessing.get_context("forkserver") if _FORKS else multiprocessing.get_context("spawn")
+    process = context.Process(target=_work, args=(work, *arguments), name=name)
+    with _ONE_AT_A_TIME:
+        process.start()
+    wait([process.sentinel])
+    with _ONE_AT_A_TIME:
+        process.join()
+        status = process.exitcode
+        process.close()
+    if status is not None and status < 0:
+        cause = signal.Signals(-status).name
+        hint = ", as a system does that lacks memory" if status == -signal.SIGKILL else ""
+        raise RuntimeError(f"{name}: its process was ended by {cause}{hint}; run the same command again.")
+    if status:
+        raise RuntimeError(f"{name}: its process ended with status {status}; its log tells why.")
+
+
+def _work(work: str, *arguments: object) -> None:
+    """Call a function by its name; what ends it is told by sys.excepthook, as at the top of a script."""
+    module, _, function = work.partition(":")
+    try:
+        getattr(importlib.import_module(module), function)(*arguments)
+    except BaseException as error:
+        sys.excepthook(type(error), error, error.__traceback__)
+        sys.exit(1)

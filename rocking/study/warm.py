@@ -1,0 +1,28 @@
+"""What a job needs, imported, loaded and prepared once, in the process that jobs are forked from.
+
+It is imported for what its import does: multiprocessing's fork server can be told the names of modules, and no more.
+"""
+
+import contextlib
+import gc
+import os
+
+import yaml
+
+import rocking.reports.design_figure
+import rocking.reports.explore
+import rocking.reports.printing
+import rocking.reports.record
+import rocking.study.jobs
+from rocking.assessment.compilation import load_all
+from rocking.study.apart import PREPARED
+from rocking.study.job import prepare
+from rocking.study.settings import read_settings
+
+with contextlib.suppress(ImportError):  # the other jobs run without these folders
+    import rocking.fragility.rows
+    import rocking.study.checks  # noqa: F401
+load_all()
+with contextlib.suppress(Exception):  # what is wrong with a study its jobs tell
+    prepare(read_settings(yaml.safe_load(os.environ.pop(PREPARED))))
+gc.freeze()  # what stands here stays: to look for garbage in it takes a twelfth of a job

@@ -1,0 +1,260 @@
+"""Edits of a small study, each with what it makes again: a table written by hand, against which plans are held."""
+
+import os
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import yaml
+
+from rocking.records.synthetic import SyntheticRecord, at2_text
+from rocking.study.outputs import outputs_of
+from rocking.study.plan import Plan, make_plan
+
+STRUCTURES = [
+    {"name": "block", "type": "block", "breadth_m": 0.5, "height_m": 3.0},
+    {"name": "wall", "type": "wall", "height_m": 3.2, "hinge_height_m": 1.6, "thickness_m": 0.25},
+]
+SETTINGS = {
+    "design_spectrum": {"points": "design.csv", "pool": "pool/catalogue.csv"},
+    "fragility": {"hazard": "hazard.csv", "in_every_run": True},
+    "trade": {"in_summary": True},
+}
+NUMBERS = "a b B S C F T"
+"""What depends on every number: both records, the batch of both, summary, checks, fragility and trade."""
+BATCH = "batch/00000_of_00001"
+JOBS = {
+    "Summary of all records": "S",
+    "Check the structures at the design level": "C",
+    "Scale the records until the structures overturn": "F",
+    "Measure the error and the time of every method": "T",
+    "Batch 00000_of_00001": "B",
+}
+"""By the message of its rule the letter of a job; that of a record is its name."""
+
+
+def _waves(seed: int) -> bytes:
+    return at2_text(SyntheticRecord("made", seed, 1.0, 0.3, 1.0, 0.5, 2.0, 0.01)).encode()
+
+
+def write_settings(**changed: object) -> None:
+    settings: dict[str, object] = {**SETTINGS}
+    for name, value in changed.items():
+        section = settings.get(name)
+        both = isinstance(section, dict) and isinstance(value, dict)
+        settings[name] = {**section, **value} if both else value
+    Path("config.yaml").write_text(yaml.safe_dump(settings))
+
+
+def write_catalogue(folder: str, *names: str, **cells: str) -> None:
+    columns = ["id", "file", "unit", *cells]
+    lines = [",".join(columns), *(",".join([name, f"{name}.AT2", "g", *cells.values()]) for name in names)]
+    Path(folder, "catalogue.csv").write_text("\n".join([*lines, ""]))
+
+
+def plan(by_name: bool = False) -> Plan:
+    return make_plan(yaml.safe_load(Path("config.yaml").read_text()), by_name)
+
+
+def write_study() -> None:
+    for folder, names in (("records", "ab"), ("pool", "p")):
+        Path(folder).mkdir()
+        for name in names:
+            Path(folder, f"{name}.AT2").write_bytes(_waves(ord(name)))
+        write_catalogue(folder, *names)
+    Path("structures.yaml").write_text(yaml.safe_dump(STRUCTURES))
+    Path("design.csv").write_text("period_s,acceleration_g\n0,0.2\n0.1,0.5\n0.5,0.5\n4,0.06\n")
+    Path("hazard.csv").write_text("intensity,annual_rate\n0.1,0.01\n1,0.0001\n")
+    write_settings()
+
+
+def write_outputs() -> None:
+    """Write some file in the place of each output of a run; what it is made from snakemake is told by --touch."""
+    made = plan()
+    for product in made.products:
+        for path in outputs_of(product, made.settings).values():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(f"{product}\n")
+
+
+def _setting(**changed: object) -> Callable[[], None]:
+    return lambda: write_settings(**changed)
+
+
+def _section(name: str, **changed: object) -> Callable[[], None]:
+    return lambda: write_settings(**{name: changed})
+
+
+def _structures(*listed: dict[str, object]) -> Callable[[], None]:
+    return lambda: Path("structures.yaml").write_text(yaml.safe_dump(list(listed))) and None
+
+
+def _content(file: str, old: str, new: str) -> Callable[[], None]:
+    def edit() -> None:
+        path = Path(file)
+        before = path.read_text()
+        assert old in before
+        path.write_text(before.replace(old, new, 1))
+
+    return edit
+
+
+def _bytes(file: str, content: bytes) -> Callable[[], None]:
+    return lambda: Path(file).write_bytes(content) and None
+
+
+def _move_catalogue() -> None:
+    shutil.copytree("records", "moved")
+    write_settings(catalogue="moved/catalogue.csv")
+
+
+def _move_structures() -> None:
+    shutil.copy("structures.yaml", "list.yaml")
+    write_settings(structures="list.yaml")
+
+
+def _structures_as_csv() -> None:
+    keys = list({key: None for each in STRUCTURES for key in each})
+    lines = [keys, *([str(each.get(key, "")) for key in keys] for each in STRUCTURES)]
+    Path("list.csv").write_text("\n".join(map(",".join, lines)))
+    write_settings(structures="list.csv")
+
+
+def _station_xml() -> None:
+    """Of both records, which name it."""
+    Path("records/station.xml").write_text("<a/>")
+    write_catalogue("records", "a", "b", inventory="station.xml")
+
+
+def _removed(path: str) -> Callable[[], None]:
+    return lambda: Path("results", path).unlink()
+
+
+def _add_record() -> None:
+    shutil.copy("pool/p.AT2", "records")
+    write_catalogue("records", "a", "b", "p")
+
+
+Edit = tuple[str, Callable[[], object], str] | tuple[str, Callable[[], object], str, Callable[[], object]]
+"""Its name, the edit, what it makes again, and what the study is before, where that is not as usual."""
+BLOCK, WALL = STRUCTURES
+EDITS: list[Edit] = [
+    ("nothing", lambda: None, ""),
+    # What is told of the study stands in the report of a record, in the summary and on the pages to sign.
+    ("study", _setting(study="A town"), "a b S C"),
+    ("client", _setting(client="A town"), "a b S C"),
+    ("project_number", _setting(project_number="12"), "a b S C"),
+    ("author", _setting(author="Somebody"), "a b S C"),
+    ("date", _setting(date="1 May"), "a b S C"),
+    ("display_units", _setting(display_units="g and cm"), "a b S C"),
+    ("details", _setting(details=True), "a b S C"),
+    ("figures", _setting(figures="svg"), "a b S C F T"),
+    ("language", _setting(language="it"), "S C"),
+    # Where files lie changes nothing; what lies there does.
+    ("mirror", _setting(mirror="elsewhere"), ""),
+    ("catalogue elsewhere", _move_catalogue, NUMBERS),
+    ("structures elsewhere", _move_structures, "a b S C F T"),
+    ("structures as CSV", _structures_as_csv, "a b S C F T"),
+    ("cell of the structures as CSV", _content("list.csv", "3.2", "3.3"), NUMBERS, _structures_as_csv),
+    ("records_per_job", _setting(records_per_job=5), "S"),
+    # What else is written, and when.
+    ("reports", _setting(reports=False), "B S C"),
+    ("histories", _setting(histories=True), "a b B S C"),
+    ("fragility.in_every_run", _section("fragility", in_every_run=False), "S"),
+    ("trade.in_summary", _section("trade", in_summary=False), "S"),
+    # Numbers.
+    ("tolerance", _setting(tolerance=1e-7), NUMBERS),
+    ("acceleration_scale", _setting(acceleration_scale="uplift"), NUMBERS),
+    ("fidelity", _setting(fidelity="auto"), NUMBERS),
+    ("fidelity_risk", _setting(fidelity_risk=0.02), NUMBERS),
+    ("friction_coefficient", _setting(friction_coefficient=0.5), NUMBERS),
+    ("scale_to", _setting(scale_to="pga 0.3 g"), NUMBERS),
+    ("vertical", _setting(vertical=True), NUMBERS),
+    ("candidates", _setting(candidates=3), NUMBERS),
+    ("processing_variants", _setting(processing_variants=False), NUMBERS),
+    ("processing.apply", _section("processing", apply="always"), NUMBERS),
+    ("processing.pre_event_s", _section("processing", pre_event_s=0.5), NUMBERS),
+    ("processing.baseline", _section("processing", baseline="none"), NUMBERS),
+    ("processing.taper", _section("processing", taper=0.05), NUMBERS),
+    ("processing.high_pass_Hz", _section("processing", high_pass_hz=0.2), NUMBERS),
+    ("processing.low_pass_Hz", _section("processing", low_pass_hz=25), NUMBERS),
+    ("processing.order", _section("processing", order=2), NUMBERS),
+    ("processing.padding", _section("processing", padding=False), NUMBERS),
+    ("processing.keep_padding", _section("processing", keep_padding=True), NUMBERS),
+    ("processing.time_step_s", _section("processing", time_step_s=0.005), NUMBERS),
+    ("pulse.lowest_frequency_Hz", _section("pulse", lowest_frequency_hz=0.2), NUMBERS),
+    ("pulse.highest_frequency_Hz", _section("pulse", highest_frequency_hz=4), NUMBERS),
+    ("pulse.frequencies_per_octave", _section("pulse", frequencies_per_octave=12), NUMBERS),
+    ("pulse.candidates", _section("pulse", candidates=5), NUMBERS),
+    ("pulse.alternatives", _section("pulse", alternatives=3), NUMBERS),
+    ("pulse.pursuit", _section("pulse", pursuit=2), NUMBERS),
+    ("pulse.overlap", _section("pulse", overlap=0.6), NUMBERS),
+    ("pulse.samples_per_cycle", _section("pulse", samples_per_cycle=10), NUMBERS),
+    ("pulse.choice", _section("pulse", choice="demand"), NUMBERS),
+    ("ensemble.members", _section("ensemble", members=16), NUMBERS),
+    ("ensemble.amplitude_range", _section("ensemble", amplitude_range=0.1), NUMBERS),
+    ("ensemble.restitution_range", _section("ensemble", restitution_range=0.1), NUMBERS),
+    ("ensemble.polarity", _section("ensemble", polarity=False), NUMBERS),
+    ("ensemble.processing", _section("ensemble", processing=False), NUMBERS),
+    ("ensemble.risk", _section("ensemble", risk=0.1), NUMBERS),
+    ("ensemble.reserve", _section("ensemble", reserve=2.0), NUMBERS),
+    # The design level is drawn in reports; what only the checks use is theirs.
+    ("design level", _section("design_spectrum", points=None, ag_g=0.2, f0=2.5, tc_star_s=0.4), "a b S C"),
+    ("design_spectrum.damping", _section("design_spectrum", damping=0.1), "a b S C"),
+    ("design_spectrum.limit_state", _section("design_spectrum", limit_state="SLC"), "S C"),
+    ("design_spectrum.confidence_factor", _section("design_spectrum", confidence_factor=1.2), "S C"),
+    ("design_spectrum.behaviour_factor", _section("design_spectrum", behaviour_factor=1.5), "S C"),
+    ("design_spectrum.stations", _section("design_spectrum", stations=10), "S C"),
+    ("design_spectrum.least_factor", _section("design_spectrum", least_factor=0.3), "S C"),
+    ("design_spectrum.largest_factor", _section("design_spectrum", largest_factor=3.0), "S C"),
+    ("design_spectrum.shortest_period_s", _section("design_spectrum", shortest_period_s=0.2), "S C"),
+    ("design_spectrum.longest_period_s", _section("design_spectrum", longest_period_s=1.5), "S C"),
+    ("design_spectrum.seed", _section("design_spectrum", seed=1), "S C"),
+    ("design_spectrum.pool", _section("design_spectrum", pool=None), "S C"),
+    ("content of design.csv", _content("design.csv", "0.06", "0.05"), "a b S C"),
+    ("content of a record of the pool", _bytes("pool/p.AT2", _waves(9)), "S C"),
+    ("catalogue of the pool", lambda: write_catalogue("pool", "p", scale_factor="2"), "S C"),
+    ("record of the pool away", lambda: Path("pool/p.AT2").unlink(), "S C"),
+    # The checks, the fragility and the trade stand in the summary.
+    ("fragility.intensity_measure", _section("fragility", intensity_measure="pga"), "S F"),
+    ("fragility.members", _section("fragility", members=False), "S F"),
+    ("fragility.largest_factor", _section("fragility", largest_factor=5.0), "S F"),
+    ("fragility.hazard", _section("fragility", hazard=None), "S F"),
+    ("content of hazard.csv", _content("hazard.csv", "0.0001", "0.0002"), "S F"),
+    # Records and their files.
+    ("content of a record", _bytes("records/a.AT2", _waves(9)), "a B S C F T"),
+    ("a byte of a record", lambda: _bytes("records/a.AT2", _waves(97) + b"\n")(), "a B S C F T"),
+    ("date of a record", lambda: os.utime("records/a.AT2", (1e9, 1e9)), ""),
+    ("record away", lambda: Path("records/a.AT2").unlink(), "a B S C F T"),
+    ("cell of the catalogue", lambda: write_catalogue("records", "a", "b", scale_factor="2"), NUMBERS),
+    ("blank cells of the catalogue", lambda: write_catalogue("records", "a", "b", event=""), ""),
+    ("records in another order", lambda: write_catalogue("records", "b", "a"), "B S C F T"),
+    ("record renamed", _content("records/catalogue.csv", "b,b.AT2", "c,b.AT2"), "c B S C F T"),
+    (
+        "StationXML of the records",
+        lambda: Path("records/station.xml").write_text("<b/>"),
+        NUMBERS,
+        _station_xml,
+    ),
+    ("record less", lambda: write_catalogue("records", "a"), "B S C F T"),
+    ("record more", _add_record, "p B S C F T"),
+    # Structures.
+    ("structure changed", _structures(BLOCK | {"height_m": 3.1}, WALL), NUMBERS),
+    ("structure renamed", _structures(BLOCK | {"name": "pier"}, WALL), NUMBERS),
+    ("structure added", _structures(BLOCK, WALL, BLOCK | {"name": "pier"}), NUMBERS),
+    ("structure less", _structures(BLOCK), NUMBERS),
+    ("structures in another order", _structures(WALL, BLOCK), NUMBERS),
+    ("comment in the list", lambda: _content("structures.yaml", "- ", "# old\n- ")(), ""),
+    ("terms of the checks", _structures(BLOCK | {"elastic_period_s": 0.3}, WALL), "S C"),
+    # What was written is made again where it is not there; what serves the next run alone nobody misses.
+    ("report away", _removed("a/report.pdf"), "a S C"),
+    ("table of a record away", _removed("b/timings.csv"), "b S C"),
+    ("outcome away", _removed(".kept/outcomes/a.json"), "a S C"),
+    ("table of the summary away", _removed("summary/provenance.json"), "S"),
+    ("sums away", _removed("SHA256SUMS"), "S"),
+    ("page to sign away", _removed("summary/structures.pdf"), "S C"),
+    ("curves away", _removed("fragility/fragility.csv"), "S F"),
+    ("rows of the trade away", _removed(".kept/rows/trade.json"), "S T"),
+    ("cases away", _removed(".kept/cases/a.json"), ""),
+    ("all memory of the scheduler away", lambda: shutil.rmtree(".snakemake"), ""),
+]

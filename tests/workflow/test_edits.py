@@ -1,0 +1,256 @@
+"""What a run makes again after an edit, as snakemake -n tells it; and that the run after it equals one from scratch."""
+
+import re
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import pytest
+import yaml
+
+from rocking.hashes import sha256_of_file
+from tests.workflow.conftest import ROOT, SmallStudy, kinds_of_jobs
+from tests.workflow.edits import EDITS, JOBS, write_outputs, write_study
+from tests.workflow.forked import PLANNING, run_snakemake
+
+pytestmark = pytest.mark.process
+
+
+def _snakemake(*options: str) -> str:
+    """What snakemake says in the folder of the study, with its own triggers: no profile is named."""
+    study = SmallStudy(Path.cwd(), ROOT)
+    with TemporaryDirectory() as folder:
+        arguments = ["--snakefile", str(ROOT / "Snakefile"), "--cores", "1", "--nocolor", *options]
+        output = Path(folder) / "output"
+        status, told = run_snakemake(arguments, output, modules=PLANNING, **study.surroundings)
+    assert status == 0, told
+    return told
+
+
+def _again(told: str) -> set[str]:
+    """The jobs of a dry run, each by its letter."""
+    messages = re.findall(r"(?m)^Job \d+: (.*)$", told)
+    return {JOBS.get(message) or message.removeprefix("Record ") for message in messages}
+
+
+def _finish() -> None:
+    write_outputs()
+    _snakemake("--touch", "--forceall")
+
+
+@pytest.fixture(scope="module")
+def touched(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A study whose products all stand, and of which snakemake knows what they were made from."""
+    folder = tmp_path_factory.mktemp("touched")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        write_study()
+        _finish()
+    return folder
+
+
+@pytest.fixture
+def study(touched: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of it in which the test runs."""
+    monkeypatch.chdir(shutil.copytree(touched, tmp_path / "study"))
+    return tmp_path / "study"
+
+
+@pytest.mark.parametrize("edit", EDITS, ids=[each[0] for each in EDITS])
+def test_each_edit_makes_again_what_depends_on_it_and_nothing_else(study, edit) -> None:
+    """Of a batch, which this study has none of, tests/unit/study/test_made_from.py tells."""
+    _, change, again, *first = edit
+    for each in first:
+        each()
+        _finish()
+    change()
+    assert _again(_snakemake("-n")) - {"B"} == set(again.split()) - {"B"}
+
+
+DESIGN = "period_s,acceleration_g\n0,0.2\n0.1,0.5\n0.5,0.5\n4,0.06\n"
+WHOLE = {
+    "ensemble": {"members": 16, "reserve": 0},
+    "processing_variants": False,
+    "candidates": 0,
+    "design_spectrum": {"points": "design.csv", "stations": 1},
+    "fragility": {"in_every_run": True, "hazard": "hazard.csv", "members": False},
+}
+
+
+@pytest.fixture(scope="module")
+def run(start, tmp_path_factory) -> SmallStudy:
+    """A study of two records with reports, checks at a design level by its points, and the fragility, after its run."""
+    made = start.copy_to(tmp_path_factory.mktemp("reports") / "study")
+    made.write_catalogue(made.rows()[:2])
+    (made.folder / "design.csv").write_text(DESIGN)
+    (made.folder / "hazard.csv").write_text("intensity,annual_rate\n0.01,0.1\n10,0.00001\n")
+    (made.folder / "config.yaml").write_text(yaml.safe_dump(WHOLE))
+    made.run()
+    return made
+
+
+def _everything(study: SmallStudy) -> dict[str, bytes]:
+    """What a study wrote, by its path; of what holds measured times, and of logs, that it is there."""
+    measured = {"timings.csv", "trade.csv", "trade.pdf", "trade.svg", "trade.json"}
+    found: dict[str, bytes] = {}
+    for path in study.results.rglob("*"):
+        name = path.relative_to(study.results)
+        if path.is_file():
+            told = {"logs", "benchmarks", ".kept"} & set(name.parts) or path.name in measured
+            found[name.as_posix()] = b"" if told else path.read_bytes()
+    shows_times = {"summary/summary.pdf"} if "summary/trade.csv" in found else set()
+    of_snakemake = {"summary/logs/run.log"}
+    return {
+        name: b"" if name in shows_times else content
+        for name, content in found.items()
+        if name not in of_snakemake
+    }
+
+
+def _settings(**changed: object) -> Callable[[SmallStudy], object]:
+    def edit(study: SmallStudy) -> None:
+        settings = {key: value for key, value in {**WHOLE, **changed}.items() if value is not None}
+        (study.folder / "config.yaml").write_text(yaml.safe_dump(settings))
+
+    return edit
+
+
+def _file(name: str, old: str, new: str) -> Callable[[SmallStudy], object]:
+    def edit(study: SmallStudy) -> None:
+        path = study.folder / name
+        before = path.read_text()
+        assert old in before
+        path.write_text(before.replace(old, new))
+
+    return edit
+
+
+def _both(*edits: Callable[[SmallStudy], object]) -> Callable[[SmallStudy], object]:
+    return lambda study: [edit(study) for edit in edits]
+
+
+def _record_less(study: SmallStudy) -> None:
+    study.write_catalogue(study.rows()[:1])
+
+
+def _record_more(study: SmallStudy) -> None:
+    study.add_synthetic("good_9", 9)
+
+
+def _other_content(study: SmallStudy) -> None:
+    rows = study.rows()
+    shutil.copy(study.folder / "records" / "good_2.txt", study.folder / "records" / "good_1.txt")
+    study.write_catalogue([rows[0] | {"sha256": rows[1]["sha256"]}, *rows[1:]])
+
+
+def _order(study: SmallStudy) -> None:
+    study.write_catalogue(study.rows()[::-1])
+
+
+LEVEL = {"ag_g": 0.2, "f0": 2.4, "tc_star_s": 0.35, "stations": 1}
+IN_CI = {"title", "reports off and a breadth", "design level away"}
+"""Those that every change of the project is held against; the others run on demand."""
+RUNS: dict[str, tuple[Callable[[SmallStudy], object], ...]] = {
+    "title": (_settings(study="A town"),),
+    "reports off and a breadth": (_both(_settings(reports=False), _file("structures.yaml", "_m: 0.5", "_m: 0.6")),),
+    "design level away": (_settings(design_spectrum=None),),
+    "seed of the sets": (_settings(design_spectrum={**WHOLE["design_spectrum"], "seed": 2}),),
+    "design level by a_g": (_settings(design_spectrum=LEVEL),),
+    "content of the design level": (_file("design.csv", "0.06", "0.05"),),
+    "hazard": (_file("hazard.csv", "0.00001", "0.00002"),),
+    "fragility off": (_settings(fragility=None),),
+    "structure": (_file("structures.yaml", "3.2", "3.3"),),
+    "structure renamed": (_file("structures.yaml", "name: block", "name: pier"),),
+    "histories on and off": (_settings(histories=True), _settings()),
+    "figures on and off": (_settings(figures="svg"), _settings()),
+    "reports off and on": (_settings(reports=False), _settings()),
+    "batches of another size": tuple(_settings(reports=False, records_per_job=size) for size in (1, 9)),
+    "language": (_settings(language="it"),),
+    "trade on": (_settings(trade={"in_summary": True}),),
+    "trade on and off": (_settings(trade={"in_summary": True}), _settings()),
+    "record less": (_record_less,),
+    "record more": (_record_more,),
+    "content of a record": (_other_content,),
+    "order of the records": (_order,),
+    "tolerance": (_settings(tolerance=1e-7),),
+    "details": (_settings(details=True),),
+    "two edits before one run": (_both(_settings(study="A town", tolerance=1e-7), _record_less),),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "edits",
+    [
+        pytest.param(edits, id=name, marks=[] if name in IN_CI else [pytest.mark.slow])
+        for name, edits in RUNS.items()
+    ],
+)
+def test_the_runs_after_edits_leave_the_files_of_a_run_from_scratch(run, tmp_path: Path, edits) -> None:
+    """Each file with its bytes; so no document of a former run stands beside tables that it does not fit."""
+    study = run.copy_to(tmp_path / "study")
+    for edit in edits:
+        edit(study)
+        study.run()
+    assert study.planned() == []
+    scratch = study.copy_to(tmp_path / "scratch")
+    shutil.rmtree(scratch.results)
+    shutil.rmtree(scratch.folder / ".snakemake")
+    scratch.run()
+    after, anew = _everything(study), _everything(scratch)
+    assert sorted(after) == sorted(anew)
+    assert [name for name in anew if after[name] != anew[name]] == []
+
+
+def test_a_file_of_the_user_among_the_results_stays_and_what_goes_is_told(run, tmp_path: Path) -> None:
+    study = run.copy_to(tmp_path / "study")
+    mine = [study.results / name for name in ("mine.pdf", "good_1/notes.txt", "summary/mine.csv")]
+    for path in mine:
+        path.write_text("mine")
+    _settings(reports=False, design_spectrum=None, fragility=None)(study)
+    told = study.run()
+    assert "files of former runs, which this study does not make: results/" in told
+    assert all(path.read_text() == "mine" for path in mine)
+    assert not list(study.results.rglob("*.pdf"))[1:] and not (study.results / "fragility").exists()
+
+
+def test_a_file_of_one_record_is_made_when_it_is_asked_for_by_its_name(finished, tmp_path) -> None:
+    """Also where the study makes no reports; and a name that is no record's is refused."""
+    study = finished.copy_to(tmp_path / "study")
+    told = study.run("results/good_2/comparison.csv")
+    assert kinds_of_jobs(told) == ["record"]
+    lines = (study.results / "good_2" / "comparison.csv").read_bytes().splitlines()[1:]
+    assert lines == finished.rows_of("good_2")["comparison.csv"]
+    assert study.planned("results/good_2/comparison.csv") == []
+    (study.results / "good_2" / "comparison.csv").unlink()
+    assert study.planned("results/good_2/comparison.csv") == ["record"]
+    assert "MissingRuleException" in study.run("--dry-run", "results/good_9/comparison.csv", status=1)
+
+
+def test_all_is_computed_anew_where_that_is_asked_for(finished, tmp_path) -> None:
+    """What is kept of the cases is not looked at: here it is damaged, of which a job that reads it tells."""
+    study = finished.copy_to(tmp_path / "study")
+    for path in study.results.glob(".kept/cases/*.json"):
+        path.write_text("no cases")
+    assert "what was kept is ignored" not in study.run("--forceall")
+    assert study.tables() == finished.tables()
+
+
+def test_where_snakemake_remembers_nothing_that_is_told(finished, tmp_path) -> None:
+    study = finished.copy_to(tmp_path / "study")
+    shutil.rmtree(study.folder / ".snakemake")
+    told = study.rocking("run", str(study.folder)).stdout
+    assert f"rocking run {study.folder} -- --forceall" in told
+
+
+def test_the_sums_are_those_of_the_pages_and_tables(run) -> None:
+    sums = dict(reversed(line.split("  ")) for line in (run.results / "SHA256SUMS").read_text().splitlines())
+    assert {
+        "summary/structures.pdf",
+        "summary/verdicts.csv",
+        "good_1/report.pdf",
+        "fragility/fragility.csv",
+    } <= set(sums)
+    assert "summary/timings.csv" not in sums
+    for name, sha256 in sums.items():
+        assert sha256_of_file(run.results / name) == sha256
