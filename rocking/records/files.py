@@ -11,7 +11,7 @@ from urllib.parse import quote
 
 from rocking.errors import RecordError
 from rocking.hashes import sha256_of_bytes
-from rocking.records.archive import ENDING, archive_of
+from rocking.records.archive import archive_of, ending_of
 from rocking.records.catalogue import CatalogueRecord, RecordFile, catalogue_text, load_catalogue, read_rows
 from rocking.records.formats.by_obspy import may_be_counts
 from rocking.records.formats.layouts import NAME, Layouts
@@ -73,15 +73,16 @@ def files_by_name(record: CatalogueRecord) -> dict[str, str]:
     """Return the files from which `record` is read as the catalogue names them, with the sha256 that it states.
 
     Nothing is looked at: the files may lie on another machine. Those that obspy brings or that are downloaded are left
-    out. A member of an archive stands for the archive, whose name ends in .zip.
+    out. A member of an archive stands for the archive.
     """
     if record.example_name or record.is_remote:
         return {}
     named: dict[str, str] = {}
     for file in record.files:
-        path = record.folder / file.name
-        archive = next((parent for parent in path.parents if parent.suffix.lower() == ENDING), path)
-        named[str(archive)] = named.get(str(archive), "") + file.sha256
+        within = Path(file.name)
+        outermost = [parent for parent in within.parents if ending_of(parent.name)][-1:]
+        path = str(record.folder / (outermost[0] if outermost else within))
+        named[path] = named.get(path, "") + file.sha256
     return named
 
 
