@@ -13,6 +13,7 @@ import rocking
 from rocking.errors import CatalogueError
 from rocking.records.catalogue import CatalogueRecord
 from rocking.structures.structure_list import TYPES
+from rocking.study.outputs import OUTPUTS
 
 ROOT = Path(rocking.__file__).parents[1]
 WAIVED = {"Specify a conda environment or container for each rule."}
@@ -54,10 +55,12 @@ def test_every_setting_and_type_that_the_configuration_page_names_exists():
 def test_no_record_can_take_the_name_of_a_folder_of_the_results():
     research = (ROOT / "docs" / "research" / "research.smk").read_text(encoding="utf-8")
     rules = [path.read_text(encoding="utf-8") for path in (ROOT / "workflow" / "rules").glob("*.smk")]
-    folders = {"summary", *re.findall(r"\{RESULTS\}/(\w+)", "".join(rules))}
+    folders = set(re.findall(r"\{RESULTS\}/(\w+)", "".join(rules)))
+    outputs = (each.path for of_kind in OUTPUTS.values() for each in of_kind)
+    folders |= {path.partition("/")[0] for path in outputs if "/" in path and not path.startswith(("{", "."))}
     # A target of the research names its folder.
     folders |= set(re.findall(r'^    "(\w+)": \(', research, re.M))
-    assert {"calibrate", "compare", "fragility", "govern", "validate"} <= folders
+    assert {"calibrate", "compare", "fragility", "govern", "summary", "validate"} <= folders
     for folder in folders:
         with pytest.raises(CatalogueError, match="reserved"):
             CatalogueRecord(folder, "record.txt", "0" * 64, unit="g")
