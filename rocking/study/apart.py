@@ -13,10 +13,8 @@ import sys
 import threading
 from multiprocessing import forkserver
 from multiprocessing.connection import wait
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from rocking.study.settings import Settings
+from rocking.study.settings import Settings, commented_yaml
 
 _FORKS = "forkserver" in multiprocessing.get_all_start_methods()
 _ONE_AT_A_TIME = threading.Lock()
@@ -27,16 +25,13 @@ PREPARED = "ROCKING_PREPARED"
 """The variable of the environment by which the process that is forked is told the settings of the study, as YAML."""
 
 
-def warm_up(settings: "Settings") -> None:
+def warm_up(settings: Settings) -> None:
     """Start the process that jobs are forked from, unless it runs; it imports and prepares itself beside this one.
 
     settings: of the study in this folder, whose structures it prepares.
     """
     if not _FORKS:
         return
-    # Not above: a job that is forked imports this module as well.
-    from rocking.study.settings import commented_yaml
-
     # A console script, which imports its `main`, is run again as a module in each process that is started.
     script = getattr(vars(sys.modules["__main__"]).get("main"), "__module__", None)
     forkserver.set_forkserver_preload(["rocking.study.warm", *([script] if script else [])])

@@ -223,10 +223,11 @@ OTHERWISE = {
     "rocking": "what draws or measures stands above what offers it as a method",
     "rocking.codes": "a study without a design level runs without this folder",
     "rocking.reports.variants": "likewise",
+    "rocking.study.checks": "likewise",
 }
 """What is imported within a function for another reason."""
-BY_THEMSELVES = {"study/cli.py", "study/fork_server.py"}
-"""A verb imports what it does; the fork server what its forks need, once it serves."""
+BY_THEMSELVES = {"study/cli.py"}
+"""A verb imports what it does."""
 
 
 def within_functions(path: Path) -> set[str]:
@@ -265,7 +266,7 @@ def test_an_import_within_a_function_saves_a_command_a_tenth_of_a_second():
     "code",
     [
         "from rocking.study.plan import make_plan\n"
-        "assert make_plan({'structures': 'workflow/structures.yaml'}).records",
+        "assert make_plan({'structures': 'config/structures.yaml'}).records",
         "from rocking.study.cli import main\n"
         "assert not main(['catalogue', RECORDS, '--output', RESULTS + '/catalogue.csv'])",
         "import os, rocking\nos.makedirs(RESULTS + '/summary')\nrocking.open_results(RESULTS)",

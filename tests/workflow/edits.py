@@ -157,6 +157,7 @@ EDITS: list[Edit] = [
     ("structures as CSV", _structures_as_csv, "a b S C F T"),
     ("cell of the structures as CSV", _content("list.csv", "3.2", "3.3"), NUMBERS, _structures_as_csv),
     ("records_per_job", _setting(records_per_job=5), "S"),
+    ("unnamed_events", _setting(unnamed_events="each"), NUMBERS),
     # What else is written, and when.
     ("reports", _setting(reports=False), "B S C"),
     ("histories", _setting(histories=True), "a b B S C"),
