@@ -46,6 +46,8 @@ class Inputs(Protocol):
     def contents(self) -> ContentHashes: ...
     @property
     def batches(self) -> Mapping[str, tuple[str, ...]]: ...
+    @property
+    def beside_summary(self) -> tuple[str, ...]: ...
     def files_of(self, record: CatalogueRecord) -> Mapping[str, str]: ...
     def answers_of(self, record: CatalogueRecord) -> Mapping[str, str]: ...
 
@@ -67,7 +69,8 @@ class Line:
     settings: names of settings and of whole sections; section.name is one setting of a section. files: settings that
     name a file whose content counts. opens_records: whether it is made from the files of its records, rather than from
     their outcomes. pool: whether the records count from which sets are drawn. terms: whether what the structures say
-    for the checks of a code counts. documents: whether it holds a document whatever the settings say.
+    for the checks of a code counts. shows: whether it shows other products over all records. documents: whether it
+    holds a document whatever the settings say.
     """
 
     settings: tuple[str, ...]
@@ -75,6 +78,7 @@ class Line:
     opens_records: bool = True
     pool: bool = False
     terms: bool = False
+    shows: bool = False
     documents: bool = True
 
     def handed(self, settings: Settings) -> Settings:
@@ -103,6 +107,7 @@ TABLE: Mapping[str, Line] = {
         ),
         files=("design_spectrum.points",),
         opens_records=False,
+        shows=True,
         documents=False,
     ),
     "checks": Line(
@@ -179,6 +184,8 @@ def _common(line: Line, plan: Inputs) -> tuple[str, ...]:
         lines.append(_told(f"file of {key}", {path: plan.contents.of(Path(path))} if path else {}))
     if line.terms:
         lines.append(_named("terms", *((name, each.terms) for name, each in plan.scenes.items())))
+    if line.shows:
+        lines.append(f"beside: {', '.join(plan.beside_summary)}")
     return tuple(lines)
 
 

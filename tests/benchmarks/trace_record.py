@@ -2,8 +2,8 @@
 
     python tests/benchmarks/trace_record.py
 
-Snakemake starts `workflow/scripts/record.py` as in a study, on one record and one wall, with every document. What a
-process does as it imports is left out, and lambdas and comprehensions are no functions to jump to.
+The job is done as in a study, on one record and one wall, with every document, but in the process that starts it. What
+a process does as it imports is left out, and lambdas and comprehensions are no functions to jump to.
 """
 
 import os
@@ -19,9 +19,16 @@ sys.path.insert(0, str(ROOT))
 
 from tests.workflow.write_study import write_study  # noqa: E402
 
-_IN_THE_JOB = """
-import atexit, sys
+_THE_JOB = """
+import sys
+from pathlib import Path
 
+from rocking.study import apart
+from rocking.study.made_from import made_from
+from rocking.study.plan import check_config_file, make_plan
+from rocking.study.task import Task
+
+package, product = sys.argv[1:]
 entered = {}
 
 def imports(frame):
@@ -33,23 +40,20 @@ def imports(frame):
 
 def note(frame, event, _):
     code = frame.f_code
-    if event != "call" or not code.co_filename.startswith(PACKAGE) or code.co_name.startswith("<"):
+    if event != "call" or not code.co_filename.startswith(package) or code.co_name.startswith("<"):
         return
     if code not in entered and not imports(frame):
-        entered[code] = code.co_filename[len(PACKAGE) + 1:]
+        entered[code] = code.co_filename[len(package) + 1:]
 
-def write():
-    sys.setprofile(None)
-    with open(TRACE, "w", encoding="utf-8") as stream:
-        for file in dict.fromkeys(entered.values()):
-            functions = [f"    {code.co_qualname}\\n" for code, place in entered.items() if place == file]
-            stream.write("".join([file, "\\n", *functions]))
-
-if sys.orig_argv[-1].endswith("record.py"):
-    sys.setprofile(note)
-    atexit.register(write)
+config = check_config_file(Path("config.yaml"))
+task = Task(product, config, made_from(product, make_plan(config)))
+sys.setprofile(note)
+apart._work("rocking.study.jobs:record", task)
+sys.setprofile(None)
+for file in dict.fromkeys(entered.values()):
+    print(file, *(f"    {code.co_qualname}" for code, place in entered.items() if place == file), sep="\\n")
 """
-"""What Python runs first, as `sitecustomize`, in each process that snakemake starts."""
+"""What the process does that is traced; its arguments are the folder of the package and the product."""
 
 
 def traced(folder: Path) -> str:
@@ -64,19 +68,10 @@ def traced(folder: Path) -> str:
     )
     settings = yaml.safe_load((study / "config.yaml").read_text(encoding="utf-8"))
     (study / "config.yaml").write_text(yaml.safe_dump(settings | {"reports": True}), encoding="utf-8")
-    trace = folder / "trace.txt"
-    places = f"PACKAGE = {str(ROOT / 'rocking')!r}\nTRACE = {str(trace)!r}\n"
-    (folder / "sitecustomize.py").write_text(places + _IN_THE_JOB, encoding="utf-8")
-    report = f"{settings['results']}/synthetic_00000/report.pdf"
-    subprocess.run(
-        [sys.executable, "-m", "snakemake", "--cores", "1", "--directory", study, "--configfile",
-         study / "config.yaml", "--snakefile", ROOT / "Snakefile", "--quiet", "all", "--", report],
-        # No server answers by this name, so that the process that is started does the work itself.
-        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(folder), str(ROOT)]), "ROCKING_FORK_SERVER": "-"},
-        cwd=study,
-        check=True,
-    )  # fmt: skip
-    return trace.read_text(encoding="utf-8")
+    command = [sys.executable, "-c", _THE_JOB, str(ROOT / "rocking"), "record/synthetic_00000"]
+    surroundings = os.environ | {"PYTHONPATH": str(ROOT)}
+    done = subprocess.run(command, cwd=study, env=surroundings, stdout=subprocess.PIPE, text=True, check=True)
+    return done.stdout
 
 
 if __name__ == "__main__":

@@ -55,7 +55,10 @@ def lists_of(product):
 
 
 def dated(*paths):
-    """The files that may be inputs; behind one that is dated in the future snakemake removes what a job wrote."""
+    """The files that may be inputs; behind one that is dated in the future snakemake would remove what a job wrote.
+
+    Such a file counts by its content all the same, which is a param.
+    """
     now = time.time()
     return [ancient(path) for path in paths if not os.path.exists(path) or os.stat(path).st_mtime <= now]
 
