@@ -293,7 +293,7 @@ def read_structures(path: str | Path) -> dict[str, Structure]:
     >>> import warnings
     >>> with warnings.catch_warnings():
     ...     warnings.simplefilter("ignore")
-    ...     structures = rocking.read_structures("workflow/structures.yaml")
+    ...     structures = rocking.read_structures("config/structures.yaml")
     >>> list(structures)[:2]
     ['arch 10 m', 'arch 15 m']
     """

@@ -210,6 +210,7 @@ EDITS: list[Edit] = [
     ("design_spectrum.largest_factor", _section("design_spectrum", largest_factor=3.0), "S C"),
     ("design_spectrum.shortest_period_s", _section("design_spectrum", shortest_period_s=0.2), "S C"),
     ("design_spectrum.longest_period_s", _section("design_spectrum", longest_period_s=1.5), "S C"),
+    ("design_spectrum.least_others", _section("design_spectrum", least_others=0.9), "S C"),
     ("design_spectrum.seed", _section("design_spectrum", seed=1), "S C"),
     ("design_spectrum.pool", _section("design_spectrum", pool=None), "S C"),
     ("content of design.csv", _content("design.csv", "0.06", "0.05"), "a b S C"),

@@ -16,7 +16,7 @@ KINDS = [
     for name in dir(rocking)
     if inspect.isclass(kind := getattr(rocking, name)) and issubclass(kind, Structure)
 ]
-LIST = "workflow/structures.yaml"
+LIST = "config/structures.yaml"
 
 
 @pytest.mark.parametrize("kind", KINDS)
