@@ -75,7 +75,7 @@ check: $(TOOLS)
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy rocking docs/research
 	$(BIN)/snakefmt --check Snakefile workflow
-	$(BIN)/python -m pytest -q -n 0 tests/contracts/test_columns.py
+	$(BIN)/python -m pytest -q -n 0 tests/contracts/test_columns.py tests/contracts/test_docstrings.py
 
 # What the package's own fields say, written where the workflow reads it; a test compares.
 schema: setup

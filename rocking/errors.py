@@ -66,7 +66,15 @@ class RecordError(RockingError):
 
 
 class UnknownFormatError(RecordError):
-    """No reader recognises the file; `details` says what each looked for, one sentence each."""
+    """No reader recognises the file.
+
+    Parameters
+    ----------
+    message : str
+        What to say.
+    details : tuple of str, optional
+        What each reader looked for, one sentence each.
+    """
 
     def __init__(self, message: str, details: tuple[str, ...] = ()) -> None:
         super().__init__(message)

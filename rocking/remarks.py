@@ -998,9 +998,22 @@ class Kind(StrEnum):
 class Remark:
     """One thing to say: its kind, what it is about, and its values by name, in SI units unless their names say else.
 
-    values: in the order of `Kind.value_names`. Raises ValueError for an unknown kind, and where the values are not
-    those that its sentence names.
+    Parameters
+    ----------
+    kind : Kind
+        What is said.
+    about : str, default ''
+        The file, record or structure that it is about.
+    values : tuple of tuple of (str, str, int or float), optional
+        Values by name, in the order of `Kind.value_names`.
 
+    Raises
+    ------
+    ValueError
+        For an unknown kind, and where the values are not those that its sentence names.
+
+    Examples
+    --------
     >>> from rocking.remarks import Kind
     >>> str(rocking.Remark(Kind.CONTACTS_OPEN))
     'contacts open'

@@ -127,12 +127,28 @@ def _bounds(shares: np.ndarray, sample: Sample) -> tuple[float, float]:
 class Strengthening(Drawn):
     """The smallest value of one size of a structure that can be shown to hold, and what was tried.
 
-    field: of the structure. target: share that overturns at the most. sample: the n stations that count, and their
-    earthquakes. tried: the values, smallest first. given: the structure as it was given. static_tie: the least strength
-    of a tie by the linear check of the code, N/m; nan of another size, and where none of the range is enough. still:
-    stations at which nothing lifts it with any value, which tell nothing and do not count. `plot` draws the share over
-    the value with its bounds.
+    `plot` draws the share over the value with its bounds.
 
+    Parameters
+    ----------
+    field : Field
+        Size of the structure that varies.
+    target : float
+        Share that overturns at the most.
+    sample : Sample
+        The n stations that count, and their earthquakes.
+    tried : tuple of Tried
+        The values, smallest first.
+    given : Tried
+        The structure as it was given.
+    static_tie : float, default nan
+        Least strength of a tie by the linear check of the code, N/m; nan of another size, and where none of
+        the range is enough.
+    still : int, default 0
+        Stations at which nothing lifts it with any value, which tell nothing and do not count.
+
+    Examples
+    --------
     >>> step = 0.01 * np.arange(600)
     >>> pulses = [rocking.Pulse(3.0, omega, 0.5) for omega in np.linspace(4.0, 8.0, 30)]
     >>> records = [rocking.Accelerogram(pulse.acceleration(step), 0.01) for pulse in pulses]
@@ -316,20 +332,50 @@ def strengthen(
 ) -> Strengthening:
     """Return the smallest value of `key` that can be shown to hold `structure` under records as they are given.
 
-    15 values between (low, high), in equal ratios, are tried. The one that is returned is the smallest such that at it
-    and at all larger ones the upper one-sided 90 % bound (Jeffreys) of the share that overturns is at or below the
-    target. Each station counts once, with the mean over its components of the share that overturns; one that cannot be
-    told counts as 1, as does a value with which the structure does not stand at rest.
+    15 values between (low, high), in equal ratios, are tried. The one that is returned is the smallest such
+    that at it and at all larger ones the upper one-sided 90 % bound (Jeffreys) of the share that overturns is
+    at or below the target. Each station counts once, with the mean over its components of the share that
+    overturns; one that cannot be told counts as 1, as does a value with which the structure does not stand at
+    rest.
 
-    records: horizontal components, each by itself. key: a length, an angle, a force or a stiffness of the structure, in
-    SI, as its constructor has it: tie_strength [N/m], thickness, breadth, pier_width, top_load. stations, events: one
-    name a record; None: those that each record names; all that name no earthquake count as of one, from which nothing
-    can be shown. early: whether a value is given up once its bound cannot be met any more, whatever the stations that
-    are left say. Of a tie's strength the static one stands beside it: the least
-    by the linear check (C8.7.1.2.1.7, q = 2, FC = 1.35) at the mean peak acceleration of the records.
-    Raises ConfigurationError for a key that the structure lacks, a range or a target that is none, fewer than 6
-    stations, and a value with which there is no such structure.
+    Beside a tie's strength stands the static one: the least by the linear check (C8.7.1.2.1.7, q = 2, FC =
+    1.35) at the mean peak acceleration of the records.
 
+    Parameters
+    ----------
+    records : sequence of Accelerogram
+        Horizontal components, each by itself.
+    structure : Structure
+        The structure as it is.
+    key : str
+        Size that varies: a length, an angle, a force or a stiffness, in SI, as the constructor has it, such
+        as `tie_strength` [N/m], `thickness` or `top_load`.
+    between : tuple of (float, float)
+        Least and largest value that is tried, in SI.
+    target : float, default 0.1
+        Share that may overturn at the most.
+    stations : sequence of str or None, optional
+        (r,) stations; None: those that the records name.
+    events : sequence of str or None, optional
+        (r,) earthquakes; None: those that the records name. All that name no earthquake count as of one, from
+        which nothing can be shown.
+    early : bool, default True
+        Whether a value is given up once its bound cannot be met any more, whatever the stations that are left
+        say.
+
+    Returns
+    -------
+    Strengthening
+        The smallest value that can be shown to hold, its share and interval, and what was tried.
+
+    Raises
+    ------
+    ConfigurationError
+        For a key that the structure lacks, a range or a target that is none, fewer than 6 stations, and a
+        value with which there is no such structure.
+
+    Examples
+    --------
     >>> times = 0.01 * np.arange(600)
     >>> pulses = [rocking.Pulse(3.0, omega, 0.5) for omega in np.linspace(4.0, 8.0, 6)]
     >>> records = [rocking.Accelerogram(pulse.acceleration(times), 0.01) for pulse in pulses]

@@ -28,9 +28,22 @@ if TYPE_CHECKING:
 class StructureAssessment(StationResult, Drawn):
     """The result of one structure: the verdict with the ensemble over all uncertain inputs, directions included.
 
-    cases: by component. rotation_ratio: largest rotation over critical rotation of the case as given, the worse
+    `rotation_ratio` is the largest rotation over the critical one of the case as given, of the worse
     component; inf if it overturns. `plot` draws the rotation as given, with the members' 5–95 % beside it.
 
+    Parameters
+    ----------
+    scene : Scene
+        The structure, and where it stands.
+    cases : mapping of str to CaseResult
+        Result of each component, by its name.
+    directions : CaseResult or None, optional
+        Result of the pair over its directions; None of one component.
+    support : Carrier or None, optional
+        What carries the structure; None on the ground.
+
+    Examples
+    --------
     >>> (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
     >>> assessment = rocking.assess(record, rocking.Block(2.0, 0.2))
     >>> print(assessment.verdict)
@@ -150,12 +163,39 @@ def assess(
 ) -> StructureAssessment:
     """Return the verdict on `structure` under `record`, with the ensemble that says how sure it is.
 
-    record: one accelerogram, or both horizontal components, which then make one ensemble over eight directions; or an
-    obspy Stream or Trace, as Accelerogram.from_obspy reads it with `unit` and `inventory`, whose vertical component
-    acts too. members: of the ensemble, by default those of the settings. vertical: sample by sample as the record; half
-    of the members feel it.
-    Raises ConfigurationError for no record or more than two, RockingError where it cannot be followed.
+    Parameters
+    ----------
+    record : Accelerogram, sequence of Accelerogram or object
+        One accelerogram, or both horizontal components, which then make one ensemble over eight directions;
+        or an obspy Stream or Trace, as Accelerogram.from_obspy reads it with `unit` and `inventory`, whose
+        vertical component acts too.
+    structure : Structure or Mechanism
+        The structure, or a mechanism alone.
+    members : int or None, optional
+        Number of members of the ensemble; None: that of the settings.
+    settings : AssessmentSettings or None, optional
+        Settings of the assessment; None: the default.
+    vertical : Accelerogram or None, optional
+        Sample by sample as the record; half of the members feel it.
+    unit : str or None, optional
+        Unit of the samples of an obspy object, where it does not say one.
+    inventory : object, optional
+        StationXML of an obspy object, as obspy reads it.
 
+    Returns
+    -------
+    StructureAssessment
+        The verdict, the share that overturns and the case of each component.
+
+    Raises
+    ------
+    ConfigurationError
+        For no record or more than two.
+    RockingError
+        Where the structure cannot be followed.
+
+    Examples
+    --------
     >>> pulse = rocking.Pulse(amplitude=3.0, circular_frequency=8.0, start_time=0.5)
     >>> record = rocking.Accelerogram(pulse.acceleration(np.arange(500) * 0.01), 0.01)
     >>> print(rocking.assess(record, rocking.Block(semi_diagonal=2.0, slenderness=0.2)).verdict)

@@ -28,6 +28,8 @@ section on ties)."""
 class Verdict(StrEnum):
     """The verdict on a structure under a ground motion, with all uncertain inputs considered.
 
+    Examples
+    --------
     >>> [str(verdict) for verdict in rocking.Verdict][:3]
     ['stands', 'probably stands', 'uncertain']
     """
@@ -266,11 +268,25 @@ class Facts:
 class Decision:
     """The fate of a structure, as every table and report prints it.
 
-    word: the verdict. share: the largest that overturns, among the members of the cracks and the stacks that make the
-    word; of a single run 0 or 1, nan where none can be said. interval: of the share, from the first crack to the worst,
-    with what failed or is not known; nan where nothing is known. why: the reason, in words. doubts: what may make it
-    worse than said. tells: what would tell more.
+    Parameters
+    ----------
+    word : Verdict
+        The verdict.
+    share : float
+        Largest share that overturns, among the members of the cracks and the stacks that make the word; of a
+        single run 0 or 1, nan where none can be said.
+    interval : tuple of (float, float)
+        Interval of the share, from the first crack to the worst, with what failed or is not known; nan where
+        nothing is known.
+    why : str
+        The reason, in words.
+    doubts : tuple of Remark, optional
+        What may make it worse than said.
+    tells : tuple of Remark, optional
+        What would tell more.
 
+    Examples
+    --------
     >>> decision = rocking.Decision(rocking.Verdict.UNCERTAIN, 0.5, (0.5, 0.5), "32 of 64 members overturn")
     >>> print(decision.word, decision.share)
     uncertain 0.5

@@ -19,6 +19,19 @@ class Reserve:
 
     nan where fewer overturn at every factor up to the `limit`.
 
+    Parameters
+    ----------
+    low : float
+        Factor at which 5 % of the members overturn.
+    median : float
+        Factor at which half of them do.
+    high : float
+        Factor at which 95 % of them do.
+    limit : float
+        Largest factor that was tried.
+
+    Examples
+    --------
     >>> print(rocking.Reserve(0.8, 1.1, np.nan, limit=3.0))
     5 % of members fall at 0.8 ×, half at 1.1 × this record, fewer than 95 % up to 3 ×
     >>> print(rocking.Reserve(np.nan, np.nan, np.nan, limit=3.0))

@@ -287,9 +287,25 @@ def load_scenes(path: str | Path, content: bytes | None = None) -> dict[str, Sce
 def read_structures(path: str | Path) -> dict[str, Structure]:
     """Return the structures that a file lists in YAML or CSV, by name, in its order, each as it stands on the ground.
 
-    Raises ConfigurationError with every defect. Those that stand on a support, whose motion they would lose, are left
-    out with a StructureWarning.
+    Those that stand on a support, whose motion they would lose, are left out with a StructureWarning.
 
+    Parameters
+    ----------
+    path : str or Path
+        List of structures, YAML or CSV, in the units of a study.
+
+    Returns
+    -------
+    dict of str to Structure
+        The structures by name.
+
+    Raises
+    ------
+    ConfigurationError
+        With every defect.
+
+    Examples
+    --------
     >>> import warnings
     >>> with warnings.catch_warnings():
     ...     warnings.simplefilter("ignore")

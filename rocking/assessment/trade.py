@@ -46,11 +46,33 @@ def trade(
 ) -> list[TradeRow]:
     """Return a row for each method and structure, and one for each method over all structures.
 
-    Every structure is met by every record with every method, one response at a time. each_unnamed: whether records
-    that name no earthquake are of one each, not all of one. tell: takes a line for each
-    record, and one for each case that cannot be followed. within: gives what surrounds the work on a structure, by its
-    name, or on a record ("") and may keep errors from the rest. Times are processor times of this machine, in s.
+    Every structure is met by every record with every method, one response at a time.
 
+    Times are processor times of this machine, in s.
+
+    Parameters
+    ----------
+    records : iterable of Accelerogram
+        Horizontal components, each by itself.
+    structures : mapping of str to Structure
+        Structures by name.
+    settings : AssessmentSettings or None, optional
+        Settings of the assessment; None: the default.
+    each_unnamed : bool, default False
+        Whether records that name no earthquake are of one each, not all of one.
+    tell : callable, optional
+        Takes a line for each record, and one for each case that cannot be followed.
+    within : callable, optional
+        Gives what surrounds the work on a structure, by its name, or on a record (an empty text), and may
+        keep errors from the rest.
+
+    Returns
+    -------
+    list of TradeRow
+        A row for each method and structure, and one for each method over all structures.
+
+    Examples
+    --------
     >>> pier = rocking.Block.of_size(0.8, 6.0, 0.9)
     >>> rows = rocking.trade(rocking.read("records/synthetic_strong_pulse.AT2"), {"pier": pier})
     >>> [str(row.method) for row in rows if row.structure == "pier" and row.wrong_verdicts]

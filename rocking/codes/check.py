@@ -74,10 +74,26 @@ class CodeTerms:
 class Check:
     """One check of one limit state, with the mechanism that decides it.
 
-    capacity, demand: a_g on rock [m/s²] at which the limit state is reached and that of the spectrum, or displacements
-    [m], as `unit` says. mechanism: what opens, and to which side it falls. refusal: why it is not called met, where
-    that is not in the numbers; else None.
+    Parameters
+    ----------
+    clause : str
+        Clause of the code.
+    limit_state : str
+        Limit state of the code.
+    capacity : float
+        Ground acceleration on rock at which the limit state is reached, m/s², or a displacement, m, as `unit`
+        says.
+    demand : float
+        Ground acceleration on rock of the spectrum, m/s², or a displacement, m.
+    mechanism : str
+        What opens, and to which side it falls.
+    unit : str, default 'm/s²'
+        Unit of capacity and demand.
+    refusal : Remark or None, optional
+        Why it is not called met, where that is not in the numbers; else None.
 
+    Examples
+    --------
     >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
     >>> rocking.check(rocking.Block.of_size(breadth=0.6, height=2.0), spectrum).linear.clause
     'C8.7.1.2.1.7'
@@ -130,11 +146,39 @@ def ratio_in_words(ratio: float) -> str:
 class DynamicCheck(Check):
     """The dynamic check under the chosen set, and what the other sets say.
 
-    capacity, demand: d of the limit state and the mean of the largest displacements, m; inf where one overturns.
-    exceeding: motions of the chosen set under which d_0 is exceeded. motions: how many it has. stations, earthquakes:
-    of the pool from which sets are drawn. sets: how many were drawn; share: of them that meet the check, with its 90 %
-    interval for sets of other stations, (2,).
+    Parameters
+    ----------
+    clause : str
+        Clause of the code.
+    limit_state : str
+        Limit state of the code.
+    capacity : float
+        Displacement d of the limit state, m.
+    demand : float
+        Mean of the largest displacements, m; inf where one overturns.
+    mechanism : str
+        What opens, and to which side it falls.
+    unit : str, default 'm/s²'
+        Unit of capacity and demand.
+    refusal : Remark or None, optional
+        Why it is not called met, where that is not in the numbers; else None.
+    exceeding : int
+        Motions of the chosen set under which d_0 is exceeded.
+    motions : int
+        Number of motions of the chosen set.
+    stations : int
+        Number of stations of the pool from which sets are drawn.
+    earthquakes : int
+        Number of earthquakes of that pool.
+    sets : int
+        Number of sets that were drawn.
+    share : float
+        Share of the sets that meet the check.
+    interval : tuple of (float, float)
+        90 % interval of the share for sets of other stations.
 
+    Examples
+    --------
     >>> (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
     >>> spectrum = rocking.DesignSpectrum.ntc(ag=0.5, f0=2.5, tc_star=0.4)
     >>> records = rocking.select({"one": [record]}, spectrum, 1, below=0.9, above=9.0)
@@ -202,12 +246,32 @@ class Part(StrEnum):
 class StructureCheck:
     """The checks of one structure at one limit state.
 
-    linear: None for SLC, of which the code has none. nonlinear: None for SLD, and where nothing can overturn, which
-    `remark` then says. dynamic: None without records, and where nonlinear is. mechanisms: all that were checked.
-    were_it_unknown: the kinematic checks of a structure whose crack is known, were it not; None where it is not, or
-    would not stand with another one. restraints: what holds the structure sideways. damage_level: the least a_g [m/s²]
-    at which a mechanism starts, that of SLD.
+    Parameters
+    ----------
+    limit_state : str
+        Limit state of the code.
+    linear : Check or None, optional
+        Linear check; None for SLC, of which the code has none.
+    nonlinear : Check or None, optional
+        Nonlinear kinematic check; None for SLD, and where nothing can overturn, which `remark` then says.
+    dynamic : DynamicCheck or None, optional
+        Dynamic check; None without records, and where `nonlinear` is None.
+    damage_level : float
+        Least a_g at which a mechanism starts, that of SLD, m/s².
+    mechanisms : tuple of LocalMechanism
+        All that were checked.
+    governing : LocalMechanism
+        The mechanism that decides.
+    restraints : tuple of Restraint, optional
+        What holds the structure sideways.
+    remark : Remark or None, optional
+        Why a check is left out; else None.
+    were_it_unknown : StructureCheck or None, optional
+        The kinematic checks of a structure whose crack is known, were it not; None where it is not, or would
+        not stand with another one.
 
+    Examples
+    --------
     >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
     >>> rocking.check(rocking.Block.of_size(breadth=0.6, height=2.0), spectrum)
     StructureCheck(SLV: C8.7.1.2.1.7 met, ratio 2.18; C8.7.1.2.1.8 met, ratio 1.90; starts at a_g = 2.18 m/s²)

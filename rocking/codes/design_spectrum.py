@@ -52,7 +52,10 @@ _ACCELERATIONS = {"acceleration_m_s2": 1.0, "acceleration_g": GRAVITY}
 class DesignSpectrum(ABC):
     """An elastic acceleration spectrum at a level; make one by `ntc` or `read`.
 
-    damping: share of the critical damping, of the spectrum as it is given.
+    Parameters
+    ----------
+    damping : float
+        Share of the critical damping, of the spectrum as it is given.
     """
 
     damping: float

@@ -53,15 +53,47 @@ def check(
 ) -> StructureCheck:
     """Return the checks of `structure` at a limit state of the Italian code, each of the mechanism that decides it.
 
-    The mechanism is the one that limit analysis finds between supports, and above cracks each that may open, to each
-    side. spectrum: of the design level, for the limit state. limit_state: SLD, SLV or SLC. confidence_factor: FC ≥ 1.
-    support: the modes of what carries the structure above the ground. behaviour_factor: q of the linear check.
-    elastic_period: T_0 of a part free to vibrate, s; 0 where it is tied rigidly. support_loss: horizontal displacement
-    of the control point at which what it carries falls, m; inf: nothing does. least_others: share of the sets of other
-    stations that must meet the dynamic check, by the lower end of its interval, for it to be called met. records: sets
-    for the dynamic check, as rocking.select gives them. Masses are those of the structure. Raises ConfigurationError
-    for a value out of range, StructureError for a structure without capacity curve.
+    The mechanism is the one that limit analysis finds between supports, and above cracks each that may open,
+    to each side.
 
+    Parameters
+    ----------
+    structure : Structure
+        The structure; its masses are those that move.
+    spectrum : DesignSpectrum
+        Spectrum of the design level, for the limit state.
+    limit_state : str, default 'SLV'
+        "SLD", "SLV" or "SLC".
+    confidence_factor : float, default 1.35
+        FC, 1 or more.
+    support : Support or None, optional
+        Modes of what carries the structure above the ground; None: it stands on the ground.
+    behaviour_factor : float, default 2.0
+        q of the linear check.
+    elastic_period : float, default 0.0
+        T_0 of a part free to vibrate, s; 0 where it is tied rigidly.
+    support_loss : float, default inf
+        Horizontal displacement of the control point at which what it carries falls, m; inf: nothing does.
+    least_others : float, default 0.5
+        Share of the sets of other stations that must meet the dynamic check, by the lower end of its
+        interval, for it to be called met.
+    records : Selection or None, optional
+        Sets for the dynamic check, as `rocking.select` gives them; None: without it.
+
+    Returns
+    -------
+    StructureCheck
+        The checks, each of the mechanism that decides it.
+
+    Raises
+    ------
+    ConfigurationError
+        For a value out of range.
+    StructureError
+        For a structure without a capacity curve.
+
+    Examples
+    --------
     >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.35)
     >>> checks = rocking.check(rocking.Block.of_size(breadth=0.6, height=2.0), spectrum)
     >>> checks.linear.passed, checks.nonlinear.passed

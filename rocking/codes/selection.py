@@ -74,9 +74,37 @@ class ScaledPool:
 class Selection(ScaledPool, Drawn):
     """Sets of records for a design spectrum; `plot` draws the chosen one against its target.
 
-    sets: (s, n) places in the pool, each within the limits; chosen: (n,), the set whose mean lies nearest to the
-    target. drawn: sets that were tried. below, above: the limits. The rest: as ScaledPool.
+    Parameters
+    ----------
+    names : tuple of str
+        Names of the records of the pool.
+    stations : tuple of str
+        Their stations.
+    pairs : tuple of tuple of Accelerogram
+        Their horizontal components.
+    factors : ndarray
+        (p,) factors by which they are scaled.
+    periods : ndarray
+        (k,) periods of the spectra, s.
+    target : ndarray
+        (k,) target spectrum, m/s².
+    spectra : ndarray
+        (p, k) spectra of the scaled records, m/s².
+    sets : ndarray
+        (s, n) places in the pool, each within the limits.
+    chosen : ndarray
+        (n,) places of the set whose mean lies nearest to the target.
+    drawn : int
+        Number of sets that were tried.
+    below : float
+        Share by which the mean may lie below the target.
+    above : float
+        Share by which it may lie above.
+    each_unnamed : bool, default False
+        Whether records that name no earthquake are of one each, not all of one.
 
+    Examples
+    --------
     >>> (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
     >>> pool = {"one": [record]}
     >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.4)
@@ -166,15 +194,46 @@ def select(
 ) -> Selection:
     """Return sets of `stations` records whose mean spectrum lies within the limits about `spectrum`.
 
-    records: the horizontal components of each, by name; those of one station, by what its files call it and as far as
-    the shorter name goes, do not meet in a set. periods: shortest and longest of the range that counts, s; the
-    longest should be twice the secant period of the structure where that is more than 2 s. factors: least and
-    largest. below, above: shares. sets: how many are drawn beside the chosen one. tries: most sets that are drawn.
-    seed: the same one gives the same sets. each_unnamed: whether records that name no earthquake are of one each, not
-    all of one.
-    Raises ConfigurationError for fewer stations than asked for, a range or limits that are none, and where no set meets
-    the limits: it says how near the best one came.
+    Parameters
+    ----------
+    records : mapping of str to sequence of Accelerogram
+        The horizontal components of each, by name; those of one station, by what its files call it and as far
+        as the shorter name goes, do not meet in a set.
+    spectrum : DesignSpectrum
+        The target, at the design level.
+    stations : int, default 20
+        Number of records of a set.
+    periods : tuple of (float, float), optional
+        Shortest and longest of the range that counts, s; the longest should be twice the secant period of the
+        structure where that is more than 2 s.
+    factors : tuple of (float, float), optional
+        Least and largest factor on a record.
+    below : float, default 0.1
+        Share by which the mean spectrum may lie below the target.
+    above : float, default 0.3
+        Share by which it may lie above.
+    sets : int, default 200
+        Number of sets that are drawn beside the chosen one.
+    tries : int, default 1000000
+        Largest number of sets that are tried.
+    seed : int, default 0
+        Seed of the draw; the same one gives the same sets.
+    each_unnamed : bool, default False
+        Whether records that name no earthquake are of one each, not all of one.
 
+    Returns
+    -------
+    Selection
+        The sets, and the one whose mean lies nearest to the target.
+
+    Raises
+    ------
+    ConfigurationError
+        For fewer stations than asked for, a range or limits that are none, and where no set meets the limits:
+        it says how near the best one came.
+
+    Examples
+    --------
     >>> spectrum = rocking.DesignSpectrum.ntc(ag=2.0, f0=2.5, tc_star=0.4)
     >>> (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
     >>> scaled = [rocking.Accelerogram(f * record.acceleration, 0.01, station=str(f)) for f in (0.9, 1.0, 1.1, 1.2)]

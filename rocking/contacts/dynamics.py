@@ -30,12 +30,28 @@ SHORTEST = 1e-6
 class StackResponse:
     """The response of a stack: whether a course falls, and the largest turn of each.
 
-    falls: whether a course turned further than it comes back from. turns: (n,) of the courses where the largest of
-    them was reached, clockwise positive, rad. largest_turns: (n,) the largest of each, rad. steps: that were followed.
-    unsolved_steps: those whose impulses were found one after the other, to a hundred-thousandth, not at once.
-    With history: times (k,) s; places (k, n, 3), how far each centre of mass moved to the right and up beside the
-    ground [m] and its clockwise turn [rad]; velocities (k, n, 3) of these.
+    Parameters
+    ----------
+    falls : bool
+        Whether a course turned further than it comes back from.
+    turns : ndarray
+        (n,) turns of the courses when the largest of them was reached, clockwise positive, rad.
+    largest_turns : ndarray
+        (n,) largest turn of each course, rad.
+    steps : int
+        Time steps that were followed.
+    unsolved_steps : int
+        Time steps whose impulses were found one after the other, to a hundred-thousandth, not at once.
+    times : ndarray or None, optional
+        (k,) times of the history, s; None without one.
+    places : ndarray or None, optional
+        (k, n, 3) how far each centre of mass moved to the right and up beside the ground, m, and its
+        clockwise turn, rad.
+    velocities : ndarray or None, optional
+        (k, n, 3) rates of the places, m/s and rad/s.
 
+    Examples
+    --------
     >>> record = rocking.read("records/synthetic_strong_pulse.AT2")[0]
     >>> response = rocking.follow_stack(rocking.Spire(width=3.0, height=15.0).stack(), record.scaled(0.4))
     >>> response.falls, response.largest_turns.shape
@@ -68,11 +84,33 @@ def follow_stack(
 ) -> StackResponse:
     """Follow the courses of `stack` through `motion`, linear between its samples, and on until they rest or fall.
 
-    step: time step, s. vertical: ü_v, sample by sample as `motion`. history: keep states, one a sample of the motion or
-    every step where that is longer. initial_velocity: (n, 3) of the courses to the right and up [m/s] and clockwise
-    [rad/s]; at rest without it. Raises MotionError for a step that is too long for the stack, or another number of
-    samples.
+    Parameters
+    ----------
+    stack : Stack
+        The courses.
+    motion : Accelerogram
+        Horizontal ground acceleration, linear between its samples.
+    step : float, default 0.0005
+        Time step, s.
+    vertical : Accelerogram or None, optional
+        Vertical acceleration ü_v, sample by sample as `motion`.
+    history : bool, default False
+        Whether states are kept, one a sample of the motion or every step where that is longer.
+    initial_velocity : ndarray or None, optional
+        (n, 3) velocities of the courses to the right and up, m/s, and clockwise, rad/s; None: at rest.
 
+    Returns
+    -------
+    StackResponse
+        Whether a course falls, and the largest turn of each.
+
+    Raises
+    ------
+    MotionError
+        For a step that is too long for the stack, or another number of samples.
+
+    Examples
+    --------
     >>> record = rocking.read("records/synthetic_strong_pulse.AT2")[0]
     >>> rocking.follow_stack(rocking.Block.of_size(breadth=0.6, height=4.0).stack(), record).falls
     True

@@ -42,10 +42,23 @@ _LARGEST_DAMPING = 0.999
 class Mode:
     """One mode of what carries the structure, as it is felt where the structure stands.
 
-    period: undamped, s; 0 of one that is rigid. damping_ratio: share of the critical damping. participation: Γψ, the
-    participation factor times the shape of the mode at the height of the support; negative where the mode moves
-    against the ground there. Raises RecordError for what is out of range.
+    Parameters
+    ----------
+    period : float
+        Undamped period, s; 0 of a mode that is rigid.
+    damping_ratio : float
+        Share of the critical damping.
+    participation : float
+        Γψ, the participation factor times the shape of the mode at the height of the support; negative where
+        the mode moves against the ground there.
 
+    Raises
+    ------
+    RecordError
+        For what is out of range.
+
+    Examples
+    --------
     >>> rocking.Mode(period=0.3, damping_ratio=0.05, participation=1.3).circular_frequency.__round__(2)
     20.94
     """
@@ -103,9 +116,20 @@ class Mode:
 class Support:
     """The support of a structure: the modes of a building, a tower or a façade where the structure stands.
 
-    What is left of the ground's motion, 1 − Σ Γψ, is felt as it is, as if by modes that are rigid. Raises RecordError
-    without a mode.
+    What is left of the ground's motion, 1 − Σ Γψ, is felt as it is, as if by modes that are rigid.
 
+    Parameters
+    ----------
+    modes : tuple of Mode
+        Its modes, one at least.
+
+    Raises
+    ------
+    RecordError
+        Without a mode.
+
+    Examples
+    --------
     >>> (record,) = rocking.read("records/synthetic_strong_pulse.AT2")
     >>> floor = rocking.Support((rocking.Mode(0.3, 0.05, 1.3),)).motion(record)
     >>> round(floor.peak_acceleration / record.peak_acceleration, 2)

@@ -65,15 +65,45 @@ _RIDGE = 1e-9
 class Fragility(Drawn):
     """P(rotation ratio > threshold | intensity) of one structure; the threshold inf is overturning.
 
-    measure, unit: of the intensity. levels: (k,). probability, probability_low, probability_high: (k,) the empirical
-    curve, each station with the same weight, and its 90 % interval, point by point; nan where nothing was tried.
-    median, interval: level at which the rising curve next to the empirical one crosses one half, and its 90 % interval;
-    inf where it does not reach one half. exceedance: (r, k) share of each record's members above the threshold. sample:
-    which records are of one station, and which stations of one earthquake. lognormal_median, dispersion: the two
-    parameters of the lognormal curve, by maximum likelihood. lognormal: (k,) that curve. misfit: its largest distance
-    from the empirical one. analysis: the responses behind the curve; None of outcomes alone. `plot` draws the empirical
-    curve with its interval and the lognormal one.
+    `plot` draws the empirical curve with its interval and the lognormal one.
 
+    Parameters
+    ----------
+    levels : ndarray
+        (k,) levels of the intensity.
+    probability : ndarray
+        (k,) empirical curve, each station with the same weight; nan where nothing was tried.
+    probability_low : ndarray
+        (k,) lower end of its 90 % interval, point by point.
+    probability_high : ndarray
+        (k,) upper end.
+    median : float
+        Level at which the rising curve next to the empirical one crosses one half; inf where it does not.
+    interval : tuple of (float, float)
+        90 % interval of the median.
+    lognormal : ndarray
+        (k,) lognormal curve.
+    lognormal_median : float
+        Its median, by maximum likelihood.
+    dispersion : float
+        Its dispersion, by maximum likelihood.
+    misfit : float
+        Largest distance of the lognormal curve from the empirical one.
+    exceedance : ndarray
+        (r, k) share of the members of each record above the threshold.
+    sample : Sample
+        Which records are of one station, and which stations of one earthquake.
+    measure : str, default ''
+        Name of the intensity measure.
+    unit : str, default ''
+        Unit of the intensity.
+    threshold : float, default inf
+        Rotation ratio that is exceeded; inf: overturning.
+    analysis : IncrementalDynamicAnalysis or None, optional
+        Responses behind the curve; None of outcomes alone.
+
+    Examples
+    --------
     >>> records = rocking.read("records/20161113_110259_WTMC_20.V2A")[:2]
     >>> curve = rocking.fragility(records, rocking.Block(2.0, 0.2), stations=["a", "b"], levels=[0.2, 0.6, 1.0])
     >>> curve.sample.words
@@ -363,20 +393,58 @@ def fragility(
     tolerance: float = 1e-6,
     support: Support | None = None,
 ) -> Fragility:
-    """Return the fragility of `structure` under `records`: of what governs, the worst of the cracks that may form,
-    member by member; without over_cracks of the one that statics chooses. Its `analysis` holds the responses.
+    """Return the fragility of `structure` under `records`.
 
-    threshold: rotation ratio that is exceeded; inf: overturning. intensity_measure: a name that
-    `rocking.intensity_measure` knows, AvgSA and FIV3 also without periods. levels: ascending, in the unit of the
-    measure; by default 40 that lie where the probability of overturning moves. stations, events: station and earthquake
-    of each record, by default those that it names; all that name no earthquake count as of one, from which no interval
-    follows. method: scaling takes every record to every level; cloud leaves it as recorded, and the levels are then
-    those of the records. ensemble: ranges of the uncertain inputs; each case then has MEMBERS members. largest_factor:
-    on a record; one that would need more to reach a level is left out of that level. support: on which the structure
-    stands and whose motion it meets; the intensity stays that of the ground. What cannot be followed counts as
-    overturning. Raises ConfigurationError for fewer than two stations, levels out of order or out of reach, or a
-    measure that a record lacks, and StructureError for a structure that cannot overturn.
+    It is that of what governs. What cannot be followed counts as overturning.
 
+    Parameters
+    ----------
+    records : sequence of Accelerogram
+        (r,) horizontal components, each by itself.
+    structure : Mechanism, EquivalentBlock or Structure
+        What rocks.
+    threshold : float, default inf
+        Rotation ratio that is exceeded; inf: overturning.
+    intensity_measure : str, default 'pgv'
+        Name that `rocking.intensity_measure` knows; AvgSA and FIV3 also without periods.
+    levels : sequence of float, ndarray or None, optional
+        Levels of the intensity, ascending, in the unit of the measure; None: 40 that lie where the
+        probability of overturning moves.
+    stations : sequence of str or None, optional
+        (r,) stations; None: those that the records name.
+    events : sequence of str or None, optional
+        (r,) earthquakes; None: those that the records name. All that name no earthquake count as of one, from
+        which no interval follows.
+    method : {'scaling', 'cloud'}, default 'scaling'
+        Scaling takes every record to every level; cloud leaves it as recorded, and the levels are then those
+        of the records.
+    ensemble : EnsembleSettings or None, optional
+        Ranges of the uncertain inputs; each case then has MEMBERS members.
+    over_cracks : bool, default True
+        Whether the worst of the cracks that may form counts, member by member; False: the one that statics
+        chooses.
+    largest_factor : float, default 10.0
+        Largest factor on a record; one that would need more to reach a level is left out of that level.
+    tolerance : float, default 1e-06
+        Relative tolerance of the largest rotation.
+    support : Support or None, optional
+        Support on which the structure stands and whose motion it meets; the intensity stays that of the
+        ground.
+
+    Returns
+    -------
+    Fragility
+        The curve with its interval; its `analysis` holds the responses.
+
+    Raises
+    ------
+    ConfigurationError
+        For fewer than two stations, levels out of order or out of reach, or a measure that a record lacks.
+    StructureError
+        For a structure that cannot overturn.
+
+    Examples
+    --------
     >>> pulses = [rocking.Pulse(1.0, frequency, 0.5) for frequency in (4.0, 6.0, 9.0)]
     >>> times = np.arange(400) * 0.01
     >>> records = [rocking.Accelerogram(pulse.acceleration(times), 0.01) for pulse in pulses]

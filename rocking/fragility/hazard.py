@@ -36,10 +36,21 @@ _FACT = re.compile(r"""(\w+)=('[^']*'|"[^"]*"|[^,'"]+)""")
 class Hazard:
     """A hazard curve of one site: the annual rate at which levels of an intensity measure are exceeded.
 
-    levels: (k,) ascending, in our unit of the measure. annual_rates: (k,) 1/year, not rising, above 0. measure: by
-    OpenQuake's name; "" where a plain file does not say it. quantiles: rates (k,) by the share of the hazard model's
-    branches that lie below. unit: "g" or "m/s" of levels whose file says their unit and not their measure.
+    Parameters
+    ----------
+    levels : ndarray
+        (k,) levels, ascending, in our unit of the measure.
+    annual_rates : ndarray
+        (k,) rates of exceedance, 1/year, not rising, above 0.
+    measure : str, default ''
+        OpenQuake's name of the measure; empty where a plain file does not say it.
+    quantiles : mapping of float to ndarray, optional
+        (k,) rates by the share of the hazard model's branches that lie below.
+    unit : str, default ''
+        "g" or "m/s" of levels whose file says their unit and not their measure.
 
+    Examples
+    --------
     >>> hazard = rocking.Hazard(np.array([0.1, 1.0]), np.array([1e-2, 1e-4]))
     >>> hazard.annual_rates.tolist()
     [0.01, 0.0001]
@@ -258,11 +269,29 @@ def _measure(of: _OfOpenQuake) -> tuple[str, float]:
 class AnnualRate:
     """The annual rate of exceedance with its 90 % interval, and the most that it may lack, 1/year.
 
-    of_quantiles: the rate under each quantile of the hazard, which the interval does not hold: it tells the records.
-    half_level: at which half of the rate is made. reaching: stations that reach it within the largest factor, of
-    `stations`. Where these are fewer than 90 %, nobody knows the others' part: value is nan, and the ends are those of
-    both cases, that the others never overturn beyond what they reach, and that they do at once (`is_told`).
+    Parameters
+    ----------
+    value : float
+        Annual rate of exceedance, 1/year; nan where it cannot be told.
+    low : float
+        Lower end of its 90 % interval, 1/year.
+    high : float
+        Upper end, 1/year.
+    remainder : float
+        Most that the value may lack, as levels end, 1/year.
+    of_quantiles : mapping of float to float, optional
+        The rate under each quantile of the hazard, which the interval does not hold: it tells the records.
+    half_level : float, default nan
+        Level at which half of the rate is made.
+    reaching : int, default 0
+        Stations that reach it within the largest factor, of `stations`. Where these are fewer than 90 %,
+        nobody knows the others' part: value is nan, and the ends are those of both cases, that the others
+        never overturn beyond what they reach, and that they do at once (`is_told`).
+    stations : int, default 0
+        Number of stations.
 
+    Examples
+    --------
     >>> f"{rocking.AnnualRate(2e-3, 1e-3, 4e-3, 0.0).probability(50)[0]:.3f}"
     '0.095'
     """

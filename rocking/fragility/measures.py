@@ -47,10 +47,29 @@ FIV3_BY_PERIOD = 0.30
 class IntensityMeasure:
     """A measure of how strong a motion is for a structure: a figure of the record over one of the mechanism.
 
-    name: as settings and tables have it. unit: "" for a ratio. meaning: for axes. of_record: the figure of the record,
-    which grows as the accelerations to `power`. per: the figure of the mechanism. openquake: name there, "" where it
-    has none; openquake_scale: a value in OpenQuake's unit over the same in `unit`. periods: s, the range that it needs.
+    Parameters
+    ----------
+    name : str
+        Name, as settings and tables have it.
+    unit : str
+        Unit; empty of a ratio.
+    meaning : str
+        Meaning, for axes.
+    of_record : callable
+        The figure of the record, which grows as the accelerations to `power`.
+    per : callable, optional
+        The figure of the mechanism.
+    power : int, default 1
+        Power with which the figure of the record grows as its accelerations.
+    openquake : str, default ''
+        OpenQuake's name; empty where it has none.
+    openquake_scale : float, default 1.0
+        A value in OpenQuake's unit over the same in `unit`.
+    periods : tuple of (float, float) or None, optional
+        Range of periods that it needs, s.
 
+    Examples
+    --------
     >>> record = rocking.Accelerogram(np.sin(np.arange(500) * 0.05), 0.01)
     >>> round(rocking.intensity_measure("PGA").of(record, rocking.Block(2.0, 0.2).mechanism()), 3)
     0.102
@@ -250,11 +269,29 @@ _BY_OPENQUAKE = {each.openquake: each for each in INTENSITY_MEASURES.values() if
 
 
 def intensity_measure(name: str, structure: Structure | Mechanism | None = None) -> IntensityMeasure:
-    """Return the measure of that name, ours or OpenQuake's. AvgSA and FIV3 without periods take those of `structure`,
-    and are PGV where one swing decides about it.
+    """Return the measure of that name, ours or OpenQuake's.
 
-    Raises ConfigurationError for a measure that there is not, a period that is none, or none of a structure.
+    AvgSA and FIV3 without periods take those of `structure`, and are PGV where one swing decides about it.
 
+    Parameters
+    ----------
+    name : str
+        Name, such as "pgv", "SA(0.5)" or "AvgSA".
+    structure : Structure, Mechanism or None, optional
+        Structure from which a measure takes the periods that its name leaves out.
+
+    Returns
+    -------
+    IntensityMeasure
+        The measure.
+
+    Raises
+    ------
+    ConfigurationError
+        For a measure that there is not, a period that is none, or none of a structure.
+
+    Examples
+    --------
     >>> rocking.intensity_measure("SA(0.5)").unit
     'g'
     >>> rocking.intensity_measure("AvgSA", rocking.Block.of_size(0.6, 3.0)).name

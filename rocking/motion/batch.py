@@ -43,12 +43,37 @@ def integrate_batch(
 ) -> np.ndarray:
     """Return φ_max/φ_cr, (structures, factors), of every structure under the record times every factor.
 
-    inf overturns, 0 does not lift, nan failed; `integrate` of that structure and the scaled record raises the reason.
-    structures: as `integrate` takes them. scale_factors: (n,), > 0, of both components. tolerance: relative, of the
-    largest rotation; an EquivalentBlock without vertical motion is exact. workers: threads, all cores if None. The
-    result does not depend on them.
-    Raises MotionError for a setting that is wrong for every case.
+    inf overturns, 0 does not lift, nan failed; `integrate` of that structure and the scaled record raises the
+    reason.
 
+    Parameters
+    ----------
+    structures : sequence of Mechanism, EquivalentBlock or Structure
+        (m,) structures, each as `integrate` takes it.
+    record : Accelerogram or Pulse
+        Accelerogram, linear between its samples, or Pulse, exact.
+    scale_factors : sequence of float or ndarray, optional
+        (n,) factors, > 0, of the horizontal and the vertical component.
+    vertical : Accelerogram or None, optional
+        Vertical acceleration ü_v, sample by sample as the horizontal motion; gravity becomes g + ü_v.
+    tolerance : float, default 1e-06
+        Relative tolerance of the largest rotation; an EquivalentBlock without vertical motion is exact.
+    workers : int or None, optional
+        Number of threads; None: all cores. The result does not depend on it.
+
+    Returns
+    -------
+    ndarray
+        (m, n) φ_max/φ_cr; inf overturns, 0 does not lift, nan failed: `integrate` of that structure and the
+        scaled record raises the reason.
+
+    Raises
+    ------
+    MotionError
+        For a setting that is wrong for every case.
+
+    Examples
+    --------
     >>> from rocking import Block, Pulse, integrate_batch
     >>> blocks = [Block(semi_diagonal=size, slenderness=0.2) for size in (0.5, 2.0)]
     >>> integrate_batch(blocks, Pulse(amplitude=3.0, circular_frequency=6.0), [0.5, 1.0, 2.0]).shape
@@ -134,9 +159,33 @@ def rocking_spectrum(
 ) -> RockingSpectrum:
     """Return φ_max/φ_cr, (m, n), of the equivalent blocks of p [rad/s] (m,) and λ (n,) under one record; inf overturns.
 
-    Exact (linear between samples), on all cores or on `workers` threads. Raises MotionError when p or λ is not
-    positive, or the restitution lies outside [0, 1].
+    Exact (linear between samples), on all cores or on `workers` threads.
 
+    Parameters
+    ----------
+    accelerogram : Accelerogram
+        The ground motion.
+    frequency_parameters : sequence of float or ndarray
+        (m,) p, rad/s.
+    uplift_multipliers : sequence of float or ndarray
+        (n,) λ.
+    restitution : float
+        η of the angular velocity, in [0, 1].
+    workers : int or None, optional
+        Number of threads; None: all cores.
+
+    Returns
+    -------
+    RockingSpectrum
+        Largest rotation ratio of each block, (m, n).
+
+    Raises
+    ------
+    MotionError
+        When p or λ is not positive, or the restitution lies outside [0, 1].
+
+    Examples
+    --------
     >>> from rocking import read, rocking_spectrum
     >>> record = read("records/synthetic_strong_pulse.AT2")[0]
     >>> rocking_spectrum(record, [1.0, 2.0, 3.0], [0.1, 0.3], 0.9).shape

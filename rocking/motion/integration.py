@@ -98,17 +98,47 @@ def integrate(
 ) -> Response:
     """Follow `structure` through `motion`, and on over still ground until no larger peak and no overturning can come.
 
-    structure: a Mechanism, an EquivalentBlock, or anything with `.mechanism()`. motion: an Accelerogram, linear between
-    its samples, or a Pulse, exact. An EquivalentBlock under a record is solved exactly and ignores `tolerance`.
-    tolerance: of the largest rotation, relative, in [1e-13, 0.1]. history: keep times, rotation and angular velocity.
-    vertical: ü_v, sample by sample as `motion`; gravity becomes g + ü_v. fragility: also find whether the verdict is
-    `fragile`; a run that is repeats itself at 1e-9, the tolerance that the response then states. sensitivity: that, and
-    d ln φ_max / d ln a. initial_rotation [rad], initial_velocity [rad/s], signed: the state when the motion begins.
+    Overturning is a rotation past the mechanism's end, or outward motion that the largest acceleration still
+    to come cannot turn back. Rocking ends at an impact that leaves less than 1e-14 of the energy that reaches
+    φ_cr.
 
-    Overturning is a rotation past the mechanism's end, or outward motion that the largest acceleration still to come
-    cannot turn back. Rocking ends at an impact that leaves less than 1e-14 of the energy that reaches φ_cr.
-    Raises MotionError for a setting or a forcing outside what is allowed, or a motion of more than 5e6 impacts.
+    Parameters
+    ----------
+    structure : Mechanism, EquivalentBlock or Structure
+        What rocks: a Mechanism, an EquivalentBlock, or anything with a method `mechanism()`.
+    motion : Accelerogram or Pulse
+        Accelerogram, linear between its samples, or Pulse, exact. An EquivalentBlock under a record is solved
+        exactly and ignores `tolerance`.
+    tolerance : float, default 1e-06
+        Relative tolerance of the largest rotation, in [1e-13, 0.1].
+    history : bool, default False
+        Whether times, rotation and angular velocity are kept.
+    vertical : Accelerogram or None, optional
+        Vertical acceleration ü_v, sample by sample as the horizontal motion; gravity becomes g + ü_v.
+    sensitivity : bool, default False
+        Whether d ln φ_max / d ln a is found as well, and whether the verdict is fragile.
+    fragility : bool, default False
+        Whether to find if the verdict is `fragile`; a run that is repeats itself at 1e-9, the tolerance that
+        the response then states.
+    fragility_change : float, default 0.01
+        Relative change of the ground motion that a verdict which is not fragile must bear, in [0, 0.5].
+    initial_rotation : float, default 0.0
+        Rotation when the motion begins, rad, signed.
+    initial_velocity : float, default 0.0
+        Angular velocity when the motion begins, rad/s, signed.
 
+    Returns
+    -------
+    Response
+        Largest rotation over the critical one, outcome, and what is needed to trust them.
+
+    Raises
+    ------
+    MotionError
+        For a setting or a forcing outside what is allowed, or a motion of more than 5e6 impacts.
+
+    Examples
+    --------
     >>> from rocking import Block, Pulse, integrate
     >>> integrate(Block(semi_diagonal=2.0, slenderness=0.2), Pulse(amplitude=3.0, circular_frequency=9.0)).outcome
     <Outcome.ROCKS: 'rocks'>
@@ -367,11 +397,24 @@ Values = float | Sequence[float] | np.ndarray
 class Members:
     """The inputs that vary between the members of an ensemble; each argument one value for all, or one per member (m,).
 
-    scale_factor: of the ground motion, vertical component included, > 0. polarity: +1, or −1 for the horizontal motion
-    reversed. vertical: whether the vertical component acts. restitution: η, (m,) or one per side (m, 2), positive side
-    first; None takes the structure's own. Kept as arrays (m,) and (m, 2).
-    Raises MotionError for a value out of range, or for arguments that do not fit each other.
+    Parameters
+    ----------
+    scale_factor : ndarray, default 1.0
+        (m,) factors, > 0, of the ground motion, its vertical component included.
+    polarity : ndarray, default 1.0
+        (m,) +1, or −1 for the horizontal motion reversed.
+    vertical : ndarray, default True
+        (m,) whether the vertical component acts.
+    restitution : ndarray or None, optional
+        η, (m,) or one per side (m, 2), positive side first, kept as (m, 2); None takes the structure's own.
 
+    Raises
+    ------
+    MotionError
+        For a value out of range, or for arguments that do not fit each other.
+
+    Examples
+    --------
     >>> from rocking import Members
     >>> Members(scale_factor=[0.9, 1.0, 1.1], restitution=0.85).count
     3
@@ -434,9 +477,17 @@ class Members:
 class MemberResponses(NamedTuple):
     """The members' responses, (m,) each.
 
-    rotation_ratio: largest φ/φ_cr over the sides; inf overturns, 0 without uplift, nan failed. peak_side: +1 or −1, the
-    side of the largest rotation; 0 without uplift, and unknown where it overturns. reasons: by member that failed.
+    Parameters
+    ----------
+    rotation_ratio : ndarray
+        (m,) largest φ/φ_cr over the sides; inf overturns, 0 without uplift, nan failed.
+    peak_side : ndarray
+        (m,) +1 or −1, the side of the largest rotation; 0 without uplift, and unknown where it overturns.
+    reasons : dict of int to str
+        Why a member failed, by its place.
 
+    Examples
+    --------
     >>> from rocking import Block, Members, Pulse, integrate_members
     >>> block, pulse = Block(semi_diagonal=2.0, slenderness=0.2), Pulse(amplitude=3.0, circular_frequency=9.0)
     >>> integrate_members(block, pulse, Members(scale_factor=[0.5, 1.0])).lifted.tolist()
@@ -469,10 +520,35 @@ def integrate_members(
 ) -> MemberResponses:
     """Follow `structure` through `motion` once for every member, in one compiled call that lets other threads run.
 
-    Each result is that of `integrate` with the scaled motion, within `tolerance`; an EquivalentBlock without vertical
-    motion is solved exactly. Raises MotionError as `integrate` does for a setting that is wrong for every member; a
-    member that cannot be followed is nan, with its reason.
+    Each result is that of `integrate` with the scaled motion, within `tolerance`; an EquivalentBlock without
+    vertical motion is solved exactly.
 
+    Parameters
+    ----------
+    structure : Mechanism, EquivalentBlock or Structure
+        What rocks: a Mechanism, an EquivalentBlock, or anything with a method `mechanism()`.
+    motion : Accelerogram or Pulse
+        Accelerogram, linear between its samples, or Pulse, exact.
+    members : Members
+        Inputs that vary between the members.
+    tolerance : float, default 1e-06
+        Relative tolerance of the largest rotation, in [1e-13, 0.1].
+    vertical : Accelerogram or None, optional
+        Vertical acceleration ü_v, sample by sample as the horizontal motion; gravity becomes g + ü_v.
+
+    Returns
+    -------
+    MemberResponses
+        Response of each member; a member that cannot be followed is nan, with its reason.
+
+    Raises
+    ------
+    MotionError
+        As `integrate` does for a setting that is wrong for every member; a member that cannot be followed is
+        nan, with its reason.
+
+    Examples
+    --------
     >>> from rocking import Block, Members, Pulse, integrate_members
     >>> block, pulse = Block(semi_diagonal=2.0, slenderness=0.2), Pulse(amplitude=3.0, circular_frequency=9.0)
     >>> integrate_members(block, pulse, Members(scale_factor=[0.5, 1.0, 9.0])).overturns.tolist()

@@ -22,23 +22,46 @@ if TYPE_CHECKING:
 class Response(Drawn):
     """Largest rotation of a structure under a ground motion, and what is needed to trust it.
 
-    rotation_ratio: largest φ/φ_cr over the sides; inf if it overturns, 0 without uplift, nan if it failed.
-    outcome: an Outcome; reason: one sentence when it is FAILED, else "".
-    impacts: how many times φ = 0 was reached. uplift_time: s of the first uplift (nan if none).
-    peak_time: s from the first sample to the largest rotation (nan if overturned or never lifted).
-    peak_side: +1 or −1, the side of the largest rotation or of the overturning; 0 without uplift.
-    sensitivity: d ln φ_max / d ln a, the percent by which the largest rotation changes when the ground
-    motion is scaled by one percent (nan unless it rocks, or if it was not asked for). Of a chaotic response, which
-    `fragile` tells, it is the slope between two neighbours and no measure of what may come.
-    fragile: whether ± `fragility_change` of the ground motion flips the verdict, or the run is not reproducible: one
-    of two others, at a tolerance of 1e-9 and with the motion scaled by 1 ± 1e-9, differs by more than 1e-5. The run
-    is then repeated at 1e-9, and its number is one of many. None if not asked for.
-    warning: where the vertical motion takes away all of gravity, else None.
-    steps: integration steps taken. tolerance: the one asked for, or 1e-9 where a fragile run was repeated; a fragile
-    response of many impacts may miss it. 0.0: exact.
-    With history: times (k,) s, rotation (k,) rad signed, angular_velocity (k,) rad/s signed, and `plot`, which draws
-    the rotation against time and raises MotionError without.
+    Parameters
+    ----------
+    rotation_ratio : float
+        Largest φ/φ_cr over the sides; inf if it overturns, 0 without uplift, nan if it failed.
+    outcome : Outcome
+        What becomes of the structure.
+    impacts : int, default 0
+        How many times φ = 0 was reached.
+    peak_time : float, default nan
+        Time from the first sample to the largest rotation, s; nan if it overturned or never lifted.
+    uplift_time : float, default nan
+        Time of the first uplift, s; nan without one.
+    peak_side : int, default 0
+        +1 or −1, the side of the largest rotation or of the overturning; 0 without uplift.
+    sensitivity : float, default nan
+        d ln φ_max / d ln a, the percent by which the largest rotation changes when the ground motion is
+        scaled by one percent; nan unless it rocks, or if it was not asked for. Of a chaotic response, which
+        `fragile` tells, it is the slope between two neighbours and no measure of what may come.
+    fragile : bool or None, optional
+        Whether ± `fragility_change` of the ground motion flips the verdict, or the run is not reproducible:
+        one of two others, at a tolerance of 1e-9 and with the motion scaled by 1 ± 1e-9, differs by more than
+        1e-5. The run is then repeated at 1e-9, and its number is one of many. None if not asked for.
+    steps : int, default 0
+        Integration steps taken.
+    tolerance : float, default 0.0
+        The tolerance asked for, or 1e-9 where a fragile run was repeated; a fragile response of many impacts
+        may miss it; 0.0 of an exact response.
+    reason : str, default ''
+        One sentence where the outcome is FAILED, else empty.
+    warning : Remark or None, optional
+        Where the vertical motion takes away all of gravity, else None.
+    times : ndarray or None, optional
+        (k,) times of the history, s; None without one.
+    rotation : ndarray or None, optional
+        (k,) rotation of the history, rad, signed; `plot` draws it, and raises MotionError without a history.
+    angular_velocity : ndarray or None, optional
+        (k,) angular velocity of the history, rad/s, signed.
 
+    Examples
+    --------
     >>> from rocking import Block, Pulse, integrate
     >>> integrate(Block(semi_diagonal=2.0, slenderness=0.2), Pulse(amplitude=3.0, circular_frequency=9.0))
     Response(rocks to 0.3188 φ_cr, largest at 1.018 s, 1 impact)

@@ -60,10 +60,28 @@ def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None
     """Return the one-cycle sine pulses of largest energy gain in `accelerogram`.
 
     The gain G = ⟨a, s⟩²/⟨s, s⟩ is scanned over frequencies and onsets; the best maxima are refined on the
-    continuous sine and ranked by gain. The record is taken as it stands: no filter, no baseline; of one that is
-    sampled far more finely than its shortest cycle needs, samples in between are left out.
-    Raises PulseError when the samples are all equal or no period of the band fits the record.
+    continuous sine and ranked by gain. The record is taken as it stands: no filter, no baseline; of one that
+    is sampled far more finely than its shortest cycle needs, samples in between are left out.
 
+    Parameters
+    ----------
+    accelerogram : Accelerogram
+        The record, taken as it stands.
+    settings : PulseSettings or None, optional
+        Range of the search; None: the default.
+
+    Returns
+    -------
+    PulseAnalysis
+        The pulses ranked by energy gain, the pursuit, and reasons to doubt the dominant one.
+
+    Raises
+    ------
+    PulseError
+        When the samples are all equal or no period of the band fits the record.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from rocking import Accelerogram, Pulse, extract_pulses
     >>> motion = Pulse(amplitude=3.0, circular_frequency=5.0, start_time=4.0).acceleration(np.arange(0, 20, 0.01))

@@ -26,12 +26,28 @@ MOST_CYCLES = 1000.0
 
 @dataclass(frozen=True, repr=False)
 class Pulse(Drawn):
-    """a(t) = amplitude · sin(circular_frequency · (t − start_time) + phase) for so many cycles, zero outside.
+    """A sine of so many cycles, zero outside: amplitude · sin(circular_frequency · (t − start_time) + phase).
 
-    amplitude: m/s², signed. circular_frequency: rad/s, > 0. start_time: s. cycles: 1 of a full sine, as it is sought in
-    records; 0.5 of a half sine; up to 1000. phase: rad, 0 to 2π; π/2 of a cosine. `plot` draws it against time.
-    Raises PulseError when a value is not finite or outside what is allowed.
+    Parameters
+    ----------
+    amplitude : float
+        Amplitude of the acceleration, m/s², signed.
+    circular_frequency : float
+        ω_g, rad/s, > 0.
+    start_time : float, default 0.0
+        Time at which the pulse begins, s.
+    cycles : float, default 1.0
+        Number of cycles, up to 1000: 1 of a full sine, as it is sought in records; 0.5 of a half sine.
+    phase : float, default 0.0
+        Phase at the start, rad, 0 to 2π; π/2 of a cosine.
 
+    Raises
+    ------
+    PulseError
+        When a value is not finite or outside what is allowed.
+
+    Examples
+    --------
     >>> from rocking import Pulse
     >>> Pulse(amplitude=3.0, circular_frequency=5.0).acceleration(np.array([0.0, 0.3, 9.0])).round(2)
     array([0.  , 2.99, 0.  ])
@@ -96,8 +112,34 @@ class Pulse(Drawn):
 class PulseSettings:
     """The range of the search for pulses in a record, and the number that is reported.
 
-    Frequencies in Hz are those of the band of 1/T. Raises PulseError when a value is outside what is allowed.
+    Frequencies in Hz are those of the band of 1/T.
 
+    Parameters
+    ----------
+    lowest_frequency : float, default 0.15
+        Lowest 1/T of the search, Hz.
+    highest_frequency : float, default 5.0
+        Highest 1/T of the search, Hz.
+    frequencies_per_octave : int, default 24
+        Number of frequencies of the scan in each octave.
+    candidates : int, default 10
+        Number of maxima of the scan that are refined.
+    alternatives : int, default 5
+        Number of pulses that are reported beside the dominant one.
+    pursuit : int, default 3
+        Number of pulses of the pursuit, each found in what the ones before it left.
+    overlap : float, default 0.5
+        Largest share of their duration that two reported pulses may have in common.
+    samples_per_cycle : float, default 8.0
+        Samples in the shortest cycle that the scan keeps of a record that is sampled more finely.
+
+    Raises
+    ------
+    PulseError
+        When a value is outside what is allowed.
+
+    Examples
+    --------
     >>> from rocking import PulseSettings
     >>> PulseSettings(lowest_frequency=0.3).highest_frequency
     5.0
@@ -159,12 +201,24 @@ class PulseEvidence:
 class PulseAnalysis(Drawn):
     """The pulses of one record; `plot` draws it with the dominant one.
 
-    ranked: maxima of the energy gain on the record, one at least, by gain, that do not cover one another; the first is
-    dominant.
-    sequence: the pursuit, each pulse found in what the ones before it left.
-    residual: (n,) m/s², the record less the dominant pulse.
-    flags: reasons to doubt the dominant pulse. band: lowest and highest frequency that were searched, Hz.
+    Parameters
+    ----------
+    accelerogram : Accelerogram
+        The record.
+    ranked : tuple of PulseEvidence
+        Maxima of the energy gain on the record, one at least, by gain, that do not cover one another; the
+        first is dominant.
+    sequence : tuple of PulseEvidence
+        The pursuit, each pulse found in what the ones before it left.
+    residual : ndarray
+        (n,) m/s², the record less the dominant pulse.
+    flags : tuple of Remark
+        Reasons to doubt the dominant pulse.
+    band : tuple of (float, float)
+        Lowest and highest frequency that were searched, Hz.
 
+    Examples
+    --------
     >>> from rocking import extract_pulses, read
     >>> analysis = extract_pulses(read("records/synthetic_strong_pulse.AT2")[0])
     >>> round(analysis.dominant.period, 2), round(analysis.explained_energy, 2), len(analysis.alternatives)

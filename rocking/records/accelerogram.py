@@ -72,18 +72,71 @@ class Source:
 class Accelerogram(Drawn):
     """One component of ground acceleration, uniformly sampled, in m/s²; `plot` draws it against time.
 
-    acceleration: (n,) m/s², n ≥ 2, finite, stored as a read-only float64 copy. time_step: s. scale_factor: what the
-    file's numbers were multiplied by, beyond their unit. processing: the steps that made these numbers from the file's,
-    in order; warnings: what the reader noticed that a user must know. high_pass_frequency: corner in
-    Hz if a high-pass is known to have been applied. location: code that tells apart the instruments of one station.
-    start_time: of the first sample, ISO 8601 in universal time. azimuth: direction of positive acceleration, degrees
-    clockwise from north. magnitude, on the scale magnitude_type (Mw, Ms, ML, mb or M), and event_time, as the file
-    prints it: of the earthquake. latitude, longitude, elevation: of the station, degrees north and east, m above the
-    sea. epicentral_distance: m. processed: whether the file says that its numbers are corrected, None where it cannot.
-    initial_velocity, initial_displacement: of the ground at the first sample, m/s and m, where what a filter put before
-    the record was cut off. smooth_steps: time steps within which the motion is smooth, one after another from the
-    start; 1 of a record, which is linear between its samples. What is not known is "" or None. Raises
-    RecordError for what is no accelerogram.
+    What is not known is an empty text or None.
+
+    Parameters
+    ----------
+    acceleration : ndarray
+        (n,) m/s², n ≥ 2, finite, stored as a read-only float64 copy.
+    time_step : float
+        Time between two samples, s.
+    component : str, default ''
+        Name of the component.
+    station : str, default ''
+        Station.
+    event : str, default ''
+        Earthquake.
+    source : Source, optional
+        File and format that it was read from.
+    scale_factor : float, default 1.0
+        What the file's numbers were multiplied by, beyond their unit.
+    processing : tuple of str, optional
+        Steps that made these numbers from those of the file, in order.
+    warnings : tuple of Remark, optional
+        What the reader noticed that a user must know.
+    high_pass_frequency : float or None, optional
+        Corner of a high-pass that is known to have been applied, Hz.
+    network : str, default ''
+        Code of the network.
+    location : str, default ''
+        Code that tells apart the instruments of one station.
+    start_time : str, default ''
+        Time of the first sample, ISO 8601 in universal time.
+    azimuth : float or None, optional
+        Direction of positive acceleration, degrees clockwise from north.
+    vertical : bool, default False
+        Whether it is a vertical component.
+    borehole : bool, default False
+        Whether the instrument stands down-hole.
+    magnitude : float or None, optional
+        Magnitude of the earthquake, as the file prints it.
+    magnitude_type : str, default ''
+        Scale of the magnitude: Mw, Ms, ML, mb or M.
+    event_time : str, default ''
+        Time of the earthquake, as the file prints it.
+    latitude : float or None, optional
+        Latitude of the station, degrees north.
+    longitude : float or None, optional
+        Longitude of the station, degrees east.
+    elevation : float or None, optional
+        Height of the station above the sea, m.
+    epicentral_distance : float or None, optional
+        Distance of the station from the epicentre, m.
+    processed : bool or None, default False
+        Whether the file says that its numbers are corrected, None where it cannot.
+    initial_velocity : float, default 0.0
+        Velocity of the ground at the first sample, m/s, where what a filter put before the record was cut
+        off.
+    initial_displacement : float, default 0.0
+        Displacement of the ground at the first sample, m, likewise.
+    smooth_steps : int, default 1
+        Time steps within which the motion is smooth, one after another from the start; 1 of a record, which
+        is linear between its samples.
+
+    Raises
+    ------
+    RecordError
+        For what is no accelerogram.
     """
 
     acceleration: np.ndarray

@@ -330,8 +330,18 @@ _FLATTEST = np.sin(np.radians(30.0))
 class RotD:
     """Peak accelerations over all directions (Boore 2010), m/s²: median and largest, and the azimuth of the largest.
 
-    azimuth: degrees clockwise from north in [0, 180), or from the first component where azimuths are unknown.
+    Parameters
+    ----------
+    rotd50 : float
+        Median of the peak accelerations over all directions, m/s².
+    rotd100 : float
+        Largest of them, m/s².
+    azimuth : float
+        Direction of the largest, degrees clockwise from north in [0, 180), or from the first component where
+        azimuths are unknown.
 
+    Examples
+    --------
     >>> rocking.RotD(rotd50=2.0, rotd100=2.5, azimuth=30.0).rotd100
     2.5
     """
@@ -381,6 +391,22 @@ def rotd(first: Accelerogram, second: Accelerogram, step: float = 1.0) -> RotD:
 
     Components without azimuths are taken as orthogonal.
 
+    Parameters
+    ----------
+    first : Accelerogram
+        One horizontal component.
+    second : Accelerogram
+        The other, sample by sample.
+    step : float, default 1.0
+        Angle between two directions, degrees.
+
+    Returns
+    -------
+    RotD
+        Median and largest peak over all directions.
+
+    Examples
+    --------
     >>> north, across, up = rocking.read("records/20161113_110259_WTMC_20.V2A")
     >>> round(rocking.rotd(north, across).rotd100, 1)
     9.9

@@ -22,10 +22,23 @@ SIGNIFICANT_SHARES = 0.05, 0.95
 class RecordMeasures:
     """The measures of a record.
 
-    peak_acceleration, peak_velocity, peak_displacement: largest magnitudes, m/s², m/s, m; velocity and displacement by
-    the trapezoidal rule from the record's initial motion. arias_intensity: π/(2g) ∫a² dt, m/s (Arias 1970). husid:
-    (n,) share of it that has been spent at each sample, from 0 to 1. significant_times: s, at which 5 and 95 % have.
+    Parameters
+    ----------
+    peak_acceleration : float
+        Largest magnitude of the acceleration, m/s².
+    peak_velocity : float
+        Largest magnitude of the velocity, m/s, by the trapezoidal rule from the record's initial motion.
+    peak_displacement : float
+        Largest magnitude of the displacement, m, by the same rule.
+    arias_intensity : float
+        π/(2g) ∫a² dt, m/s (Arias 1970).
+    husid : ndarray
+        (n,) share of the Arias intensity that has been spent at each sample, from 0 to 1.
+    significant_times : tuple of (float, float)
+        Times at which 5 and 95 % of it have been spent, s.
 
+    Examples
+    --------
     >>> round(rocking.Accelerogram(np.ones(101), time_step=0.01).measures.significant_duration, 3)
     0.9
     """
@@ -44,9 +57,27 @@ class RecordMeasures:
 
 
 def record_measures(accelerogram: Accelerogram) -> RecordMeasures:
-    """Return the measures of one component. Of a record that is zero throughout, nothing is ever spent.
-    Raises RecordError when it is no Accelerogram.
+    """Return the measures of one component.
 
+    Of a record that is zero throughout, nothing is ever spent.
+
+    Parameters
+    ----------
+    accelerogram : Accelerogram
+        The component.
+
+    Returns
+    -------
+    RecordMeasures
+        Peaks, Arias intensity and significant duration.
+
+    Raises
+    ------
+    RecordError
+        When it is no Accelerogram.
+
+    Examples
+    --------
     >>> rocking.record_measures(rocking.Accelerogram(np.ones(101), time_step=0.01)).peak_velocity
     1.0
     """
@@ -75,9 +106,17 @@ STEPS_PER_PERIOD = 20
 class ResponseSpectrum(Drawn):
     """Largest responses of linear oscillators to one component; `plot` draws the pseudo-acceleration over the period.
 
-    periods: (m,) s, undamped. displacement: (m,) m, largest magnitude relative to the ground. damping: share of the
-    critical one.
+    Parameters
+    ----------
+    periods : ndarray
+        (m,) undamped periods, s.
+    displacement : ndarray
+        (m,) largest displacement relative to the ground, m.
+    damping : float
+        Share of the critical damping.
 
+    Examples
+    --------
     >>> rocking.Accelerogram(np.ones(101), time_step=0.01).spectrum(np.array([0.5])).pseudo_acceleration.round(1)
     array([1.9])
     """
@@ -99,8 +138,28 @@ def response_spectrum(
     """Return the response spectrum of an acceleration that is linear between its samples and zero outside them.
 
     The oscillators start at rest and are followed for half a period beyond the record.
-    Raises RecordError when a period is not above zero or the damping not in [0, 1).
 
+    Parameters
+    ----------
+    accelerogram : Accelerogram
+        The component.
+    periods : ndarray or None, optional
+        (m,) undamped periods, s; None: 100 of them, evenly spaced on a logarithmic axis.
+    damping : float, default 0.05
+        Share of the critical damping, in [0, 1).
+
+    Returns
+    -------
+    ResponseSpectrum
+        Largest responses of linear oscillators.
+
+    Raises
+    ------
+    RecordError
+        When a period is not above zero or the damping not in [0, 1).
+
+    Examples
+    --------
     >>> rocking.response_spectrum(rocking.Accelerogram(np.ones(101), time_step=0.01)).periods.size
     70
     """

@@ -18,9 +18,33 @@ def from_obspy(
 ) -> list[Accelerogram]:
     """Return an accelerogram for each channel of an obspy Trace or Stream, as `Accelerogram.from_obspy` does.
 
-    Raises RecordError for a gap, for velocity and displacement, where nothing says what the samples are, and where
-    nothing says whether they are multiplied by the calibration of the trace.
+    Parameters
+    ----------
+    trace_or_stream : object
+        Obspy Trace or Stream.
+    inventory : object, optional
+        StationXML, as obspy reads it; None: the samples are in `unit`.
+    unit : str or None, optional
+        Unit of the samples, such as "m/s2"; None: as the inventory says.
+    response : str, default 'sensitivity'
+        "sensitivity" divides counts by the overall sensitivity; "full" removes the whole instrument response.
+    calibration : {'apply', 'done'} or None, optional
+        Whether the samples are still to be multiplied by the calibration of the trace ("apply"), or are so
+        already ("done"); None where that follows from the trace.
 
+    Returns
+    -------
+    list of Accelerogram
+        One accelerogram a channel.
+
+    Raises
+    ------
+    RecordError
+        For a gap, for velocity and displacement, where nothing says what the samples are, and where nothing
+        says whether they are multiplied by the calibration of the trace.
+
+    Examples
+    --------
     >>> from obspy import Trace
     >>> rocking.from_obspy(Trace(np.sin(np.arange(9.0)), {"channel": "HNZ"}), unit="m/s2")[0].vertical
     True

@@ -61,13 +61,39 @@ def read(
     """Return every channel of acceleration in the file at `path`, in the file's order, in m/s².
 
     Of a zip or tar archive, those of every file in it; "archive.zip/member" names one of them.
-    unit, time_step [s]: needed where the file does not declare them; refused where it declares otherwise.
-    What a table leaves open is answered in the layouts.csv beside it, as `rocking catalogue` writes it.
-    inventory: StationXML of a miniSEED or SAC file; by default the one beside it that names the same station.
-    response: "sensitivity" divides counts by the overall sensitivity; "full" removes the whole instrument response.
-    Raises UnknownFormatError when no reader recognises the file, UndeclaredError when a unit or a time step is declared
-    nowhere, RecordError for every other defect.
 
+    What a table leaves open is answered in the layouts.csv beside it, as `rocking catalogue` writes it.
+
+    Parameters
+    ----------
+    path : str or Path
+        File, archive, or member of an archive.
+    unit : str or None, optional
+        Unit of the samples, needed where the file does not declare it; refused where it declares otherwise.
+    time_step : float or None, optional
+        Time between two samples, s, needed where the file does not declare it; refused where it declares
+        otherwise.
+    inventory : str, Path or None, optional
+        StationXML of a miniSEED or SAC file; None: the one beside it that names the same station.
+    response : {'sensitivity', 'full'}, default 'sensitivity'
+        "sensitivity" divides counts by the overall sensitivity; "full" removes the whole instrument response.
+
+    Returns
+    -------
+    list of Accelerogram
+        One accelerogram a channel, in the file's order, in m/s².
+
+    Raises
+    ------
+    UnknownFormatError
+        When no reader recognises the file.
+    UndeclaredError
+        When a unit or a time step is declared nowhere.
+    RecordError
+        For every other defect.
+
+    Examples
+    --------
     >>> [record.component for record in rocking.read("records/20161113_110259_WTMC_20.V2A")]
     ['N28W', 'S62W', 'Up']
     """

@@ -54,8 +54,22 @@ _STILL = 0.01
 def plot(thing: object, axes: Axes | None = None, **options: Any) -> Axes:
     """Draw anything of this package that has a method plot, in the caller's own style, on `axes` or on new ones.
 
-    Returns the axes, so that title, limits and labels can still be changed. options: those of its method plot.
+    Parameters
+    ----------
+    thing : object
+        What is drawn: a record, a pulse, a response, a structure, a curve.
+    axes : Axes | None, optional
+        Matplotlib axes; None: new ones.
+    **options : Any
+        Options of its method `plot`.
 
+    Returns
+    -------
+    Axes
+        The axes, so that title, limits and labels can still be changed.
+
+    Examples
+    --------
     >>> rocking.plot(rocking.Block(2.0, 0.2)).get_xlabel()
     '[m]'
     """

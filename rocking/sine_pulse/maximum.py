@@ -30,6 +30,8 @@ _EQUAL = 1 + 1e-12
 class Regime(StrEnum):
     """The way in which the block reaches its largest rotation.
 
+    Examples
+    --------
     >>> from rocking import Regime
     >>> Regime.BEFORE_FIRST_IMPACT.sentence
     'The largest rotation comes before the first impact, so Eq. 15 does not hold.'
@@ -70,14 +72,28 @@ _SENTENCES = {
 class Maximum:
     """Largest rotation of an equivalent block under a pulse.
 
-    rotation_ratio: largest φ/φ_cr over both sides, each with its own φ_cr; inf if it overturns, 0 without uplift, nan
-    if unresolved. outcome: an Outcome, FAILED only where the regime is unresolved.
-    impacts: how many impacts come before the largest rotation, or before it overturns; those of a chain that dies out
-    are counted only until it is proved to die out. peak_side: +1 or −1, the side of the largest rotation or of the
-    overturning; 0 without uplift. Of rotations that are equal to within 1e-12 the first counts.
-    overturning_margin: smallest 1 − x − x' (x = φ/φ_cr, time p t) at the start of a flight after the pulse; 1 when it
-    rests by then, negative when it overturns, −inf when it does so beyond recall during the pulse. 0 is the border.
+    Parameters
+    ----------
+    rotation_ratio : float
+        Largest φ/φ_cr over both sides, each with its own φ_cr; inf if it overturns, 0 without uplift, nan if
+        unresolved.
+    outcome : Outcome
+        What becomes of the block; FAILED only where the regime is unresolved.
+    regime : Regime
+        The way in which the block reaches its largest rotation.
+    impacts : int, default 0
+        How many impacts come before the largest rotation, or before it overturns; those of a chain that dies
+        out are counted only until it is proved to die out.
+    peak_side : int, default 0
+        +1 or −1, the side of the largest rotation or of the overturning; 0 without uplift. Of rotations that
+        are equal to within 1e-12 the first counts.
+    overturning_margin : float, default 1.0
+        Smallest 1 − x − x' (x = φ/φ_cr, time p t) at the start of a flight after the pulse; 1 when it rests
+        by then, negative when it overturns, −inf when it does so beyond recall during the pulse. 0 is the
+        border.
 
+    Examples
+    --------
     >>> from rocking import EquivalentBlock, Pulse, predict_maximum
     >>> block = EquivalentBlock(2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9)
     >>> predict_maximum(block, Pulse(amplitude=4.0, circular_frequency=12.0)).impacts
@@ -124,11 +140,30 @@ class _Followed(NamedTuple):
 def predict_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> Maximum:
     """Return the exact largest rotation of `equivalent_block` under `pulse`, with the regime that it belongs to.
 
-    Exact to rounding in every regime, times the sensitivity of the motion itself, which grows without bound at the
-    borders of overturning and where a contact just grazes. A chain of ever smaller impacts during the pulse is at
-    rest once it is proved to die out before the ground can lift the block again, or once its energy is below 1e-24 of
-    what overturns. `rocking.predict_maxima` does the same for many. Raises PulseError.
+    Exact to rounding in every regime, times the sensitivity of the motion itself, which grows without bound
+    at the borders of overturning and where a contact just grazes. A chain of ever smaller impacts during the
+    pulse is at rest once it is proved to die out before the ground can lift the block again, or once its
+    energy is below 1e-24 of what overturns. `rocking.predict_maxima` does the same for many.
 
+    Parameters
+    ----------
+    equivalent_block : EquivalentBlock
+        The block.
+    pulse : Pulse
+        The pulse.
+
+    Returns
+    -------
+    Maximum
+        Largest rotation, outcome and regime.
+
+    Raises
+    ------
+    PulseError
+        For a pulse and a block that differ beyond measure.
+
+    Examples
+    --------
     >>> from rocking import Block, Pulse, predict_maximum
     >>> block = Block(semi_diagonal=2.0, slenderness=0.2).mechanism().equivalent_block()
     >>> predict_maximum(block, Pulse(amplitude=3.0, circular_frequency=9.0)).regime
@@ -247,8 +282,27 @@ def predict_maxima(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse]) -
     """Return φ_max/φ_cr, (m, n), of every block under every pulse, as `predict_maximum` does: exactly.
 
     inf where it overturns, 0 where it does not lift, nan where `predict_maximum` says it is unresolved.
-    Raises PulseError for a pulse and a block that differ beyond measure.
 
+    Parameters
+    ----------
+    blocks : sequence of EquivalentBlock
+        (m,) equivalent blocks.
+    pulses : sequence of Pulse
+        (n,) pulses.
+
+    Returns
+    -------
+    ndarray
+        (m, n) largest φ/φ_cr of every block under every pulse; inf where it overturns, 0 without uplift, nan
+        where it is unresolved.
+
+    Raises
+    ------
+    PulseError
+        For a pulse and a block that differ beyond measure.
+
+    Examples
+    --------
     >>> from rocking import EquivalentBlock, Pulse, predict_maxima
     >>> block = EquivalentBlock(2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9)
     >>> predict_maxima([block], [Pulse(1.0, 9.0), Pulse(9.0, 3.0)]).tolist()
@@ -266,6 +320,25 @@ def predict_maxima(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse]) -
 def overturning_margins(blocks: Sequence[EquivalentBlock], pulses: Sequence[Pulse]) -> np.ndarray:
     """Return `Maximum.overturning_margin`, (m, n), of every block under every pulse: negative where it overturns.
 
+    Parameters
+    ----------
+    blocks : sequence of EquivalentBlock
+        (m,) equivalent blocks.
+    pulses : sequence of Pulse
+        (n,) pulses.
+
+    Returns
+    -------
+    ndarray
+        (m, n) margins, negative where the block overturns.
+
+    Raises
+    ------
+    PulseError
+        For a pulse and a block that differ beyond measure.
+
+    Examples
+    --------
     >>> from rocking import EquivalentBlock, Pulse, overturning_margins
     >>> block = EquivalentBlock(2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9)
     >>> (overturning_margins([block], [Pulse(3.0, 9.0), Pulse(9.0, 3.0)]) < 0).tolist()
@@ -279,11 +352,31 @@ def overturning_amplitudes(
 ) -> np.ndarray:
     """Return the smallest amplitude [m/s²], (m, n), of one full sine at which each block overturns.
 
-    circular_frequencies: ω_g, rad/s, (n,). polarity: 1, or −1 for a sine that begins in the negative direction.
-    inf where a thousand times the uplift acceleration does not overturn the block. Sought upwards from the uplift
-    acceleration in steps of 2 %, then halved to 1e-9: a range of overturning narrower than that can be missed, and
-    above it the block may stand again. Raises PulseError.
+    Sought upwards from the uplift acceleration in steps of 2 %, then halved to 1e-9: a range of overturning
+    narrower than that can be missed, and above it the block may stand again.
 
+    Parameters
+    ----------
+    blocks : sequence of EquivalentBlock
+        (m,) equivalent blocks.
+    circular_frequencies : sequence of float or ndarray
+        (n,) ω_g of the sine, rad/s.
+    polarity : int, default 1
+        1, or −1 for a sine that begins in the negative direction.
+
+    Returns
+    -------
+    ndarray
+        (m, n) amplitudes, m/s²; inf where a thousand times the uplift acceleration does not overturn the
+        block.
+
+    Raises
+    ------
+    PulseError
+        For a pulse and a block that differ beyond measure.
+
+    Examples
+    --------
     >>> from rocking import EquivalentBlock, overturning_amplitudes
     >>> block = EquivalentBlock(2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9)
     >>> overturning_amplitudes([block], [5.0, 10.0]).round(3).tolist()
@@ -376,13 +469,32 @@ def _axis(field: str, values: np.ndarray, lowest: float) -> np.ndarray:
 def printed_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> float:
     """Return φ_max/φ_cr by Eq. 15 exactly as the paper prints it: 1 − √(1 − η² (1 − D₀)).
 
-    For a block that measures the rotation otherwise, a positive value is read back as φ/φ_cr.
-    nan where the radicand is negative, which the paper reads as overturning; 0.0 where the pulse lifts nothing
-    (a ≤ 1), where Eq. 16 is not defined. It may be negative, and it is wrong outside the regime
-    `Regime.PRINTED_EXACT`; `predict_maximum` is not. For a block with two different sides it takes
-    the side that the pulse lifts first, as if the other were the same; for a one-sided block its only side, as if the
-    pulse's first half lifted it. Raises PulseError for a pulse that is no full sine.
+    For a block that measures the rotation otherwise, a positive value is read back as φ/φ_cr. nan where the
+    radicand is negative, which the paper reads as overturning; 0.0 where the pulse lifts nothing (a ≤ 1),
+    where Eq. 16 is not defined. It may be negative, and it is wrong outside the regime
+    `Regime.PRINTED_EXACT`; `predict_maximum` is not. For a block with two different sides it takes the side
+    that the pulse lifts first, as if the other were the same; for a one-sided block its only side, as if the
+    pulse's first half lifted it.
 
+    Parameters
+    ----------
+    equivalent_block : EquivalentBlock
+        The block.
+    pulse : Pulse
+        One full sine.
+
+    Returns
+    -------
+    float
+        φ_max/φ_cr as printed.
+
+    Raises
+    ------
+    PulseError
+        For a pulse that is no full sine.
+
+    Examples
+    --------
     >>> from rocking import EquivalentBlock, Pulse, predict_maximum, printed_maximum
     >>> block = EquivalentBlock(2.0, critical_rotation=0.2, acceleration_scale=1.0, restitution=0.9)
     >>> pulse = Pulse(amplitude=4.0, circular_frequency=12.0)

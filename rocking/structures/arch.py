@@ -47,16 +47,45 @@ runs on joints of 0.5; on 0.4 there fell 6 of 63."""
 class Arch(Crackable):
     """A circular arch of radial joints, its bars exact annular sectors; φ is the rotation of the bar AB.
 
-    radius: r of the centreline, m. thickness: t, m. embrace_angle: β, rad. voussoirs: how many equal ones,
-    hinges at their joints only; None when a hinge may open anywhere. fill_depth: of level fill that lies on the
-    extrados and moves with it, above the crown, m; None without. fill_density_ratio: its density over the masonry's.
-    hinge_angles: of A, B, C and D from the left springing, rad; None where statics puts them. compressive_strength,
-    Pa, with unit_weight, N/m³: the edges of its joints crush, so that its hinges move in.
-    restitution: η in [0, 1], 0.9 by default as in the paper, or "unsafe momentum": the mirrored mechanism's
-    balance. That balance assumes an impulse line inside the ring, which it leaves in every practical case; a
-    StructureWarning says so, and "momentum" alone is refused. Raises StructureError when it cannot stand, or has no
-    four-hinge mechanism; the message names the bound.
+    Parameters
+    ----------
+    radius : float
+        Radius r of the centreline, m.
+    thickness : float
+        Radial thickness t, m.
+    embrace_angle : float
+        Embrace angle β, rad.
+    voussoirs : int or None, optional
+        Number of equal voussoirs, with hinges at their joints only; None: a hinge may open anywhere.
+    restitution : float, str or None, optional
+        η in [0, 1], 0.9 by default as in the paper, or "unsafe momentum": the mirrored mechanism's balance.
+        That balance assumes an impulse line inside the ring, which it leaves in every practical case; a
+        StructureWarning says so, and "momentum" alone is refused.
+    fill_depth : float or None, optional
+        Depth above the crown of level fill that lies on the extrados and moves with the arch, m; None:
+        without fill.
+    fill_density_ratio : float, default 0.8
+        Density of the fill over that of the masonry.
+    restitution_range : float or None, optional
+        η is known to plus or minus this much; None: as the settings of the ensemble say.
+    compressive_strength : float or None, optional
+        Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
+        None: they do not crush. Needs `unit_weight`.
+    crack : {'known'} or None, optional
+        "known" where a survey or a joint says that it is cracked at the place above, which then decides;
+        None: it may crack there or elsewhere, and each place counts.
+    hinge_angles : tuple of float or None, optional
+        Angles of the hinges A, B, C and D from the left springing, rad; None: where statics puts them.
+    unit_weight : float or None, optional
+        Weight of the masonry per volume, N/m³.
 
+    Raises
+    ------
+    StructureError
+        When it cannot stand, or has no four-hinge mechanism; the message names the bound.
+
+    Examples
+    --------
     >>> rocking.Arch(radius=10.0, thickness=1.5, embrace_angle=2.75).mechanism()
     Mechanism(λ = 0.3528, φ_cr = 0.09068 rad, p = 1.779 rad/s, η = 0.9)
     """
@@ -349,11 +378,52 @@ class Arch(Crackable):
 class ArchOnPiers(Arch):
     """A circular arch on equal rectangular piers, flush with its intrados at the springings.
 
-    As `Arch`, with pier_width and pier_height (from the ground to the springing), m, and pier_density_ratio: the piers'
-    over the arch's. restitution: η in [0, 1], 0.9 by default. A pier that cracks obliquely or comes apart in leaves is
-    weaker than this monolithic one; the wedge between its level head and an inclined springing is left out.
-    Raises StructureError when it cannot stand.
+    A pier that cracks obliquely or comes apart in leaves is weaker than this monolithic one; the wedge
+    between its level head and an inclined springing is left out.
 
+    Parameters
+    ----------
+    radius : float
+        Radius r of the centreline, m.
+    thickness : float
+        Radial thickness t, m.
+    embrace_angle : float
+        Embrace angle β, rad.
+    voussoirs : int or None, optional
+        Number of equal voussoirs, with hinges at their joints only; None: a hinge may open anywhere.
+    restitution : float, str or None, optional
+        η in [0, 1], 0.9 by default.
+    fill_depth : float or None, optional
+        Depth above the crown of level fill that lies on the extrados and moves with the arch, m; None:
+        without fill.
+    fill_density_ratio : float, default 0.8
+        Density of the fill over that of the masonry.
+    restitution_range : float or None, optional
+        η is known to plus or minus this much; None: as the settings of the ensemble say.
+    compressive_strength : float or None, optional
+        Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
+        None: they do not crush. Needs `unit_weight`.
+    crack : {'known'} or None, optional
+        "known" where a survey or a joint says that it is cracked at the place above, which then decides;
+        None: it may crack there or elsewhere, and each place counts.
+    hinge_angles : tuple of float or None, optional
+        Angles of the hinges A, B, C and D from the left springing, rad; None: where statics puts them.
+    unit_weight : float or None, optional
+        Weight of the masonry per volume, N/m³.
+    pier_width : float
+        Width of a pier, m.
+    pier_height : float
+        Height of a pier from the ground to the springing, m.
+    pier_density_ratio : float, default 1.0
+        Density of the piers over that of the arch.
+
+    Raises
+    ------
+    StructureError
+        When it cannot stand.
+
+    Examples
+    --------
     >>> rocking.ArchOnPiers(5.0, 0.8, np.pi, pier_width=1.5, pier_height=4.0).mechanism()
     Mechanism(λ = 0.0537, φ_cr = 0.02456 rad, p = 2.04 rad/s, η = 0.9)
     """

@@ -20,13 +20,32 @@ Balanced = Annotated[Restitution, restitution_value("momentum", "housner")]
 class Block(Crushable):
     """A homogeneous rectangular block that rocks about its two bottom corners.
 
-    semi_diagonal: R, m. slenderness: α, rad, in (0, π/2); tan α = breadth/height.
-    restitution: η in [0, 1]; "momentum" or "housner" (the same balance, 1 − 1.5 sin²α, the default). A
-    one-sided block leans on something that no balance of the block alone describes, so it needs a number.
-    one_sided: it rocks away from what it leans on only, and is thrown back at every impact.
-    compressive_strength, Pa, with unit_weight, N/m³: its foot crushes at the edge, so that it turns further in.
-    Raises StructureError when it cannot stand.
+    Parameters
+    ----------
+    semi_diagonal : float
+        Half of the diagonal R, m.
+    slenderness : float
+        α in (0, π/2), rad; tan α = breadth/height.
+    restitution : float, str or None, optional
+        η in [0, 1]; "momentum" or "housner" (the same balance, 1 − 1.5 sin²α, the default). A one-sided block
+        leans on something that no balance of the block alone describes, so it needs a number.
+    one_sided : bool, default False
+        Whether it rocks away from what it leans on only, and is thrown back at every impact.
+    restitution_range : float or None, optional
+        η is known to plus or minus this much; None: as the settings of the ensemble say.
+    compressive_strength : float or None, optional
+        Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
+        None: they do not crush. Needs `unit_weight`.
+    unit_weight : float or None, optional
+        Weight of the masonry per volume, N/m³.
 
+    Raises
+    ------
+    StructureError
+        When it cannot stand.
+
+    Examples
+    --------
     >>> rocking.Block(semi_diagonal=2.0, slenderness=0.2).mechanism()
     Mechanism(λ = 0.2027, φ_cr = 0.2 rad, p = 1.918 rad/s, η = 0.9408)
     """
@@ -130,16 +149,42 @@ class Block(Crushable):
 class RigidBody(Crushable):
     """A body known by its centre of mass and inertia; it rocks about the right corner on the positive side.
 
-    left, right: horizontal distance of the left and the right corner from the centre of mass, m. centre_height: height
-    of the centre of mass above the corners, m. inertia: about the centre of mass, per mass, m².
-    restitution: η in [0, 1] on both sides, or "momentum" or "housner" (the same balance, the default): angular momentum
-    about the corner to come, which differs from side to side. A one-sided body needs a number.
-    one_sided: it rocks about the right corner only, and is thrown back at every impact. height: of its outline, m, for
-    drawings and what they measure; None: twice centre_height. compressive_strength, Pa, with unit_weight, N/m³, and
-    section, the volume per metre of the edge about which it turns, m²: its foot crushes there.
     Its outline is not known, so each side is followed until the centre of mass is level with the corner.
-    Raises StructureError when it cannot stand.
 
+    Parameters
+    ----------
+    left : float
+        Horizontal distance of the left corner from the centre of mass, m.
+    right : float
+        Horizontal distance of the right corner from the centre of mass, m.
+    centre_height : float
+        Height of the centre of mass above the corners, m.
+    inertia : float
+        Moment of inertia about the centre of mass, per mass, m².
+    restitution : float, str or None, optional
+        η in [0, 1] on both sides, or "momentum" or "housner" (the same balance, the default): angular
+        momentum about the corner to come, which differs from side to side. A one-sided body needs a number.
+    one_sided : bool, default False
+        Whether it rocks about the right corner only, and is thrown back at every impact.
+    restitution_range : float or None, optional
+        η is known to plus or minus this much; None: as the settings of the ensemble say.
+    compressive_strength : float or None, optional
+        Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
+        None: they do not crush. Needs `unit_weight`.
+    height : float or None, optional
+        Height of its outline, for drawings and what they measure, m; None: twice `centre_height`.
+    unit_weight : float or None, optional
+        Weight of the masonry per volume, N/m³.
+    section : float or None, optional
+        Volume per metre of the edge about which it turns, m²; needed with a compressive strength.
+
+    Raises
+    ------
+    StructureError
+        When it cannot stand.
+
+    Examples
+    --------
     >>> body = rocking.RigidBody(left=0.4, right=0.6, centre_height=1.5, inertia=1.0)
     >>> body.mechanism().negative
     Side(λ = 0.2667, φ_cr = 0.2606 rad, p = 2.113 rad/s, η = 0.8338)
@@ -268,13 +313,43 @@ def _strip(plan: str, half_width: float, depth: float) -> np.ndarray:
 class Spire(CrackedAtHeight):
     """A cone (plan "circular") or a square pyramid ("square") that rocks about the edge of a horizontal crack.
 
-    width: at the base, diameter or side, m. height: of the whole spire, m. wall_thickness: horizontal thickness of a
-    hollow one, m, the inner surface parallel to the outer; None when it is solid. crack_height: above the base, m,
-    of the mechanism as it is described; None: of its foot. It may crack elsewhere unless this crack is known.
-    restitution, one_sided: as for a RigidBody. compressive_strength, unit_weight: as for a Block. courses: their number
-    over the whole height, for contact dynamics.
-    Raises StructureError when it cannot stand, or the crack lies outside it.
+    Parameters
+    ----------
+    width : float
+        Diameter or side at the base, m.
+    height : float
+        Height of the whole spire, m.
+    wall_thickness : float or None, optional
+        Horizontal thickness of a hollow spire, m, the inner surface parallel to the outer; None: solid.
+    plan : {'circular', 'square'}, default 'circular'
+        "circular" for a cone, "square" for a pyramid.
+    crack_height : float or None, optional
+        Height of the crack above the base, m; None: nobody says where it cracks, and the mechanism is that of
+        its foot.
+    restitution : float, str or None, optional
+        η in [0, 1], "momentum" or "housner" (the same balance, the default).
+    one_sided : bool, default False
+        Whether it rocks about one edge only, and is thrown back at every impact.
+    courses : int or None, optional
+        Number of courses over the whole height, for contact dynamics.
+    restitution_range : float or None, optional
+        η is known to plus or minus this much; None: as the settings of the ensemble say.
+    compressive_strength : float or None, optional
+        Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
+        None: they do not crush. Needs `unit_weight`.
+    crack : {'known'} or None, optional
+        "known" where a survey or a joint says that it is cracked at the place above, which then decides;
+        None: it may crack there or elsewhere, and each place counts.
+    unit_weight : float or None, optional
+        Weight of the masonry per volume, N/m³.
 
+    Raises
+    ------
+    StructureError
+        When it cannot stand, or the crack lies outside it.
+
+    Examples
+    --------
     >>> rocking.Spire(width=3.0, height=15.0, wall_thickness=0.25, crack_height=5.0).mechanism()
     Mechanism(λ = 0.3383, φ_cr = 0.3262 rad, p = 1.458 rad/s, η = 0.861)
     """

@@ -46,16 +46,35 @@ Weight = Annotated[float, Value("Weight of all that moves", 100.0, "kN", (0.1, 1
 class CapacityCurve(Structure):
     """A structure of which another program tells the curve alone: it is followed from point to point along lines.
 
-    displacements: (k,) d* of the equivalent system of one degree of freedom, m, ascending from 0. multipliers: (k,) α,
-    the horizontal load over the weight that is just borne there, above 0 until the last one at least, at which it is 0
-    or below. weight: of all that moves, N. restitution: η in [0, 1]. one_sided: it moves away from what it leans on
-    only.
-    By virtual work Σ m δ² q'' = −(α (g + ü_v) + ü_g) Σ m δ, so that d* = q Σ m δ²/Σ m δ has
-    d*'' = −α(d*) (g + ü_v) − ü_g, as long as the virtual displacements δ stay those at rest.
-    Its rotation is d*/h with h = d*_u/α_0, at which the slender rigid body is drawn that has the same λ and the same
-    displacement capacity d*_u. Beyond d*_u the curve goes on with the slope that it ends with.
-    Raises StructureError for a curve that is not sorted, begins elsewhere or never comes down to 0.
+    By virtual work Σ m δ² q'' = −(α (g + ü_v) + ü_g) Σ m δ, so that d* = q Σ m δ²/Σ m δ has d*'' = −α(d*) (g
+    + ü_v) − ü_g, as long as the virtual displacements δ stay those at rest.
 
+    Its rotation is d*/h with h = d*_u/α_0, at which the slender rigid body is drawn that has the same λ and
+    the same displacement capacity d*_u. Beyond d*_u the curve goes on with the slope that it ends with.
+
+    Parameters
+    ----------
+    displacements : tuple of float
+        (k,) d* of the equivalent system of one degree of freedom, m, ascending from 0.
+    multipliers : tuple of float
+        (k,) α, the horizontal load over the weight that is just borne there, above 0 until the last one at
+        least, at which it is 0 or below.
+    weight : float
+        Weight of all that moves, N.
+    restitution : float
+        η in [0, 1].
+    one_sided : bool, default False
+        Whether it moves away from what it leans on only.
+    restitution_range : float or None, optional
+        η is known to plus or minus this much; None: as the settings of the ensemble say.
+
+    Raises
+    ------
+    StructureError
+        For a curve that is not sorted, begins elsewhere or never comes down to 0.
+
+    Examples
+    --------
     >>> curve = rocking.CapacityCurve((0.0, 0.05, 0.4), (0.2, 0.15, 0.0), weight=50e3, restitution=0.9)
     >>> curve.mechanism()
     Mechanism(λ = 0.2, φ_cr = 0.2 rad, p = 2.05 rad/s, η = 0.9)

@@ -198,14 +198,29 @@ Scale = Literal["rest", "linearised", "uplift", "mean"]
 
 @dataclass(frozen=True)
 class EquivalentBlock:
-    """x'' = p² (x − 1 − s ü_g/(gλ)): the linear rocking block, with x = φ/φ_cr (Eq. 10) or a measure of the rotation.
+    """The linear rocking block, x'' = p² (x − 1 − s ü_g/(gλ)), with x = φ/φ_cr (Eq. 10) or a measure of the rotation.
 
-    frequency_parameter: p, rad/s. critical_rotation: φ_cr, rad. acceleration_scale: a_sc = φ_cr/λ, -. restitution: η of
-    the angular velocity, in [0, 1]. other_side: the block of the negative side when the two differ; None when they
-    mirror each other. one_sided: rocks to the positive side only and is thrown back at φ = 0. rotation_map: the
-    rotation as a function of the arc, where x is the arc over that of φ_cr (theory: section 9); None where x = φ/φ_cr.
-    Whatever follows the block reads its answer back through the map, as φ/φ_cr of the structure.
+    Parameters
+    ----------
+    frequency_parameter : float
+        p, rad/s.
+    critical_rotation : float
+        φ_cr, rad.
+    acceleration_scale : float
+        a_sc = φ_cr/λ.
+    restitution : float
+        η of the angular velocity, in [0, 1].
+    other_side : EquivalentBlock or None, optional
+        The block of the negative side when the two differ; None when they mirror each other.
+    one_sided : bool, default False
+        Whether it rocks to the positive side only and is thrown back at φ = 0.
+    rotation_map : RotationMap or None, optional
+        The rotation as a function of the arc, where x is the arc over that of φ_cr (theory: section 9); None
+        where x = φ/φ_cr. Whatever follows the block reads its answer back through the map, as φ/φ_cr of the
+        structure.
 
+    Examples
+    --------
     >>> block = rocking.Block(2.0, 0.2).mechanism().equivalent_block()
     >>> round(block.frequency_parameter, 3)
     1.911

@@ -43,20 +43,93 @@ _SIZES = {"ge": 1e-4, "le": 1000}
 class Facade(Tied):
     """Storeys stacked as one rigid body, flush outside, that rocks above the crack at the foot of one storey.
 
-    storey_heights, thicknesses: of each storey from the ground up, m. unit_weight: of the masonry, N/m³. All forces
-    are per metre of façade. floor_loads: on top of each storey, N/m, or () for none; eccentricity: of their bearings
-    from the middle of the wall they rest on, inwards positive, m. loads_held: the rest of the building holds their
-    mass, so that only their weight acts. top_slab: the uppermost load rests on a "hinged" bearing, or is a slab that
-    stays "flat" and so rests on the corner that rises.
-    thrust: of a vault or a roof outwards, N/m, at thrust_height above the ground, m; None is the top. crack_storey: 1
-    is the ground floor. crack_height: above the ground, m, of a crack at another joint than the foot of a storey. It
-    may open at any joint unless this crack is known. behind: what stands behind it, "nothing" (the default), "floors"
-    at the top of every storey that bears one (of every storey where no load is given), which hold it inwards there, or
-    "cross_walls", which hold it inwards everywhere; one_sided is an older name, True for cross walls and False for
-    nothing. restitution: η in [0, 1] or "momentum" (the default), for both sides; inward_restitution: of the inward
-    side instead. Where something stands behind it must be a number, that of the impact on it. The rest: as `Tied`.
-    Raises StructureError when it cannot stand.
+    All forces are per metre of façade. It may crack at any joint unless a crack is known.
 
+    Parameters
+    ----------
+    storey_heights : tuple of float
+        Heights of the storeys from the ground up, m.
+    thicknesses : tuple of float
+        Thicknesses of the storeys from the ground up, m.
+    unit_weight : float
+        Weight of the masonry per volume, N/m³.
+    floor_loads : tuple of float, optional
+        Load on top of each storey, N/m; () for none.
+    eccentricity : float, default 0.0
+        Distance of the bearings of the loads from the middle of the wall on which they rest, inwards
+        positive, m.
+    loads_held : bool, default False
+        Whether the rest of the building holds the mass of the loads, so that only their weight acts.
+    top_slab : {'hinged', 'flat'}, default 'hinged'
+        Whether the uppermost load rests on a "hinged" bearing, or is a slab that stays "flat" and so rests on
+        the corner that rises.
+    thrust : float, default 0.0
+        Outward thrust of a vault or a roof, N/m.
+    thrust_height : float or None, optional
+        Height of the thrust above the ground, m; None: the top.
+    crack_storey : int or None, optional
+        Storey at whose foot it cracks, 1 being the ground floor.
+    restitution : float, str or None, optional
+        η in [0, 1] or "momentum" (the default), for both sides.
+    inward_restitution : float or None, optional
+        η of the inward side instead, in [0, 1]; None: the same. Where something stands behind it must be a
+        number, that of the impact on it.
+    restitution_range : float or None, optional
+        η is known to plus or minus this much; None: as the settings of the ensemble say.
+    compressive_strength : float or None, optional
+        Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
+        None: they do not crush. Needs `unit_weight`.
+    crack : {'known'} or None, optional
+        "known" where a survey or a joint says that it is cracked at the place above, which then decides;
+        None: it may crack there or elsewhere, and each place counts.
+    tie_heights : tuple of float, optional
+        Heights of the ties above the ground, m.
+    tie_stiffness : float, default 0.0
+        Stiffness of each tie per metre of wall, N/m².
+    tie_pretension : float, default 0.0
+        Force of each tie at rest per metre of wall, N/m; needs `one_sided`.
+    tie_strength : float or None, optional
+        Force per metre of wall at which each tie yields, or breaks where no plastic elongation is given, N/m;
+        None: elastic.
+    tie_plastic_elongation : float, default 0.0
+        Elongation by which each tie yields at its strength before it breaks, m; 0 is brittle.
+    tie_spacing : float or None, optional
+        Distance between the ties of a row along the wall, m; None: they are taken to hold it all along.
+        Beyond three times `unit_length` it may fall between them.
+    unit_length : float or None, optional
+        Length of the units of the masonry along the wall, m; needed with `tie_spacing`.
+    held_between : {'floor'} or None, optional
+        "floor" where a stiff floor or a ring beam holds the wall all along between its ties; None: nothing
+        does.
+    rod_diameter : float or None, optional
+        Diameter of a steel rod, m, in place of stiffness, strength and pretension per metre; needs
+        `rod_length` and `tie_spacing`.
+    rod_length : float or None, optional
+        Free length of a rod between its anchors, m.
+    rod_yield_stress : float or None, optional
+        Stress at which a rod yields, Pa; None: elastic.
+    rod_modulus : float, default 200000000000.0
+        Modulus of elasticity of a rod, Pa.
+    rod_pretension : float, default 0.0
+        Force of a rod at rest, N; needs `one_sided`.
+    one_sided : bool or None, optional
+        Older name of `behind`: True for "cross_walls", False for "nothing".
+    opening : Opening or None, optional
+        Which of its mechanisms this is alone; None of a structure as it is listed.
+    crack_height : float or None, optional
+        Height above the ground of a crack at another joint than the foot of a storey, m.
+    behind : {'nothing', 'floors', 'cross_walls'} or None, optional
+        What stands behind it: "nothing" (the default); "floors" at the top of every storey that bears one (of
+        every storey where no load is given), which hold it inwards there; or "cross_walls", which hold it
+        inwards everywhere.
+
+    Raises
+    ------
+    StructureError
+        When it cannot stand.
+
+    Examples
+    --------
     >>> rocking.Facade((3.5, 3.0), (0.6, 0.5), unit_weight=20e3, restitution=0.8).mechanism().positive
     Side(λ = 0.08993, φ_cr = 0.08969 rad, p = 1.521 rad/s, η = 0.8)
     """

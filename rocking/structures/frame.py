@@ -35,12 +35,34 @@ Balanced = Annotated[Restitution, restitution_value("momentum")]
 class Frame(Crushable):
     """`columns` equal free-standing columns capped by a freely supported rigid beam; all turn by the same φ.
 
-    column: one column. columns: how many, 2 or more. beam_mass_ratio: γ, the mass of the beam over that of all columns
-    together. restitution: η in [0, 1], or "momentum" (the default), (1 − 1.5 sin²α + 3γ cos 2α)/(1 + 3γ); it needs
-    columns so slender that the balance is positive. The column's own restitution plays no part.
-    compressive_strength, Pa, with unit_weight, N/m³: feet and heads of the columns crush at their edges.
-    The rotation ends when the columns lie. Raises StructureError when it cannot stand.
+    The rotation ends when the columns lie.
 
+    Parameters
+    ----------
+    column : Block
+        One column.
+    columns : int
+        Number of columns, 2 or more.
+    beam_mass_ratio : float
+        γ, the mass of the beam over that of all columns together.
+    restitution : float, str or None, optional
+        η in [0, 1], or "momentum" (the default), (1 − 1.5 sin²α + 3γ cos 2α)/(1 + 3γ), which needs columns so
+        slender that the balance is positive; the column's own restitution plays no part.
+    restitution_range : float or None, optional
+        η is known to plus or minus this much; None: as the settings of the ensemble say.
+    compressive_strength : float or None, optional
+        Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
+        None: they do not crush. Needs `unit_weight`.
+    unit_weight : float or None, optional
+        Weight of the masonry per volume, N/m³.
+
+    Raises
+    ------
+    StructureError
+        When it cannot stand.
+
+    Examples
+    --------
     >>> column = rocking.Block.of_size(breadth=1.1, height=8.0)
     >>> rocking.Frame(column, columns=4, beam_mass_ratio=0.3).mechanism()
     Mechanism(λ = 0.1375, φ_cr = 0.1366 rad, p = 1.239 rad/s, η = 0.9678)

@@ -143,17 +143,46 @@ class SideTie:
 class Side:
     """One direction of rocking: I [m], I' [m/rad], G [-], G' [1/rad], B [-] as functions of φ on [0, end_rotation].
 
-    All five may carry one common factor (a mass, say), which cancels. G is what restores on the way out from rest.
-    ties: those that are part of G; untied_gravity: G without them, needed where there are ties. The weights in it grow
-    and fall with g + ü_v, the ties do not, and they remember the largest rotation.
-    critical_rotation: φ_cr, where G vanishes, rad. end_rotation: where the geometry of the mechanism ends, rad,
-    > φ_cr. restitution: η of the impact that ends rocking on this side, in [0, 1].
-    kinks: rotations up to φ_cr at which G bends, while it runs straight between them and I and B are constant, rad; ()
-    of a G that is smooth.
-    can_overturn: False where G vanishes nowhere, as what holds it never lets go; critical_rotation is then the rotation
-    just below the end, and whatever reaches the end counts as overturned all the same.
-    Raises StructureError when G(0) ≤ 0, B ≤ 0 or I ≤ 0 where it matters, or a rotation is out of order.
+    All five may carry one common factor (a mass, say), which cancels. G is what restores on the way out from
+    rest.
 
+    Parameters
+    ----------
+    inertia : callable
+        I, m, as a function of φ.
+    inertia_slope : callable
+        I', m/rad.
+    gravity : callable
+        G, dimensionless.
+    gravity_slope : callable
+        G', 1/rad.
+    ground : callable
+        B, dimensionless.
+    critical_rotation : float
+        φ_cr, where G vanishes, rad.
+    end_rotation : float
+        Rotation where the geometry of the mechanism ends, rad, above φ_cr.
+    restitution : float
+        η of the impact that ends rocking on this side, in [0, 1].
+    ties : tuple of SideTie, optional
+        Ties that are part of G.
+    untied_gravity : callable or None, optional
+        G without the ties, needed where there are ties. Its weights grow and fall with g + ü_v; the ties do
+        not, and they remember the largest rotation.
+    can_overturn : bool, default True
+        False where G vanishes nowhere, as what holds it never lets go; critical_rotation is then the rotation
+        just below the end, and whatever reaches the end counts as overturned all the same.
+    kinks : tuple of float, optional
+        Rotations up to φ_cr at which G bends, while it runs straight between them and I and B are constant,
+        rad; () of a G that is smooth.
+
+    Raises
+    ------
+    StructureError
+        When G(0) ≤ 0, B ≤ 0 or I ≤ 0 where it matters, or a rotation is out of order.
+
+    Examples
+    --------
     >>> round(rocking.Block(2.0, 0.2).mechanism().positive.uplift_multiplier, 4)
     0.2027
     """
@@ -295,12 +324,20 @@ class Side:
 class Mechanism(Drawn):
     """A structure as the motion sees it: a Side for each direction of rocking; `plot` draws I, G and B over φ.
 
-    positive: the side of positive rotation, taken when the ground accelerates in the negative direction.
-    negative: the other side; None when it mirrors the positive one.
-    one_sided: the structure leans on something (a façade against side walls) and rocks to the positive side only;
-    an impact then throws it back to the same side.
-    restitution_range: η is known to plus or minus this much on every side; None: nothing is said of it.
+    Parameters
+    ----------
+    positive : Side
+        The side of positive rotation, taken when the ground accelerates in the negative direction.
+    negative : Side or None, optional
+        The other side; None when it mirrors the positive one.
+    one_sided : bool, default False
+        The structure leans on something (a façade against side walls) and rocks to the positive side only; an
+        impact then throws it back to the same side.
+    restitution_range : float or None, optional
+        η is known to plus or minus this much on every side; None: nothing is said of it.
 
+    Examples
+    --------
     >>> wall = rocking.Wall(1.6, 1.6, 0.25).mechanism()
     >>> rocking.Mechanism(wall.positive, wall.positive, one_sided=False).symmetric
     False
@@ -441,6 +478,8 @@ class Mechanism(Drawn):
 class Outcome(StrEnum):
     """Outcome of a prediction or an integration.
 
+    Examples
+    --------
     >>> rocking.integrate(rocking.Block(2.0, 0.2), rocking.Pulse(3.0, 8.0)).outcome
     <Outcome.ROCKS: 'rocks'>
     """

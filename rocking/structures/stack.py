@@ -123,10 +123,27 @@ class Held:
 class Stack:
     """Courses on moving ground, from the lowest one up.
 
-    held: forces and ties. top_held_at: point of the uppermost course that something holds to the ground sideways only,
-    m; None: its top is free. friction: coefficient at every joint. The ground goes on to both sides of the foot.
-    Raises StructureError for no course, more than MOST_COURSES, or courses that do not lie on one another.
+    The ground goes on to both sides of the foot.
 
+    Parameters
+    ----------
+    courses : tuple of Course
+        Courses, from the lowest one up.
+    held : tuple of Held, optional
+        Forces and ties that hold courses.
+    top_held_at : tuple of (float, float) or None, optional
+        Point of the uppermost course that something holds to the ground sideways only, m; None: its top is
+        free.
+    friction : float, default 5.0
+        Friction coefficient at every joint.
+
+    Raises
+    ------
+    StructureError
+        For no course, more than MOST_COURSES, or courses that do not lie on one another.
+
+    Examples
+    --------
     >>> from rocking import Block
     >>> len(Block.of_size(breadth=0.6, height=4.0).stack().courses)
     1

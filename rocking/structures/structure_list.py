@@ -42,10 +42,29 @@ _ALIKE = 0.8
 def structure_from_config(mapping: Mapping[str, object], texts: Mapping[str, str] | None = None) -> Structure:
     """Return the structure that `mapping` describes: its type, the keys of one of the type's forms, perhaps a name.
 
-    Lengths in m (keys …_m), angles in degrees (keys …_deg). texts: the values as they were typed, by key, for the
-    structure's description. Raises ConfigurationError when a key is unknown or missing, and StructureError when the
-    geometry cannot stand.
+    Lengths in m (keys …_m), angles in degrees (keys …_deg).
 
+    Parameters
+    ----------
+    mapping : mapping of str to object
+        Type, keys of one of the forms of the type, and perhaps a name.
+    texts : mapping of str to str or None, optional
+        The values as they were typed, by key, for the structure's description.
+
+    Returns
+    -------
+    Structure
+        The structure.
+
+    Raises
+    ------
+    ConfigurationError
+        When a key is unknown or missing.
+    StructureError
+        When the geometry cannot stand.
+
+    Examples
+    --------
     >>> rocking.structure_from_config({"type": "block", "breadth_m": 2.0, "height_m": 9.0}).mechanism()
     Mechanism(λ = 0.2222, φ_cr = 0.2187 rad, p = 1.263 rad/s, η = 0.9294)
     """

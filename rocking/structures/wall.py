@@ -330,17 +330,44 @@ class CrackedWall(CrackedAtHeight):
 
 @dataclass(frozen=True, repr=False)
 class Wall(CrackedWall):
-    """A wall held at floor and ceiling, cracked into two blocks; base and top follow the ground, the top support slides
-    vertically. One that stands free at its top is a `Block`.
+    """A wall held at floor and ceiling, cracked into two blocks.
 
-    lower_height, upper_height: h₁ below and h₂ above the hinge, m. thickness: 2b, m. The rotation φ is the
-    lower block's. restitution: η in [0, 1] or "momentum" (the default): the impulses at the hinges of the
-    mirrored mechanism do no work on it. For equal blocks that is (1 − 4.5 sin²α)/(1 + 3 sin²α), which
-    reaches 0 at sin²α = 2/9; squatter walls get 0 and a StructureWarning. one_sided: it leans on cross walls and bends
-    outwards only, thrown back at every impact; it needs a number. compressive_strength, Pa, with unit_weight, N/m³: the
-    edges of its joints crush, so that its hinges move in.
-    Raises StructureError when it cannot stand.
+    Base and top follow the ground, and the top support slides vertically. The rotation φ is that of the lower
+    block. A wall that stands free at its top is a `Block`.
 
+    Parameters
+    ----------
+    lower_height : float
+        Height h₁ below the hinge, m.
+    upper_height : float
+        Height h₂ above the hinge, m.
+    thickness : float
+        Thickness 2b, m.
+    restitution : float, str or None, optional
+        η in [0, 1] or "momentum" (the default): the impulses at the hinges of the mirrored mechanism do no
+        work on it. For equal blocks that is (1 − 4.5 sin²α)/(1 + 3 sin²α), which reaches 0 at sin²α = 2/9;
+        squatter walls get 0 and a StructureWarning.
+    one_sided : bool, default False
+        Whether it leans on cross walls and bends outwards only, thrown back at every impact; it needs a
+        restitution number.
+    restitution_range : float or None, optional
+        η is known to plus or minus this much; None: as the settings of the ensemble say.
+    compressive_strength : float or None, optional
+        Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
+        None: they do not crush. Needs `unit_weight`.
+    crack : {'known'} or None, optional
+        "known" where a survey or a joint says that it is cracked at the place above, which then decides;
+        None: it may crack there or elsewhere, and each place counts.
+    unit_weight : float or None, optional
+        Weight of the masonry per volume, N/m³.
+
+    Raises
+    ------
+    StructureError
+        When it cannot stand.
+
+    Examples
+    --------
     >>> rocking.Wall(lower_height=1.6, upper_height=1.6, thickness=0.25).mechanism()
     Mechanism(λ = 0.3125, φ_cr = 0.155 rad, p = 4.262 rad/s, η = 0.8332)
     """
@@ -452,14 +479,80 @@ class Wall(CrackedWall):
 class LoadedWall(CrackedWall, Tied):
     """A wall cracked into two blocks between supports, as `Wall`, with what hangs on it; forces per metre of wall.
 
-    lower_height, upper_height, thickness: m. unit_weight: of the masonry, N/m³. top_load: of floor or walls above,
-    N/m, at `eccentricity` inwards from the middle, m, on a "hinged" bearing, or by a slab that stays "flat" and rests
-    on the edge in contact. top_friction: coefficient between the two, by which the load holds the top, as ties there
-    do; None: as the settings say, and without any it never slips; a top without a load is held. load_held: only its
-    weight acts; otherwise its mass moves up and down with the top.
-    restitution: η in [0, 1] or "momentum" (the default). Ties and one_sided: as `Tied`.
-    Raises StructureError when it cannot stand.
+    Parameters
+    ----------
+    lower_height : float
+        Height below the hinge, m.
+    upper_height : float
+        Height above the hinge, m.
+    thickness : float
+        Thickness, m.
+    unit_weight : float
+        Weight of the masonry per volume, N/m³.
+    top_load : float, default 0.0
+        Load of the floor or the walls above, N/m.
+    eccentricity : float, default 0.0
+        Distance of the load inwards from the middle of the wall, m.
+    top_slab : {'hinged', 'flat'}, default 'hinged'
+        Whether the load comes by a "hinged" bearing, or by a slab that stays "flat" and rests on the edge in
+        contact.
+    load_held : bool, default False
+        Whether only the weight of the load acts; otherwise its mass moves up and down with the top.
+    restitution : float, str or None, optional
+        η in [0, 1] or "momentum" (the default).
+    restitution_range : float or None, optional
+        η is known to plus or minus this much; None: as the settings of the ensemble say.
+    compressive_strength : float or None, optional
+        Compressive strength of the masonry, Pa, at which the edges of joints crush, so that hinges move in;
+        None: they do not crush. Needs `unit_weight`.
+    crack : {'known'} or None, optional
+        "known" where a survey or a joint says that it is cracked at the place above, which then decides;
+        None: it may crack there or elsewhere, and each place counts.
+    tie_heights : tuple of float, optional
+        Heights of the ties above the ground, m.
+    tie_stiffness : float, default 0.0
+        Stiffness of each tie per metre of wall, N/m².
+    tie_pretension : float, default 0.0
+        Force of each tie at rest per metre of wall, N/m; needs `one_sided`.
+    tie_strength : float or None, optional
+        Force per metre of wall at which each tie yields, or breaks where no plastic elongation is given, N/m;
+        None: elastic.
+    tie_plastic_elongation : float, default 0.0
+        Elongation by which each tie yields at its strength before it breaks, m; 0 is brittle.
+    tie_spacing : float or None, optional
+        Distance between the ties of a row along the wall, m; None: they are taken to hold it all along.
+        Beyond three times `unit_length` it may fall between them.
+    unit_length : float or None, optional
+        Length of the units of the masonry along the wall, m; needed with `tie_spacing`.
+    held_between : {'floor'} or None, optional
+        "floor" where a stiff floor or a ring beam holds the wall all along between its ties; None: nothing
+        does.
+    rod_diameter : float or None, optional
+        Diameter of a steel rod, m, in place of stiffness, strength and pretension per metre; needs
+        `rod_length` and `tie_spacing`.
+    rod_length : float or None, optional
+        Free length of a rod between its anchors, m.
+    rod_yield_stress : float or None, optional
+        Stress at which a rod yields, Pa; None: elastic.
+    rod_modulus : float, default 200000000000.0
+        Modulus of elasticity of a rod, Pa.
+    rod_pretension : float, default 0.0
+        Force of a rod at rest, N; needs `one_sided`.
+    one_sided : bool, default False
+        Whether it bends outwards only; needs a restitution number.
+    opening : Opening or None, optional
+        Which of its mechanisms this is alone; None of a structure as it is listed.
+    top_friction : float or None, optional
+        Friction coefficient between load and wall, by which the load holds the top; None: as the settings
+        say. Without any it never slips, and a top without a load is held.
 
+    Raises
+    ------
+    StructureError
+        When it cannot stand.
+
+    Examples
+    --------
     >>> rocking.LoadedWall(1.6, 1.6, 0.25, unit_weight=20e3, top_load=10e3).mechanism()
     Mechanism(λ = 0.6055, φ_cr = 0.1337 rad, p = 6.372 rad/s, η = 0.6759)
     """

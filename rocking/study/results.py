@@ -186,6 +186,13 @@ def _tables() -> dict[str, type[Row]]:
 class Results:
     """The folder of a study's results: each table is an attribute, read from its CSV when it is asked for.
 
+    Parameters
+    ----------
+    folder : Path
+        Folder of the results of a study.
+
+    Examples
+    --------
     >>> results = rocking.open_results("results")  # doctest: +SKIP
     >>> results.comparison.groupby("structure")["within_factor_two"].mean()  # doctest: +SKIP
     """
@@ -242,8 +249,25 @@ class Results:
 
 
 def open_results(folder: Path | str) -> Results:
-    """Return the tables of the results of a study in `folder`. Raises RockingError where it holds no results.
+    """Return the tables of the results of a study in `folder`.
 
+    Parameters
+    ----------
+    folder : Path or str
+        Folder of the results of a study.
+
+    Returns
+    -------
+    Results
+        The tables, each read when it is asked for.
+
+    Raises
+    ------
+    RockingError
+        Where it holds no results.
+
+    Examples
+    --------
     >>> try:
     ...     rocking.open_results("nowhere")
     ... except rocking.RockingError as error:

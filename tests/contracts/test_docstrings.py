@@ -1,0 +1,45 @@
+"""The docstrings of the public names have the sections of numpydoc: checked by numpydoc's own validator."""
+
+from enum import Enum
+
+import pytest
+from numpydoc.validate import validate
+
+import rocking
+
+PASSED_OVER = {
+    "ES01",  # no extended summary: the summary alone may say it all
+    "EX01",  # no examples: of errors, and of what only a study makes
+    "GL01",  # the summary begins on the line of the quotes
+    "PR02",  # keywords that a function hands on
+    "PR08",  # a description that begins with a letter of the field, such as η
+    "RT02",  # a return value has a type and no name
+    "RT04",  # likewise
+    "SA01",  # no See Also
+    "SS06",  # a summary of two lines
+}
+
+
+@pytest.mark.parametrize("name", sorted(rocking.__all__))
+def test_the_docstring_has_the_sections_of_numpydoc(name: str) -> None:
+    public = getattr(rocking, name)
+    found = dict(validate(f"{public.__module__}.{public.__qualname__}")["errors"])
+    if isinstance(public, type) and issubclass(public, Enum):
+        found.pop("PR01", None)  # the arguments of Enum itself
+    assert {code: message for code, message in found.items() if code not in PASSED_OVER} == {}
+
+
+def test_a_parameter_that_is_left_out_is_found() -> None:
+    def undocumented(height: float) -> float:
+        """Return the height.
+
+        Returns
+        -------
+        float
+            The height.
+        """
+        return height
+
+    globals()["undocumented"] = undocumented
+    undocumented.__qualname__ = "undocumented"
+    assert "PR01" in dict(validate(f"{__name__}.undocumented")["errors"])
