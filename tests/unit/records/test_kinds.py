@@ -124,7 +124,7 @@ def test_the_disc_of_1999_is_read_as_its_later_files_are(tmp_path):
         ("BEGIN GSE2.0\nMSG_TYPE DATA\n" * 3, "message of GSE or IMS; cut off what stands above"),
         ("* **********\n* NETWORK\nZEROS 3\nPOLES 5\n", "poles and zeros, which holds a response"),
         ("<!DOCTYPE html><html><body>Not found\n", "web page, and no record"),
-        ("%PDF-1.5\nxx", "PDF, an archive or a data base"),
+        ("%PDF-1.5\nxx", "PDF or an archive"),
         (
             "CORRECTED ACCELEROGRAM  IIA001  40.001.0\nIMPERIAL VALLEY EARTHQUAKE\n",
             "Volume II file without the component",
