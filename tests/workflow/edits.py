@@ -205,6 +205,7 @@ EDITS: list[Edit] = [
     ("design_spectrum.limit_state", _section("design_spectrum", limit_state="SLC"), "S C"),
     ("design_spectrum.confidence_factor", _section("design_spectrum", confidence_factor=1.2), "S C"),
     ("design_spectrum.behaviour_factor", _section("design_spectrum", behaviour_factor=1.5), "S C"),
+    ("design_spectrum.least_others", _section("design_spectrum", least_others=0.4), "S C"),
     ("design_spectrum.stations", _section("design_spectrum", stations=10), "S C"),
     ("design_spectrum.least_factor", _section("design_spectrum", least_factor=0.3), "S C"),
     ("design_spectrum.largest_factor", _section("design_spectrum", largest_factor=3.0), "S C"),

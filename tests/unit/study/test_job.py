@@ -156,6 +156,8 @@ def test_a_summary_draws_the_trade_where_its_study_measures_it(tmp_path, monkeyp
         cases=1,
         wrong_verdicts=0,
         unsafe_verdicts=0,
+        stations=1,
+        earthquakes=1,
         error=1e-7,
         cpu_s=1e-3,
     )
