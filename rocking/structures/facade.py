@@ -444,6 +444,7 @@ class Facade(Tied):
         They end at the feet of storeys and where something holds the wall; of a wall that is held there are by default
         COURSES a storey, as it bulges within one.
         """
+        self._check_plane()
         bulges = bool(self.held_wall.holds)
         if courses is None and self.crack_is_known and self.opening is None and not bulges:
             body = [joined(list(self._storey_courses(1, self.crack_position)))]

@@ -10,7 +10,7 @@ from typing import Annotated, ClassVar, Literal, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.errors import DoesNotStandError, SizeError, StructureWarning
+from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
 from rocking.quantities import GRAVITY
 from rocking.remarks import Kind, Remark
 from rocking.structures.drawing import Mark, plane
@@ -247,6 +247,14 @@ class Tied(CrackedAtHeight):
         if self.tie_spacing is None or self.unit_length is None or self.held_between:
             return False
         return self.tie_spacing > FAR_APART * self.unit_length
+
+    def _check_plane(self) -> None:
+        """Refuse a stack, which is plane, of a wall that may fall between its ties."""
+        if self.ties_apart:
+            raise StructureError(
+                "tie_spacing lets the wall fall between its ties, where a plane stack of courses holds it all along, "
+                "so that contact dynamics cannot follow it; choose another fidelity than contact."
+            )
 
     @property
     def assumptions(self) -> tuple[Remark, ...]:

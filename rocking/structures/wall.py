@@ -708,6 +708,7 @@ class LoadedWall(CrackedWall, Tied):
 
     def stack(self, courses: int | None = None) -> Stack:
         """Return its two blocks where the hinge is known and no tie holds it, else courses; below what loads it."""
+        self._check_plane()
         wall = self._wall_courses(courses, self.unit_weight / GRAVITY)
         half = self.thickness / 2
         top = (-self.eccentricity, self.height)

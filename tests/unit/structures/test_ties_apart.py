@@ -8,6 +8,7 @@ import pytest
 from bonded import BondedWall
 
 import rocking
+from rocking.assessment.contacts import stackable
 from rocking.assessment.cracks import cracks, mechanisms_of
 from rocking.codes.static_check import kinematic_check
 from rocking.errors import RockingError, StructureError
@@ -205,6 +206,17 @@ def test_front_that_stands_held_all_along_falls_between_its_ties():
     assert all_along.verdict is rocking.Verdict.STANDS
     assert apart.verdict.badness >= rocking.Verdict.PROBABLY_OVERTURNS.badness
     assert TRIANGLE in apart.crack
+
+
+@pytest.mark.parametrize(
+    "wall", [FRONT, LoadedWall.of_size(3.2, 0.3, 18e3, tie_heights=(1.6,), tie_stiffness=1e7)]
+)
+def test_a_plane_stack_says_nothing_of_a_wall_between_its_ties(wall):
+    """It would hold it all along: neither are its runs asked for, nor do they lift what limits the word."""
+    apart = replace(wall, tie_spacing=3.0, unit_length=0.5)
+    assert not stackable(apart) and stackable(replace(apart, held_between="floor"))
+    with pytest.raises(StructureError, match="holds it all along"):
+        apart.stack()
 
 
 @pytest.mark.parametrize(
