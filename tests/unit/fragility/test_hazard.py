@@ -260,3 +260,23 @@ def test_the_csv_holds_the_curve(tmp_path):
         ("pgv", "m/s", "inf")
     }
     assert rocking.Hazard is Hazard
+
+
+@pytest.mark.parametrize(("weak", "is_told"), [(0, True), (1, True), (2, False), (4, False)])
+def test_a_rate_is_told_where_nine_in_ten_stations_reach_where_half_of_it_is_made(weak, is_told):
+    """All overturn from 1 on, and some reach 0.5 only: 0 of these if never, all from there on if at once."""
+    shares = np.tile((LEVELS >= 1.0).astype(float), (10, 1))
+    shares[:weak, LEVELS > 0.5] = np.nan
+    ends = LEVELS[[0, -1]]
+    rate = fragility_of(LEVELS, shares, Sample.scattered("abcdefghij")).annual_rate(
+        Hazard(ends, 1e-3 * ends**-2.0)
+    )
+    assert (rate.reaching, rate.stations, rate.is_told) == (10 - weak, 10, is_told)
+    assert math.isnan(rate.value) is not is_told
+    # Steps of 2 % in the level are 4 % of a rate that falls with its square.
+    if is_told:
+        assert rate.value == pytest.approx(1e-3, rel=0.04)
+    else:
+        never = (1 - weak / 10) * 1e-3
+        at_once = never + weak / 10 * 4e-3
+        assert rate.low < never < at_once < rate.high

@@ -20,6 +20,7 @@ from rocking.strengthening import (
     sizes,
     static_tie,
     stations_needed,
+    strengthen_scene,
     with_value,
 )
 from rocking.structures import Block, Facade, LoadedWall
@@ -302,3 +303,27 @@ def test_a_station_at_which_nothing_lifts_tells_nothing():
     assert (found.still, alone.still) == (4, 0)
     assert len(found.stations) == 12
     assert found.tried[-1].interval == alone.tried[-1].interval
+
+
+@pytest.mark.process
+def test_another_target_follows_nothing_again(monkeypatch, tmp_path):
+    from rocking.assessment.assessor import Assessor
+    from rocking.assessment.scene import Scene
+    from rocking.assessment.store import RecordStore
+
+    records = _records(8)
+    scene, sample = Scene("parapet", PARAPET), Sample.of(records)
+    path = tmp_path / "parapet.cases"
+    told: list[str] = []
+    store = RecordStore(path)
+    arguments = (records, scene, BREADTH, (0.3, 0.9))
+    first = strengthen_scene(*arguments, 0.3, sample, early=False, store=store, tell=told.append)
+    store.save()
+    assert "128 cases" in told[0]  # 15 values and the one given, under 8 components
+
+    def follows_nothing(*_, **__):
+        raise AssertionError("a case is followed again")
+
+    monkeypatch.setattr(Assessor, "integrate", follows_nothing)
+    again = strengthen_scene(*arguments, 0.1, sample, early=False, store=RecordStore(path))
+    assert [each.share for each in again.tried] == [each.share for each in first.tried]
