@@ -30,7 +30,7 @@ from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.remarks import Kind, Remark
-from rocking.sine_pulse import Maximum
+from rocking.sine_pulse import AsPrinted, Maximum
 from rocking.structures import EquivalentBlock, Outcome, Structure
 from rocking.structures.structure import Candidate
 from rocking.structures.tied import Tied
@@ -52,13 +52,14 @@ class Prediction:
     """The closed forms of one structure under one pulse.
 
     block: equivalent block of the settings, under which `maximum` was found. pulse_rank: of the pulse among those that
-    its method offers.
+    its method offers. printed: what the source paper's equations say; None under a pulse that is no full sine.
     """
 
     block: EquivalentBlock
     pulse: Pulse
     pulse_rank: int
     maximum: Maximum
+    printed: AsPrinted | None = None
 
     @property
     def side(self) -> EquivalentBlock:

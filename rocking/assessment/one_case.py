@@ -46,7 +46,7 @@ from rocking.motion.response import UNKNOWN, Response, check_model
 from rocking.pulses import Pulse, PulseEvidence, predicting_pulse
 from rocking.records import Accelerogram
 from rocking.remarks import Kind
-from rocking.sine_pulse import predict_maximum
+from rocking.sine_pulse import predict_as_printed, predict_maximum
 from rocking.structures import Mechanism, Structure
 
 
@@ -90,6 +90,7 @@ def predict(
         pulse=pulse,
         pulse_rank=candidates.index(chosen) + 1,
         maximum=predict_maximum(block, pulse),
+        printed=predict_as_printed(mechanism, pulse),
     )
 
 

@@ -19,18 +19,20 @@ from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import PulseError, RockingError
 from rocking.motion import integrate
 from rocking.pulses import DEMAND_CANDIDATES, PulseEvidence, extract_pulses
+from rocking.pulses.pulse import DOMINATES
 from rocking.quantities import counted
 from rocking.records import Accelerogram
 from rocking.records.sample import Sample
-from rocking.sine_pulse import predict_maximum
+from rocking.sine_pulse import predict_as_printed, predict_maximum
 from rocking.structures import EquivalentBlock, Mechanism, Structure
 
 TOLERANCES = {TradeMethod.MECHANISM: 1e-6, TradeMethod.COARSE: 1e-3}
 REFERENCE_TOLERANCE = 1e-12
-RULING = 0.5
-"""Share of a record's energy from which its sine is said to rule it."""
 REPEATS = 3
 """Timed runs of each response, after one that is not; an ensemble is run once."""
+
+_BY_SINES = (TradeMethod.PRINTED, TradeMethod.ONE_SINE, TradeMethod.SINES)
+"""The methods that a search for the sines of a record comes before."""
 
 T = TypeVar("T")
 
@@ -122,11 +124,11 @@ def _answers(
     reference = integrate(mechanism, record, REFERENCE_TOLERANCE).rotation_ratio
     for method, run in _runs(mechanism, record, sines, settings).items():
         rotation_ratio, cpu_s = _timed(run, 0 if method is TradeMethod.ENSEMBLE else REPEATS)
-        record_s = searched_s if method in (TradeMethod.ONE_SINE, TradeMethod.SINES) else 0.0
+        record_s = searched_s if method in _BY_SINES else 0.0
         answer = TimedAnswer(rotation_ratio, reference, cpu_s, record_s)
         yield method, answer
-        if method is TradeMethod.ONE_SINE and sines[0].explained_energy >= RULING:
-            yield TradeMethod.RULING_SINE, answer
+        if method is TradeMethod.ONE_SINE and sines[0].explained_energy >= DOMINATES:
+            yield TradeMethod.DOMINANT_SINE, answer
 
 
 def _runs(
@@ -145,8 +147,13 @@ def _runs(
         members = ensemble(mechanism, GroundMotions.of(record), settings.ensemble)
         return math.inf if members.overturning_share > 0.5 else members.rotation_ratio_median
 
+    def as_printed() -> float:
+        told = predict_as_printed(mechanism, sines[0].pulse)
+        return math.nan if told is None else told.rotation_ratio
+
     by_sines = {TradeMethod.ONE_SINE: sines[:1], TradeMethod.SINES: sines} if sines else {}
     return {
+        **({TradeMethod.PRINTED: as_printed} if sines else {}),
         **{method: partial(worst, some) for method, some in by_sines.items()},
         TradeMethod.BLOCK: partial(rotation, block, 1e-6),
         **{method: partial(rotation, mechanism, tolerance) for method, tolerance in TOLERANCES.items()},
@@ -219,7 +226,7 @@ def what_follows(rows: Iterable[TradeRow]) -> Iterator[str]:
 
 
 _BESIDE = {
-    TradeMethod.RULING_SINE: "where the sine explains at least half of the energy",
+    TradeMethod.DOMINANT_SINE: "where one sine dominates",
     TradeMethod.BLOCK: "the block on the record",
 }
 

@@ -16,6 +16,7 @@ class PageSettings:
 
     about: Mapping[str, str] = field(default_factory=dict)
     language: Language = "en"
+    date: str | None = None
     display_units: str = "SI"
     details: bool = False
     tolerance: float = 1e-6
@@ -95,7 +96,7 @@ class Fact:
 class Footer:
     """What the foot of each page says; {page} and {pages} are numbers."""
 
-    made: str = "Made with the Python package rocking."
+    made: str = "Made with the Python package rocking"
     page: str = "Page {page} of {pages}"
     continued: str = "Continued from page {page}"
     units: str = "SI units and radians"
@@ -187,7 +188,8 @@ class Marks:
 
 @dataclass(frozen=True)
 class Row:
-    """The row of a structure on page one. alone: its reserve is that of the mechanism alone."""
+    """The row of a structure on page one. below: its sizes, and λ with where it stands. alone: its reserve is that of
+    the mechanism alone."""
 
     name: str
     below: str
@@ -224,8 +226,58 @@ class PageOne:
     sine: Sine
     rows: tuple[Row, ...]
     others: tuple[Others, ...]
+    uncertain: tuple[str, ...]
+    reserve_in_words: str
     untold: bool
     left_out: str = ""
+
+
+@dataclass(frozen=True)
+class Tick:
+    """A mark of an axis: where it stands, mm, and what it says."""
+
+    at: float
+    label: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ground:
+    """The accelerogram of a component with its axes and its sine. levels: of the accelerations, from above."""
+
+    name: str
+    peak: str
+    facts: tuple[str, ...]
+    picture: Picture
+    levels: tuple[Tick, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Compared:
+    """The strip of a structure that moves, with the largest rotation by the paper, the closed form and the integration.
+
+    outside: whether the paper's equation is asked outside of its regime.
+    """
+
+    name: str
+    below: str
+    constants: tuple[str, ...]
+    note: str
+    picture: Picture
+    printed: str
+    outside: bool
+    form: str
+    whole: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Against:
+    """Prediction against integration: the ground, and a strip for each structure that moves, the worst first."""
+
+    grounds: tuple[Ground, ...]
+    compared: tuple[Compared, ...]
+    ticks: tuple[Tick, ...]
+    at_rest: str
+    more: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -280,6 +332,7 @@ class RecordPage(Page):
     scale_note: str
     notices: tuple[Notice, ...]
     page_one: PageOne
+    against: tuple[Against, ...]
     strips: tuple[Strip, ...]
     advice: tuple[str, ...]
     components: Table

@@ -14,6 +14,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import cache, partial
+from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
@@ -194,7 +195,12 @@ def facts_of(settings: PageSettings) -> tuple[Fact, ...]:
 
 def footer_of(settings: PageSettings) -> Footer:
     """Return the foot of each page of a document in English."""
-    return Footer(units=_UNITS_IN_WORDS[settings.display_units])
+    return Footer(made=f"{Footer().made} {stamp(settings)}", units=_UNITS_IN_WORDS[settings.display_units])
+
+
+def stamp(settings: PageSettings) -> str:
+    """Return version and, where the settings state one, date, which stand on every page."""
+    return " · ".join(filter(None, (version("rocking"), settings.date)))
 
 
 def remainder(more: int, noun: str, place: str) -> str:

@@ -28,14 +28,17 @@ from rocking.assessment.rows import (
 )
 from rocking.assessment.scene import variants_of
 from rocking.errors import FaultError, one_structure
+from rocking.pulses.pulse import DOMINATES, LEADS, worth_of
 from rocking.quantities import GRAVITY, counted, listed, percent, percents
 from rocking.records.formats.text import day_of
 from rocking.remarks import Kind, Remark
 from rocking.reports import printing
 from rocking.reports import record_figures as figures
+from rocking.reports.against import against, sizes_of
 from rocking.reports.design_figure import design_figure
 from rocking.reports.drawings import Trace, drawn_by_hand, sketch, svg_path, thinned
 from rocking.reports.pages import (
+    Against,
     Assumed,
     Details,
     Marks,
@@ -97,21 +100,29 @@ MOST_PULSES = 3
 """Ranks of pulses that are printed."""
 MOST_COMPARED = 24
 """Cases whose comparison is drawn, those with the largest rotations."""
-DOMINATES = 0.5
-"""Share of the energy of a record from which on one sine is said to dominate it. What the closed form is worth rises
-with that share without a step (`rocking.pulses.pulse.WORTH`), so that the edge is a choice."""
+_TRUST = {
+    DOMINATES: "rings and dots agree",
+    LEADS: "rings and dots mostly agree",
+}
+"""Whom to trust where closed form and integration differ, by the share of the energy from which on it holds."""
+_TRUST_DOTS = "trust the dots, not the rings"
 MOST_ROWS = 12
 """Structures that have a row, the worst first; the others are named by their words below."""
+_MOST_UNCERTAIN = 2
+"""Structures of which page one says why they are uncertain."""
 _MOST_NAMED = 20
 """Names of a word below the rows."""
 _UNIT = 27.0
 """Length of a rotation ratio of 1 on the scale, mm."""
 _FARTHEST = 1.2
 """Rotation ratio at the end of the scale; what came back from beyond it stands there."""
-_FALLEN = {"form": 36.5, "block": 41.5, "whole": 46.5, "line": 48.5}
-"""Where on the scale stands what falls, mm: within its grey zone, a place for each mark."""
+_FALLEN = 41.5
+"""Where on the scale stands what falls, mm: in the middle of its grey zone, one fall no farther than another."""
 _DRAWN = 0.8
 """Rotation ratio at which a structure is drawn."""
+_NO_DEMAND = (
+    "One record is no demand of a code; what is checked and signed at the design level: structures.pdf."
+)
 _ROOM = 12.0, 14.0
 """Width and height of a drawing, mm."""
 _STRIP = 118.0, 20.0
@@ -161,10 +172,11 @@ class RecordReport:
                 conclusion=conclusion_in_words(
                     {each.verdict.structure: each.verdict.decision.word for each in self.conclusions}
                 ),
-                at_design_level="At the design level: summary/structures.pdf." if self.level else "",
+                at_design_level=_NO_DEMAND if self.level else "",
                 scale_note=scale_note,
                 notices=tuple(_notices(self)),
                 page_one=page_one(self),
+                against=_against(self),
                 strips=tuple(strips),
                 advice=tuple(_advice(self)),
                 components=_components(self),
@@ -272,6 +284,12 @@ def failure_page(record: str, message: str) -> PlainPage:
     )
 
 
+def _against(report: RecordReport) -> tuple[Against, ...]:
+    """Return the page of prediction against integration, where anything was compared."""
+    page = against(report.conclusions, report.structures, report.result, report.motions, report.tables.pulses)
+    return (page,) if page else ()
+
+
 def _assumed(report: RecordReport) -> Assumed:
     """Return what was assumed, and files and versions; the time of the run is left out."""
     record = report.tables.record
@@ -303,12 +321,10 @@ def page_one(report: RecordReport) -> PageOne:
     pulse = report.dominant(motion.accelerogram.component) if motion else None
     drawn, others = report.conclusions[:MOST_ROWS], report.conclusions[MOST_ROWS:]
     words = {each.verdict.decision.word for each in report.conclusions}
-    # Whom to trust where closed form and integration differ.
     clause = "No sine was found: there are no rings."
-    if pulse is not None and pulse.explained_energy >= DOMINATES:
-        clause = "One sine dominates: rings and dots mostly agree."
-    elif pulse is not None:
-        clause = "No sine dominates: trust the dots, not the rings."
+    if pulse is not None:
+        worth = worth_of(pulse.explained_energy)
+        clause = f"{worth.words}: {_TRUST.get(worth.energy, _TRUST_DOTS)}."
     return PageOne(
         trace=(ground_strip(motion),) if motion else (),
         peaks=_peaks(report),
@@ -319,6 +335,8 @@ def page_one(report: RecordReport) -> PageOne:
             for word in ORDER
             if (names := [each.verdict.structure for each in others if each.verdict.decision.word is word])
         ),
+        uncertain=tuple(_uncertain(report)),
+        reserve_in_words=_reserve_in_words(drawn),
         untold=Verdict.CANNOT_BE_TOLD in words,
         left_out="; ".join(
             replace(each, about=listed(names, 1)).brief
@@ -360,18 +378,20 @@ def structure_row(conclusion: Conclusion, structure: Structure | None) -> Row:
         drawing = (_turned(verdict, structure),) if structure is not None else ()
 
     closed_form, block, whole = conclusion.ratios
-    low, high = (_place(each, "line") for each in (verdict.rotation_ratio_low, verdict.rotation_ratio_high))
+    low, high = (_place(each) for each in (verdict.rotation_ratio_low, verdict.rotation_ratio_high))
     period = verdict.support_period_s
-    below = "" if period is None else f"T_b {period:.3g} s" if period else "on the ground"
+    place = "" if period is None else f"T_b {period:.3g} s" if period else "on the ground"
+    sizes = sizes_of(verdict.structure, structure) if structure is not None else ""
+    of_uplift = f"λ {number(conclusion.case.uplift_multiplier)}" if conclusion.case else ""
     return Row(
         name=verdict.structure,
-        below="; ".join(filter(None, (below, _known_crack(structure, verdict)))),
+        below="; ".join(filter(None, (sizes, of_uplift, place, _known_crack(structure, verdict)))),
         drawing=drawing,
         chip=chip(decision.word, decision.share_in_words),
         marks=Marks(
-            form=_place(closed_form, "form"),
-            block=_place(block, "block"),
-            whole=_place(whole, "whole"),
+            form=_place(closed_form),
+            block=_place(block),
+            whole=_place(whole),
             line=() if low is None or high is None else (low, high),
         ),
         reserve=verdict.reserve.in_figures if verdict.reserve else "",
@@ -404,11 +424,36 @@ def _known_crack(structure: Structure | None, verdict: VerdictRow) -> str:
     return f"{known}; {verdict.statics_crack}: {falls} fall"
 
 
-def _place(ratio: float, mark: str) -> float | None:
+def _uncertain(report: RecordReport) -> list[str]:
+    """Say of the structures that are uncertain why, and what then."""
+    told = []
+    for conclusion in report.conclusions:
+        decision = conclusion.verdict.decision
+        if decision.word is Verdict.UNCERTAIN:
+            reasons = [f"{decision.share_in_words} fall" if not math.isnan(decision.share) else decision.why]
+            reasons += [each.brief for each in (*decision.doubts, *decision.tells)[:1]]
+            told.append(f"{conclusion.verdict.structure} ({'; '.join(reasons)})")
+    if not told:
+        return []
+    verb = "is" if len(told) == 1 else "are"
+    return [f"{listed(told, _MOST_UNCERTAIN)} {verb} uncertain: take as may overturn until more is known."]
+
+
+def _reserve_in_words(drawn: Sequence[Conclusion]) -> str:
+    """Say what the factors of the column are, by those of the first structure that has both; "" without one."""
+    reserves = [each.verdict.reserve for each in drawn if each.verdict.reserve is not None]
+    both = next((each for each in reserves if each.median > each.low), None)
+    if both is None:
+        return ""
+    low, median = number(both.low, 2), number(both.median, 2)
+    return f"{low}–{median}: at {low} times this record 5 % of the members fall, at {median} times half."
+
+
+def _place(ratio: float) -> float | None:
     """The place of a rotation ratio on the scale, mm; None where there is none."""
     if math.isnan(ratio):
         return None
-    return _FALLEN[mark] if ratio == math.inf else _UNIT * min(ratio, _FARTHEST)
+    return _FALLEN if ratio == math.inf else _UNIT * min(ratio, _FARTHEST)
 
 
 # Sentences -----------------------------------------------------------------------------------------------

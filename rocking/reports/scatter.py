@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from rocking.assessment.rows import ComparisonRow, PulseRow
+from rocking.pulses.pulse import DOMINATES
 from rocking.quantities import counted, percents
-from rocking.reports.record import DOMINATES
 from rocking.reports.style import new_figure, panel_at, styled
 
 WIDTH = 180.0

@@ -44,7 +44,7 @@ from rocking.reports.pages import (
     Sure,
     Table,
 )
-from rocking.reports.printing import TO_CHECK, displaying, strong, table, unit_of
+from rocking.reports.printing import TO_CHECK, displaying, stamp, strong, table, unit_of
 from rocking.reports.printing import words as or_a_dash
 from rocking.reports.sentences import Sentences
 from rocking.reports.structure_figures import bars_figure, basis_figure, selection_figure
@@ -152,7 +152,7 @@ def structures_data(
             language=settings.language,
             about=tuple(Fact(words(label), text) for label, text in settings.about.items()),
             footer=Footer(
-                made=words("foot"),
+                made=f"{words('foot')} {stamp(settings)}",
                 page=words("page", page="{page}", pages="{pages}"),
                 continued=words("continued", page="{page}"),
                 units=words(f"units {settings.display_units}").rstrip("."),

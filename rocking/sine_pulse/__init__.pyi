@@ -1,8 +1,10 @@
 from . import kernel as kernel
+from .maximum import AsPrinted as AsPrinted
 from .maximum import Maximum as Maximum
 from .maximum import Regime as Regime
 from .maximum import overturning_amplitudes as overturning_amplitudes
 from .maximum import overturning_margins as overturning_margins
+from .maximum import predict_as_printed as predict_as_printed
 from .maximum import predict_maxima as predict_maxima
 from .maximum import predict_maximum as predict_maximum
 from .maximum import printed_maximum as printed_maximum

@@ -19,7 +19,7 @@ from rocking.errors import PulseError, StructureError
 from rocking.pulses.pulse import Pulse
 from rocking.quantities import GRAVITY, finite, kind_of, positive, within
 from rocking.structures import Outcome
-from rocking.structures.mechanism import EquivalentBlock
+from rocking.structures.mechanism import PRINTED_SCALE, EquivalentBlock, Mechanism
 
 LARGEST_RATIO = 1e12
 """Beyond this a frequency or amplitude ratio is a mistake of units, and its square leaves no digits for the block."""
@@ -520,6 +520,44 @@ def printed_maximum(equivalent_block: EquivalentBlock, pulse: Pulse) -> float:
     maximum = drop / (1 + root) if drop > -1 else 1 - root
     own = equivalent_block.sides[-1 if first.exists and pulse.amplitude >= 0 else 0]
     return own.rotation_ratio(maximum) if maximum > 0 else maximum
+
+
+@dataclass(frozen=True)
+class AsPrinted:
+    """The closed form of the source paper for one mechanism under one sine: Eqs. 15 and 16 as printed, and its block.
+
+    block: that of section 4, with λ of Eq. 7 and p of Eq. 11. rotation_ratio: by Eq. 15, inf where its radicand is
+    negative, which the paper reads as overturning; it may be negative. regime: that of this block, exactly. holds:
+    whether Eq. 15 does, which gives no warning where not: the block makes no contact before the pulse ends, and is
+    largest, or overturns, after the first impact; or nothing lifts it.
+    """
+
+    block: EquivalentBlock
+    rotation_ratio: float
+    regime: Regime
+    holds: bool
+
+
+def predict_as_printed(mechanism: Mechanism, pulse: Pulse) -> AsPrinted | None:
+    """Return what the source paper predicts for a mechanism under one full sine; None under another pulse.
+
+    >>> from rocking import Pulse, Wall
+    >>> from rocking.sine_pulse import predict_as_printed
+    >>> told = predict_as_printed(Wall(1.6, 1.6, 0.25).mechanism(), Pulse(amplitude=4.0, circular_frequency=16.0))
+    >>> round(told.rotation_ratio, 3), told.holds
+    (0.578, False)
+    """
+    if not pulse.is_full_sine:
+        return None
+    block = mechanism.equivalent_block(PRINTED_SCALE)
+    ratio = printed_maximum(block, pulse)
+    exact = predict_maximum(block, pulse)
+    holds = exact.regime in (Regime.PRINTED_EXACT, Regime.NO_UPLIFT)
+    if exact.regime is Regime.OVERTURNS_AFTER_IMPACTS and exact.impacts == 1 and block.other_side is None:
+        sides = sides_under(block, pulse)
+        touches = sine_pulse.kernel.course(*sides, *pulse.phases).contacts
+        holds = sides[0].exists and not touches
+    return AsPrinted(block, math.inf if math.isnan(ratio) else ratio, exact.regime, holds)
 
 
 def pulse_end_energy(frequency_ratio: float, amplitude_ratio: float) -> float:

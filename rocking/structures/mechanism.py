@@ -475,6 +475,10 @@ class Mechanism(Drawn):
         return np.where(negative, -1.0, 1.0)
 
 
+PRINTED_SCALE: Scale = "uplift"
+"""The block of the source paper (its section 4): p of Eq. 11, linearised about φ_cr, and λ of Eq. 7."""
+
+
 class Outcome(StrEnum):
     """Outcome of a prediction or an integration.
 

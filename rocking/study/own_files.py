@@ -249,7 +249,7 @@ def assess_stations(
             yield f"not assessed: {failure.structure or failure.stage}: {failure.message}"
     if output is not None:
         of_structures: dict[type[Row], Iterable[Row]] = {
-            StructureRow: structure_rows(study.structures),
+            StructureRow: structure_rows(study.structures, study.settings.acceleration_scale),
             CapacityRow: capacity_rows(study.structures),
         }
         write_tables(of_structures, output / "summary")

@@ -43,6 +43,7 @@ from rocking.records.sample import Sample
 from rocking.reports.printing import Figures, faults_in_words, write_document
 from rocking.reports.style import new_figure, svg
 from rocking.structures import Mechanism, Structure
+from rocking.structures.equivalent_block import Scale
 from rocking.study.documents import made_or_told, write_reason
 from rocking.study.job import Job, Study, costs_no_other
 from rocking.study.made_from import versions
@@ -96,6 +97,7 @@ def summarise(job: Job) -> None:
         faults,
         study.settings.unnamed_events == "each",
         study.remarks,
+        study.settings.acceleration_scale,
     )
     paths: dict[type[Row], str | list[str]] = {each: each.table.file_name for each in SUMMARY_TABLES}
     write_whole(target / "datapackage.json", data_package("rocking-study", paths))
@@ -196,14 +198,15 @@ def write_summary(
     faults: Collection[Row] = (),
     each_unnamed: bool = False,
     remarks: Collection[Row] = (),
+    scale: Scale = "rest",
 ) -> tuple[dict[type[Row], list[Row]], list[dict[str, Any]], list[Sequence[float]], dict[str, str]]:
     """Write the tables of the summary into `target`, record by record.
 
     reports: whether the rows, and what the page to explore and the spectra show of each record, are returned as well:
     of thousands of records, which have no reports, they would fill the memory. variants: names of structures that
     stand for another one. faults: of what else stands over all records. each_unnamed: whether records that name no
-    earthquake are of one each. remarks: on the study itself. Returned as the last are the hashes of the files of the
-    records.
+    earthquake are of one each. remarks: on the study itself. scale: the block that predicts. Returned as the last are
+    the hashes of the files of the records.
     """
     kept: dict[type[Row], list[Row]] = {each: [] for each in SUMMARY_TABLES}
     pages: list[dict[str, Any]] = []
@@ -236,9 +239,10 @@ def write_summary(
         kept[RemarkRow] += remarks if reports else ()
         told = [*faults]
         for name, structure in structures.items():
-            for each, make in ((StructureRow, structure_rows), (CapacityRow, capacity_rows)):
-                with told_of_structure(told, name):
-                    kept[each] += list(make({name: structure}))
+            with told_of_structure(told, name):
+                kept[StructureRow] += structure_rows({name: structure}, scale)
+            with told_of_structure(told, name):
+                kept[CapacityRow] += capacity_rows({name: structure})
         write[FailureRow](told)
         kept[FailureRow] += told if reports else ()
         names = named_records(read, each_unnamed)

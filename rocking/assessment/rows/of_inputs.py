@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, TypeVar
 
 from rocking.errors import StructureError
 from rocking.pulses import Pulse, PulseEvidence, VelocityPulse
-from rocking.pulses.pulse import PulseAnalysis, same_outcome_share
+from rocking.pulses.pulse import PulseAnalysis, worth_of
 from rocking.records.measures import RecordMeasures, record_measures
 from rocking.remarks import Kind
 from rocking.structures import Side, Structure
 from rocking.structures.capacity import StaticCurve
 from rocking.structures.equivalent_block import EquivalentBlock, Scale
+from rocking.structures.mechanism import PRINTED_SCALE
 from rocking.structures.structure import WEAK_MASONRY
 from rocking.tables import Columns, RowOf, row
 
@@ -279,7 +280,7 @@ class PulseRow(ComponentRow[FoundPulse]):
     )
     same_outcome_share: float = of_pulse(
         "Share of cases with such pulses in which closed form and integration end alike",
-        lambda found: same_outcome_share(found.evidence.explained_energy),
+        lambda found: worth_of(found.evidence.explained_energy).same_outcome_share,
     )
     effective_length_m: float = of_pulse(
         "Length scale: amplitude times period squared", lambda found: found.evidence.effective_length
@@ -353,9 +354,10 @@ class PlacedRow(StructureNameRow[L]):
 
 @dataclass(frozen=True)
 class ListedStructure(Named):
-    """One structure of the list."""
+    """One structure of the list. scale: the block that predicts, as the settings name it."""
 
     body: Structure
+    scale: Scale = "rest"
 
     @property
     def geometry(self) -> str:
@@ -399,11 +401,20 @@ class StructureRow(StructureNameRow[ListedStructure]):
     crack: str = of_listed(
         "What opens, hinge or crack; empty of one that does not crack", lambda of: of.body.crack_name
     )
+    block_used: str = of_listed(
+        "The block that predicts: its acceleration_scale, as the settings name it", lambda of: of.scale
+    )
+    block_printed: str = of_listed(
+        "The block of Eq. 15 as printed: the paper's, linearised about φ_cr, with the scale of the true uplift",
+        lambda of: PRINTED_SCALE,
+    )
     frequency_parameter_rad_s: float = of_side(
-        FREQUENCY_PARAMETER, lambda side: side.frequency_parameter, equation="Eq. 11"
+        f"{FREQUENCY_PARAMETER}, of the block that is printed",
+        lambda side: side.frequency_parameter,
+        equation="Eq. 11",
     )
     frequency_parameter_at_rest_rad_s: float = of_block("rest")(
-        "p of the block exact at rest, which predicts unless the settings name another one",
+        "p of the block exact at rest, which is used unless the settings name another one",
         lambda block: block.frequency_parameter,
     )
     critical_rotation_rad: float = of_side(
@@ -440,10 +451,10 @@ class StructureRow(StructureNameRow[ListedStructure]):
     )
 
 
-def structure_rows(structures: Mapping[str, Structure]) -> Iterator[StructureRow]:
-    """Yield the row of each structure."""
+def structure_rows(structures: Mapping[str, Structure], scale: Scale = "rest") -> Iterator[StructureRow]:
+    """Yield the row of each structure. scale: the block that predicts."""
     for each in structures.items():
-        yield StructureRow.of(ListedStructure(*each))
+        yield StructureRow.of(ListedStructure(*each, scale))
 
 
 @dataclass(frozen=True)

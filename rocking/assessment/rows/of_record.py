@@ -49,6 +49,7 @@ if TYPE_CHECKING:  # else who reads a table would load numba
     from rocking.assessment.cracks import FollowedCrack
     from rocking.assessment.motions import Component
     from rocking.motion.response import ModelCheck, Response
+    from rocking.structures.mechanism import Side
 
 PEAK_SIDE = "Side of the largest rotation or of the overturning: 1, -1, or 0 without uplift"
 
@@ -99,8 +100,19 @@ class ComparedCase(OfStructure):
     case: "CaseResult"
     friction_coefficient: float
 
+    @cached_property
+    def side(self) -> "Side":
+        """The side of the mechanism of the row's crack that the pulse lifts first; without a pulse the positive one."""
+        from rocking.assessment.cracks import cracked  # as above: it loads what integrates
+
+        sides = cracked(self.station.scene.structure, self.case.crack).mechanism().sides
+        prediction = self.case.prediction
+        return sides[-1 if prediction is not None and prediction.pulse.amplitude > 0 else 0]
+
 
 of_case = Columns(ComparedCase)
+of_row_side = of_case.part(lambda of: of.side)
+of_printed = of_case.optional(lambda of: of.case.prediction.printed if of.case.prediction else None)
 of_prediction = of_case.optional(lambda of: of.case.prediction)
 of_response = of_case.optional(lambda of: of.case.response)
 of_block_response = of_case.optional(lambda of: of.case.responses.get(Method.BLOCK_ON_RECORD))
@@ -113,13 +125,15 @@ of_estimate = of_case.optional(lambda of: of.case.overturning_estimate)
 _FIRST = (
     "record",
     "structure",
+    "component",
+    "printed_rotation_ratio",
     "predicted_rotation_ratio",
     "block_on_record_rotation_ratio",
     "integrated_rotation_ratio",
     "overturning_share",
     "verdict",
 )
-"""Who is asked, the closed form, the block and the integration, and what comes of it over all components."""
+"""What is asked; the paper's equation, the closed form, the block and the integration; and what comes of it."""
 
 
 @row("comparison", first=_FIRST)
@@ -143,12 +157,38 @@ class ComparisonRow(DecidedRow[ComparedCase]):
         "Closed form against integration: same outcome, too low or too high",
         lambda of: agreement(of.case.predicted_rotation_ratio, of.case.integrated_rotation_ratio),
     )
+    printed_rotation_ratio: float = of_printed(
+        "Rotation ratio of the paper's block under the pulse, as printed; INF where the radicand is negative, which is "
+        "the paper's overturning; it may be negative, and holds in its regime alone",
+        lambda printed: printed.rotation_ratio,
+        equation="Eq. 15",
+    )
+    printed_regime: Regime | None = of_printed(
+        "Regime of the paper's block under the pulse", lambda printed: printed.regime
+    )
+    printed_holds: bool | None = of_printed(
+        "Whether Eq. 15 holds there: no contact before the pulse ends, and largest, or overturning, after the first "
+        "impact; or nothing lifts it",
+        lambda printed: printed.holds,
+    )
     regime: Regime | None = of_prediction(
         "Regime of the closed form", lambda closed_form: closed_form.maximum.regime
     )
-    block_restitution: float = of_prediction(
-        "Ratio of angular velocities of the block after and before an impact",
-        lambda closed_form: closed_form.side.restitution,
+    uplift_multiplier: float = of_row_side(
+        "Uplift acceleration in g of the mechanism of the row",
+        lambda side: side.uplift_multiplier,
+        equation="Eq. 7",
+    )
+    frequency_parameter_rad_s: float = of_row_side(
+        "p of that mechanism, linearised about its critical rotation: that of the paper's block",
+        lambda side: side.frequency_parameter,
+        equation="Eq. 11",
+    )
+    critical_rotation_rad: float = of_row_side(
+        "Critical rotation of that mechanism", lambda side: side.critical_rotation
+    )
+    restitution: float = of_row_side(
+        "Its ratio of angular velocities after and before an impact", lambda side: side.restitution
     )
     block_on_record_rotation_ratio: float = of_block_response(
         "Rotation ratio of the block under the record", lambda response: response.rotation_ratio

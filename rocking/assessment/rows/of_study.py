@@ -383,9 +383,11 @@ SUMMARY_TABLES: tuple[type[Row], ...] = (
 class TradeMethod(StrEnum):
     """The methods of the trade, the cheapest response first."""
 
+    PRINTED = "Eq. 15 as printed"
+    """The source paper's equation with its block, under the dominant sine."""
     ONE_SINE = "one sine"
     """The closed form under the dominant sine."""
-    RULING_SINE = "one sine, half the energy"
+    DOMINANT_SINE = "one sine, half the energy"
     """The same, under the records of whose energy that sine explains at least half."""
     SINES = "five sines"
     """The closed form under the one of the five best-ranked sines that turns the structure farthest."""
@@ -498,6 +500,21 @@ class TriedMethod:
         return float(np.quantile(self.errors, 0.95)) if self.errors else math.nan
 
     @property
+    def falls(self) -> int:
+        """The number of cases that the reference overturns."""
+        return sum(reference == math.inf for _, reference in self.moving)
+
+    @property
+    def falls_found(self) -> int:
+        """The number of those that the method overturns too."""
+        return sum(answer == reference == math.inf for answer, reference in self.moving)
+
+    @property
+    def false_alarms(self) -> int:
+        """The number of cases that the method alone overturns."""
+        return sum(answer == math.inf > reference for answer, reference in self.moving)
+
+    @property
     def wrong_verdicts(self) -> int:
         """The number of cases with another outcome than the reference."""
         return sum(each is not Agreement.SAME for each in self.agreements)
@@ -530,6 +547,9 @@ class TradeRow(RowOf[TriedMethod]):
         "Median relative error of the largest rotation where method and reference rock", lambda of: of.error
     )
     error_high: float = of_tried("95 % quantile of that error", lambda of: of.error_high)
+    falls: int = of_tried("Cases that the reference overturns", lambda of: of.falls)
+    falls_found: int = of_tried("Those that the method overturns too", lambda of: of.falls_found)
+    false_alarms: int = of_tried("Cases that the method alone overturns", lambda of: of.false_alarms)
     wrong_verdicts: int = of_tried(
         "Cases that do not rest, rock or overturn as the reference does", lambda of: of.wrong_verdicts
     )

@@ -15,6 +15,7 @@ from rocking.assessment.scene import on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
+from rocking.sine_pulse import Regime, predict_as_printed, predict_maximum
 from rocking.structures import Arch, Block, Side, Wall
 from rocking.tables import write_rows, write_tables
 from tests.oracles.sine_on_block import largest_rotation
@@ -77,6 +78,57 @@ def block_of(folder: Path, structure: str) -> tuple[float, float]:
     return next(kinds[name] for name in kinds if folder.name.startswith(name))
 
 
+def equation_15(a: float, omega: float, eta: float) -> float:
+    """φ_max/φ_cr by Eqs. 15 and 16, typed by hand from the paper in the form that conserves energy; inf: overturning.
+
+    D₀ = (ω/(ω²+1))² {ω² − 2a² + 1 + (s+ω) a/E + (s−ω) a E}, E = exp((2π − asin(1/a))/ω), s = √(a²−1).
+    """
+    slope = math.sqrt(a**2 - 1)
+    grown = math.exp((2 * math.pi - math.asin(1 / a)) / omega)
+    braces = omega**2 - 2 * a**2 + 1 + (slope + omega) * a / grown + (slope - omega) * a * grown
+    radicand = 1 - eta**2 * (1 - (omega / (omega**2 + 1)) ** 2 * braces)
+    return math.inf if radicand < 0 else 1 - math.sqrt(radicand)
+
+
+def test_the_equation_as_printed_follows_from_the_tables_whatever_block_predicts(folder):
+    """In its regime and out of it: λ of Eq. 7 and p of Eq. 11 stand in the row, the sine in pulses.csv."""
+    for row in cells(folder / "comparison.csv"):
+        amplitude, omega = pulse_of(folder, row)
+        multiplier, p, eta = (
+            float(row[name]) for name in ("uplift_multiplier", "frequency_parameter_rad_s", "restitution")
+        )
+        expected = equation_15(amplitude / (g * multiplier), omega / p, eta)
+        assert float(row["printed_rotation_ratio"]) == pytest.approx(expected, rel=1e-9)
+        assert row["printed_regime"] in set(Regime)
+
+
+@pytest.mark.parametrize(
+    ("a", "omega", "holds", "printed"),
+    [
+        (1.5, 4.0, False, 0.76),
+        (3.0, 2.5, False, 0.43),
+        (10.0, 6.0, False, 0.46),
+        (24.0, 8.0, False, -0.20),
+        (3.0, 8.0, True, 0.25),
+        (8.0, 7.0, True, 0.84),
+        (6.0, 6.0, True, math.inf),
+    ],
+)
+def test_the_equation_is_printed_in_and_out_of_its_regime(a, omega, holds, printed):
+    """Against the equation by hand, at the points where theory.md tells what is wrong with it."""
+    wall = Wall.of_size(3.2, 0.25, hinge_height=1.6, restitution=0.9).mechanism()
+    side = wall.positive
+    pulse = Pulse(a * g * side.uplift_multiplier, omega * side.frequency_parameter)
+    told = predict_as_printed(wall, pulse)
+    assert told.rotation_ratio == pytest.approx(equation_15(a, omega, 0.9), rel=1e-9)
+    assert told.rotation_ratio == pytest.approx(printed, abs=0.006)
+    assert told.holds is holds
+    if holds:
+        assert told.rotation_ratio == pytest.approx(
+            predict_maximum(told.block, pulse).rotation_ratio, rel=1e-9
+        )
+
+
 def test_the_closed_form_follows_from_the_tables(folder):
     """x of the block by the flights of an oracle; where the block is linearised, x is the rotation ratio.
 
@@ -85,7 +137,7 @@ def test_the_closed_form_follows_from_the_tables(folder):
     for row in cells(folder / "comparison.csv"):
         amplitude, omega = pulse_of(folder, row)
         multiplier, p = block_of(folder, row["structure"])
-        a, w, eta = (float(row[name]) for name in ("amplitude_ratio", "frequency_ratio", "block_restitution"))
+        a, w, eta = (float(row[name]) for name in ("amplitude_ratio", "frequency_ratio", "restitution"))
         assert 1 < a == pytest.approx(amplitude / (g * multiplier), rel=1e-12)
         assert w == pytest.approx(omega / p, rel=1e-12)
         x = largest_rotation(1.0, eta, a, w)

@@ -58,12 +58,12 @@ def test_a_sine_rules_where_it_explains_half_of_the_energy(records):
     tried = rocking.trade(cycles, {"block": STRUCTURES["block"]})
     by_method = {row.method: row for row in tried if row.structure == ""}
     assert by_method[TradeMethod.ONE_SINE].cases == 2
-    assert by_method[TradeMethod.RULING_SINE].cases == 1
+    assert by_method[TradeMethod.DOMINANT_SINE].cases == 1
 
 
 def test_times_are_told_with_their_machine_and_the_search_for_sines_apart(rows):
     usual = rows[TradeMethod.MECHANISM, ""].cpu_s
-    sines = (TradeMethod.ONE_SINE, TradeMethod.RULING_SINE, TradeMethod.SINES)
+    sines = (TradeMethod.ONE_SINE, TradeMethod.DOMINANT_SINE, TradeMethod.SINES)
     for (method, _), row in rows.items():
         assert row.cpu_s > 0 and row.machine
         assert (row.preparation_record_s > 0) == (method in sines)

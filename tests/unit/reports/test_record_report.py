@@ -11,6 +11,7 @@ from rocking.assessment.decide import ORDER
 from rocking.assessment.methods import Agreement
 from rocking.assessment.rows import rows_of_record, structure_rows
 from rocking.assessment.scene import Scene
+from rocking.pulses.pulse import worth_of
 from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Kind, Remark
 from rocking.reports import printing
@@ -101,7 +102,7 @@ def test_page_one_has_a_row_for_each_structure_the_worst_first_as_the_tables_hav
     assert data.conclusion.startswith(f"{falls} of {len(words)} structures overturn")
 
 
-def test_a_mark_stands_where_its_rotation_is_on_a_scale_with_a_place_of_its_own_for_what_falls(example, data):
+def test_a_mark_stands_where_its_rotation_is_on_a_scale_and_one_fall_no_farther_than_another(example, data):
     """A rotation ratio of 1 is 27 mm; what falls stands in the grey zone, which begins at 33.5 mm."""
     cases = {row.structure: row for row in example.tables.comparison}
     of_marks = {
@@ -109,27 +110,27 @@ def test_a_mark_stands_where_its_rotation_is_on_a_scale_with_a_place_of_its_own_
         "block": "block_on_record_rotation_ratio",
         "whole": "integrated_rotation_ratio",
     }
-    places: dict[str, set[float]] = {}
+    fallen: dict[str, set[float]] = {}
     for row in data.page_one.rows:
         for mark, column in of_marks.items():
             ratio = getattr(cases[row.name], column)
             if np.isinf(ratio):
-                places.setdefault(mark, set()).add(getattr(row.marks, mark))
+                fallen.setdefault(mark, set()).add(getattr(row.marks, mark))
             else:
                 assert getattr(row.marks, mark) == pytest.approx(27 * min(ratio, 1.2))
-    fallen = [place for (place,) in places.values()]
-    assert len(set(fallen)) == len(places) > 1 and min(fallen) > 33.5
+    (place,) = set.union(*fallen.values())
+    assert len(fallen) > 1 and 33.5 < place < 49.5
 
 
 @pytest.mark.process
 @pytest.mark.parametrize("count", [12, 20, 30])
-def test_a_client_gets_two_pages_the_first_of_at_most_250_words(example, count):
+def test_a_client_gets_a_page_to_look_at_of_at_most_330_words(example, count):
     """With as many structures as the shipped example, and more: each is named there under its word."""
     kinds = [*example.structures]
     kind = {f"structure {place}": kinds[place % len(kinds)] for place in range(count)}
     report = of_structures(example, kind)
-    first, _ = pages(report.pdf())
-    assert len(first) <= 250
+    first, *_ = pages(report.pdf())
+    assert len(first) <= 330
     words = [word[4].strip(",:") for word in first]
     assert f"{count} structures overturn or probably do" in " ".join(words)
     assert {f"{place}" for place in range(count)} <= set(words)
@@ -141,12 +142,15 @@ def test_a_client_gets_two_pages_the_first_of_at_most_250_words(example, count):
 
 @pytest.mark.usefixtures("undrawn")
 def test_whether_one_sine_dominates_is_said(example):
-    """From half of the energy on, which is the edge that the page states nowhere else."""
+    """By the words of the table of what the closed form is worth, at its edges."""
     clauses = {}
-    for share in (0.49, 0.5):
+    for share in (0.05, 0.299, 0.3, 0.499, 0.5, 0.9):
         pulses = [replace(row, explained_energy=share) for row in example.tables.pulses]
         clauses[share] = with_tables(example, pulses=pulses).page_one.sine.clause
-    assert clauses[0.49].startswith("No sine dominates") and clauses[0.5].startswith("One sine dominates")
+    for share, clause in clauses.items():
+        assert clause.startswith(worth_of(share).words)
+        assert ("trust the dots" in clause) == (worth_of(share).falls_found < 0.6)
+    assert len({clause.partition(":")[0] for clause in clauses.values()}) == 3
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -395,8 +399,8 @@ def test_page_one_says_that_a_crack_is_known_and_how_many_members_another_one_wo
     other = rows["known"]
     assert other.statics_overturning_members > 0
     falls = f"{other.statics_overturning_members} of {other.statics_members}"
-    assert below["known"] == f"crack known at 3 m (survey); {other.statics_crack}: {falls} fall"
-    assert below["typed"] == ""
+    assert below["known"].endswith(f"; crack known at 3 m (survey); {other.statics_crack}: {falls} fall")
+    assert "known" not in below["typed"]
     assert rows["typed"].verdict.badness > rows["known"].verdict.badness
     first = " ".join(word[4] for word in pages(report.pdf())[0])
     assert "crack known at 3 m (survey);" in first
@@ -420,7 +424,7 @@ def test_page_one_tells_what_was_typed_and_what_crushing_would_change_before_pag
         assert tells == ("crush at 2 MPa" in " ".join(known(report.page())))
         seen.add(tells)
     assert seen == {False, True}
-    first, _ = pages(report.pdf())
+    first, *_ = pages(report.pdf())
     words = " ".join(word[4] for word in first)
     assert "Page 2 on typed: restitution 0.6 typed" in words
 
