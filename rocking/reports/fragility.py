@@ -90,7 +90,7 @@ def write_fragility_report(
     curves = frame(FragilityRow, by_place(FragilityRow, rows))
     summary = by_place(FragilitySummaryRow, rows)
     measures = frame(IntensityMeasureRow, by_place(IntensityMeasureRow, rows))
-    write_whole(image, svg(fragility_figure(curves)).encode())
+    write_whole(image, svg(fragility_figure(curves, summary)).encode())
     page = fragility_data(curves, summary, ida_frame(rows), measures, faults_in_words(rows))
     write_document(pdf, page, figures)
 
@@ -112,22 +112,21 @@ def fragility_data(
     few = f" With {sample} the curves are rough and their intervals wide: take more."
     of_curves = (
         "Share of the stations that overturn each structure with the crack that governs, the worst of those that may "
-        "form, and that exceed a rotation (overturns, or a share of the critical rotation φcr) with that of statics."
+        "form, and that exceed a rotation (overturns, or a share of the critical rotation φcr) with that of statics. "
+        "Dot and bar: the median of overturning with the crack that governs, and its 90 % interval."
     )
-    parts = [
-        Part(text=scaled + few * (stations < FEW_STATIONS or earthquakes < FEWEST)),
-        _part(fragility_table(summary, ida)),
-    ]
+    parts = [Part(text=scaled + few * (stations < FEW_STATIONS or earthquakes < FEWEST))]
+    names = list(dict.fromkeys(curves["structure"]))
+    for first in range(0, len(names), ON_A_PAGE):
+        page = names[first : first + ON_A_PAGE]
+        figure = fragility_figure(curves[curves["structure"].isin(page)], summary)
+        alt = f"Fragility curves of {counted(len(page), 'structure')} with 90 % intervals."
+        parts.append(Part(pictures=(picture(figure, alt),), caption=of_curves))
+    parts.append(_part(fragility_table(summary, ida)))
     if faults:
         parts.append(Part(sentences=tuple(faults)))
     if len(measures):
         parts.append(_part(scatter_table(measures)))
-    names = list(dict.fromkeys(curves["structure"]))
-    for first in range(0, len(names), ON_A_PAGE):
-        page = names[first : first + ON_A_PAGE]
-        figure = fragility_figure(curves[curves["structure"].isin(page)])
-        alt = f"Fragility curves of {counted(len(page), 'structure')} with 90 % intervals."
-        parts.append(Part(pictures=(picture(figure, alt),), caption=of_curves))
     records = f"{counted(ida['record'].nunique(), 'record')} of {sample}"
     subtitle = f"{records}; {counted(len(names), 'structure')}."
     return PlainPage(title="Fragility", subtitle=subtitle, parts=tuple(parts))
@@ -140,10 +139,7 @@ def _part(captioned: CaptionedTable) -> Part:
 def fragility_table(summary: Sequence[FragilitySummaryRow], ida: "DataFrame") -> CaptionedTable:
     """Return one row per structure: its median, that with the worst crack, and what overturns it first."""
     falls = [row for row in summary if row.threshold == math.inf]
-    first_rows: dict[str, FragilitySummaryRow] = {}
-    for row in falls:
-        if row.governing or row.structure not in first_rows:
-            first_rows[row.structure] = row
+    first_rows = _governing_rows(summary)
     governed = {row.structure for row in falls if row.governing}
     by_statics = {
         row.structure: _with_interval(row) for row in falls if row.structure in governed and not row.governing
@@ -274,8 +270,12 @@ def governing_records(ida: "DataFrame") -> dict[str, str]:
 
 
 @styled
-def fragility_figure(curves: "DataFrame") -> Figure:
-    """Draw the curves of each structure from the table fragility, and that of overturning with the worst crack."""
+def fragility_figure(curves: "DataFrame", summary: Sequence[FragilitySummaryRow] = ()) -> Figure:
+    """Draw the curves of each structure from the table fragility, and that of overturning with the worst crack.
+
+    summary: the medians of overturning with their intervals, which are drawn where they are given.
+    """
+    medians = _governing_rows(summary)
     names = list(dict.fromkeys(curves["structure"]))
     rows = math.ceil(len(names) / _COLUMNS)
     figure = new_figure(_HEIGHT * rows + 18, margins=(16, 3, 10, 15))
@@ -290,12 +290,32 @@ def fragility_figure(curves: "DataFrame") -> Figure:
         of_structure = visible[visible["structure"] == name]
         for _, curve in of_structure.groupby(["threshold", "governing"]):
             _draw_curve(panel, curve)
+        if name in medians:
+            _draw_median(panel, medians[name])
         measure = of_structure["intensity_measure"].iloc[0]
         panel.set(title=elided(name, 60), xlabel=f"{measure} [{_unit(measure)}]")
     legends = (panel.get_legend_handles_labels() for panel in panels.flat)
     handles = {label: handle for each in legends for handle, label in zip(*each, strict=True)}
     figure.legend(handles.values(), handles.keys(), loc="upper center", ncols=4)
     return figure
+
+
+def _governing_rows(summary: Sequence[FragilitySummaryRow]) -> dict[str, FragilitySummaryRow]:
+    """The row of overturning of each structure: with the crack that governs, where another one than that of statics."""
+    rows: dict[str, FragilitySummaryRow] = {}
+    for row in summary:
+        if row.threshold == math.inf and (row.governing or row.structure not in rows):
+            rows[row.structure] = row
+    return rows
+
+
+def _draw_median(panel: Axes, row: FragilitySummaryRow) -> None:
+    """Draw the median of overturning with its interval, which may have no upper end."""
+    if math.isnan(row.median):
+        return
+    high = row.median_high if math.isfinite(row.median_high) else panel.get_xlim()[1]
+    panel.plot([row.median_low, high], [0.5, 0.5], color="black", linewidth=2.2, solid_capstyle="butt")
+    panel.plot(row.median, 0.5, "o", color="black", markersize=5, label="median, 90 %")
 
 
 def _draw_curve(panel: Axes, curve: "DataFrame") -> None:

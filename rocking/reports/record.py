@@ -380,9 +380,9 @@ def structure_row(conclusion: Conclusion, structure: Structure | None) -> Row:
     closed_form, block, whole = conclusion.ratios
     low, high = (_place(each) for each in (verdict.rotation_ratio_low, verdict.rotation_ratio_high))
     period = verdict.support_period_s
-    place = "" if period is None else f"T_b {period:.3g} s" if period else "on the ground"
+    place = "" if period is None else f"T_b {period:.3g}\u00a0s" if period else "on the ground"
     sizes = sizes_of(verdict.structure, structure) if structure is not None else ""
-    of_uplift = f"λ {number(conclusion.case.uplift_multiplier)}" if conclusion.case else ""
+    of_uplift = f"λ\u00a0{number(conclusion.case.uplift_multiplier)}" if conclusion.case else ""
     return Row(
         name=verdict.structure,
         below="; ".join(filter(None, (sizes, of_uplift, place, _known_crack(structure, verdict)))),

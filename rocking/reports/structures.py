@@ -211,7 +211,8 @@ def _sheets(
             try:
                 with one_structure(name):
                     headline, details = _conclusion(page, checked, conclusion, spectrum, words)
-                    beside = tuple(strip_of[each] for each in (page.variant_of or name,) if each in strip_of)
+                    # Once, with the structure that the others vary.
+                    beside = (strip_of[name],) if name in strip_of else ()
                     bars = picture(bars_figure(checked, page.untied, words), words("bars alt", name=name))
                     answer = Answer(
                         way=opening_words(checked.governing, words),

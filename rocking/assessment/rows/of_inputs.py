@@ -354,10 +354,15 @@ class PlacedRow(StructureNameRow[L]):
 
 @dataclass(frozen=True)
 class ListedStructure(Named):
-    """One structure of the list. scale: the block that predicts, as the settings name it."""
+    """One structure of the list. block_used: the block that predicts, as the settings name it."""
 
     body: Structure
-    scale: Scale = "rest"
+    block_used: Scale = "rest"
+
+    @property
+    def block_printed(self) -> Scale:
+        """The block of the source paper, by the same names."""
+        return PRINTED_SCALE
 
     @property
     def geometry(self) -> str:
@@ -402,11 +407,11 @@ class StructureRow(StructureNameRow[ListedStructure]):
         "What opens, hinge or crack; empty of one that does not crack", lambda of: of.body.crack_name
     )
     block_used: str = of_listed(
-        "The block that predicts: its acceleration_scale, as the settings name it", lambda of: of.scale
+        "The block that predicts: its acceleration_scale, as the settings name it", lambda of: of.block_used
     )
     block_printed: str = of_listed(
         "The block of Eq. 15 as printed: the paper's, linearised about φ_cr, with the scale of the true uplift",
-        lambda of: PRINTED_SCALE,
+        lambda of: of.block_printed,
     )
     frequency_parameter_rad_s: float = of_side(
         f"{FREQUENCY_PARAMETER}, of the block that is printed",

@@ -35,9 +35,11 @@ def test_the_counts_and_quantiles_of_rows_are_those_of_the_members():
 
 def test_the_comparison_leads_with_what_is_compared_and_every_row_names_its_input():
     columns = rows.ComparisonRow.table.column_names
-    assert columns[:7] == (
+    assert columns[:9] == (
         "record",
         "structure",
+        "component",
+        "printed_rotation_ratio",
         "predicted_rotation_ratio",
         "block_on_record_rotation_ratio",
         "integrated_rotation_ratio",

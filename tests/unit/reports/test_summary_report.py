@@ -307,7 +307,7 @@ def test_the_document_of_the_fragility_names_records_stations_units_and_what_gov
     of_measures = frame(IntensityMeasureRow, measures)
     data = fragility_data(curves, FRAGILITY[FragilitySummaryRow], ida_frame(FRAGILITY), of_measures)
     assert data.subtitle == "4 records of 3 stations of 3 earthquakes; 1 structure."
-    text, table, scatter, figure = data.parts
+    text, figure, table, scatter = data.parts
     assert scatter.table.rows == (
         ("pier", "AvgSA(0.5,3.7) 0.16, pgv 0.30, pga –", "4 with AvgSA(0.5,3.7), 12 with pgv"),
     )

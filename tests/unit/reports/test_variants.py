@@ -108,7 +108,5 @@ def test_summary_page_to_explore_and_page_to_sign_hold_the_strip(made):
         for place, (name, each) in enumerate(STRUCTURES.items())
     ]
     for page in structures_data(pages, SPECTRUM, Settings().for_pages).sheets:
-        assert [each.difference for each in page.answers[0].basis.strips[0].cells] == [
-            "the first",
-            difference,
-        ]
+        told = [[cell.difference for cell in strip.cells] for strip in page.answers[0].basis.strips]
+        assert told == ([["the first", difference]] if page.name == "wall" else []), "once"
