@@ -139,6 +139,8 @@ def trade() -> str:
         "median error",
         "wrong verdicts",
         "of them unsafe",
+        "falls found",
+        "false alarms",
         "ms a structure",
         "ms a record",
     )
@@ -146,8 +148,9 @@ def trade() -> str:
     for each in measured_trade():
         error = f"{100 * each.error:.2g} %"
         counts = (str(each.wrong_verdicts), str(each.unsafe_verdicts))
+        found = (f"{each.falls_found} of {each.falls}", str(each.false_alarms))
         times = (f"{1e3 * each.cpu_s:.2g}", f"{1e3 * each.preparation_record_s:.2g}")
-        body.append((each.method, str(each.cases), error, *counts, *times))
+        body.append((each.method, str(each.cases), error, *counts, *found, *times))
     return table(head, body)
 
 

@@ -42,13 +42,16 @@ def write_trade_report(
         *printing.columns_of(TradeRow, "cases", "0.5"),
         ("Median error (%)", "0.8", "r", lambda row: printing.number(100 * row.error, 2)),
         ("95 % quantile (%)", "0.8", "r", lambda row: printing.number(100 * row.error_high, 2)),
-        *printing.columns_of(TradeRow, "wrong_verdicts unsafe_verdicts", "0.7"),
+        *printing.columns_of(
+            TradeRow, "wrong_verdicts unsafe_verdicts falls falls_found false_alarms", "0.6"
+        ),
         ("A response (ms)", "0.8", "r", lambda row: printing.number(1e3 * row.cpu_s, 2)),
         ("A record (ms)", "0.7", "r", lambda row: printing.number(1e3 * row.preparation_record_s, 2)),
     )
     caption = (
         "Cases: those in which the method or the reference, the mechanism at a tolerance of 1e-12, does not rest. "
-        "Errors: of the largest rotation where both rock. Unsafe: verdicts that say less than the reference. A record: "
+        "Errors: of the largest rotation where both rock. Unsafe: verdicts that say less than the reference. Falls: "
+        "of the reference, those of them that the method finds, and those that it alone says. A record: "
         "the search for its sines. The ensemble answers for all alike cases; its error is that of its median."
     )
     machine = rows[0].machine if rows else "no machine"

@@ -63,7 +63,7 @@ def test_a_sine_rules_where_it_explains_half_of_the_energy(records):
 
 def test_times_are_told_with_their_machine_and_the_search_for_sines_apart(rows):
     usual = rows[TradeMethod.MECHANISM, ""].cpu_s
-    sines = (TradeMethod.ONE_SINE, TradeMethod.DOMINANT_SINE, TradeMethod.SINES)
+    sines = (TradeMethod.PRINTED, TradeMethod.ONE_SINE, TradeMethod.DOMINANT_SINE, TradeMethod.SINES)
     for (method, _), row in rows.items():
         assert row.cpu_s > 0 and row.machine
         assert (row.preparation_record_s > 0) == (method in sines)
@@ -111,6 +111,7 @@ def made(method: TradeMethod, **changed) -> TradeRow:
     """A row over all structures."""
     values = {"error": 0.01234, "error_high": 0.3, "cpu_s": 0.002512, "preparation_record_s": 0.0}
     counts = {"cases": 200, "wrong_verdicts": 3, "unsafe_verdicts": 1, "stations": 20, "earthquakes": 8}
+    counts |= {"falls": 9, "falls_found": 7, "false_alarms": 2}
     values |= {"wrong_share_low": 0.01, "wrong_share_high": 0.09}
     return TradeRow(method=method, structure="", machine="Abacus", **values | counts | changed)
 
@@ -144,7 +145,20 @@ def test_the_report_says_what_the_table_says_in_percent_and_milliseconds(tmp_pat
     write_trade_report(tables, tmp_path / "trade.pdf", tmp_path / "trade.svg")
     said, picture, table = documents[0].parts
     assert said.sentences == tuple(what_follows([ONE_SINE, MECHANISM])) and len(picture.pictures) == 1
-    assert table.table.rows[1] == (TradeMethod.MECHANISM, "all", "200", "1.2", "30", "3", "1", "0.28", "0.0")
+    assert table.table.rows[1] == (
+        TradeMethod.MECHANISM,
+        "all",
+        "200",
+        "1.2",
+        "30",
+        "3",
+        "1",
+        "9",
+        "7",
+        "2",
+        "0.28",
+        "0.0",
+    )
     assert "Abacus" in documents[0].subtitle
     drawn = (tmp_path / "trade.svg").read_text(encoding="utf-8")
     assert "45 structures" in drawn and "8 of 200, error 1.2 %" in drawn

@@ -26,8 +26,8 @@ from rocking.reports.structures import structures_data
 from rocking.reports.summary import summary_data
 from rocking.study.checks import _checked
 from rocking.study.job import Study, assess_catalogued, rows_of
+from rocking.study.own_files import _told
 from rocking.study.terminal import record_line
-from rocking.study.workspace import _told
 from rocking.tables import frame, write_rows
 from rocking.tables.workbook import workbook
 from tests.unit.assessment.made_rows import members

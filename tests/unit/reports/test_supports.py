@@ -50,7 +50,7 @@ def test_the_page_after_the_first_says_it_once_for_all_periods_and_page_one_name
     (row,) = (each for each in data.page_one.rows if each.name == "parapet")
     carried = [each for each in report.tables.verdicts if each.support_period_s]
     worst = max(carried, key=lambda each: each.severity)
-    assert row.below.endswith(f"; T_b {worst.support_period_s:.3g} s")
+    assert row.below.endswith(f"; T_b {worst.support_period_s:.3g}\u00a0s")
 
 
 def test_the_reserve_stands_on_a_scale_of_its_own_for_each_period(report):
