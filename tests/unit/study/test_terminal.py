@@ -10,7 +10,7 @@ import pytest
 from rocking.assessment.case import SceneResult, StationResult
 from rocking.assessment.rows import ComparisonRow
 from rocking.study import terminal
-from rocking.study.terminal import Progress, bar, closing_lines, line_writer, paths_to_read, record_line
+from rocking.study.terminal import Progress, _cut, bar, closing_lines, line_writer, paths_to_read, record_line
 from tests.unit.assessment.made_rows import broken, case, compared, failure, station, verdicts
 
 
@@ -217,3 +217,8 @@ def test_what_is_gone_through_is_as_it_was_with_a_bar_or_without(monkeypatch: py
         assert list(bar([3, 1, 2], "file")) == [3, 1, 2]
         assert ("of 3 files" in stream.getvalue()) == stream.isatty()
     assert "\n" not in stream.getvalue(), "it leaves no line behind"
+
+
+def test_a_name_that_is_cut_is_as_wide_as_its_column() -> None:
+    assert _cut("a tower", 7) == "a tower"
+    assert _cut("a towers", 7) == "a towe…" and len(_cut("a towers", 7)) == 7
