@@ -10,17 +10,23 @@ from rocking.assessment.decide import Severity, Verdict
 from rocking.assessment.rows import (
     ComparisonRow,
     ExpectedFallsRow,
+    RemarkRow,
     VerdictRow,
     hardly_spread,
     worst_period_each,
 )
-from rocking.quantities import counted, percents
+from rocking.quantities import counted, listed, percents
 from rocking.remarks import Kind, Remark
 
 CLASS = 20
 """Structures from which on a list is a class: how many of them fall is of interest, not which ones."""
 UNSAID = (Kind.NOTHING_TO_DO, Kind.NOTHING_DECIDES)
 """Remarks of which a row of a report says nothing."""
+TO_CHECK = (Kind.SIZE_UNUSUAL, Kind.BROADER_THAN_TALL, Kind.VERTICAL_MISSING)
+"""Kinds of remarks for which somebody has to check what was typed before anything else is read."""
+_MOST_TO_CHECK = 3
+"""Remarks of these kinds that are told beside a conclusion; remarks.csv holds all."""
+_MOST_NAMED = 20
 FALLING = (Verdict.OVERTURNS, Verdict.PROBABLY_OVERTURNS)
 
 
@@ -207,3 +213,20 @@ def falls_in_words(falls: Sequence[ExpectedFallsRow]) -> str:
         return f"{sentence}."
     untold = f"{of_all.without_share:.{0 if records == 1 else 1}f}"
     return f"{sentence}; {untold} more cannot be told{' per record on average' if records > 1 else ''}."
+
+
+def to_check(remarks: Iterable[RemarkRow]) -> list[str]:
+    """Return what has to be checked of what was typed: the first remarks in full, of the others what they are of.
+
+    It is the same beside every conclusion: on the first page of a report, and at the end of a run.
+    """
+    told = {row.sentence: row for row in remarks if row.kind in TO_CHECK}
+    if len(told) <= _MOST_TO_CHECK:
+        return list(told)
+    first, others = list(told)[: _MOST_TO_CHECK - 1], list(told.values())[_MOST_TO_CHECK - 1 :]
+    names = list(dict.fromkeys(row.about.partition(": ")[0] for row in others))
+    values = counted(len(others), "value")
+    return [
+        *first,
+        f"To be checked likewise, as remarks.csv says: {values} of {listed(names, _MOST_NAMED)}.",
+    ]

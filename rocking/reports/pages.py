@@ -282,7 +282,10 @@ class Against:
 
 @dataclass(frozen=True, kw_only=True)
 class Assumed:
-    """What was assumed, as far as it differs from study to study. measured: figures of campaigns, by name."""
+    """What was assumed, as far as it differs from study to study.
+
+    vertical: what the vertical component does, in words. measured: figures of campaigns, by name.
+    """
 
     friction: str
     vertical: str

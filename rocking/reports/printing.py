@@ -22,15 +22,13 @@ import typst
 
 from rocking.assessment.decide import Verdict
 from rocking.assessment.methods import NEGLIGIBLE, Method, rests
-from rocking.assessment.rows import FailureRow, RemarkRow
-from rocking.quantities import GRAVITY, counted, listed
-from rocking.remarks import Kind
+from rocking.assessment.rows import FailureRow
+from rocking.quantities import GRAVITY, counted
 from rocking.reports.pages import (
     Cell,
     Chip,
     Fact,
     Footer,
-    Notice,
     Page,
     PageSettings,
     PlainPage,
@@ -94,25 +92,6 @@ class Banded(Protocol):
     @property
     def rotation_ratio_high(self) -> float:
         """95 % quantile of the rotation ratio of the members."""
-
-
-TO_CHECK = (Kind.SIZE_UNUSUAL, Kind.BROADER_THAN_TALL, Kind.VERTICAL_MISSING)
-"""Kinds of remarks for which somebody has to check what was typed before anything else is read."""
-_MOST_TO_CHECK = 3
-"""Remarks of these kinds that stand above everything; remarks.csv holds all."""
-_MOST_NAMED = 20
-
-
-def to_check(remarks: Iterable[RemarkRow]) -> list[Notice]:
-    """Return what stands above everything of what has to be checked: the first in full, of the others what it is of."""
-    told = {row.sentence: row for row in remarks if row.kind in TO_CHECK}
-    if len(told) <= _MOST_TO_CHECK:
-        return [Notice(sentence) for sentence in told]
-    first, others = list(told)[: _MOST_TO_CHECK - 1], list(told.values())[_MOST_TO_CHECK - 1 :]
-    names = list(dict.fromkeys(row.about.partition(": ")[0] for row in others))
-    values = counted(len(others), "value")
-    text = f"To be checked likewise, as remarks.csv says: {values} of {listed(names, _MOST_NAMED)}."
-    return [*map(Notice, first), Notice(text)]
 
 
 def faults_in_words(tables: Mapping[type[Row], Iterable[Row]]) -> list[str]:

@@ -11,7 +11,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rocking.assessment.case import RecordResult, StationResult
-from rocking.assessment.conclusion import UNSAID, Conclusion, conclusion_in_words, conclusions, worst_cases
+from rocking.assessment.conclusion import (
+    TO_CHECK,
+    UNSAID,
+    Conclusion,
+    conclusion_in_words,
+    conclusions,
+    to_check,
+    worst_cases,
+)
 from rocking.assessment.cracks import cracked, crushing_factor
 from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.methods import NEGLIGIBLE, Agreement, agreement
@@ -61,7 +69,6 @@ from rocking.reports.pages import (
 from rocking.reports.panels import rotation_ratios
 from rocking.reports.printing import (
     MEASURED,
-    TO_CHECK,
     Column,
     chip,
     columns_of,
@@ -74,7 +81,6 @@ from rocking.reports.printing import (
     remainder,
     strong,
     table_of,
-    to_check,
     words,
 )
 from rocking.reports.record_figures import History
@@ -290,13 +296,21 @@ def _against(report: RecordReport) -> tuple[Against, ...]:
     return (page,) if page else ()
 
 
+def _vertical_in_words(report: RecordReport) -> str:
+    """Return what the vertical component does; "" where a remark above says that there is none which could act."""
+    if acting := _unique(row.vertical_component for row in report.tables.record):
+        return f"The vertical component {acting} acts on the integrations, not on the closed form."
+    missing = any(row.kind is Kind.VERTICAL_MISSING for row in report.remarks)
+    return "" if missing else "The vertical component is left out."
+
+
 def _assumed(report: RecordReport) -> Assumed:
     """Return what was assumed, and files and versions; the time of the run is left out."""
     record = report.tables.record
     structures = report.structures.values()
     return Assumed(
         friction=plain(report.settings.friction_coefficient),
-        vertical=_unique(row.vertical_component for row in record),
+        vertical=_vertical_in_words(report),
         arch=any(each.hinges_migrate for each in structures),
         tapering=any(each.tapers for each in structures),
         supported=bool(report.result.carried),
@@ -672,7 +686,7 @@ def _notices(report: RecordReport) -> list[Notice]:
         told[MOST_NOTICED - 1 :] = [
             f"Another {counted(len(told) - MOST_NOTICED + 1, 'failure')} in failures.csv."
         ]
-    return [*notices, *to_check(report.remarks), *map(Notice, told)]
+    return [*notices, *map(Notice, [*to_check(report.remarks), *told])]
 
 
 def _pulse_doubts(report: RecordReport) -> list[str]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, fields
 
 import numpy as np
 
-from rocking.assessment.conclusion import Conclusion
+from rocking.assessment.conclusion import TO_CHECK, Conclusion
 from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.reserve import Reserve
 from rocking.codes.check import (
@@ -44,7 +44,7 @@ from rocking.reports.pages import (
     Sure,
     Table,
 )
-from rocking.reports.printing import TO_CHECK, displaying, stamp, strong, table, unit_of
+from rocking.reports.printing import displaying, stamp, strong, table, unit_of
 from rocking.reports.printing import words as or_a_dash
 from rocking.reports.sentences import Sentences
 from rocking.reports.structure_figures import bars_figure, basis_figure, selection_figure

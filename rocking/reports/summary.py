@@ -9,7 +9,13 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from rocking.assessment.conclusion import conclusion_in_words, conclusions, falls_in_words, worst_of_each
+from rocking.assessment.conclusion import (
+    conclusion_in_words,
+    conclusions,
+    falls_in_words,
+    to_check,
+    worst_of_each,
+)
 from rocking.assessment.decide import ORDER, Verdict, worst_first
 from rocking.assessment.methods import Agreement, Method, agreement, ratio_in_words, within_factor_two
 from rocking.assessment.rows import (
@@ -150,7 +156,10 @@ def _page(
         by_code=by_code,
         checks=checks,
         matrix=matrix(made, records, pulses),
-        notices=(*_notices(records, comparison, len(failures)), *printing.to_check(rows_of(RemarkRow, rows))),
+        notices=(
+            *_notices(records, comparison, len(failures)),
+            *map(Notice, to_check(rows_of(RemarkRow, rows))),
+        ),
         outcomes=pictures(
             outcomes_figure,
             shown if many else (),

@@ -10,7 +10,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-from rocking.assessment.rows import CapacityRow, StructureRow, capacity_rows, structure_rows
+from rocking.assessment.conclusion import to_check
+from rocking.assessment.rows import CapacityRow, RemarkRow, StructureRow, capacity_rows, structure_rows
 from rocking.assessment.scene import Scene, load_scenes, placed
 from rocking.errors import ConfigurationError, RecordError
 from rocking.records import Accelerogram
@@ -230,9 +231,11 @@ def assess_stations(
         )
     chosen = {each: scene for each, scene in scenes.items() if name in (None, each)}
     study = Study(chosen, Settings(), settings_sha256(Settings(), scenes))
+    remarks = list(study.remarks)
     for own in found:
         result = assess_catalogued(own.record, study, study.open(own.record, list(own.channels)))
         rows = rows_of(result, own.record, study)
+        remarks += rows.remarks
         if output is not None:
             with written_together():
                 write_tables(rows.tables, output / own.record.id)
@@ -247,8 +250,10 @@ def assess_stations(
             yield from _told(station, own.record.scale_factor)
         for failure in rows.failures:
             yield f"not assessed: {failure.structure or failure.stage}: {failure.message}"
+    yield from to_check(remarks)
     if output is not None:
         of_structures: dict[type[Row], Iterable[Row]] = {
+            RemarkRow: remarks,
             StructureRow: structure_rows(study.structures, study.settings.acceleration_scale),
             CapacityRow: capacity_rows(study.structures),
         }

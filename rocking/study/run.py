@@ -15,7 +15,7 @@ from pathlib import Path
 from threading import Thread
 from typing import Any, TextIO
 
-from rocking.assessment.rows import ComparisonRow, ExpectedFallsRow, FailureRow, TradeRow
+from rocking.assessment.rows import ComparisonRow, ExpectedFallsRow, FailureRow, RemarkRow, TradeRow
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted, shown
 from rocking.study import close_doors
@@ -154,7 +154,8 @@ def _told_of(folder: Path, plan: Plan) -> int:
     verdicts = verdicts_of({record: folder / path for record, path in plan.outcomes().items()})
     comparison = read_rows(ComparisonRow, results / "summary" / ComparisonRow.table.file_name)
     falls = read_table(ExpectedFallsRow, results / "summary")
-    told = [*closing_lines(verdicts, comparison, failures, falls)]
+    remarks = read_rows(RemarkRow, results / "summary" / RemarkRow.table.file_name)
+    told = [*closing_lines(verdicts, comparison, failures, falls, remarks)]
     if checked:
         told += lines_by_code(results / "summary")
     for line in (*told, *paths_to_read(results, verdicts, plan.settings.reports, checked)):

@@ -17,13 +17,20 @@ from typing import TYPE_CHECKING, BinaryIO, TextIO, TypeVar
 
 from tqdm import tqdm
 
-from rocking.assessment.conclusion import conclusion_in_words, conclusions, falls_in_words, worst_of_each
+from rocking.assessment.conclusion import (
+    conclusion_in_words,
+    conclusions,
+    falls_in_words,
+    to_check,
+    worst_of_each,
+)
 from rocking.assessment.decide import ORDER, Verdict, worst_first
 from rocking.assessment.methods import rocks
 from rocking.assessment.rows import (
     ComparisonRow,
     ExpectedFallsRow,
     FailureRow,
+    RemarkRow,
     TradeRow,
     VerdictRow,
     counted_cases,
@@ -90,12 +97,14 @@ def closing_lines(
     comparison: Iterable[ComparisonRow],
     failures: Sequence[FailureRow],
     expected: Sequence[ExpectedFallsRow] = (),
+    remarks: Iterable[RemarkRow] = (),
 ) -> Iterator[str]:
     """Yield the conclusion on all structures, the worst with closed form, block and integration, and the others' words.
 
-    Below them stand what the closed form saw of the falls among `counted_cases`, and the records that failed.
-    comparison: is gone through once, and not kept. expected: how many fall, by record and of all. At most _NAMED
-    structures are named.
+    Below them stand what the closed form saw of the falls among `counted_cases`, the records that failed, and what has
+    to be checked of what was typed. comparison: is gone through once, and not kept. expected: how many fall, by record
+    and of all. remarks: on the study and on its records, which are gone through once as well. At most _NAMED structures
+    are named.
     """
     worst = worst_of_each(conclusions(verdicts, []))
     records = len({each.record for each in verdicts})  # one that failed gives none
@@ -138,6 +147,8 @@ def closing_lines(
     of_what = COUNTED if carried else ""
     yield from _closed_form_lines(seen, missed if records > 1 else missed.total(), false, of_what)
     yield from _failing_lines(failures)
+    for sentence in to_check(remarks):
+        yield from wrap(sentence, _WIDTH, subsequent_indent=" " * 8)
 
 
 def _closed_form_lines(seen: int, missed: Counter[str] | int, false: int, of_what: str) -> Iterator[str]:

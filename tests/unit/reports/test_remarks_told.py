@@ -1,5 +1,6 @@
 """Remarks on sizes, levels and settings: rows of one table, which every document of a study reads."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -7,19 +8,20 @@ import pytest
 
 from rocking import Block, DesignSpectrum, check
 from rocking.assessment.case import RecordResult
+from rocking.assessment.conclusion import TO_CHECK
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, RecordRows, RemarkRow, rows_of_record
 from rocking.assessment.scene import Scene, on_the_ground
 from rocking.errors import RockingError
 from rocking.quantities import GRAVITY
 from rocking.remarks import Kind
 from rocking.reports.explore import explore_page
-from rocking.reports.printing import TO_CHECK
 from rocking.reports.record import RecordReport
 from rocking.reports.structures import CheckedStructure, structures_data
 from rocking.reports.summary import summary_data
 from rocking.structures.structure_list import TYPES, structure_from_config
 from rocking.study.plan import study_remarks
 from rocking.study.settings import Settings, StudyDesign
+from rocking.study.terminal import closing_lines
 from rocking.tables.workbook import workbook
 
 from .conftest import SETTINGS, summarised
@@ -76,6 +78,12 @@ def notices(remarks) -> list[str]:
     return [each.text for each in report.page().notices]
 
 
+def lines_told(rows):
+    """What the end of a run tells of the remarks, one string a remark."""
+    text = "\n".join(closing_lines([], [], [], remarks=rows))
+    return re.sub(r"\n {8}", " ", text).splitlines()
+
+
 @pytest.mark.filterwarnings("ignore:restitution by momentum balance")
 def test_a_size_or_a_level_in_another_unit_stands_on_page_one_or_is_refused():
     """300 studies with one slip each: millimetres for metres, radians for degrees, m/s² for g."""
@@ -103,6 +111,7 @@ def test_of_many_slips_page_one_tells_the_first_in_full_and_how_many_more_of_wha
     assert len(to_check) == 300
     *first, rest = notices(remarks)[-3:]
     assert first == [str(each) for each in to_check[:2]]
+    assert lines_told(RemarkRow.of_study(remarks)) == [*first, rest], "as the terminal tells them"
     assert "298 values" in rest and "wall 1, wall 2, " in rest and "remarks.csv" in rest
 
 
@@ -136,6 +145,8 @@ def test_every_document_of_a_study_reads_the_same_remarks(example):
     assert told == [each for each in sheet.details if each in told]
     assert rows[-1].sentence in sheet.answers[0].assumptions
 
+    assert told == [line for line in lines_told([*rows, *rows]) if line in told]
+
     html = explore_page([], {"A": block}, remarks=rows).decode()
     assert all(row.sentence in html for row in rows)
     assert RemarkRow.table.file_name == "remarks.csv"
@@ -149,3 +160,10 @@ def test_a_vertical_component_that_is_asked_for_and_missing_is_told(example):
     assert (row.record, row.about) == (example.result.record, "vertical")
     report = replace(example, tables=replace(example.tables, remarks=asked))
     assert row.sentence in [each.text for each in report.page().notices]
+    assert report.page().assumed.vertical == "", "the remark says it, and no second sentence does"
+    assert row.sentence in lines_told(asked) and row.sentence not in lines_told(unasked)
+    report = replace(example, tables=replace(example.tables, remarks=unasked))
+    assert report.page().assumed.vertical
+    acting = [replace(each, vertical_component="UP") for each in example.tables.record]
+    report = replace(example, tables=replace(example.tables, remarks=unasked, record=acting))
+    assert "UP" in report.page().assumed.vertical

@@ -1,5 +1,6 @@
 """Files on the command line: joined as a catalogue joins them, wherever they come from, and a structure beside them."""
 
+import csv
 import io
 import tarfile
 import zipfile
@@ -10,6 +11,7 @@ import obspy
 import pytest
 from made_files import TRUE, by_obspy, knet, peer
 
+from rocking.assessment.rows import RemarkRow
 from rocking.errors import ConfigurationError, RecordError
 from rocking.records.folder import list_folder
 from rocking.remarks import Kind
@@ -150,3 +152,19 @@ def test_one_line_writes_one_report(folder: Path, capsys: pytest.CaptureFixture[
     assert "give --output FOLDER" in capsys.readouterr().err
     (folder / "B.AT2").unlink()
     assert sorted(folder.iterdir()) == before
+
+
+@pytest.mark.filterwarnings("ignore:restitution by momentum balance")
+def test_a_size_in_another_unit_is_told_beside_the_verdict(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    given = list(map(str, paths(folder)))
+    wrong = WALL.replace("2.2", "2200").replace("0.3", "300")
+    for wall, unusual in ((wrong, True), (WALL, False)):
+        out = folder / f"out of {unusual}"
+        assert main(["assess", *given, "--structures", wall, "--output", str(out)]) == 0
+        told = capsys.readouterr().out.splitlines()
+        with (out / "summary" / RemarkRow.table.file_name).open(newline="") as table:
+            rows = [row for row in csv.DictReader(table) if row["kind"] == Kind.SIZE_UNUSUAL]
+        assert bool(rows) is unusual
+        assert [row["sentence"] for row in rows] == [line for line in told if "usually" in line]
