@@ -2,20 +2,17 @@
 
 import io
 import json
-import os
 from pathlib import Path
 
 import typst
 from PIL import Image
 
 from rocking.assessment.assessor import with_histories
+from rocking.assessment.scene import load_scenes
 from rocking.records import load_catalogue
-from rocking.records.read import LARGEST_FILE
 from rocking.reports.pages import as_data
 from rocking.reports.record import RecordReport
-from rocking.study.contents import ContentHashes
 from rocking.study.job import Study, assess_catalogued, rows_of
-from rocking.study.plan import scenes_of
 from rocking.study.settings import Settings
 
 ROOT = Path(__file__).parents[2]
@@ -49,11 +46,8 @@ def beside(pictures: list[Image.Image]) -> Image.Image:
 
 
 if __name__ == "__main__":
-    os.chdir(ROOT)
-    settings = Settings()
-    scenes = scenes_of("workflow/structures.yaml", ContentHashes(None, LARGEST_FILE))
-    study = Study(scenes, settings)
+    study = Study(load_scenes(ROOT / "config" / "structures.yaml"), Settings())
     drawn = beside([page_two(study, record) for record in SHOWN])
-    drawn.convert("P", palette=Image.Palette.ADAPTIVE, colors=64).save(
+    drawn.convert("P", palette=Image.Palette.ADAPTIVE, colors=200).save(
         Path(__file__).with_suffix(".png"), optimize=True
     )
