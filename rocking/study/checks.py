@@ -13,7 +13,7 @@ import numpy as np
 from rocking.assessment.conclusion import conclusions, worst_of_each
 from rocking.assessment.cracks import mechanisms_of
 from rocking.assessment.decide import Verdict, worse
-from rocking.assessment.rows import FailureRow, MechanismRow, RecordRow, VerdictRow, named_records
+from rocking.assessment.rows import MechanismRow, RecordRow, VerdictRow, named_records
 from rocking.assessment.scene import Scene, placed
 from rocking.codes.check import CodeTerms, StructureCheck
 from rocking.codes.dynamic_check import check
@@ -30,7 +30,7 @@ from rocking.structures.tied import Tied
 from rocking.study.documents import made_or_told
 from rocking.study.job import Study
 from rocking.study.selection import pool_of, select_for
-from rocking.tables import Row, rows_of, write_tables
+from rocking.tables import write_tables
 
 
 def write_checks(
@@ -111,9 +111,7 @@ def write_checks(
         page = structures_data(pages, spectrum, settings, terms, selection, without_sets, unread)
         write_document(pdf, page, figures)
 
-    faults: list[Row] = []
-    made_or_told(pdf, write, faults, "the log", figures)
-    for fault in rows_of(FailureRow, {FailureRow: faults}):
+    for fault in made_or_told(pdf, write, "the log", figures):
         tell(fault.message)
     return rows
 

@@ -11,26 +11,32 @@ from rocking.reports.pages import Part, PlainPage
 from rocking.reports.printing import Figures, write_document
 from rocking.reports.style import new_figure, svg
 from rocking.study.terminal import log_error
-from rocking.tables import Row, write_whole
+from rocking.tables import write_whole
 from rocking.tables.workbook import workbook
 
 
 def made_or_told(
-    path: Path, make: Callable[[], object], faults: list[Row], log: Path | str, figures: Figures = "none"
-) -> None:
-    """Let `make` write the document `path`; where it cannot, write a page there that says why, and add it to `faults`.
+    path: Path,
+    make: Callable[[], object],
+    log: Path | str,
+    figures: Figures = "none",
+    record: str = "",
+) -> list[FailureRow]:
+    """Let `make` write the document `path`; where it cannot, write a page there that says why, and return its row.
 
-    log: what holds the traceback. What is wrong with the machine passes.
+    log: what holds the traceback. record: that the document is about; "" for all. What is wrong with the machine
+    passes.
     """
     try:
         make()
+        return []
     except (OSError, MemoryError):
         raise
     except Exception as fault:
         log_error(fault)
         sentence = fault_in_words(fault, log, path.name)
-        faults.append(FailureRow.of(FailedCase("", "", "", Failure("document", sentence))))
         write_reason(path, [sentence], figures)
+        return [FailureRow.of(FailedCase(record, "", "", Failure("document", sentence)))]
 
 
 def write_reason(path: Path, sentences: list[str], figures: Figures = "none") -> None:

@@ -328,22 +328,25 @@ def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:
     page: dict[str, Any] = {}
     spectra: Mapping[str, Sequence[float]] = {}
     with written_together():
-        if job.kind == "record":
-            write_tables(rows.tables, folder)
         if study.settings.reports:
             from rocking.reports.design_figure import component_spectra  # matplotlib takes a second to import
             from rocking.reports.explore import record_content
+            from rocking.study.documents import made_or_told
 
             result = with_histories(result, study.settings.tolerance, _drawn(result, rows))
-            write_report(result, rows, study, folder)
+            make = partial(write_report, result, rows, study, folder)
+            pdf = folder / "report.pdf"
+            faults = made_or_told(pdf, make, job.log, study.settings.figures, record.id)
+            rows = replace(rows, failures=[*rows.failures, *faults])
             page = record_content(result, rows, study.structures)
             level = study.settings.design_spectrum.spectrum()
             if level is not None:
                 spectra = component_spectra(result.accelerograms, level)
+        if job.kind == "record":
+            write_tables(rows.tables, folder)
         if study.settings.histories:
             histories = history_rows(record.id, result.responses)
             write_rows(HistoryRow, histories, folder / HistoryRow.table.file_name)
-    tables = {each: list(of_it) for each, of_it in rows.tables.items()}
     tables = {each: list(of_it) for each, of_it in rows.tables.items()}
     sums = sums_of(job.task.product, study.settings) if job.kind == "record" else {}
     job.keep(record.id, Outcome(tables, page, spectra, sums))

@@ -167,23 +167,21 @@ def _documents(
         drawn = strips(compared, study.structures)
         sheets[VariantRow] = [VariantRow.of(each) for row in compared.values() for each in row]
     title = study.settings.study or ""
-    untold: list[Row] = []
     figures = study.settings.figures
     pdf, scatter = target / "summary.pdf", target / SCATTER
     parts = {**shown, **beside}
-    made_or_told(pdf, lambda: _report(pdf, study, parts, spectra, drawn), untold, job.log, figures)
-    made_or_told(scatter, lambda: _scatter(scatter, parts), untold, job.log)
+    untold = made_or_told(pdf, lambda: _report(pdf, study, parts, spectra, drawn), job.log, figures)
+    untold += made_or_told(scatter, lambda: _scatter(scatter, parts), job.log)
     page, book = target / "study.html", target / WORKBOOK
-    made_or_told(
+    untold += made_or_told(
         page,
         lambda: write_whole(
             page, explore_page(pages, study.structures, title, checked, drawn, study.remarks)
         ),
-        untold,
         job.log,
     )
-    made_or_told(
-        book, lambda: write_whole(book, workbook(sheets, title, opens_on=VerdictRow)), untold, job.log
+    untold += made_or_told(
+        book, lambda: write_whole(book, workbook(sheets, title, opens_on=VerdictRow)), job.log
     )
     if untold:
         write_tables({FailureRow: [*parts.get(FailureRow, []), *untold]}, target)

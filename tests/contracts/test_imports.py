@@ -210,6 +210,7 @@ SAVES = {
     "rocking.motion": 0.18,
     "rocking.pulses": 0.52,
     "rocking.reports": 0.25,
+    "rocking.study.documents": 0.25,
     "rocking.study.job": 0.28,
 }
 """What is imported within a function, and the CPU that saves a command which has no need of it, s; the least where a

@@ -106,3 +106,21 @@ def test_a_page_never_costs_a_summary(place, file, tmp_path: Path, monkeypatch) 
     (fault,) = read_rows(FailureRow, results / "summary" / "failures.csv")
     assert fault.message.startswith(f"a fault of rocking in {file} (KeyError")
     assert list(read_rows(ComparisonRow, results / "summary" / "comparison.csv"))
+
+
+def test_a_report_that_cannot_be_made_costs_its_record_nothing(tmp_path: Path, monkeypatch) -> None:
+    record = _record(tmp_path)
+    study = _study(block=BLOCK)
+    study = replace(study, settings=replace(study.settings, reports=True))
+
+    def fails(*_arguments, **_values):
+        raise KeyError("kind that_has_no_sentence")
+
+    monkeypatch.setattr("rocking.reports.record.page_one", fails)
+    job = worked([record], study, tmp_path / "results")
+    (outcome,) = outcomes_in(job.results, [record])
+    (fault,) = outcome.rows[FailureRow]
+    assert (fault.record, fault.stage) == (record.id, "document")
+    assert fault.message.startswith("a fault of rocking in report.pdf (KeyError")
+    assert outcome.rows[ComparisonRow] and outcome.rows[VerdictRow]
+    assert (job.results / record.id / "report.pdf").read_bytes().startswith(b"%PDF")
