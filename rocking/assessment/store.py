@@ -85,8 +85,8 @@ class RecordStore:
         self._durations[fingerprint] = dict(durations)
 
     def save(self) -> None:
-        """Write the file, if it holds something else than before."""
-        if self._now.keys() == self._before.keys():
+        """Write the file, where none stands or it holds something else than before."""
+        if self._path.is_file() and self._now.keys() == self._before.keys():
             return
         content = json.dumps(self._now, separators=(",", ":")).encode()
         head = f"{computation_version()} {sha256_of_bytes(content)}\n"
@@ -94,6 +94,11 @@ class RecordStore:
         if self._timings is not None:
             own = {each: self._durations[each] for each in self._now if each in self._durations}
             write_whole(self._timings, json.dumps(own).encode())
+
+    def stand(self) -> None:
+        """Write the file where none stands, and leave one that does: what failed now may be mended."""
+        if not self._path.is_file():
+            self.save()
 
 
 def _durations_in(path: Path) -> dict[str, dict[str, float]]:

@@ -231,9 +231,9 @@ class Steps:
         self._record = record
         self._job = job
         timings = case_timings_of(job.results, record.id)
-        self._store = RecordStore(cases_of(job.results, record.id), job.tell, timings)
+        self.store = RecordStore(cases_of(job.results, record.id), job.tell, timings)
         self.clock = Clock()
-        self._assessor = job.study.assessor(self._store, self.clock)
+        self._assessor = job.study.assessor(self.store, self.clock)
         self.is_read = False
 
     def read(self) -> Opened:
@@ -272,7 +272,7 @@ class Steps:
         """Compare prediction and integration, decide on each structure, and write tables, report and outcome."""
         settings = self._job.study.settings
         result = self._assessor.compare(result)
-        self._store.save()
+        self.store.save()
         if settings.histories:
             result = with_histories(result, settings.tolerance)
         _write(result, self._record, self._job)
@@ -299,6 +299,7 @@ def steps_of(record: CatalogueRecord, job: Job) -> Iterator[Steps]:
     else:
         return
     durations = dict(steps.clock.durations)
+    steps.store.stand()  # an output of its rule like the others
     _write(RecordResult(record=record.id, failures=(("", failure),), durations=durations), record, job)
 
 

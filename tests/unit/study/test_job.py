@@ -30,7 +30,7 @@ from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SHIPPED, SyntheticRecord, at2_text
 from rocking.structures import Block
 from rocking.study.job import Study, assess_catalogued, rows_of
-from rocking.study.outputs import kept_of, outcome_of
+from rocking.study.outputs import cases_of, kept_of, outcome_of, outputs_of
 from rocking.study.results import Results, keep_rows, read_outcomes
 from rocking.study.settings import Settings, StudyTrade
 from rocking.study.summary import summarise, write_summary
@@ -82,6 +82,19 @@ def test_a_record_that_fails_has_all_its_tables_and_says_why(tmp_path: Path) -> 
     for each in RECORD_TABLES:
         rows = frame(each, tmp_path / "out" / each.table.file_name)
         assert len(rows) == (1 if each.table.name in ("failures", "timings") else 0), each.table.name
+
+
+def test_a_record_that_fails_has_every_output_of_its_rule_and_keeps_what_was_kept(tmp_path: Path) -> None:
+    """Else its job would fail, and end the run of all others."""
+    study = replace(_study(), settings=replace(_study().settings, reports=True))
+    job = worked([_record(tmp_path, content=b"not a record")], study, tmp_path / "results")
+    outputs = outputs_of("record/made", job.plan.settings)
+    assert [path for path in outputs.values() if not path.is_file()] == []
+    kept = cases_of(job.results, "made")
+    worked([_record(tmp_path)], study, tmp_path / "results")
+    whole = kept.read_bytes()
+    worked([_record(tmp_path, content=b"not a record")], study, tmp_path / "results")
+    assert kept.read_bytes() == whole
 
 
 def test_no_source_loads_more_than_data() -> None:
