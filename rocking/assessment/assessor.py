@@ -24,6 +24,7 @@ from rocking.assessment.motions import (
     Motion,
     arrived,
     by_name,
+    on_support,
 )
 from rocking.assessment.one_case import (
     Clock,
@@ -67,15 +68,21 @@ class Store(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class _Shaking:
-    """The motion of a record at one place: its components as they arrive there.
+    """The motion of a record at one place.
 
-    vertical: of the record. pair: both components; None of one, of two that are none, and without an ensemble.
+    grounds: its components on the ground. floor: on a support, the pulses of each as it arrives there. pair: both
+    components; None of one, of two that are none, and without an ensemble.
     """
 
-    components: tuple[Component, ...]
-    vertical: Accelerogram | None
+    grounds: tuple[Component, ...]
     support: Carrier | None = None
+    floor: tuple[ComponentPulses, ...] = ()
     pair: Motion | None = None
+
+    @property
+    def components(self) -> tuple[Component, ...]:
+        """The components as they arrive there."""
+        return self.grounds if self.support is None else on_support(self.support, self.grounds, self.floor)
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,26 +119,26 @@ class Assessor:
         return self.compare(self.integrate(record, components, scenes, predictions, vertical))
 
     def pulses(
-        self,
-        horizontal: Sequence[Accelerogram],
-        vertical: Accelerogram | None = None,
-        measured: bool | None = None,
+        self, horizontal: Sequence[Accelerogram], vertical: Accelerogram | None = None
     ) -> tuple[Component, ...]:
-        """Return the components of a record with the pulses of each.
-
-        vertical: acts with them. measured: whether they are measured as a pair, too; None: as `motion_measures` says.
-        """
-        measured = self.motion_measures if measured is None else measured
+        """Return the components of a record with the pulses of each. vertical: acts with them."""
         beside = [None if vertical is None else aligned(vertical, each) for each in horizontal]
+        found = self._sought(horizontal, self.motion_measures)
+        return tuple(
+            pulses.beside(accelerogram, lift)
+            for pulses, accelerogram, lift in zip(found, horizontal, beside, strict=True)
+        )
+
+    def _sought(self, horizontal: Sequence[Accelerogram], measured: bool) -> tuple[ComponentPulses, ...]:
+        """The pulses of each component of a record. measured: whether they are measured as a pair, too."""
         each_alone = tuple(Motion((component,)) for component in horizontal)
-        components = []
-        for place, (accelerogram, lift) in enumerate(zip(horizontal, beside, strict=True)):
+        found = []
+        for place in range(len(horizontal)):
             inputs = PulseInputs(
                 components=each_alone, place=place, settings=self.settings.pulse, measured=measured
             )
-            pulses = self._remembered(ComponentPulses, inputs, compute_pulses)
-            components.append(pulses.beside(accelerogram, lift))
-        return tuple(components)
+            found.append(self._remembered(ComponentPulses, inputs, compute_pulses))
+        return tuple(found)
 
     def predict(self, components: Sequence[Component], scenes: Mapping[str, Scene]) -> Predictions:
         """Return the closed form of each scene's equivalent block under the pulse of each component."""
@@ -177,8 +184,9 @@ class Assessor:
         # By support, so that what its motion stands for is made once for all that it carries.
         for support, carried in wanted.items() if grounds else ():
             try:
-                components = grounds if support is None else self._on_support(support, grounds)
-                shaking = shakings[support] = self._shaking(components, vertical, support, failures)
+                floor = () if support is None else self._pulses_on(support, grounds)
+                shaking = _Shaking(grounds, support, floor)
+                shaking = shakings[support] = self._with_pair(shaking, vertical, failures)
             except RockingError as error:
                 names = list(by_name(grounds))
                 stations |= {(each.name, support): _lost(each, support, names, error) for each in carried}
@@ -214,7 +222,7 @@ class Assessor:
             scenes=results,
             failures=tuple(failures),
             durations=dict(self.clock.durations),
-            floors={support: each.components for support, each in shakings.items() if support is not None},
+            floors={support: each.floor for support, each in shakings.items() if support is not None},
         )
 
     def compare(self, result: RecordResult) -> RecordResult:
@@ -243,29 +251,20 @@ class Assessor:
 
     # The motion -----------------------------------------------------------------------------------------
 
-    def _on_support(self, support: Carrier, grounds: Sequence[Component]) -> tuple[Component, ...]:
-        """The components as they arrive on a support, with the pulses of the motion there."""
+    def _pulses_on(self, support: Carrier, grounds: Sequence[Component]) -> tuple[ComponentPulses, ...]:
+        """The pulses of each component as it arrives on a support."""
         with self.clock.stage("supports"):
             motions = [arrived(Motion((each.accelerogram,), each.vertical, support)) for each in grounds]
         floors = [next(iter(each.horizontal.values())) for each in motions]
-        sought = self.pulses(floors, measured=False)
-        return tuple(
-            replace(each, vertical=motion.vertical, support=support, ground=ground)
-            for each, motion, ground in zip(sought, motions, grounds, strict=True)
-        )
+        return self._sought(floors, measured=False)
 
-    def _shaking(
-        self,
-        components: tuple[Component, ...],
-        vertical: Accelerogram | None,
-        support: Carrier | None,
-        failures: list[tuple[str, Failure]],
+    def _with_pair(
+        self, shaking: _Shaking, vertical: Accelerogram | None, failures: list[tuple[str, Failure]]
     ) -> _Shaking:
-        """The motion at one place; why it is no pair, or has no pulse, is added to the failures."""
-        shaking = _Shaking(components, vertical, support)
-        if len(components) == 2 and self.settings.ensemble.members:
-            grounds = tuple((each.ground or each).accelerogram for each in components)
-            pair = Motion(grounds, vertical, support)
+        """The motion at one place with its pair; why it is none, or has no pulse, is added to the failures."""
+        if len(shaking.grounds) == 2 and self.settings.ensemble.members:
+            components = tuple(each.accelerogram for each in shaking.grounds)
+            pair = Motion(components, vertical, shaking.support)
             inputs = PairInputs(pair=pair, processing=self.settings.ensemble.processing)
             try:
                 # Where every case is kept, its motions are not made: only that they can be is to be known.

@@ -22,7 +22,7 @@ from rocking.assessment.decide import BEYOND, Decision, Facts, Severity, Verdict
 from rocking.assessment.ensemble import NO_MEMBERS, Ensemble
 from rocking.assessment.fidelity import Answer, Estimate
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
-from rocking.assessment.motions import Carrier, Component, by_name
+from rocking.assessment.motions import Carrier, Component, ComponentPulses, by_name, on_support
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.scene import Scene, periods_in_words
 from rocking.motion.response import UNKNOWN, ModelCheck, Response
@@ -496,8 +496,8 @@ class RecordResult:
     """The results of all structures under one record.
 
     components: those that could be opened, as they acted. scenes: by the name of the structure. failures: of what
-    concerns no single structure, by component ("" for all). durations: CPU time of each stage, s. floors: the
-    components as they arrive on each support that carries a structure.
+    concerns no single structure, by component ("" for all). durations: CPU time of each stage, s. floors: the pulses of
+    the components as they arrive on each support that carries a structure, whose samples `components_on` makes.
     """
 
     record: str
@@ -505,12 +505,17 @@ class RecordResult:
     scenes: Mapping[str, SceneResult] = field(default_factory=dict)
     failures: tuple[tuple[str, Failure], ...] = ()
     durations: Mapping[str, float] = field(default_factory=dict)
-    floors: Mapping[Carrier, tuple[Component, ...]] = field(default_factory=dict)
+    floors: Mapping[Carrier, tuple[ComponentPulses, ...]] = field(default_factory=dict)
+
+    def components_on(self, support: Carrier | None) -> tuple[Component, ...]:
+        """Return the components as they arrive on a support; None: on the ground."""
+        if support is None:
+            return self.components
+        return on_support(support, self.components, self.floors[support])
 
     def components_under(self, station: StationResult) -> dict[str, Component]:
         """Return the components as a structure meets them, by the names of the components."""
-        support = station.support
-        return by_name(self.components if support is None else self.floors.get(support, self.components))
+        return by_name(self.components_on(station.support if station.support in self.floors else None))
 
     @cached_property
     def stations(self) -> list[StationResult]:

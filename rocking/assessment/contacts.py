@@ -96,8 +96,8 @@ def doubt(
     bulges = [each for each in candidates if isinstance(each, Tied) and each.opening]
     first = [each for each in candidates if each not in bulges][:1]
     asked = [each for each in first if not all(isinstance(part, Turning) for part in each.linkages)]
-    for each, sign, motion in product(asked, _signs(structure, settings), _directions(motions)):
-        strongest = motion.scaled(sign * (1 + settings.ensemble.amplitude_range))
+    for each, sign, direction in product(asked, _signs(structure, settings), _directions(motions)):
+        strongest = motions.horizontal[direction].scaled(sign * (1 + settings.ensemble.amplitude_range))
         if _opens(each, strongest, motions.vertical, strict(settings.tolerance)):
             return Remark(Kind.CONTACTS_OPEN)
     return Remark(Kind.IMPACT_OPENS) if any(map(_keeps_little, [*asked, *bulges])) else None
@@ -123,7 +123,7 @@ def ties_give(structure: Structure, motions: GroundMotions, settings: Assessment
     if bulge is None:
         return False
     both = Members(1 + settings.ensemble.amplitude_range, polarity=[1.0, -1.0])
-    for motion in _directions(motions):
+    for motion in (motions.horizontal[direction] for direction in _directions(motions)):
         # Below two samples of the record nothing tells it from one that moves with the ground.
         period = structure.tie_period if structure.tie_period >= 2 * motion.time_step else 0.0
         through_ties = swinging(period).motion(motion)
@@ -146,7 +146,8 @@ def friction_needed(
     followed, or has contacts of which nothing is known, says nothing.
     """
     largest = math.nan
-    for body, motion in product(bodies, _directions(motions)):
+    for body, direction in product(bodies, _directions(motions)):
+        motion = motions.horizontal[direction]
         for sign in _signs(body, settings):
             acting = motion.scaled(sign)
             with suppress(RockingError):
@@ -159,11 +160,11 @@ def friction_needed(
     return largest
 
 
-def _directions(motions: GroundMotions) -> list[Accelerogram]:
-    """The motion of each direction, in the first of its processings."""
-    first: dict[str, Accelerogram] = {}
-    for (direction, _), motion in motions.horizontal.items():
-        first.setdefault(direction, motion)
+def _directions(motions: GroundMotions) -> list[tuple[str, str]]:
+    """The key of the motion of each direction, in the first of its processings."""
+    first: dict[str, tuple[str, str]] = {}
+    for direction, processing in motions.horizontal:
+        first.setdefault(direction, (direction, processing))
     return list(first.values())
 
 
@@ -231,7 +232,7 @@ def contact_share(
     """
     settings = settings or AssessmentSettings()
     signs = _signs(structure, settings)
-    directions = _directions(motions)[:: len(signs)]
+    directions = [motions.horizontal[each] for each in _directions(motions)[:: len(signs)]]
     ways = [
         (motion, sign) for motion in sorted(directions, key=peak_velocity, reverse=True) for sign in signs
     ]

@@ -376,7 +376,7 @@ def followed_at(
 
     ratios = np.full((factors.size, horizontal.size), np.nan)
     reasons: dict[int, str] = {}
-    for (direction, processing), motion in motions.horizontal.items():
+    for direction, processing in motions.horizontal:
         is_own = (values["direction"] == direction) & (values["processing"] == processing)
         own = np.flatnonzero(is_own)
         if not own.size:
@@ -387,7 +387,7 @@ def followed_at(
         if motions.vertical is not None:
             lift = np.outer(factors, vertical[own]).ravel()
         of_runs = np.tile(restitution[own], (factors.size, 1))
-        forcing = forcing_of(motion, motions.vertical)
+        forcing = forcing_of(motions.horizontal[direction, processing], motions.vertical)
         responses = follow_runs(structure, forcing, Runs(along, lift, of_runs), tolerance)
         ratios[:, own] = responses.rotation_ratio.reshape(factors.size, own.size)
         for run, reason in responses.reasons.items():

@@ -3,7 +3,7 @@
 A motion stands for several: its directions, its processings, with the vertical motion, on the ground or on a support.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, lru_cache
@@ -48,6 +48,10 @@ def processed(accelerogram: Accelerogram) -> Mapping[str, Accelerogram]:
     return MappingProxyType(records)
 
 
+Sampling = tuple[int, int]
+"""Samples of a motion on a support: their number to each of the record, and those of still ground after it."""
+
+
 class Carrier(Protocol):
     """What carries a structure above the ground, as far as a case needs it: equal ones make equal motions."""
 
@@ -55,8 +59,61 @@ class Carrier(Protocol):
     def first_period(self) -> float:
         """Its period, s, which is the place on the axis of a result."""
 
-    def motions(self, records: Sequence[Accelerogram]) -> tuple[Accelerogram, ...]:
-        """Return the motion that it makes of each component of the ground, with the same samples all."""
+    def sampling(self, records: Sequence[Accelerogram]) -> Sampling:
+        """Return the samples that its motions under the components of one record have in common."""
+
+    def motion(self, record: Accelerogram, sampling: Sampling | None = None) -> Accelerogram:
+        """Return the motion that it makes of one component of the ground, on these samples."""
+
+
+FLOOR_BYTES = 48_000_000
+"""Bytes of the samples of motions on a support that are kept. A raw pair of 150 s at 100 Hz stands for 48 motions of up
+to 2.2 MB; to make one again takes less than to follow a structure through it."""
+
+
+class _FloorMotions:
+    """The motions on one support after the other, of which the first ones are kept as long as there is room.
+
+    Who goes through all of them again and again, as the stages of an ensemble do, so meets some that are kept, where
+    the last ones would have been given up each time before they are met.
+    """
+
+    def __init__(self) -> None:
+        self._kept: dict[tuple[Carrier, Accelerogram, Sampling], Accelerogram] = {}
+
+    def motion(self, support: Carrier, ground: Accelerogram, sampling: Sampling) -> Accelerogram:
+        """Return the motion that the support makes of one component of the ground."""
+        key = support, ground, sampling
+        found = self._kept.get(key)
+        if found is None:
+            if any(other != support for other, _, _ in self._kept):
+                self._kept.clear()
+            found = support.motion(ground, sampling)
+            kept = sum(each.acceleration.nbytes for each in self._kept.values())
+            if kept + found.acceleration.nbytes <= FLOOR_BYTES:
+                self._kept[key] = found
+        return found
+
+
+_FLOOR_MOTIONS = _FloorMotions()
+
+
+@dataclass(frozen=True, eq=False)
+class _OnSupport(Mapping[tuple[str, str], Accelerogram]):
+    """The horizontal motions of the ground as they arrive on a support, each made when it is asked for."""
+
+    ground: Mapping[tuple[str, str], Accelerogram]
+    support: Carrier
+    sampling: Sampling
+
+    def __getitem__(self, of: tuple[str, str]) -> Accelerogram:
+        return _FLOOR_MOTIONS.motion(self.support, self.ground[of], self.sampling)
+
+    def __iter__(self) -> Iterator[tuple[str, str]]:
+        return iter(self.ground)
+
+    def __len__(self) -> int:
+        return len(self.ground)
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,13 +166,12 @@ class GroundMotions:
         """Return the motions as they arrive on a support; None: on the ground, as they are."""
         if support is None:
             return self
-        horizontal = list(self.horizontal.values())
-        if self.vertical is None:
-            floors = support.motions(horizontal)
-            return replace(self, horizontal=dict(zip(self.horizontal, floors, strict=True)))
-        *floors_below, vertical = support.motions([*horizontal, replace(self.vertical, vertical=True)])
-        of_each = dict(zip(self.horizontal, floors_below, strict=True))
-        return replace(self, horizontal=of_each, vertical=vertical)
+        vertical = None if self.vertical is None else replace(self.vertical, vertical=True)
+        acting = [*self.horizontal.values(), *([] if vertical is None else [vertical])]
+        sampling = support.sampling(acting)
+        if vertical is not None:
+            vertical = support.motion(vertical, sampling)
+        return GroundMotions(_OnSupport(self.horizontal, support, sampling), vertical)
 
     def scaled(self, factor: float) -> "GroundMotions":
         """Return the motions with the horizontal ones multiplied by `factor`."""
@@ -154,12 +210,17 @@ class Motion:
 
 @lru_cache(maxsize=4)  # of two components, each as recorded and after every processing
 def ground_motions(motion: Motion, processing: bool) -> GroundMotions:
-    """Return the motions that one motion stands for, made once for all structures and for their reserves.
+    """Return the motions that one motion stands for, for all structures and for their reserves.
 
-    Raises RecordError for components that are no pair.
+    Those of the ground are made once. Those of a support, of twenty times as many samples, are made when they are asked
+    for, one support after the other; see FLOOR_BYTES. Raises RecordError for components that are no pair.
     """
-    ground = GroundMotions.of(*motion.components, vertical=motion.vertical, processing=processing)
-    return ground.on(motion.support)
+    return _of_ground(replace(motion, support=None), processing).on(motion.support)
+
+
+@lru_cache(maxsize=4)
+def _of_ground(motion: Motion, processing: bool) -> GroundMotions:
+    return GroundMotions.of(*motion.components, vertical=motion.vertical, processing=processing)
 
 
 def arrived(motion: Motion) -> GroundMotions:
@@ -222,13 +283,22 @@ class ComponentPulses:
         """Return the component again."""
         analysis = None
         if self.ranked:
-            pulse = self.ranked[0].pulse.acceleration(accelerogram.times)
-            residual = accelerogram.acceleration - pulse
-            residual.flags.writeable = False
-            analysis = PulseAnalysis(
-                accelerogram, self.ranked, self.sequence, residual, self.flags, self.band
-            )
+            analysis = PulseAnalysis(accelerogram, self.ranked, self.sequence, self.flags, self.band)
         return Component(accelerogram, vertical, self.motion, analysis, self.candidates, self.failure)
+
+    def on(self, support: Carrier, ground: Component) -> Component:
+        """Return the component `ground` as it arrives on a support, where these are its pulses."""
+        arriving = arrived(Motion((ground.accelerogram,), ground.vertical, support))
+        (accelerogram,) = arriving.horizontal.values()
+        there = self.beside(accelerogram, arriving.vertical)
+        return replace(there, support=support, ground=ground)
+
+
+def on_support(
+    support: Carrier, grounds: Sequence[Component], pulses: Sequence[ComponentPulses]
+) -> tuple[Component, ...]:
+    """Return the components of the ground as they arrive on a support, where these are the pulses of each."""
+    return tuple(found.on(support, ground) for found, ground in zip(pulses, grounds, strict=True))
 
 
 def by_name(components: Sequence[Component]) -> dict[str, Component]:

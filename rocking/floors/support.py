@@ -8,6 +8,7 @@ docs/pages/supports.md.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -157,40 +158,61 @@ class Support:
         """Period of the first mode, s."""
         return self.modes[0].period
 
-    def motion(self, record: Accelerogram) -> Accelerogram:
-        """Return the absolute acceleration of the support under `record`, with a sentence on it in its history.
+    def sampling(self, records: Sequence[Accelerogram]) -> "FloorSampling":
+        """Return the samples that the motions of the support under the components of one record have in common.
 
-        A vertical record passes as it is. Raises RecordError when a period is below two samples of the record.
-        """
-        return self.motions((record,))[0]
+        Parameters
+        ----------
+        records : sequence of Accelerogram
+            Components with the same number of samples and the same time step; vertical ones ask for no samples.
 
-    def motions(self, records: Sequence[Accelerogram]) -> tuple[Accelerogram, ...]:
-        """Return the motion of the support under each component of one record, sample by sample alike.
+        Returns
+        -------
+        FloorSampling
+            Number of samples to each of the record, and of still ones after it.
 
-        records: with the same number of samples and the same time step. Vertical ones pass as they are, at the time
-        step of the others, and still after their end. Raises RecordError as `motion`, and for components that do not
-        fit together.
+        Raises
+        ------
+        RecordError
+            When a period is below two samples of the record, and for components that do not fit together.
         """
         _check_alike(records)
-        modes = [mode for mode in self.modes if not mode.follows_the_ground]
-        for mode in modes:
+        for mode in self._swinging:
             _check_sampled(mode, records[0].time_step)
-        ringing = [
-            [] if each.vertical else [_Ringing.under(mode, each) for mode in modes] for each in records
-        ]
-        grids = [_grid(record, modes) for record, modes in zip(records, ringing, strict=True) if modes]
-        if not grids:
-            return tuple(records)
-        finer = max(times_finer for times_finer, _ in grids)
-        after = max(still_samples for _, still_samples in grids)
-        return tuple(
-            self._floor(record, modes, finer, after) for record, modes in zip(records, ringing, strict=True)
-        )
+        common = AS_THE_GROUND
+        for record in records if self._swinging else ():
+            if not record.vertical:
+                own = _sampling(record, [_Ringing.under(mode, record) for mode in self._swinging])
+                common = FloorSampling(max(common.finer, own.finer), max(common.after, own.after))
+        return common
 
-    def _floor(
-        self, record: Accelerogram, ringing: "Sequence[_Ringing]", finer: int, after: int
-    ) -> Accelerogram:
-        """Return one component on the common samples: `finer` times as many, and `after` of still ground."""
+    def motion(self, record: Accelerogram, sampling: tuple[int, int] | None = None) -> Accelerogram:
+        """Return the absolute acceleration of the support under `record`, with a sentence on it in its history.
+
+        A vertical record passes as it is, at the time step of the others, and still after their end.
+
+        Parameters
+        ----------
+        record : Accelerogram
+            One component of the ground.
+        sampling : tuple of (int, int) or None, optional
+            What `sampling` returns for all components of the record; None for those that this one needs.
+
+        Returns
+        -------
+        Accelerogram
+            The motion where the structure stands.
+
+        Raises
+        ------
+        RecordError
+            When a period is below two samples of the record.
+        """
+        finer, after = sampling or self.sampling((record,))
+        if not after:
+            return record
+        modes = [] if record.vertical else self._swinging
+        ringing = [_Ringing.under(mode, record) for mode in modes]
         motion = _finer(record.acceleration, ringing, finer, after)
         step = record.time_step / finer
         if record.vertical:
@@ -208,6 +230,47 @@ class Support:
         return made.warned(
             Remark.of(Kind.STILL_RINGING, share=float(share), after_s=after * record.time_step)
         )
+
+    def motions(self, records: Sequence[Accelerogram]) -> tuple[Accelerogram, ...]:
+        """Return the motion of the support under each component of one record, sample by sample alike.
+
+        Parameters
+        ----------
+        records : sequence of Accelerogram
+            Components with the same number of samples and the same time step. Vertical ones pass as they are, at the
+            time step of the others, and still after their end.
+
+        Returns
+        -------
+        tuple of Accelerogram
+            The motion under each component, in their order.
+
+        Raises
+        ------
+        RecordError
+            When a period is below two samples of the record, and for components that do not fit together.
+        """
+        sampling = self.sampling(records)
+        return tuple(self.motion(record, sampling) for record in records)
+
+    @property
+    def _swinging(self) -> list[Mode]:
+        """The modes whose motion is another than that of the ground."""
+        return [mode for mode in self.modes if not mode.follows_the_ground]
+
+
+class FloorSampling(NamedTuple):
+    """The samples of a motion of a support.
+
+    finer: their number to each sample of the record. after: samples of still ground after the record, by its time step;
+    0 where the support moves as the ground, on its samples.
+    """
+
+    finer: int
+    after: int
+
+
+AS_THE_GROUND = FloorSampling(finer=1, after=0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -293,8 +356,8 @@ def _check_sampled(mode: Mode, time_step: float) -> None:
         )
 
 
-def _grid(record: Accelerogram, ringing: Sequence[_Ringing]) -> tuple[int, int]:
-    """Return how many times finer than the record the floor's motion is sampled, and for how many samples after it.
+def _sampling(record: Accelerogram, ringing: Sequence[_Ringing]) -> FloorSampling:
+    """Return the samples that the floor's motion under one component needs.
 
     A line between two samples h apart departs from a motion by at most h²/8 times its largest second derivative. Steps
     below SHORTEST_STEP, which a support of less than .02 s would ask for, are not made.
@@ -303,7 +366,7 @@ def _grid(record: Accelerogram, ringing: Sequence[_Ringing]) -> tuple[int, int]:
     at_samples = record.acceleration + sum(each.excess[:-1].imag for each in ringing)
     peak = float(np.abs(at_samples).max())
     if peak == 0:
-        return 1, 1
+        return FloorSampling(finer=1, after=1)
     coarse = step**2 / 8 * sum(each.curvature for each in ringing) / (INTERPOLATION_ERROR * peak)
     finer = max(1, min(math.ceil(math.sqrt(coarse)), int(step / SHORTEST_STEP)))
     allowed = RINGING * peak / len(ringing)
@@ -317,7 +380,7 @@ def _grid(record: Accelerogram, ringing: Sequence[_Ringing]) -> tuple[int, int]:
             f"the motion of the support takes {number} samples, but may take {MOST_SAMPLES}; cut the record, or give a "
             "longer period or more damping.",
         )
-    return finer, after
+    return FloorSampling(finer, after)
 
 
 def _finer(acceleration: np.ndarray, ringing: Sequence[_Ringing], finer: int, after: int) -> np.ndarray:

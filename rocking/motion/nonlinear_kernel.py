@@ -73,8 +73,9 @@ CURVE = 6
 class Ground(NamedTuple):
     """A ground motion: (n,) samples, or a sine of one period.
 
-    horizontal, vertical: ü_g and ü_v at the samples; a sine has its amplitude and 0 there. strongest, lightest: the
-    largest |ü_g| and the smallest ü_v from each sample to the end. time_step: s, the period of a sine.
+    horizontal, vertical: ü_g and ü_v at the samples; a sine has its amplitude and 0 there. lightest: the smallest ü_v
+    from each sample to the end. strongest: the largest |ü_g| from each `stretch` of samples to the end, and from the
+    last sample. time_step: s, the period of a sine.
     circular_frequency: rad/s, 0 for samples. gravity: g. curves: (c, CURVE) ü_g over every `stretch` samples, by power
     of the time since the first of them; none where it is linear between samples.
     """
@@ -776,6 +777,18 @@ def _dies_out(sides, ground, member, i, tau, speed, best):
     return runs.dies_out(sides.near, member.restitution, shaking, ground.time_step, i, tau, speed, peak)
 
 
+@compiled
+def _strongest(ground, i):
+    """The largest |ü_g| from the sample i to the end."""
+    if ground.stretch == 1:
+        return ground.strongest[i]
+    n = i // ground.stretch + 1
+    strongest = ground.strongest[n]
+    for k in range(i, n * ground.stretch):
+        strongest = max(strongest, abs(ground.horizontal[k]))
+    return strongest
+
+
 @part
 def _lost(sides, phase, ground, member, k, motion):
     """Whether a motion has overturned: outward past φ_cr, and past its end or what the ground can still do.
@@ -794,7 +807,7 @@ def _lost(sides, phase, ground, member, k, motion):
         excitation = 0.0
     else:
         least = ground.gravity + member.vertical * ground.lightest[motion.interval]
-        strongest = abs(member.horizontal) * ground.strongest[motion.interval]
+        strongest = abs(member.horizontal) * _strongest(ground, motion.interval)
         excitation = strongest / least if least > 0 else np.inf
     j, _, _ = _piece(sides.kinks, sides.grid, phase, slot, k, arc)
     return sides.hold[k, j] > excitation

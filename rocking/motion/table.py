@@ -12,7 +12,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
-from weakref import WeakKeyDictionary
+from threading import RLock
+from weakref import WeakKeyDictionary, ref
 
 import numpy as np
 from numpy.polynomial.polynomial import polyvander
@@ -32,9 +33,9 @@ CURVE_ERROR = 1e-6
 """Largest distance of a curve from the samples that it joins, over the peak of the motion: where one is farther, lines
 join them all."""
 
-_MOTIONS_KEPT = 64
-"""Ground motions whose arrays are kept: more than the eight directions of a raw pair after each of six processings,
-which every structure and every stage of a reserve goes through again."""
+FORCING_BYTES = 32_000_000
+"""Bytes of what is kept of records beside their samples, those used last: of 250 components of 150 s at 100 Hz, and of
+the eight directions of such a pair on a support after each of six processings."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,11 +53,16 @@ class Forcing:
     weightless: bool
     excitation: float
 
+    @property
+    def own_bytes(self) -> int:
+        """Bytes of what it does not share with the record or with other forcings."""
+        return self.ground.strongest.nbytes + self.ground.curves.nbytes
+
 
 def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Forcing:
     """Return what the kernel takes of a record, with its vertical component, or of a pulse.
 
-    Those of the directions and processings of a record are remembered.
+    Those of records that live are remembered, the ones that were made last.
     Raises MotionError when `motion` is neither or a pulse that is no full sine, or `vertical` does not fit its samples.
     """
     if not isinstance(motion, Accelerogram | Pulse):
@@ -73,7 +79,7 @@ def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Fo
             "samples: Accelerogram(pulse.acceleration(times), time_step).",
         )
     if vertical is None:
-        return _forcing(motion, None)
+        return _of_pulse(motion) if isinstance(motion, Pulse) else _FORCINGS.of(motion, None)
     if isinstance(motion, Pulse):
         raise MotionError.naming(
             "vertical",
@@ -98,7 +104,7 @@ def forcing_of(motion: GroundMotion, vertical: Accelerogram | None = None) -> Fo
             f"vertical has a time step of {vertical.time_step!r} s, but must have the {motion.time_step!r} s of the "
             "horizontal component; resample it first.",
         )
-    return _forcing(motion, vertical)
+    return _FORCINGS.of(motion, vertical)
 
 
 def _curves(motion: Accelerogram) -> np.ndarray:
@@ -127,31 +133,107 @@ def _curves(motion: Accelerogram) -> np.ndarray:
     return curves
 
 
-@lru_cache(maxsize=_MOTIONS_KEPT)
-def _forcing(motion: GroundMotion, vertical: Accelerogram | None) -> Forcing:
-    # Copies, because a record's own arrays are read-only, for which the kernel would be compiled again.
-    horizontal = np.array([motion.amplitude] if isinstance(motion, Pulse) else motion.acceleration)
-    lift = np.zeros(horizontal.size) if vertical is None else vertical.acceleration.copy()
-    curves = np.empty((0, CURVE)) if isinstance(motion, Pulse) else _curves(motion)
+@lru_cache(maxsize=64)
+def _of_pulse(pulse: Pulse) -> Forcing:
+    still = _still(1)
     ground = Ground(
-        horizontal=horizontal,
+        horizontal=_read_only(np.array([pulse.amplitude])),
+        vertical=still,
+        strongest=_read_only(np.array([abs(pulse.amplitude)])),
+        lightest=still,
+        time_step=pulse.period,
+        circular_frequency=pulse.circular_frequency,
+        gravity=GRAVITY,
+    )
+    return _forcing(ground, pulse.start_time, vertical=False)
+
+
+def _of_record(record: Accelerogram, vertical: Accelerogram | None) -> Forcing:
+    """What the kernel takes of a record: its samples themselves, and what is found from them."""
+    size = record.acceleration.size
+    lift = _still(size) if vertical is None else vertical.acceleration
+    curves = _curves(record)
+    stretch = record.smooth_steps if curves.size else 1
+    largest = np.abs(record.acceleration)
+    if stretch > 1:
+        largest = np.append(largest[:-1].reshape(-1, stretch).max(axis=1), largest[-1])
+    ground = Ground(
+        horizontal=record.acceleration,
         vertical=lift,
-        strongest=np.maximum.accumulate(np.abs(horizontal[::-1]))[::-1].copy(),
-        lightest=lift if vertical is None else np.minimum.accumulate(lift[::-1])[::-1].copy(),
-        time_step=motion.period if isinstance(motion, Pulse) else motion.time_step,
-        circular_frequency=motion.circular_frequency if isinstance(motion, Pulse) else 0.0,
+        strongest=_read_only(np.maximum.accumulate(largest[::-1])[::-1].copy()),
+        lightest=lift if vertical is None else _lightest(vertical),
+        time_step=record.time_step,
+        circular_frequency=0.0,
         gravity=GRAVITY,
         curves=curves,
-        stretch=motion.smooth_steps if isinstance(motion, Accelerogram) and curves.size else 1,
+        stretch=stretch,
     )
+    return _forcing(ground, 0.0, vertical is not None)
+
+
+def _forcing(ground: Ground, start_time: float, vertical: bool) -> Forcing:
     least = GRAVITY + float(ground.lightest[0])
     return Forcing(
         ground,
-        start_time=motion.start_time if isinstance(motion, Pulse) else 0.0,
-        vertical=vertical is not None,
+        start_time=start_time,
+        vertical=vertical,
         weightless=least < 0,
         excitation=float(ground.strongest[0] / least) if least > 0 else math.inf,
     )
+
+
+def _read_only(array: np.ndarray) -> np.ndarray:
+    """The array as a record's own samples are: the kernel is compiled once more for one that can be written to."""
+    array.flags.writeable = False
+    return array
+
+
+@lru_cache(maxsize=2)
+def _still(size: int) -> np.ndarray:
+    """No vertical motion, (size,), the same for all motions of a record."""
+    return _read_only(np.zeros(size))
+
+
+_LIGHTEST: WeakKeyDictionary[Accelerogram, np.ndarray] = WeakKeyDictionary()
+
+
+def _lightest(vertical: Accelerogram) -> np.ndarray:
+    """The smallest ü_v from each sample to the end, (n,), the same for all directions and processings."""
+    if vertical not in _LIGHTEST:
+        lightest = np.minimum.accumulate(vertical.acceleration[::-1])[::-1].copy()
+        _LIGHTEST[vertical] = _read_only(lightest)
+    return _LIGHTEST[vertical]
+
+
+class _Forcings:
+    """The forcings of records that were made last, as long as the records live and FORCING_BYTES hold them."""
+
+    def __init__(self) -> None:
+        self._kept: dict[ref[Accelerogram], dict[int, Forcing]] = {}
+        self._bytes = 0
+        self._lock = RLock()  # which what forgets a record may find its own thread to hold
+
+    def of(self, record: Accelerogram, vertical: Accelerogram | None) -> Forcing:
+        """Return that of a record with its vertical component."""
+        # A forcing holds these samples, so that no others have their place while it is kept.
+        place = 0 if vertical is None else id(vertical.acceleration)
+        found = self._kept.get(ref(record), {}).get(place)
+        if found is not None:
+            return found
+        made = _of_record(record, vertical)
+        with self._lock:
+            self._kept.setdefault(ref(record, self._forget), {})[place] = made
+            self._bytes += made.own_bytes
+            while self._bytes > FORCING_BYTES:
+                self._forget(next(iter(self._kept)))
+        return made
+
+    def _forget(self, record: "ref[Accelerogram]") -> None:
+        with self._lock:
+            self._bytes -= sum(each.own_bytes for each in self._kept.pop(record, {}).values())
+
+
+_FORCINGS = _Forcings()
 
 
 _NEAR = 1 / 64

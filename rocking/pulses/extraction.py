@@ -119,11 +119,8 @@ def extract_pulses(accelerogram: Accelerogram, *, settings: PulseSettings | None
         )
     ranked = search.ranked(samples, maxima)
     sequence = _pursued(search, samples, maxima, ranked[0])
-    residual = accelerogram.acceleration.copy()
-    _take_out(ranked[0].pulse, residual, accelerogram.time_step)
-    residual.flags.writeable = False
     flags = _raised(searched, search, ranked, sequence)
-    return PulseAnalysis(accelerogram, ranked, sequence, residual, flags, search.band)
+    return PulseAnalysis(accelerogram, ranked, sequence, flags, search.band)
 
 
 def energy_map(

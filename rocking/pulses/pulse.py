@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -238,8 +239,6 @@ class PulseAnalysis(Drawn):
         first is dominant.
     sequence : tuple of PulseEvidence
         The pursuit, each pulse found in what the ones before it left.
-    residual : ndarray
-        (n,) m/s², the record less the dominant pulse.
     flags : tuple of Remark
         Reasons to doubt the dominant pulse.
     band : tuple of (float, float)
@@ -256,7 +255,6 @@ class PulseAnalysis(Drawn):
     accelerogram: Accelerogram
     ranked: tuple[PulseEvidence, ...]
     sequence: tuple[PulseEvidence, ...]
-    residual: np.ndarray
     flags: tuple[Remark, ...]
     band: tuple[float, float]
 
@@ -265,6 +263,15 @@ class PulseAnalysis(Drawn):
         flags = [f"flags: {', '.join(each.kind for each in self.flags)}"] if self.flags else []
         rivals = counted(len(self.alternatives), "alternative")
         return f"PulseAnalysis({', '.join([f'dominant {self.dominant!r}', share, rivals, *flags])})"
+
+    @cached_property
+    def residual(self) -> np.ndarray:
+        """(n,) m/s², the record less the dominant pulse."""
+        residual: np.ndarray = self.accelerogram.acceleration - self.dominant.acceleration(
+            self.accelerogram.times
+        )
+        residual.flags.writeable = False
+        return residual
 
     @property
     def dominant(self) -> Pulse:

@@ -44,7 +44,7 @@ _PERIODS = np.geomspace(0.05, 3.0, 60)
 class SupportPanel:
     """A support with the structures on it, and the component of the ground with the largest peak.
 
-    floors: that component on the support, by its first period, ascending.
+    floors: that component on the support, at its shortest, its middle and its longest first period.
     """
 
     structures: Sequence[SceneResult]
@@ -64,8 +64,10 @@ def support_panels(result: RecordResult) -> list[SupportPanel]:
     )
     panels = []
     for place, several in by_place.items():
-        floors = [result.floors[support][worst] for support in place.supports if support in result.floors]
-        if floors:
+        reached = [support for support in place.supports if support in result.floors]
+        if reached:
+            drawn = dict.fromkeys((reached[0], reached[len(reached) // 2], reached[-1]))
+            floors = [result.components_on(support)[worst] for support in drawn]
             panels.append(SupportPanel(several, result.components[worst], floors))
     return panels[:MOST_SUPPORTS]
 
@@ -141,9 +143,7 @@ def _draw_spectra(axes: Axes, panel: SupportPanel) -> None:
     place = panel.structures[0].scene.place
     of_ground = response_spectrum(record, _PERIODS, FLOOR_DAMPING).pseudo_acceleration
     axes.plot(_PERIODS, of_ground / GRAVITY, color="0.6", linewidth=1.6, label="ground")
-    chosen = {0: panel.floors[0], len(panel.floors) // 2: panel.floors[len(panel.floors) // 2]}
-    chosen[len(panel.floors) - 1] = panel.floors[-1]
-    for line, floor in zip(_LINES, chosen.values(), strict=False):
+    for line, floor in zip(_LINES, panel.floors, strict=False):
         support = next(each for each in place.supports if each == floor.support)
         own = response_spectrum(floor.accelerogram, _PERIODS, FLOOR_DAMPING).pseudo_acceleration
         label = f"T_b {support.first_period:.3g} s"

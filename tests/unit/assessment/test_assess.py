@@ -225,7 +225,7 @@ def row_of(record: Accelerogram, motion: HorizontalMotion, dominant: Pulse | Non
     analysis = None
     if dominant is not None:
         evidence = PulseEvidence(dominant, 1.0, 0.5, 0.0)
-        analysis = PulseAnalysis(record, (evidence,), (), record.acceleration, (), (0.1, 5.0))
+        analysis = PulseAnalysis(record, (evidence,), (), (), (0.1, 5.0))
     return RecordRow.of(ReadComponent(IDENTITY, Component(record, vertical, motion, analysis, ()), ""))
 
 

@@ -7,8 +7,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from rocking.assessment import motions as kept_motions
 from rocking.assessment.assessor import Assessor, with_histories
 from rocking.assessment.case import SceneResult
+from rocking.assessment.motions import GroundMotions
 from rocking.assessment.rows import rows_of_record, worst_period_each
 from rocking.assessment.scene import Scene, on_the_ground
 from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
@@ -159,3 +161,49 @@ def test_fragility_is_against_the_intensity_of_the_ground():
     on_ground = fragility(records, BODY, **how).analysis
     assert on_ground.intensities == pytest.approx(there.intensities)
     assert np.median(there.rotation_ratios[:, -1]) > np.median(on_ground.rotation_ratios[:, -1])
+
+
+def test_the_bytes_that_are_kept_change_no_number(monkeypatch):
+    """Motions that find no room are made again, to the bit."""
+    first, second = motion(), motion("HNN", 9)
+    carried = on_roof([0.2, 0.6])
+    rows = []
+    for room in (48_000_000, 0):
+        monkeypatch.setattr(kept_motions, "FLOOR_BYTES", room)
+        monkeypatch.setattr(kept_motions, "_FLOOR_MOTIONS", kept_motions._FloorMotions())
+        kept_motions.ground_motions.cache_clear()
+        result = FULL.assess("r", [first, second], carried)
+        ratios = [each.ensembles.governing.ensemble.rotation_ratios for each in result.stations]
+        floors = [
+            each.accelerogram.sha256 for station in result.stations for each in components(result, station)
+        ]
+        rows.append((np.concatenate(ratios).tobytes(), floors))
+    assert rows[0] == rows[1]
+    assert len(set(rows[0][1])) == len(rows[0][1])
+
+
+def components(result, station):
+    return result.components_under(station).values()
+
+
+def test_the_motions_of_one_support_alone_are_kept_and_no_more_than_have_room(monkeypatch):
+    ground = GroundMotions.of(motion(), motion("HNN", 9))
+    (short,) = on_roof(0.2)["parapet"].place.supports
+    (long,) = on_roof(0.6)["parapet"].place.supports
+    store = kept_motions._FloorMotions()
+    monkeypatch.setattr(kept_motions, "_FLOOR_MOTIONS", store)
+    eager = short.motions(list(ground.horizontal.values()))
+    monkeypatch.setattr(kept_motions, "FLOOR_BYTES", 3 * eager[0].acceleration.nbytes)
+    for _ in range(2):
+        made = ground.on(short).horizontal
+        assert list(made) == list(ground.horizontal)
+        for own, other in zip(made.values(), eager, strict=True):
+            assert own.acceleration.tobytes() == other.acceleration.tobytes()
+            assert (own.time_step, own.smooth_steps, own.processing) == (
+                other.time_step,
+                other.smooth_steps,
+                other.processing,
+            )
+        assert len(store._kept) == 3
+    next(iter(ground.on(long).horizontal.values()))
+    assert {support for support, _, _ in store._kept} == {long}

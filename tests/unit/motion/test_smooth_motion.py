@@ -8,7 +8,8 @@ import pytest
 
 import rocking.floors.support as floors
 from rocking.errors import RecordError
-from rocking.motion import Members, integrate, integrate_members
+from rocking.motion import Members, integrate, integrate_members, table
+from rocking.motion.nonlinear_kernel import _strongest
 from rocking.motion.table import CURVE_ERROR, forcing_of
 from rocking.records import Accelerogram
 from rocking.structures import Block, Wall
@@ -104,3 +105,41 @@ def test_members_on_a_floor_are_the_single_runs():
 def test_smooth_steps_are_a_whole_number(steps):
     with refused(RecordError, "smooth_steps", steps):
         Accelerogram(np.zeros(9), 0.01, smooth_steps=steps)
+
+
+def test_the_largest_acceleration_still_to_come_is_that_of_every_sample():
+    for motion in (_record(5), _floor(_record(5))):
+        ground = forcing_of(motion).ground
+        still_to_come = [
+            np.abs(motion.acceleration[place:]).max() for place in range(motion.acceleration.size - 1)
+        ]
+        assert [_strongest.py_func(ground, place) for place in range(len(still_to_come))] == still_to_come
+
+
+def test_a_forcing_holds_the_samples_of_its_record_and_is_forgotten_with_it():
+    record, up = _record(6), replace(_record(7), vertical=True)
+    alone, together = forcing_of(record), forcing_of(record, up)
+    assert alone is forcing_of(record)
+    assert together is forcing_of(record, up)
+    assert alone is not together
+    assert alone.ground.horizontal is record.acceleration
+    assert together.ground.vertical is up.acceleration
+    other = _record(8)
+    assert forcing_of(other, up).ground.lightest is together.ground.lightest
+    kept = len(table._FORCINGS._kept)
+    del record, other, alone, together
+    assert len(table._FORCINGS._kept) == kept - 2
+
+
+def test_forcings_take_no_more_bytes_than_they_may(monkeypatch):
+    forcings = table._Forcings()
+    records = [_record(seed) for seed in range(6)]
+    own = forcings.of(records[0], None).own_bytes
+    assert own == records[0].acceleration.nbytes
+    monkeypatch.setattr(table, "FORCING_BYTES", 3 * own)
+    for record in records:
+        forcings.of(record, None)
+        assert forcings._bytes == own * len(forcings._kept) <= 3 * own
+    assert [each() for each in forcings._kept] == records[3:]
+    del record, records
+    assert (forcings._bytes, len(forcings._kept)) == (0, 0)
