@@ -42,6 +42,7 @@ def answers() -> dict[str, float]:
         "free_first_peak": _peak_after_landing(free),
         "free_one_sided_first_peak": _peak_after_landing(released(one_sided)),
         "half_sine_threshold": _threshold(),
+        "double_impulse_threshold": 2 * double_impulse(block, 2000) - double_impulse(block, 1000),
         "pulse_two_sided": largest(block, pulse),
         "pulse_one_sided": largest(one_sided, pulse),
         "record_two_sided": largest(block, record),
@@ -85,6 +86,47 @@ def _threshold() -> float:
         falls = math.isinf(rocking.integrate(mechanism, motion).rotation_ratio)
         low, high = (low, middle) if falls else (middle, high)
     return high
+
+
+def double_impulse(block: rocking.Block, samples: int) -> float:
+    """Return the velocity V [m/s] of two impulses from which on they overturn a block, the second as it lands.
+
+    samples: from one to the other. Each is a triangle over two of them, and the time step is such that the block lands
+    as the second one begins.
+    """
+    radius = block.semi_diagonal
+    step = math.sqrt(4 * radius / (3 * 9.80665)) / samples
+    low, high = 0.0, 4 * math.sqrt(9.80665 * radius)
+    while high - low > 1e-8 * high:
+        middle = (low + high) / 2
+        for _ in range(20):
+            landing = _landing(block, middle, step, samples)
+            if not 0 < landing < math.inf:
+                break
+            last, step = step, landing / samples
+            if abs(step - last) <= 1e-12 * step:
+                break
+        if not 0 < landing < math.inf:  # the first impulse alone does not lift it, or overturns it
+            low, high = (low, middle) if landing else (middle, high)
+            continue
+        impulses = np.zeros(samples + 4)
+        impulses[[1, samples + 1]] = middle / step, -middle / step
+        motion = rocking.Accelerogram(impulses, step)
+        falls = math.isinf(rocking.integrate(block, motion, 1e-9).rotation_ratio)
+        low, high = (low, middle) if falls else (middle, high)
+    return high
+
+
+def _landing(block: rocking.Block, velocity: float, step: float, samples: int) -> float:
+    """The time at which a block lands after one impulse, s; 0 where it does not lift, inf where it overturns."""
+    impulse = np.zeros(2 * samples)
+    impulse[1] = velocity / step
+    response = rocking.integrate(block, rocking.Accelerogram(impulse, step), 1e-9, history=True)
+    if response.rotation_ratio in (0, math.inf):
+        return response.rotation_ratio
+    rotation = np.asarray(response.rotation)
+    away = int(np.argmax(rotation < 0))
+    return float(response.times[away + int(np.argmax(rotation[away:] >= 0))])
 
 
 def _tied() -> float:

@@ -200,6 +200,22 @@ def half_sine_threshold(frequency: float) -> float:
     return brentq(at_end, 1.0, 50.0, xtol=1e-12)
 
 
+def double_impulse(breadth: float, height: float, restitution: float) -> float:
+    """Return the velocity V [m/s] from which on two opposite impulses overturn a block, the second as it lands.
+
+    An impulse V of the ground gives a body that stands on one edge the angular momentum m R V cos α about it, so that
+    it leaves with θ' = 3 V cos α/(4 R), as I = 4 m R²/3. It lands as fast, keeps e θ', and the second impulse adds θ'
+    once more. It reaches its balance where I ((1 + e) θ')²/2 = m g R (1 − cos α): V = 4 R p √(2 (1 − cos α)) /
+    (3 cos α (1 + e)), Nabeshima, Taniguchi, Kojima and Takewaki 2016, Frontiers in Built Environment.
+    """
+    radius = math.hypot(breadth, height) / 2
+    slenderness = math.atan2(breadth, height)
+    inertia = 4 / 3 * radius**2
+    needed = math.sqrt(2 * GRAVITY * radius * (1 - math.cos(slenderness)) / inertia)
+    each = radius * math.cos(slenderness) / inertia
+    return needed / (each * (1 + restitution))
+
+
 def arch_multiplier(radius: float, thickness: float, embrace: float, voussoirs: int) -> float:
     """The largest λ for which a line of thrust fits the joints, with compression in each."""
     angles = np.linspace(-embrace / 2, embrace / 2, voussoirs + 1)
@@ -244,6 +260,7 @@ def values() -> dict[str, float]:
         "free_first_peak": free_peak(RESTITUTION),
         "free_one_sided_first_peak": free_peak(0.7),
         "half_sine_threshold": half_sine_threshold(3.0),
+        "double_impulse_threshold": double_impulse(BREADTH, HEIGHT, RESTITUTION),
         "pulse_two_sided": largest_rotation(two_sided, pulse) / slenderness,
         "pulse_one_sided": largest_rotation(one_sided, pulse) / slenderness,
         "record_two_sided": largest_rotation(two_sided, record) / slenderness,

@@ -5,9 +5,12 @@ import math
 import runpy
 import subprocess
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
+
+import rocking
 
 BENCHMARK = Path(__file__).parents[3] / "docs" / "benchmark"
 
@@ -42,6 +45,23 @@ def test_every_expected_value_is_derived_again_without_this_package():
 def test_this_package_answers_within_the_tolerance(ours, case):
     expected = float(CASES[case]["expected"])
     assert ours[case] == pytest.approx(expected, rel=float(CASES[case]["tolerance"]))
+
+
+@pytest.mark.parametrize(
+    ("breadth", "height", "restitution"),
+    [(0.6, 3.0, 0.9), (0.6, 3.0, 0.5), (1.0, 2.0, 0.7), (0.3, 3.0, 0.95), (2.0, 6.0, 0.8)],
+)
+def test_two_ideal_impulses_are_the_limit_of_short_ones_at_first_order(breadth, height, restitution):
+    exact = runpy.run_path(str(BENCHMARK / "expected.py"))["double_impulse"](breadth, height, restitution)
+    found = runpy.run_path(str(BENCHMARK / "by_rocking.py"))["double_impulse"]
+    block = rocking.Block.of_size(breadth, height, restitution=restitution)
+    errors = [found(block, samples) / exact - 1 for samples in (500, 1000, 2000)]
+    # Of first order each is twice the next, but for the second order, which is as small as the error itself.
+    for longer, shorter in pairwise(errors):
+        assert longer == pytest.approx(2 * shorter, rel=2 * longer)
+    assert 0 < errors[-1] < 1e-3
+    # What is left where the first order is taken out is of the second.
+    assert 2 * errors[-1] - errors[-2] == pytest.approx(0, abs=errors[-2] ** 2)
 
 
 def test_the_answers_that_are_kept_are_those_of_this_version(ours):
