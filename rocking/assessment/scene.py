@@ -12,6 +12,7 @@ import re
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import groupby
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -22,6 +23,7 @@ from rocking.assessment.decide import Verdict
 from rocking.described import kind_in_words
 from rocking.errors import ConfigurationError, StructureError, StructureWarning
 from rocking.floors.place import GROUND, TYPE_NAME, Place, place_from_config, place_schema
+from rocking.hashes import sha256_of
 from rocking.quantities import finite, listed, shown
 from rocking.remarks import Kind, Remark
 from rocking.structures import Mechanism, Structure
@@ -100,6 +102,11 @@ class Scene:
     place: Place = GROUND
     terms: CheckTerms = field(default_factory=CheckTerms)
     variant_of: str = ""
+
+    @cached_property
+    def sha256(self) -> str:
+        """Hash of what the list says of the structure and of its support."""
+        return sha256_of(self.structure.described.entry, self.place)
 
     @property
     def remarks(self) -> tuple[Remark, ...]:

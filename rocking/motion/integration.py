@@ -102,6 +102,11 @@ def integrate(
     to come cannot turn back. Rocking ends at an impact that leaves less than 1e-14 of the energy that reaches
     φ_cr.
 
+    A call prepares its motion once, and again when it is given another one. Of one record at many amplitudes take
+    `integrate_members`, which follows them in one compiled call; of many structures, each at many amplitudes,
+    `integrate_batch`, on all cores. Under many different records call this once for each, of each record with all
+    structures before the next, and with the same Mechanism, `structure.mechanism()`, throughout.
+
     Parameters
     ----------
     structure : Mechanism, EquivalentBlock or Structure

@@ -532,7 +532,7 @@ _SPOKEN = {
 
 def structure_hashes(scenes: Mapping[str, "Scene"]) -> dict[str, str]:
     """Return one hash for what each structure says of itself and its support, by its name."""
-    return {name: sha256_of(each.structure.described.entry, each.place) for name, each in scenes.items()}
+    return {name: each.sha256 for name, each in scenes.items()}
 
 
 def settings_sha256(settings: Settings, scenes: Mapping[str, "Scene"]) -> str:

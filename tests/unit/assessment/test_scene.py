@@ -2,6 +2,7 @@
 
 import csv
 import pickle
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -17,7 +18,9 @@ from rocking.assessment.scene import load_scenes, periods_in_words, placed
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import ConfigurationError
 from rocking.floors.place import GROUND, PERIODS, place_from_config
+from rocking.hashes import sha256_of
 from rocking.remarks import Kind
+from rocking.study.settings import structure_hashes
 
 BLOCK = "type: block, breadth_m: 0.4, height_m: 1.6"
 
@@ -369,3 +372,20 @@ def test_a_structure_is_called_with_the_period_where_it_has_one():
     assert placed("pier", None) == placed("pier", float("nan")) == "pier"
     assert placed("parapet", 0.0) == "parapet, on the ground"
     assert placed("parapet", 0.25) == "parapet, T_b 0.25 s"
+
+
+def test_a_scene_is_hashed_once_and_anew_where_it_stands_elsewhere(tmp_path, monkeypatch):
+    hashed = []
+
+    def counted(*contents):
+        hashed.append(contents)
+        return sha256_of(*contents)
+
+    monkeypatch.setattr("rocking.assessment.scene.sha256_of", counted)
+    scenes = listed(
+        tmp_path, f"name: pier, {BLOCK}", "name: statue, type: block, breadth_m: 0.4, height_m: 1.5"
+    )
+    assert structure_hashes(scenes) == structure_hashes(scenes)
+    assert len(hashed) == len(set(structure_hashes(scenes).values())) == len(scenes)
+    roof = place_from_config({"name": "roof", "period_s": 0.3, "damping_ratio": 0.05, "participation": 1.3})
+    assert replace(scenes["pier"], place=roof).sha256 != scenes["pier"].sha256
