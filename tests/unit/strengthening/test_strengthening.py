@@ -84,7 +84,7 @@ def test_no_number_of_stations_shows_a_share_that_is_not_below_the_target():
     assert math.isnan(stations_needed(0.4, 0.1))
 
 
-@pytest.mark.parametrize(("stations", "target"), [(30, 0.1), (40, 0.1), (40, 0.2), (80, 0.3)])
+@pytest.mark.parametrize(("stations", "target"), [(25, 0.1), (40, 0.1), (40, 0.2), (80, 0.3)])
 def test_the_true_share_at_the_value_is_below_the_target_in_nine_of_ten_draws(stations, target):
     """A curve whose truth is known; beside it, the least value whose drawn share is below the target fails far more.
 
@@ -101,7 +101,7 @@ def test_the_true_share_at_the_value_is_below_the_target_in_nine_of_ten_draws(st
         naive_held += not naive.size or truth[naive[0]] <= target
         found += made.chosen is not None
         held += made.chosen is None or truth[np.searchsorted(VALUES, made.value)] <= target
-    assert found > draws / 2
+    assert found > draws / 3  # else it would hold because nothing is shown
     assert held >= (0.9 - 0.012) * draws
     assert naive_held < held - 0.1 * draws
 
