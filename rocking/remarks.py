@@ -537,9 +537,8 @@ class Kind(StrEnum):
         "altre {number} osservazioni sullo studio stanno in summary/remarks.csv.",
     )
     VERTICAL_MISSING = auto(), Sentence(
-        "The settings ask for the vertical component (vertical: true), but the record has none, and none acts.",
-        "Le impostazioni richiedono la componente verticale (vertical: true), ma la registrazione non ne ha: nessuna "
-        "agisce.",
+        "The settings ask for the vertical component (vertical: true), but there is none, and none acts.",
+        "Le impostazioni richiedono la componente verticale (vertical: true), ma non ve n'è: nessuna agisce.",
     )
     FLOORS_BEHIND = auto(), Sentence(
         "It rocks inwards as freely as outwards, although the floors that it carries or is tied to are behind"

@@ -220,7 +220,16 @@ def to_check(remarks: Iterable[RemarkRow]) -> list[str]:
 
     It is the same beside every conclusion: on the first page of a report, and at the end of a run.
     """
-    told = {row.sentence: row for row in remarks if row.kind in TO_CHECK}
+    told: dict[str, RemarkRow] = {}
+    without_vertical: dict[str, RemarkRow] = {}
+    for row in remarks:
+        if row.kind is Kind.VERTICAL_MISSING:
+            without_vertical.setdefault(row.record, row)
+        elif row.kind in TO_CHECK:
+            told[row.sentence] = row
+    if without_vertical:  # one setting, whatever number of records it is asked of
+        missing = Remark(Kind.VERTICAL_MISSING, listed(list(without_vertical), _MOST_NAMED))
+        told[str(missing)] = next(iter(without_vertical.values()))
     if len(told) <= _MOST_TO_CHECK:
         return list(told)
     first, others = list(told)[: _MOST_TO_CHECK - 1], list(told.values())[_MOST_TO_CHECK - 1 :]

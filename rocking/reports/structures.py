@@ -242,7 +242,8 @@ def _sheets(
                 place=place,
                 headline=words("headline refused"),
                 met=False,
-                details=(words("could not", why=words.reason(why)),),
+                # What was typed may be why it could not be checked.
+                details=(words("could not", why=words.reason(why)), *_to_check(page, words)),
                 answers=(),
             )
         )
@@ -301,10 +302,15 @@ def _conclusion(
                 words("without tie met" if untied.passed else "without tie not met", clause=untied.clause)
             )
     details += _were_it_unknown(checked, words)
-    details += [words.of(each) for each in page.remarks if each.kind in TO_CHECK]
+    details += _to_check(page, words)
     if finding := _finding(page, conclusion, spectrum, words):
         details.append(finding)
     return headline, tuple(details)
+
+
+def _to_check(page: CheckedStructure, words: Sentences) -> list[str]:
+    """What has to be checked of what was typed, before anything else is read."""
+    return [words.of(each) for each in page.remarks if each.kind in TO_CHECK]
 
 
 def _were_it_unknown(checked: StructureCheck, words: Sentences) -> list[str]:

@@ -219,6 +219,8 @@ def write_summary(
             each: stack.enter_context(rows_written(each, target / each.table.file_name))
             for each in of_records
         }
+        write[RemarkRow](remarks)  # what was typed, before what records say
+        kept[RemarkRow] += remarks if reports else ()
         for outcome in outcomes:
             for each in of_records:
                 write[each](outcome.rows[each])
@@ -233,8 +235,6 @@ def write_summary(
             if reports:
                 pages.append(outcome.page)
                 spectra += outcome.spectra.values()
-        write[RemarkRow](remarks)
-        kept[RemarkRow] += remarks if reports else ()
         told = [*faults]
         for name, structure in structures.items():
             with told_of_structure(told, name):
