@@ -66,7 +66,7 @@ class Carrier(Protocol):
         """Return the motion that it makes of one component of the ground, on these samples."""
 
 
-FLOOR_BYTES = 48_000_000
+FLOOR_BYTES = 40_000_000
 """Bytes of the samples of motions on a support that are kept. A raw pair of 150 s at 100 Hz stands for 48 motions of up
 to 2.2 MB; to make one again takes less than to follow a structure through it."""
 
