@@ -306,7 +306,10 @@ _LOOKED_AT = 200  # files beside a catalogue that are opened, at most, to see wh
 
 
 def unlisted(catalogue: Path) -> tuple[Remark, ...]:
-    """Return a remark when records lie beside `catalogue` that neither it nor another catalogue there names."""
+    """Return a remark when records lie beside `catalogue` that neither it nor another catalogue there names.
+
+    But for those that a catalogue of the folder was asked to list, and which it refused: it would again.
+    """
     folder = catalogue.parent
     catalogued: set[Path] = set()
     for path in folder.glob("*.csv"):
@@ -317,9 +320,22 @@ def unlisted(catalogue: Path) -> tuple[Remark, ...]:
     for path in islice((path for path in files_in(folder) if path not in catalogued), _LOOKED_AT):
         with suppress(RecordError):
             form = recognise(bare_text(unpack(bytes_of(path), path.name)))
-            records += [path.relative_to(folder).as_posix()] if form.name != "StationXML" else []
+            records += [path] if form.name != "StationXML" else []
+    if records:
+        readings = Readings(folder, Layouts(folder))
+        records = [path for path in records if not _was_refused(path, folder, readings)]
     if not records:
         return ()
     if len(records) == 1:
-        return (Remark.of(Kind.FILE_UNLISTED, printable(records[0]), folder=str(folder)),)
+        name = records[0].relative_to(folder).as_posix()
+        return (Remark.of(Kind.FILE_UNLISTED, printable(name), folder=str(folder)),)
     return (Remark.of(Kind.FILES_UNLISTED, files=len(records), folder=str(folder)),)
+
+
+def _was_refused(path: Path, folder: Path, readings: Readings) -> bool:
+    """Whether the file was read for a catalogue as it stands, and can get no row there whatever is answered."""
+    listed = [listed_file(each, path, folder, NOTHING_DECLARED) for each in readings.kept_of(path)]
+    return bool(listed) and all(
+        not file.question and (file.refusal or not any(channel.is_horizontal for channel in file.channels))
+        for file in listed
+    )

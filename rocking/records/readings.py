@@ -81,6 +81,18 @@ class Readings:
         self._now[key] = reading
         return reading
 
+    def kept_of(self, path: Path) -> list[Reading]:
+        """Return what is kept of the file at `path` as it stands and is answered, by whatever was declared of it."""
+        sha256 = sha256_of_bytes(bytes_of(path))
+        own = (printable(path.name), self._metadata_beside(path.parent))
+        layouts = self._layouts.at(path.parent.relative_to(self._folder).as_posix())
+        kept = []
+        for key, reading in self._before.items():
+            if reading.sha256 == sha256 and reading.answer == layouts.text_of(reading.signature):
+                _, name, _, _, metadata = json.loads(key)
+                kept += [reading] if (name, metadata) == own else []
+        return kept
+
     def _metadata_beside(self, folder: Path) -> str:
         """Return a hash of the StationXML files of a folder, by which counts of the other files are read."""
         if folder not in self._beside:

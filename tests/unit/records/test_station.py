@@ -123,6 +123,21 @@ def test_records_beside_the_catalogue_that_it_does_not_name_are_told(station):
     assert unlisted(station / "catalogue.csv") == ()
 
 
+def test_a_file_that_a_catalogue_refused_is_not_said_to_be_new_until_it_is_another(station):
+    """Of z.asc, which holds the vertical component alone, and of one with too few samples."""
+    _written(station, "short.asc", "HNE", VALUES[:1])
+    (station / "catalogue.csv").write_text("id,file\na,e.asc;n.asc\n")
+    (told,) = unlisted(station / "catalogue.csv")
+    assert told == Remark.of(Kind.FILES_UNLISTED, files=2, folder=str(station)), "nobody has read them"
+    standing = [{"id": "a", "file": "e.asc;n.asc"}]
+    found = catalogue_of_folder(station, standing=standing, keeps_readings=True)
+    assert not found.new and all(file.refusal for file in found.files if not file.record)
+    assert unlisted(station / "catalogue.csv") == ()
+    _written(station, "short.asc", "HNE", VALUES)
+    (told,) = unlisted(station / "catalogue.csv")
+    assert told == Remark.of(Kind.FILE_UNLISTED, "short.asc", folder=str(station))
+
+
 JOINED = {
     "capemend1992_petrolia": 3, "chichi1999_tcu052": 2, "christchurch2011_cccc": 2, "duzce1999_bolu": 2,
     "formats_afad": 3, "formats_emod3d": 3, "formats_esm_dyna": 3, "formats_knet": 6, "impvall1940_elcentro": 2,
