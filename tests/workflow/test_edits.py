@@ -153,6 +153,14 @@ def _other_content(study: SmallStudy) -> None:
     study.write_catalogue([rows[0] | {"sha256": rows[1]["sha256"]}, *rows[1:]])
 
 
+def _record_that_fails(study: SmallStudy) -> None:
+    study.add("broken", b"no record")
+
+
+def _tables_by_name(study: SmallStudy) -> None:
+    study.run("results/good_1/comparison.csv")
+
+
 def _order(study: SmallStudy) -> None:
     study.write_catalogue(study.rows()[::-1])
 
@@ -180,6 +188,8 @@ RUNS: dict[str, tuple[Callable[[SmallStudy], object], ...]] = {
     "trade on and off": (_settings(trade={"in_summary": True}), _settings()),
     "record less": (_record_less,),
     "record more": (_record_more,),
+    "record that fails": (_record_that_fails, _settings(reports=False)),
+    "tables of a record by its name": (_both(_settings(reports=False), _tables_by_name),),
     "content of a record": (_other_content,),
     "order of the records": (_order,),
     "tolerance": (_settings(tolerance=1e-7),),
