@@ -440,6 +440,7 @@ class SummaryPage(Page):
     conclusion: str
     falls: str
     by_code: str
+    no_demand: str
     notices: tuple[Notice, ...]
     matrix: Matrix
     map: SeverityMap

@@ -94,6 +94,7 @@ _BESIDE = 30
 """Letters of a name beside a bar."""
 _UNKNOWN = [(math.nan, math.nan)]
 """The peaks of a record of which there is no row."""
+_NO_DEMAND = "The words below are of the study's records, which are no demand of a code."
 _HEAD = 26
 """Letters of a name above a column of the map; the table of the structures holds it whole."""
 
@@ -154,6 +155,7 @@ def _page(
         conclusion=conclusion_in_words(words_of_all, len(judged)),
         falls=falls_in_words(rows_of(ExpectedFallsRow, rows)),
         by_code=by_code,
+        no_demand=_NO_DEMAND if by_code else "",
         checks=checks,
         matrix=matrix(made, records, pulses),
         notices=(
