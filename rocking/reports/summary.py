@@ -94,7 +94,7 @@ _BESIDE = 30
 """Letters of a name beside a bar."""
 _UNKNOWN = [(math.nan, math.nan)]
 """The peaks of a record of which there is no row."""
-_NO_DEMAND = "The words below are of the study's records, which are no demand of a code."
+_NO_DEMAND = "These records are no demand of a code."
 _HEAD = 26
 """Letters of a name above a column of the map; the table of the structures holds it whole."""
 
