@@ -308,9 +308,21 @@ class Decision:
         one_run = any(each.kind is Kind.ENSEMBLE for each in self.tells)
         if one_run and low == high and self.word.badness <= Verdict.UNCERTAIN.badness:
             return "one run"  # but not where stacks add to it, or say worse
-        if math.isnan(self.share) and high == 1:
+        if self._is_a_least_share:
             return f"at least {percents(low)}" if low else ""
         return percents(low, high)
+
+    @property
+    def share_in_a_cell(self) -> str:
+        """The share as a cell with little room prints it: "≥ 31 %" where it is only the least."""
+        if self._is_a_least_share and self.share_in_words:
+            return f"≥ {percents(self.interval[0])}"
+        return self.share_in_words
+
+    @property
+    def _is_a_least_share(self) -> bool:
+        """Whether only the lower end of the share is known."""
+        return math.isnan(self.share) and self.interval[1] == 1
 
     @property
     def share_low(self) -> float:

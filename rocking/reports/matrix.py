@@ -76,7 +76,7 @@ def _cell(conclusion: Conclusion | None, records: int) -> Chip:
     decision = conclusion.verdict.decision
     untold = decision.word is Verdict.CANNOT_BE_TOLD
     if records > MOST_IN_WORDS:
-        share = decision.share_in_words.removesuffix("\u00a0%").replace("at least ", "≥")
+        share = decision.share_in_a_cell.removesuffix("\u00a0%").replace("≥ ", "≥")
         if records > MOST_WITH_ALL and decision.word.badness <= Verdict.PROBABLY_STANDS.badness:
             share = ""
         elif not share and records <= MOST_WITH_ALL:

@@ -156,8 +156,8 @@ def chip(verdict: Verdict, share: str = "", text: str = "") -> Chip:
 def cell_text(decision: "Decision | None") -> str:
     """Return a case in a map: its sign and the share behind it; "≥ 12 %" where that is only the least."""
     sign = LOOKS[decision.word if decision else Verdict.CANNOT_BE_TOLD][0]
-    share = decision.share_in_words if decision else ""
-    return f"{sign} {share.replace('at least', '≥')}".strip()
+    share = decision.share_in_a_cell if decision else ""
+    return f"{sign} {share}".strip()
 
 
 def band_text(result: Banded, to: str) -> str:

@@ -200,7 +200,7 @@ def test_a_value_with_which_it_does_not_stand_counts_as_overturning():
     assert with_value(wall, thickness, 0.1) is None
     found = rocking.strengthen(_records(6, 0.5), wall, "thicknesses", between=(0.1, 2.0), target=0.3)
     assert found.tried[0].share == 1.0
-    assert found.tried[0].governing == "what acts on it at rest"
+    assert found.tried[0].governing.startswith("what acts on it")
     assert found.tried[-1].share < 1.0
 
 

@@ -67,14 +67,14 @@ def test_a_size_that_does_not_go_with_the_others_is_refused(make, field, value):
             lambda: facade(floor_loads=(1e3,)),
             "floor_loads has 1 value, but must have 3, one for each storey",
         ),
-        (lambda: facade(thrust=1e6), "does not stand: what acts on it at rest turns it over"),
+        (lambda: facade(thrust=1e6), "turns it over"),
         (
             lambda: Facade((3.5, 3.0), (1.0, 0.35), 20e3, thrust=3e3),
-            r"does not stand with the crack at 3\.0.* m: what acts on it at rest .*; mend its loads",
+            r"does not stand with the crack at 3\.0.* m: what .*; mend its loads",
         ),
         (
             lambda: Facade((3.0, 3.0), (0.3, 1.0), 20e3),
-            r"does not stand.*: what acts on it at rest turns it over",
+            "turns it over",
         ),
         (lambda: facade(crack_storey=2, crack_height=1.0), "one crack is meant; give one of them"),
     ],

@@ -241,7 +241,7 @@ RODS = {"rod_diameter": 0.024, "rod_length": 6.0, "rod_yield_stress": 235e6}
 
 
 def test_rods_are_spread_over_the_metre():
-    """24 mm every 2 m, 6 m long: A = 452.389 mm², E A/(L s) = 7 540 kN/m per m, f_y A/s = 53.16 kN/m, T/s = 5 kN/m."""
+    """24 mm every 2 m, 6 m long: A = 452.389 mm², E A/(L s) is 7 540 kN/m², f_y A/s is 53.16 kN/m, T/s is 5 kN/m."""
     rods = replace(
         FRONT,
         tie_stiffness=0.0,
