@@ -72,4 +72,4 @@ def test_every_column_is_filled_somewhere(tmp_path: Path) -> None:
             columns |= {(path.name, name) for name in rows.fieldnames or ()}
             filled |= {(path.name, name) for row in rows for name, text in row.items() if text}
     assert columns - filled == EMPTY
-    assert len({name for name, _ in columns}) == 18
+    assert len({name for name, _ in columns}) == 19

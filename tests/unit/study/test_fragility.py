@@ -85,7 +85,7 @@ def test_a_table_beside_the_curves_fails_alone(tmp_path, monkeypatch):
     (fault,) = written[FailureRow]
     assert (fault.structure, fault.stage, _but_earthquakes(reasons)) == ("slender", "fault", [])
     said = "a fault of rocking in its rows of intensity_measures.csv (LinAlgError: Singular matrix)"
-    assert fault.message == f"{said}; please report it, with {log}."
+    assert fault.message.startswith(said) and fault.message.endswith(f", with {log}.")
     assert "LinAlgError: Singular matrix\n" in (tmp_path / "fragility.log").read_text()
     rows = {name: read_table(each, tmp_path / "out") for name, each in FRAGILITY_TABLES.items()}
     assert {name for name, held in rows.items() if not held} == {"intensity_measures"}
@@ -116,7 +116,7 @@ def test_a_fault_of_a_record_or_a_structure_costs_no_other_and_is_a_row(tmp_path
     written, reasons = write_fragility(records, study, tmp_path / "out", line_writer(log, "fragility"), log)
     assert [(each.record, each.structure) for each in written[FailureRow]] == [("made2", ""), ("", "stout")]
     for each, said in zip(written[FailureRow], ("ZeroDivisionError", "KeyError: 'planted'"), strict=True):
-        assert said in each.message and each.message.endswith(f"please report it, with {log}.")
+        assert said in each.message and each.message.endswith(f", with {log}.")
         assert said in log.read_text()
     assert _but_earthquakes(reasons) == []
     for each in FRAGILITY_TABLES.values():
@@ -155,9 +155,10 @@ def test_the_tables_tell_the_curves_and_a_bad_record_costs_no_other(tmp_path):
     records = _records(tmp_path, 3)
     (tmp_path / "made2.AT2").write_bytes(b"not a record")
     told: list[str] = []
-    written, (unused,) = write_fragility(
+    written, reasons = write_fragility(
         records, _study(), tmp_path / "out", lambda line, *_: told.append(line)
     )
+    (unused,) = _but_earthquakes(reasons)
     assert "made2" in unused and told == ["1 of 3: slender", "2 of 3: stout", "3 of 3: spire"]
     rows = {
         name: list(read_rows(each, tmp_path / "out" / each.table.file_name))
