@@ -81,7 +81,9 @@ class _Earthquake:
             told = int(short[1]) + (1900 if int(short[1]) > 30 else 2000)
         if told is None and instant is not None:
             told = datetime.fromtimestamp(instant, UTC).year
-        return cls(stem, ((number[1] or number[2]).lstrip("0") or "0") if number else "", told, instant, has_hour)
+        return cls(
+            stem, ((number[1] or number[2]).lstrip("0") or "0") if number else "", told, instant, has_hour
+        )
 
     def is_of(self, other: "_Earthquake") -> bool:
         """Whether both are one: of one time, or of one name that neither number, year nor day contradicts."""

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from scipy.signal import detrend
 
-from rocking.assessment.rows import VerdictRow
+from rocking.assessment.cracks import cracked
+from rocking.assessment.rows import ComparisonRow, VerdictRow
 from rocking.assessment.scene import load_scenes
 from rocking.motion.integration import integrate
 from rocking.pulses import extract_pulses
@@ -22,6 +23,7 @@ from rocking.reports.explore import BINS, drawings, explore_page, extremes
 from rocking.sine_pulse import predict_maximum
 from rocking.study.job import Study
 from rocking.study.settings import read_settings
+from rocking.tables import read_table
 from tests.unit.study.made_jobs import outcomes_in, worked
 from tests.workflow.write_study import write_study
 
@@ -112,8 +114,11 @@ def test_the_page_carries_the_rotation_that_was_integrated(content, study):
     _, assessed, records = study
     drawn = {name: each for name, each in content["records"][0]["cases"].items() if "history" in each}
     accelerograms, _ = assessed.open(records[0])
+    component = accelerograms[0].component
+    rows = read_table(ComparisonRow, study[0].parents[1] / records[0].id)
+    cracks = {row.structure: row.crack for row in rows if row.component == component}
     for name, each in drawn.items():
-        mechanism = assessed.structures[name].mechanism()
+        mechanism = cracked(assessed.structures[name], cracks[name]).mechanism()
         response = integrate(mechanism, accelerograms[0], assessed.assessment.tolerance)
         largest = np.abs(unpacked(each["history"])).max()
         # between the steps of a history the peak may lie a little higher; a fall is followed farther
