@@ -24,6 +24,8 @@ _RESERVED = re.compile(
     r"measure_scatter|pulse_shapes|screen|validate|compare|halves|strengthening)(\..*)?",
     re.I,
 )
+NAME_OF_RECORD = rf"(?!(?i:{_RESERVED.pattern})/)[A-Za-z0-9][A-Za-z0-9._-]*"
+"""The form of what may name the folder of a record, for patterns of paths."""
 _HASH = re.compile(r"[0-9a-f]{64}")
 _COMMIT = re.compile(r"[0-9a-f]{40}")
 _REPOSITORY = re.compile(r"(?!\.+/)[\w.-]+/(?!\.+$)[\w.-]+", re.ASCII)

@@ -18,7 +18,7 @@ from urllib.parse import quote
 
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import Heading
-from rocking.errors import RockingError
+from rocking.errors import ConfigurationError, RockingError
 from rocking.hashes import sha256_of
 from rocking.records.catalogue import CatalogueRecord, load_catalogue
 from rocking.study.contents import ContentHashes
@@ -125,17 +125,20 @@ all in their order."""
 
 
 def made_from(product: str, plan: Inputs) -> tuple[str, ...]:
-    """Return what a product is made from, a line of text for each thing; of each kind of product as many lines."""
+    """Return what a product is made from, a line of text for each thing."""
+    return (*of_kind(product.partition("/")[0], plan), *of_records(product, plan))
+
+
+def of_records(product: str, plan: Inputs) -> tuple[str, ...]:
+    """Return the last OF_RECORDS lines of `made_from`: the records of a product, their files, and those of the pool."""
     line = TABLE[product.partition("/")[0]]
     records = [plan.records[each] for each in records_of(product, plan)]
     files = _hashes(plan, records) if line.opens_records else {}
     pool = _pool(plan) if line.pool else {}
-    return (*_common(line, plan), _named("catalogue", *records), _told("files", files), _told("pool", pool))
+    return (_named("catalogue", *records), _told("files", files), _told("pool", pool))
 
 
-def number_made_from(kind: str, plan: Inputs) -> int:
-    """Return how many lines of text `made_from` gives for a kind of product; no record is looked at."""
-    return len(_common(TABLE[kind], plan)) + 3
+OF_RECORDS = 3
 
 
 def what_changed(before: Iterable[str], now: Iterable[str]) -> str:
@@ -145,9 +148,16 @@ def what_changed(before: Iterable[str], now: Iterable[str]) -> str:
 
 
 def inputs_of(product: str, plan: Inputs) -> dict[str, list[str]]:
-    """Return the files that a product is made from by what they are; those of records and of the pool are "files"."""
+    """Return the files that a product is made from by what they are; those of records and of the pool are "files".
+
+    Raises ConfigurationError for a record that the catalogue does not have.
+    """
     line = TABLE[product.partition("/")[0]]
     settings = plan.settings
+    if product.startswith("record/") and product.removeprefix("record/") not in plan.records:
+        raise ConfigurationError(
+            f"{settings.catalogue}: it has no record {product.removeprefix('record/')}; ask for one that it has."
+        )
     files: dict[str, None] = {}
     if line.opens_records:
         for record in records_of(product, plan):
@@ -172,8 +182,9 @@ def records_of(product: str, plan: Inputs) -> tuple[str, ...]:
     return plan.batches[name] if kind == "batch" else tuple(plan.records)
 
 
-def _common(line: Line, plan: Inputs) -> tuple[str, ...]:
-    """What all products of a kind are made from."""
+def of_kind(kind: str, plan: Inputs) -> tuple[str, ...]:
+    """Return the first lines of `made_from`: what all products of a kind are made from."""
+    line = TABLE[kind]
     settings = plan.settings
     reports = line.documents or settings.reports
     lines = [f"{key} = {_shown(key, value)}" for key, value in settings.told_in(line.settings).items()]

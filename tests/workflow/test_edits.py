@@ -243,7 +243,8 @@ def test_a_file_of_one_record_is_made_when_it_is_asked_for_by_its_name(finished,
     assert study.planned("results/good_2/comparison.csv") == []
     (study.results / "good_2" / "comparison.csv").unlink()
     assert study.planned("results/good_2/comparison.csv") == ["record"]
-    assert "MissingRuleException" in study.run("--dry-run", "results/good_9/comparison.csv", status=1)
+    told = study.run("--dry-run", "results/good_9/comparison.csv", status=1)
+    assert "records/catalogue.csv: it has no record good_9" in told
 
 
 def test_all_is_computed_anew_where_that_is_asked_for(finished, tmp_path) -> None:

@@ -4,7 +4,7 @@
 rule checks:
     input:
         **lists_of("checks"),
-        records=OF_RECORDS,
+        records=OUTCOMES,
     output:
         files_of("checks"),
     log:

@@ -1,7 +1,6 @@
 """What is studied: settings, records and structures, checked before the first job starts; and what rules are made of."""
 
 import os
-import re
 import time
 from functools import cache
 from pathlib import Path
@@ -11,9 +10,10 @@ from rocking.study import close_doors
 close_doors()  # before the imports that open them
 
 from rocking.hashes import sha256_of
+from rocking.records.catalogue import NAME_OF_RECORD
 from rocking.study.apart import run_apart
 from rocking.study.flow import workflow_folder
-from rocking.study.made_from import inputs_of, made_from, number_made_from
+from rocking.study.made_from import OF_RECORDS, inputs_of, of_kind, of_records
 from rocking.study.outputs import log_of, outputs_of
 from rocking.study.plan import check_config_file, config_file, make_plan
 from rocking.study.run import begin, end
@@ -38,11 +38,12 @@ RESULTS = SETTINGS.results
 
 
 wildcard_constraints:
-    record="|".join(map(re.escape, PLAN.records)),
-    batch="|".join(PLAN.batches),
+    # Not the names themselves: snakemake goes through the text of a pattern for each file of each job.
+    record=NAME_OF_RECORD,
+    batch=r"\d+_of_\d+",
 
 
-MADE_FROM = cache(lambda product: made_from(product, PLAN))
+RECORDS_OF = cache(lambda product: of_records(product, PLAN))
 
 
 def lists_of(product):
@@ -67,9 +68,9 @@ def params_of(product):
     """What a product is made from, each thing by itself: snakemake tells those that changed."""
 
     def thing(number):
-        return lambda wildcards: MADE_FROM(product.format(**wildcards))[number]
+        return lambda wildcards: RECORDS_OF(product.format(**wildcards))[number]
 
-    return map(thing, range(number_made_from(product.partition("/")[0], PLAN)))
+    return [*of_kind(product.partition("/")[0], PLAN), *map(thing, range(OF_RECORDS))]
 
 
 def files_of(product):
@@ -112,7 +113,7 @@ def beside(product):
     )
 
 
-OF_RECORDS = list(dict.fromkeys(map(str, PLAN.outcomes().values())))
+OUTCOMES = list(dict.fromkeys(map(str, PLAN.outcomes().values())))
 TARGETS = [
     str(path)
     for product in PLAN.products

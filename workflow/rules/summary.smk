@@ -4,7 +4,7 @@
 rule summary:
     input:
         **lists_of("summary"),
-        records=OF_RECORDS,
+        records=OUTCOMES,
         checks=beside("checks"),
         fragility=beside("fragility"),
         trade=beside("trade"),

@@ -9,7 +9,16 @@ import pytest
 
 from rocking.errors import ConfigurationError
 from rocking.study import made_from as module
-from rocking.study.made_from import TABLE, inputs_of, made_from, number_made_from, versions, what_changed
+from rocking.study.made_from import (
+    OF_RECORDS,
+    TABLE,
+    inputs_of,
+    made_from,
+    of_kind,
+    of_records,
+    versions,
+    what_changed,
+)
 from rocking.study.settings import StudyDesign
 from rocking.study.workspace import write_catalogue as write_catalogue_of_folder
 from tests.workflow.edits import (
@@ -69,7 +78,8 @@ def test_each_product_has_as_many_texts_as_its_kind_and_no_two_are_one(study) ->
     """Snakemake compares params as a set."""
     made = plan()
     for product, texts in _texts().items():
-        assert len(texts) == len(set(texts)) == number_made_from(product.partition("/")[0], made)
+        assert len(texts) == len(set(texts)) == len(of_kind(product.partition("/")[0], made)) + OF_RECORDS
+        assert texts[-OF_RECORDS:] == of_records(product, made)
 
 
 def test_a_text_names_what_it_says_and_nothing_of_what_a_study_says_of_itself(study) -> None:
