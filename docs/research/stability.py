@@ -26,7 +26,7 @@ from docs.research import scores, sites
 from docs.research.report import Tables, Target
 from docs.research.sites import Records
 from rocking.assessment.assessor import Assessor
-from rocking.assessment.case import StationResult
+from rocking.assessment.case import PeriodResult
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack, counting_cracks, slides_first
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.ensemble import drawn, lattice
@@ -156,9 +156,7 @@ def stability_trials(
             )
 
 
-def in_study(
-    scene: Scene, components: Sequence[Accelerogram], vertical: Accelerogram | None
-) -> StationResult:
+def in_study(scene: Scene, components: Sequence[Accelerogram], vertical: Accelerogram | None) -> PeriodResult:
     """Return what a study says of a scene, with all that it doubts; the reserve is not sought."""
     settings = AssessmentSettings()
     settings = replace(settings, ensemble=replace(settings.ensemble, reserve=0.0))

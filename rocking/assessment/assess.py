@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from rocking.assessment.assessor import Assessor
-from rocking.assessment.case import StationResult
+from rocking.assessment.case import PeriodResult
 from rocking.assessment.cracks import FollowedCrack, cracked, cracks
 from rocking.assessment.methods import Method, ratio_in_words
 from rocking.assessment.scene import on_the_ground
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class StructureAssessment(StationResult, Drawn):
+class StructureAssessment(PeriodResult, Drawn):
     """The result of one structure: the verdict with the ensemble over all uncertain inputs, directions included.
 
     `rotation_ratio` is the largest rotation over the critical one of the case as given, of the worse
@@ -219,15 +219,18 @@ def assess(
     fidelity: Literal["full", "contact"] = "contact" if settings.fidelity == "contact" else "full"
     settings = replace(settings, fidelity=fidelity, ensemble=varied)
     result = Assessor(settings).assess("", records, on_the_ground({"structure": structure}), vertical)
-    (station,) = result.stations
-    over_all = [*station.cases.values(), *([station.directions] if station.directions else [])]
+    (period_result,) = result.periods
+    over_all = [
+        *period_result.cases.values(),
+        *([period_result.directions] if period_result.directions else []),
+    ]
     for case in over_all:
         if case.failure:
             raise RockingError(case.failure.message)
     for _, failure in result.failures:
         if failure.stage == "directions":
             raise RecordError(failure.message)
-    return StructureAssessment(station.scene, station.cases, station.directions)
+    return StructureAssessment(period_result.scene, period_result.cases, period_result.directions)
 
 
 def _checked_records(record: object) -> list[Accelerogram]:

@@ -9,10 +9,10 @@ from typing import Protocol, TypeVar
 from rocking.assessment.case import (
     CaseResult,
     Failure,
+    PeriodResult,
     Prediction,
     RecordResult,
     SceneResult,
-    StationResult,
 )
 from rocking.assessment.cracks import cracked
 from rocking.assessment.inputs import CaseInputs, Inputs, PairInputs, PulseInputs, ReserveInputs
@@ -176,7 +176,7 @@ class Assessor:
         grounds = components
         failures: list[tuple[str, Failure]] = []
         shakings: dict[Carrier | None, _Shaking] = {}
-        stations: dict[tuple[str, Carrier | None], StationResult] = {}
+        periods: dict[tuple[str, Carrier | None], PeriodResult] = {}
         wanted: dict[Carrier | None, list[Scene]] = {None: list(scenes.values())}
         for scene in scenes.values():
             for carrier in scene.place.supports:
@@ -189,30 +189,32 @@ class Assessor:
                 shaking = shakings[support] = self._with_pair(shaking, vertical, failures)
             except RockingError as error:
                 names = list(by_name(grounds))
-                stations |= {(each.name, support): _lost(each, support, names, error) for each in carried}
+                periods |= {(each.name, support): _lost(each, support, names, error) for each in carried}
                 continue
             if support is not None:
                 predictions = self.predict(shaking.components, {each.name: each for each in carried})
             for scene in carried:
                 try:
                     with one_structure(scene.name):
-                        station = self._station(scene, shaking, predictions)
+                        period_result = self._period_result(scene, shaking, predictions)
                 except RockingError as error:
-                    station = _lost(scene, support, list(by_name(shaking.components)), error)
+                    period_result = _lost(scene, support, list(by_name(shaking.components)), error)
                 if support is None:
-                    station = self._with_reserve(station, shaking, failures)
-                stations[scene.name, support] = station
+                    period_result = self._with_reserve(period_result, shaking, failures)
+                periods[scene.name, support] = period_result
 
         results = {}
         for scene in scenes.values():
             along = [
-                stations[scene.name, each]
+                periods[scene.name, each]
                 for each in (None, *scene.place.supports)
-                if (scene.name, each) in stations
+                if (scene.name, each) in periods
             ]
-            with_members = [station for station in along if station.support and station.decisive]
+            with_members = [
+                period_result for period_result in along if period_result.support and period_result.decisive
+            ]
             if with_members:
-                worst = max(with_members, key=lambda station: station.severity)
+                worst = max(with_members, key=lambda period_result: period_result.severity)
                 along[along.index(worst)] = self._with_reserve(worst, shakings[worst.support], failures)
             if along:
                 results[scene.name] = SceneResult(scene, tuple(along))
@@ -234,19 +236,19 @@ class Assessor:
             return result
         scenes = {}
         for name, of_scene in result.scenes.items():
-            stations = []
-            for station in of_scene.stations:
-                components = result.components_under(station)
+            periods = []
+            for period_result in of_scene.periods:
+                components = result.components_under(period_result)
                 cases = {}
-                for component, case in station.cases.items():
+                for component, case in period_result.cases.items():
                     try:
                         with one_structure(name):
-                            cases[component] = self._of_governing(station, case, components[component])
+                            cases[component] = self._of_governing(period_result, case, components[component])
                     except RockingError as error:
                         failure = Failure("comparison", str(error))
                         cases[component] = replace(case, failures=(*case.failures, failure))
-                stations.append(replace(station, cases=cases))
-            scenes[name] = replace(of_scene, stations=tuple(stations))
+                periods.append(replace(period_result, cases=cases))
+            scenes[name] = replace(of_scene, periods=tuple(periods))
         return replace(result, scenes=scenes, durations=dict(self.clock.durations))
 
     # The motion -----------------------------------------------------------------------------------------
@@ -279,7 +281,7 @@ class Assessor:
 
     # One scene ------------------------------------------------------------------------------------------
 
-    def _station(self, scene: Scene, shaking: _Shaking, predictions: Predictions) -> StationResult:
+    def _period_result(self, scene: Scene, shaking: _Shaking, predictions: Predictions) -> PeriodResult:
         """The result of one scene at one place."""
         cases = {}
         for name, component in by_name(shaking.components).items():
@@ -296,19 +298,21 @@ class Assessor:
                 motion=pair, structure=scene.structure, settings=self.settings, bounces=bounces
             )
             directions = replace(self._case(inputs), structure=scene.name)
-        return StationResult(scene, cases, directions, shaking.support)
+        return PeriodResult(scene, cases, directions, shaking.support)
 
-    def _of_governing(self, station: StationResult, case: CaseResult, component: Component) -> CaseResult:
+    def _of_governing(
+        self, period_result: PeriodResult, case: CaseResult, component: Component
+    ) -> CaseResult:
         """The case with the methods compared on the crack that governs, so that a row of a table speaks of one crack.
 
         The case itself, which is of the structure's own crack, then stands beside it.
         """
         if case.answer is None:
             return case
-        ensembles = case.ensembles or station.ensembles
+        ensembles = case.ensembles or period_result.ensembles
         crack = ensembles.governing.description if ensembles else ""
-        body = cracked(station.scene.structure, crack)
-        own, other = station.scene.structure.mechanism(), body.mechanism()
+        body = cracked(period_result.scene.structure, crack)
+        own, other = period_result.scene.structure.mechanism(), body.mechanism()
         # The hinge that statics seeks and the candidate at the same height are computed apart.
         same = isclose(own.uplift_multiplier, other.uplift_multiplier, rel_tol=1e-9)
         if same and isclose(own.critical_rotation, other.critical_rotation, rel_tol=1e-9):
@@ -359,40 +363,40 @@ class Assessor:
         return self._remembered(CaseResult, inputs, compute_case, lambda case: case.kept)
 
     def _with_reserve(
-        self, station: StationResult, shaking: _Shaking, failures: list[tuple[str, Failure]]
-    ) -> StationResult:
-        """The station with the reserve of the crack that governs the case that decides.
+        self, period_result: PeriodResult, shaking: _Shaking, failures: list[tuple[str, Failure]]
+    ) -> PeriodResult:
+        """The result with the reserve of the crack that governs the case that decides.
 
         With fidelity: auto, which needs the verdict alone, no reserve is computed, nor where nothing can overturn the
         structure, nor where it slides first. Why there is none is added to the failures.
         """
         try:
-            with one_structure(station.structure):
-                return self._reserved(station, shaking)
+            with one_structure(period_result.structure):
+                return self._reserved(period_result, shaking)
         except RockingError as error:
-            component = station.decisive.component if station.decisive else ""
-            failures.append((component, Failure("reserve", f"{station.structure}: {error}")))
-            return station
+            component = period_result.decisive.component if period_result.decisive else ""
+            failures.append((component, Failure("reserve", f"{period_result.structure}: {error}")))
+            return period_result
 
-    def _reserved(self, station: StationResult, shaking: _Shaking) -> StationResult:
-        """The station with its reserve, where it has one. Raises RockingError where it cannot be found."""
-        case = station.decisive
+    def _reserved(self, period_result: PeriodResult, shaking: _Shaking) -> PeriodResult:
+        """The result with its reserve, where it has one. Raises RockingError where it cannot be found."""
+        case = period_result.decisive
         ensemble = self.settings.ensemble
         if case is None or case.ensembles is None or self.settings.fidelity == "auto" or not ensemble.reserve:
-            return station
+            return period_result
         # The factors of a mechanism would say nothing of what slides first, or falls in contact dynamics alone.
-        if not isnan(case.slides_at) or station.falls_in_stacks_alone:
-            return station
-        structure = station.scene.structure
+        if not isnan(case.slides_at) or period_result.falls_in_stacks_alone:
+            return period_result
+        structure = period_result.scene.structure
         description = case.ensembles.governing.description
         if not governing_crack(structure, description).mechanism.can_overturn:
-            return station
-        of_pair = case is station.directions and shaking.pair is not None
+            return period_result
+        of_pair = case is period_result.directions and shaking.pair is not None
         motion = shaking.pair if of_pair else by_name(shaking.components)[case.component].of_ground
         assert motion is not None
 
         inputs = ReserveInputs(motion=motion, structure=structure, crack=description, settings=ensemble)
-        return station.with_reserve(self._remembered(Reserve, inputs, compute_reserve))
+        return period_result.with_reserve(self._remembered(Reserve, inputs, compute_reserve))
 
     # What is kept ---------------------------------------------------------------------------------------
 
@@ -418,11 +422,11 @@ class Assessor:
         return result
 
 
-def _lost(scene: Scene, support: Carrier | None, names: Sequence[str], error: RockingError) -> StationResult:
+def _lost(scene: Scene, support: Carrier | None, names: Sequence[str], error: RockingError) -> PeriodResult:
     """The result of a scene to whose support the record cannot be taken: why. names: of the components."""
     failure = Failure("responses", str(error))
     cases = {name: CaseResult(structure=scene.name, component=name, failures=(failure,)) for name in names}
-    return StationResult(scene, cases, support=support)
+    return PeriodResult(scene, cases, support=support)
 
 
 def with_histories(
@@ -436,19 +440,19 @@ def with_histories(
     """
     scenes = {}
     for name, scene in result.scenes.items():
-        stations = []
-        for station in scene.stations:
-            components = result.components_under(station)
-            cases = dict(station.cases)
-            for component, case in station.cases.items():
-                if shown is not None and (component, name, station.support_period_s) not in shown:
+        periods = []
+        for period_result in scene.periods:
+            components = result.components_under(period_result)
+            cases = dict(period_result.cases)
+            for component, case in period_result.cases.items():
+                if shown is not None and (component, name, period_result.support_period_s) not in shown:
                     continue
                 # The case itself has stood this run; without its history it is not drawn.
                 with suppress(FaultError), one_structure(name):
-                    body = cracked(station.scene.structure, case.crack)
+                    body = cracked(period_result.scene.structure, case.crack)
                     cases[component] = _with_history(case, body, components[component], tolerance)
-            stations.append(replace(station, cases=cases))
-        scenes[name] = replace(scene, stations=tuple(stations))
+            periods.append(replace(period_result, cases=cases))
+        scenes[name] = replace(scene, periods=tuple(periods))
     return replace(result, scenes=scenes)
 
 

@@ -20,7 +20,7 @@ from rocking.assessment.cracks import (
 )
 from rocking.assessment.decide import BEYOND, Decision, Facts, Severity, Verdict, decide, severity
 from rocking.assessment.ensemble import NO_MEMBERS, Ensemble
-from rocking.assessment.fidelity import Answer, Estimate
+from rocking.assessment.fidelity import Estimate, MethodAnswer
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.motions import Carrier, Component, ComponentPulses, by_name, on_support
 from rocking.assessment.reserve import Reserve
@@ -117,7 +117,7 @@ class CaseResult:
     prediction: Prediction | None = None
     responses: Mapping[Method, Response] = field(default_factory=dict)
     check: ModelCheck = UNKNOWN
-    answer: Answer | None = None
+    answer: MethodAnswer | None = None
     ensembles: CrackEnsembles | None = None
     reserve: Reserve | None = None
     overturning_estimate: Estimate | None = None
@@ -231,7 +231,7 @@ class CaseResult:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class StationResult:
+class PeriodResult:
     """The result of one structure under one record, all components and directions considered.
 
     The case over all directions decides, where it has an ensemble. Otherwise each component is decided, with those that
@@ -348,7 +348,7 @@ class StationResult:
         by_mechanisms = decide(replace(case.facts(self.scene.structure), stacks=None, doubts=())).word
         return self.decision.word.badness >= max(Verdict.UNCERTAIN.badness, by_mechanisms.badness + 1)
 
-    def with_reserve(self, reserve: Reserve | None) -> "StationResult":
+    def with_reserve(self, reserve: Reserve | None) -> "PeriodResult":
         """Return the result with the reserve of the case that decides."""
         case = self.decisive
         if case is None:
@@ -468,26 +468,32 @@ class SceneResult:
     """
 
     scene: Scene
-    stations: tuple[StationResult, ...]
+    periods: tuple[PeriodResult, ...]
 
     @property
-    def periods(self) -> list[float]:
+    def first_periods(self) -> list[float]:
         """Periods of the support, s; 0 is the ground."""
-        return [station.support_period_s or 0.0 for station in self.stations]
+        return [period_result.support_period_s or 0.0 for period_result in self.periods]
 
     @property
-    def worst(self) -> StationResult:
+    def worst(self) -> PeriodResult:
         """The result of the period that is worst; the first among equals.
 
         The result on the ground is there for comparison only, and does not decide for a structure on a support.
         """
-        carried = [station for station in self.stations if station.support_period_s]
-        return max(carried or self.stations, key=lambda station: station.severity)
+        carried = [period_result for period_result in self.periods if period_result.support_period_s]
+        return max(carried or self.periods, key=lambda period_result: period_result.severity)
 
     @property
     def sentence(self) -> str:
         """The verdicts over the periods of a support: "parapet on roof stands on the ground, overturns …"."""
-        verdicts = dict(zip(self.periods, (station.decision.word for station in self.stations), strict=True))
+        verdicts = dict(
+            zip(
+                self.first_periods,
+                (period_result.decision.word for period_result in self.periods),
+                strict=True,
+            )
+        )
         return f"{self.scene.name} on {self.scene.place.name} {periods_in_words(verdicts)}"
 
 
@@ -513,14 +519,16 @@ class RecordResult:
             return self.components
         return on_support(support, self.components, self.floors[support])
 
-    def components_under(self, station: StationResult) -> dict[str, Component]:
+    def components_under(self, period_result: PeriodResult) -> dict[str, Component]:
         """Return the components as a structure meets them, by the names of the components."""
-        return by_name(self.components_on(station.support if station.support in self.floors else None))
+        return by_name(
+            self.components_on(period_result.support if period_result.support in self.floors else None)
+        )
 
     @cached_property
-    def stations(self) -> list[StationResult]:
+    def periods(self) -> list[PeriodResult]:
         """The results of all scenes, each along the axis of its place."""
-        return [station for scene in self.scenes.values() for station in scene.stations]
+        return [period_result for scene in self.scenes.values() for period_result in scene.periods]
 
     @property
     def carried(self) -> list[SceneResult]:
@@ -528,15 +536,15 @@ class RecordResult:
         return [each for each in self.scenes.values() if each.scene.place.supports]
 
     @cached_property
-    def worst_first(self) -> list[StationResult]:
+    def worst_first(self) -> list[PeriodResult]:
         """The results of all scenes, the worst first."""
-        return sorted(self.stations, key=lambda station: station.severity, reverse=True)
+        return sorted(self.periods, key=lambda period_result: period_result.severity, reverse=True)
 
     @property
-    def worst_periods(self) -> list[StationResult]:
+    def worst_periods(self) -> list[PeriodResult]:
         """The result of each scene, of one on a support that of the worst period; the worst first."""
         worst = (each.worst for each in self.scenes.values())
-        return sorted(worst, key=lambda station: station.severity, reverse=True)
+        return sorted(worst, key=lambda period_result: period_result.severity, reverse=True)
 
     @property
     def names(self) -> list[str]:
@@ -552,17 +560,17 @@ class RecordResult:
     def responses(self) -> dict[tuple[str, str, float | None], Response]:
         """The integrations of the mechanisms under the record, by component, structure and period of its support."""
         return {
-            (component, station.structure, station.support_period_s): case.response
+            (component, period_result.structure, period_result.support_period_s): case.response
             for component in self.names
-            for station, case in self.cases(component)
+            for period_result, case in self.cases(component)
             if case.response is not None
         }
 
-    def cases(self, component: str) -> list[tuple[StationResult, CaseResult]]:
+    def cases(self, component: str) -> list[tuple[PeriodResult, CaseResult]]:
         """Return the cases of one component, or of `BOTH_COMPONENTS`, in the order of the structures."""
         if component == BOTH_COMPONENTS:
-            return [(each, each.directions) for each in self.stations if each.directions is not None]
-        return [(each, each.cases[component]) for each in self.stations if component in each.cases]
+            return [(each, each.directions) for each in self.periods if each.directions is not None]
+        return [(each, each.cases[component]) for each in self.periods if component in each.cases]
 
 
 def _without_history(response: Response) -> Response:

@@ -179,7 +179,7 @@ def from_nudged(rotation_ratios: np.ndarray) -> dict[str, float]:
 
 
 @dataclass(frozen=True)
-class Answer:
+class MethodAnswer:
     """The method that settled a case, its outcome, and why no dearer one followed. response: of an integration."""
 
     method: Method
@@ -205,7 +205,7 @@ def cheapest_answer(
     history: bool = False,
     ensemble_follows: bool = False,
     fits: Mapping[Tier, TierFit] | None = None,
-) -> Answer:
+) -> MethodAnswer:
     """Return the first answer that settles whether `mechanism` overturns; the mechanism's own where nothing else does.
 
     risk: largest probability of the opposite outcome; 0: no estimate is trusted. tolerance, history: of the
@@ -215,7 +215,7 @@ def cheapest_answer(
     if stays_at_rest(mechanism, record, vertical):
         reason = "the ground never reaches the uplift acceleration"
         still = Response(0.0, Outcome.NO_UPLIFT)
-        return Answer(Method.NOTHING_TO_INTEGRATE, Outcome.NO_UPLIFT, reason, still)
+        return MethodAnswer(Method.NOTHING_TO_INTEGRATE, Outcome.NO_UPLIFT, reason, still)
     tiers = {Tier.PEAK_VELOCITY: (Method.PEAK_VELOCITY, "p PGV/(gλ)")}
     if ensemble_follows:
         tiers[Tier.BLOCK_AT_FIVE_SCALES] = (Method.BLOCK_ON_RECORD, f"the block at {len(NUDGES)} scales")
@@ -223,12 +223,12 @@ def cheapest_answer(
         if (estimate := estimated(tier, mechanism, record, fits)) is not None:
             reason = f"{name} settles it at a risk of {100 * risk:g} %"
             if estimate.high <= risk:
-                return Answer(method, Outcome.ROCKS, reason)
+                return MethodAnswer(method, Outcome.ROCKS, reason)
             if estimate.low >= 1 - risk and tier is Tier.BLOCK_AT_FIVE_SCALES:
-                return Answer(method, Outcome.OVERTURNS, reason)
-    whole = integrate(mechanism, record, tolerance, history=history, vertical=vertical, fragility=True)
+                return MethodAnswer(method, Outcome.OVERTURNS, reason)
+    whole = integrate(mechanism, record, tolerance, history=history, vertical=vertical, repeat_fragile=True)
     reason = f"{'the block' if ensemble_follows else 'the peak velocity'} does not settle it"
-    return Answer(Method.MECHANISM_ON_RECORD, whole.outcome, reason, whole)
+    return MethodAnswer(Method.MECHANISM_ON_RECORD, whole.outcome, reason, whole)
 
 
 def estimated(

@@ -23,7 +23,7 @@ from rocking.assessment.cracks import (
     sliding_first,
 )
 from rocking.assessment.decide import Verdict, decide
-from rocking.assessment.fidelity import Answer, Tier, cheapest_answer, estimated
+from rocking.assessment.fidelity import MethodAnswer, Tier, cheapest_answer, estimated
 from rocking.assessment.inputs import CaseInputs, PairInputs, PulseInputs, ReserveInputs
 from rocking.assessment.ladder import reserve
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
@@ -127,7 +127,7 @@ def _under_component(inputs: CaseInputs, clock: Clock) -> CaseResult:
                 responses[Method.MECHANISM_ON_RECORD] = answer.response
         else:
             whole = responses[Method.MECHANISM_ON_RECORD]
-            answer = Answer(Method.MECHANISM_ON_RECORD, whole.outcome, "", whole)
+            answer = MethodAnswer(Method.MECHANISM_ON_RECORD, whole.outcome, "", whole)
         check = UNKNOWN
         if answer.response is not None:
             check = check_model(structure, answer.response, record, vertical)
@@ -217,7 +217,7 @@ def _integrated(mechanism: Mechanism, inputs: CaseInputs, clock: Clock) -> dict[
         settings.tolerance,
         history=True,
         vertical=vertical,
-        fragility=True,
+        repeat_fragile=True,
     )
     runs = {Method.MECHANISM_ON_RECORD: follow_as_given}
     follow_simpler = partial(integrate, tolerance=strict(settings.tolerance))
@@ -231,7 +231,7 @@ def _integrated(mechanism: Mechanism, inputs: CaseInputs, clock: Clock) -> dict[
     return responses
 
 
-def _cheapest(inputs: CaseInputs, ensemble_follows: bool) -> Answer:
+def _cheapest(inputs: CaseInputs, ensemble_follows: bool) -> MethodAnswer:
     """Return what settles the verdict with the least work, at the settings' risk of the opposite outcome.
 
     Where other cracks may form, nothing cheaper than the mechanism settles it unless all of them rest, or stand by
@@ -269,7 +269,7 @@ def _cheapest(inputs: CaseInputs, ensemble_follows: bool) -> Answer:
         tolerance=settings.tolerance,
         vertical=vertical,
         history=True,
-        fragility=True,
+        repeat_fragile=True,
     )
     return replace(answer, outcome=whole.outcome, response=whole)
 

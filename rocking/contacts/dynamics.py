@@ -165,7 +165,7 @@ def _with_history(response: StackResponse, kept: np.ndarray, step: float, every:
     return replace(response, times=times, places=states[..., :3], velocities=states[..., 3:])
 
 
-def _ground(motion: Accelerogram, vertical: Accelerogram | None) -> kernel.Ground:
+def _ground(motion: Accelerogram, vertical: Accelerogram | None) -> kernel.ContactGround:
     """The motion of the ground as the kernel takes it."""
     components = [motion.acceleration]
     if vertical is not None:
@@ -177,7 +177,7 @@ def _ground(motion: Accelerogram, vertical: Accelerogram | None) -> kernel.Groun
         components.append(vertical.acceleration)
     samples = np.array(components)
     gains = (samples[:, 1:] + samples[:, :-1]) / 2 * motion.time_step
-    return kernel.Ground(samples, np.pad(np.cumsum(gains, axis=1), ((0, 0), (1, 0))), motion.time_step)
+    return kernel.ContactGround(samples, np.pad(np.cumsum(gains, axis=1), ((0, 0), (1, 0))), motion.time_step)
 
 
 def _strong(stack: Stack, motion: Accelerogram, step: float) -> tuple[int, int]:

@@ -70,7 +70,7 @@ class Acting(NamedTuple):
     stops: np.ndarray
 
 
-class Ground(NamedTuple):
+class ContactGround(NamedTuple):
     """acceleration: (c, n) samples of the horizontal, and perhaps the vertical, component, m/s². velocity: (c, n) its
     integral from the first one, m/s. spacing: of the samples, s.
     """

@@ -18,7 +18,7 @@ _NRML = "http://openquake.org/xmlns/nrml/0.5"
 _COLUMNS = ("probability", "probability_low", "probability_high", "lognormal")
 
 
-class Curve(Protocol):
+class FragilityCurve(Protocol):
     """What these files hold of a Fragility."""
 
     @property
@@ -39,7 +39,7 @@ class Curve(Protocol):
     def dispersion(self) -> float: ...
 
 
-def nrml(curves: Mapping[str, Curve], lognormal: bool) -> bytes:
+def nrml(curves: Mapping[str, FragilityCurve], lognormal: bool) -> bytes:
     """Return the fragility model of curves of one threshold, by the names of their classes, NRML 0.5.
 
     Levels where nothing was tried are left out. A lognormal of median m and dispersion β has the mean m exp(β²/2) and
@@ -75,7 +75,9 @@ def _written(root: ElementTree.Element) -> bytes:
     return b"<?xml version='1.0' encoding='utf-8'?>\n" + content + b"\n"
 
 
-def _add_function(model: ElementTree.Element, curve: Curve, name: str, state: str, lognormal: bool) -> None:
+def _add_function(
+    model: ElementTree.Element, curve: FragilityCurve, name: str, state: str, lognormal: bool
+) -> None:
     if not name or UNPRINTABLE.search(name):
         raise ConfigurationError(f"name is {name!r}, but must be printable and not empty.")
     imt, scale = of_openquake(curve.measure)
@@ -102,7 +104,7 @@ def _add_function(model: ElementTree.Element, curve: Curve, name: str, state: st
         poes.text = " ".join(f"{each:.9g}" for each in curve.probability[tried])
 
 
-def fragility_csv(curve: Curve) -> bytes:
+def fragility_csv(curve: FragilityCurve) -> bytes:
     """Return the curve as a CSV; a level where nothing was tried has empty cells."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")

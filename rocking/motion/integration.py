@@ -14,7 +14,15 @@ import numpy as np
 from rocking.errors import MotionError
 from rocking.motion import linear_kernel, nonlinear_kernel, runs
 from rocking.motion.response import Response
-from rocking.motion.table import Forcing, GroundMotion, SideTable, Table, forcing_of, linear_table, table_of
+from rocking.motion.table import (
+    Forcing,
+    GroundMotion,
+    MechanismTable,
+    SideTable,
+    forcing_of,
+    linear_table,
+    table_of,
+)
 from rocking.quantities import GRAVITY, finite, kind_of, within
 from rocking.records.accelerogram import Accelerogram
 from rocking.remarks import Kind, Remark
@@ -22,13 +30,13 @@ from rocking.structures import Outcome
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
 
 
-class Structure(Protocol):
+class HasMechanism(Protocol):
     """Anything that reduces to a Mechanism."""
 
     def mechanism(self) -> Mechanism: ...
 
 
-Rocking = Mechanism | EquivalentBlock | Structure
+Rocking = Mechanism | EquivalentBlock | HasMechanism
 Start = tuple[float, float, int]
 """Magnitude of the rotation, its rate (> 0 outward), and the side; side 0 is rest."""
 
@@ -69,7 +77,7 @@ class Runs(NamedTuple):
         return Runs(*(None if each is None else each[places] for each in self))  # type: ignore[arg-type]
 
 
-class Course(NamedTuple):
+class RunOptions(NamedTuple):
     """How runs begin and end: from what state, whether each ends where its word is settled, and where states go.
 
     log: (k, 3), filled with time, arc and its rate, or without lines.
@@ -80,7 +88,7 @@ class Course(NamedTuple):
     log: np.ndarray = np.empty((0, 3))
 
 
-FROM_REST = Course()
+FROM_REST = RunOptions()
 
 
 def integrate(
@@ -91,8 +99,8 @@ def integrate(
     history: bool = False,
     vertical: Accelerogram | None = None,
     sensitivity: bool = False,
-    fragility: bool = False,
-    fragility_change: float = 0.01,
+    repeat_fragile: bool = False,
+    fragile_change: float = 0.01,
     initial_rotation: float = 0.0,
     initial_velocity: float = 0.0,
 ) -> Response:
@@ -122,10 +130,10 @@ def integrate(
         Vertical acceleration ü_v, sample by sample as the horizontal motion; gravity becomes g + ü_v.
     sensitivity : bool, default False
         Whether d ln φ_max / d ln a is found as well, and whether the verdict is fragile.
-    fragility : bool, default False
+    repeat_fragile : bool, default False
         Whether to find if the verdict is `fragile`; a run that is repeats itself at 1e-9, the tolerance that
         the response then states.
-    fragility_change : float, default 0.01
+    fragile_change : float, default 0.01
         Relative change of the ground motion that a verdict which is not fragile must bear, in [0, 0.5].
     initial_rotation : float, default 0.0
         Rotation when the motion begins, rad, signed.
@@ -164,10 +172,10 @@ def integrate(
     forcing = forcing_of(motion, vertical)
     reduced = reduce(structure)
     response = _response(reduced, forcing, tolerance, start, history)
-    if not (sensitivity or fragility):
+    if not (sensitivity or repeat_fragile):
         return response
 
-    change = within(MotionError, "fragility_change", fragility_change, 0, 0.5)
+    change = within(MotionError, "fragile_change", fragile_change, 0, 0.5)
     fragile = _is_fragile(response, reduced, forcing, tolerance, start, change)
     if fragile and response.tolerance > strict(tolerance):
         response = _response(reduced, forcing, strict(tolerance), start, history)
@@ -214,7 +222,7 @@ def follow(
     forcing: Forcing,
     several: Runs,
     tolerance: float,
-    course: Course = FROM_REST,
+    course: RunOptions = FROM_REST,
 ) -> tuple[Sequence[SideTable | EquivalentBlock], np.ndarray]:
     """Follow a structure once for each of several runs: what measures its sides, and the results (m, 9) of the kernel.
 
@@ -233,7 +241,7 @@ def follow(
     eta[:] = own if several.restitution is None else several.restitution
     start, settle, log = course
     arc, speed = _initial_arc(table, start) if start[2] else (0.0, 0.0)
-    begin = nonlinear_kernel.Motion(0, 0.0, arc, speed, start[2], arc, abs(speed))
+    begin = nonlinear_kernel.RockingState(0, 0.0, arc, speed, start[2], arc, abs(speed))
     how = STEP_SHARE * tolerance, settle, nonlinear_kernel.memory(kernel.ties), np.empty((2, 2)), log
     nonlinear_kernel.rock(kernel, forcing.ground, several.horizontal, lift, eta, begin, *how, results)
     return table.sides, results
@@ -243,7 +251,7 @@ def follow_blocks(
     blocks: Sequence[EquivalentBlock],
     forcing: Forcing,
     several: Runs,
-    course: Course = FROM_REST,
+    course: RunOptions = FROM_REST,
 ) -> np.ndarray:
     """Follow b blocks, alike in their sides, exactly through a record once for each of m runs: results (b m, 9).
 
@@ -254,7 +262,7 @@ def follow_blocks(
     eta = np.empty((len(blocks), factors.size, 2))
     eta[:] = own if several.restitution is None else several.restitution
     start, settle, log = course
-    begin = linear_kernel.Motion(0, 0.0, 0.0, 0.0, 0)
+    begin = linear_kernel.LinearState(0, 0.0, 0.0, 0.0, 0)
     if start[2]:
         side = blocks[0].sides[0 if start[2] > 0 else -1]
         arc, speed = _initial_arc(linear_table(blocks[0]), start)
@@ -296,7 +304,7 @@ def failure(status: float, impacts: float) -> MotionError:
     return MotionError("the motion left the range of floating-point numbers; check the record's amplitude.")
 
 
-def _initial_arc(table: Table, start: Start) -> tuple[float, float]:
+def _initial_arc(table: MechanismTable, start: Start) -> tuple[float, float]:
     """The initial arc and its rate; raises MotionError beyond the end of the mechanism."""
     rotation, velocity, sign = start
     side = table.sides[0 if sign > 0 else -1]
@@ -322,10 +330,10 @@ def _response(
     factors = np.array([factor])
     one = Runs(factors, factors if forcing.vertical else None)
     log = np.zeros((2 * forcing.ground.horizontal.size + 1001, 3)) if history else FROM_REST.log
-    sides, results = follow(reduced, forcing, one, tolerance, Course(start, False, log))
+    sides, results = follow(reduced, forcing, one, tolerance, RunOptions(start, False, log))
     if history and log[0, 0] >= log.shape[0]:
         log = np.zeros((int(log[0, 0]) + 1, 3))
-        follow(reduced, forcing, one, tolerance, Course(start, False, log))
+        follow(reduced, forcing, one, tolerance, RunOptions(start, False, log))
     row = results[0].tolist()
     if row[runs.STATUS] not in OUTCOMES:
         raise failure(row[runs.STATUS], row[runs.IMPACTS])
@@ -371,7 +379,7 @@ def _is_fragile(
     return any(each.outcome is not response.outcome for each in neighbours)
 
 
-def _states(table: Table, log: np.ndarray, begin: float) -> dict[str, Any]:
+def _states(table: MechanismTable, log: np.ndarray, begin: float) -> dict[str, Any]:
     """The history of a Response, whose motion starts at the time `begin`, from the lines of a log, which holds arcs."""
     times, arcs, speeds = log[1 : int(log[0, 0]) + 1].T
     rotation = np.empty_like(arcs)

@@ -46,7 +46,7 @@ class Samples(NamedTuple):
     takeable: np.ndarray
 
 
-class Motion(NamedTuple):
+class LinearState(NamedTuple):
     """The state of a motion: sample, time into it [s], x, x'/p, and side; side 0 is rest."""
 
     interval: int
@@ -276,7 +276,7 @@ def _glide(ground, bound, time_step, p, scale, limit, full, motion, span, log):
         # |x''| is largest at an end of the sample, so a velocity beyond y |x''| has no zero within it.
         same = force * later >= 0 or abs(w) > width * max(abs(force), abs(later))
         if not (new > 0 and w * pull > 0 and same):
-            return Motion(i, tau, x, w, side), Sample(drive, final, new, pull), False, passed
+            return LinearState(i, tau, x, w, side), Sample(drive, final, new, pull), False, passed
         i, tau, x, w, drive = i + 1, 0.0, new, pull, final
         growth, decay, up, up_end, down, down_end = full
         width = p * time_step
@@ -284,7 +284,7 @@ def _glide(ground, bound, time_step, p, scale, limit, full, motion, span, log):
         runs.write(log, i * time_step, span * x, span * w * p)
         fallen = q - 1 > limit * bound[i]
         if fallen or i == ground.size - 1:
-            return Motion(i, tau, x, w, side), Sample(drive, final, new, pull), fallen, passed
+            return LinearState(i, tau, x, w, side), Sample(drive, final, new, pull), fallen, passed
 
 
 @part
@@ -303,7 +303,7 @@ def _lift(blocks, samples, factor, motion, log):
     i, tau, side = _uplift(blocks, samples.ground, factor, time_step, motion.interval, motion.offset)
     if side != 0:
         runs.write(log, i * time_step + tau, 0.0, 0.0)
-    return Motion(i, tau, 0.0, 0.0, side)
+    return LinearState(i, tau, 0.0, 0.0, side)
 
 
 @part
@@ -326,7 +326,7 @@ def _strike(blocks, samples, factor, restitution, k, motion, w, landing, settle,
         speed = w * p[k] * span[k]
         if _dies_out(blocks, ground, factor, time_step, restitution, i, tau, speed, best[0]):
             side = 0
-    return Motion(i, tau, 0.0, w, side)
+    return LinearState(i, tau, 0.0, w, side)
 
 
 @part
@@ -347,7 +347,7 @@ def _meet(blocks, samples, factor, restitution, k, motion, sample, unstable, tak
         return motion, runs.NOT_FINITE, 0
     runs.write(log, (i + 1) * samples.time_step, side * sample.x * span, side * sample.w * span * p)
     falls = sample.x + sample.w - 1 > unstable * takeable[i + 1]
-    return Motion(i + 1, 0.0, sample.x, sample.w, side), runs.OVERTURNS if falls else runs.ROCKS, 0
+    return LinearState(i + 1, 0.0, sample.x, sample.w, side), runs.OVERTURNS if falls else runs.ROCKS, 0
 
 
 @compiled
@@ -367,7 +367,7 @@ def _rock(blocks, samples, factor, restitution, start, settle, best, log):
                 status, uplift = runs.ROCKS, motion.interval * time_step + motion.offset
         i, tau, x, w, side = motion
         if time_step - tau <= 0:
-            motion = Motion(i + 1, 0.0, x, w, side)
+            motion = LinearState(i + 1, 0.0, x, w, side)
             continue
         k = 0 if side > 0 else last
         p, push, span = blocks.frequency[k], blocks.push[k], blocks.span[k]

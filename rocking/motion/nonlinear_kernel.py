@@ -70,7 +70,7 @@ CURVE = 6
 """Coefficients of a curve that joins samples of a smooth motion."""
 
 
-class Ground(NamedTuple):
+class GroundSamples(NamedTuple):
     """A ground motion: (n,) samples, or a sine of one period.
 
     horizontal, vertical: ü_g and ü_v at the samples; a sine has its amplitude and 0 there. lightest: the smallest ü_v
@@ -102,7 +102,7 @@ class Member(NamedTuple):
     restitution: tuple[float, float]
 
 
-class Motion(NamedTuple):
+class RockingState(NamedTuple):
     """The state of a motion.
 
     interval, offset: of the ground motion, and s into it. arc, speed: outward. side: 0 is rest. farthest, fastest: the
@@ -660,7 +660,7 @@ def _glide(sides, phase, ground, member, k, motion, tolerance, leap, log):
         if spare and leap < ground.stretch:
             leap = min(2 * leap, ground.stretch)
         runs.write(log, i * h, side * arc, side * speed)
-    return Motion(i, tau, arc, speed, side, farthest, fastest), leap
+    return RockingState(i, tau, arc, speed, side, farthest, fastest), leap
 
 
 @compiled
@@ -859,7 +859,7 @@ def _lift(sides, phase, ground, member, motion, log):
     if side != 0:
         runs.write(log, i * ground.time_step + tau, 0.0, 0.0)
         _enter(sides, phase, side, _row(sides, side), 0.0, 1.0)
-    return Motion(i, tau, 0.0, 0.0, side, 0.0, 0.0)
+    return RockingState(i, tau, 0.0, 0.0, side, 0.0, 0.0)
 
 
 @part
@@ -905,7 +905,7 @@ def _carry_on(sides, phase, ground, member, k, motion, step, left, log):
         _enter(sides, phase, side, k, arc, way)
     i, tau = _later(ground, i, tau, h, left)
     runs.write(log, now + h, side * arc, side * speed)
-    motion = Motion(i, tau, arc, speed, side, max(farthest, arc), max(fastest, abs(speed)))
+    motion = RockingState(i, tau, arc, speed, side, max(farthest, arc), max(fastest, abs(speed)))
     return motion, runs.OVERTURNS if _lost(sides, phase, ground, member, k, motion) else runs.ROCKS
 
 
@@ -928,7 +928,7 @@ def _strike(sides, phase, ground, member, k, motion, step, settle, best, log):
             tau += runs.PAUSE * ground.time_step
     elif settle and speed < sides.near[k, 6] and _dies_out(sides, ground, member, i, tau, speed, best[0]):
         side = 0
-    return Motion(i, tau, 0.0, speed, side, 0.0, speed)
+    return RockingState(i, tau, 0.0, speed, side, 0.0, speed)
 
 
 @compiled
@@ -948,7 +948,7 @@ def _rock(sides, ground, member, start, tolerance, settle, phase, best, log):
         k = _row(sides, motion.side)
         if time_step - motion.offset <= 0 and not _over(ground, motion.interval):
             _, _, arc, speed, side, farthest, fastest = motion
-            motion = Motion(motion.interval + 1, 0.0, arc, speed, side, farthest, fastest)
+            motion = RockingState(motion.interval + 1, 0.0, arc, speed, side, farthest, fastest)
         whole = motion.offset == 0 or ground.stretch > 1
         if ground.circular_frequency == 0 and whole and not _over(ground, motion.interval):
             before = motion.interval

@@ -41,7 +41,7 @@ class Response(Drawn):
         scaled by one percent; nan unless it rocks, or if it was not asked for. Of a chaotic response, which
         `fragile` tells, it is the slope between two neighbours and no measure of what may come.
     fragile : bool or None, optional
-        Whether ± `fragility_change` of the ground motion flips the verdict, or the run is not reproducible:
+        Whether ± `fragile_change` of the ground motion flips the verdict, or the run is not reproducible:
         one of two others, at a tolerance of 1e-9 and with the motion scaled by 1 ± 1e-9, differs by more than
         1e-5. The run is then repeated at 1e-9, and its number is one of many. None if not asked for.
     steps : int, default 0

@@ -20,7 +20,7 @@ from numpy.polynomial.polynomial import polyvander
 
 from rocking.errors import MotionError, StructureError
 from rocking.motion import runs
-from rocking.motion.nonlinear_kernel import CURVE, Ground, Sides, Ties
+from rocking.motion.nonlinear_kernel import CURVE, GroundSamples, Sides, Ties
 from rocking.pulses.pulse import Pulse
 from rocking.quantities import GRAVITY, kind_of
 from rocking.records.accelerogram import Accelerogram
@@ -47,7 +47,7 @@ class Forcing:
     gravity may vanish.
     """
 
-    ground: Ground
+    ground: GroundSamples
     start_time: float
     vertical: bool
     weightless: bool
@@ -136,7 +136,7 @@ def _curves(motion: Accelerogram) -> np.ndarray:
 @lru_cache(maxsize=64)
 def _of_pulse(pulse: Pulse) -> Forcing:
     still = _still(1)
-    ground = Ground(
+    ground = GroundSamples(
         horizontal=_read_only(np.array([pulse.amplitude])),
         vertical=still,
         strongest=_read_only(np.array([abs(pulse.amplitude)])),
@@ -157,7 +157,7 @@ def _of_record(record: Accelerogram, vertical: Accelerogram | None) -> Forcing:
     largest = np.abs(record.acceleration)
     if stretch > 1:
         largest = np.append(largest[:-1].reshape(-1, stretch).max(axis=1), largest[-1])
-    ground = Ground(
+    ground = GroundSamples(
         horizontal=record.acceleration,
         vertical=lift,
         strongest=_read_only(np.maximum.accumulate(largest[::-1])[::-1].copy()),
@@ -171,7 +171,7 @@ def _of_record(record: Accelerogram, vertical: Accelerogram | None) -> Forcing:
     return _forcing(ground, 0.0, vertical is not None)
 
 
-def _forcing(ground: Ground, start_time: float, vertical: bool) -> Forcing:
+def _forcing(ground: GroundSamples, start_time: float, vertical: bool) -> Forcing:
     least = GRAVITY + float(ground.lightest[0])
     return Forcing(
         ground,
@@ -609,17 +609,17 @@ def _fit(
 
 
 @dataclass(frozen=True, eq=False)
-class Table:
+class MechanismTable:
     """The sides of a mechanism (positive first; one if they mirror), and stacked what the kernel takes of them."""
 
     sides: tuple[SideTable, ...]
     kernel: Sides
 
 
-_REMEMBERED: WeakKeyDictionary[Mechanism, dict[bool, Table]] = WeakKeyDictionary()
+_REMEMBERED: WeakKeyDictionary[Mechanism, dict[bool, MechanismTable]] = WeakKeyDictionary()
 
 
-def table_of(mechanism: Mechanism | EquivalentBlock, vertical: bool = False) -> Table:
+def table_of(mechanism: Mechanism | EquivalentBlock, vertical: bool = False) -> MechanismTable:
     """Return the table of a mechanism, remembered as long as the mechanism lives, or of an equivalent block.
 
     vertical: for a vertical component, with which ties do not grow and fall. Ties are then kept apart from G, as they
@@ -638,12 +638,12 @@ def table_of(mechanism: Mechanism | EquivalentBlock, vertical: bool = False) -> 
 
 
 @lru_cache(maxsize=1024)
-def linear_table(block: EquivalentBlock) -> Table:
+def linear_table(block: EquivalentBlock) -> MechanismTable:
     """Return the table of an equivalent block: exact, and without an end unless its rotation_map has one."""
     return _stacked(tuple(linear_side(each) for each in block.sides), block.one_sided)
 
 
-def _stacked(sides: tuple[SideTable, ...], one_sided: bool) -> Table:
+def _stacked(sides: tuple[SideTable, ...], one_sided: bool) -> MechanismTable:
     most = max(side.kernel.hold.shape[1] for side in sides)
     arrays = {}
     for name in set(Sides._fields) - {"one_sided", "ties", "kinks"}:
@@ -659,7 +659,7 @@ def _stacked(sides: tuple[SideTable, ...], one_sided: bool) -> Table:
         ties=stacked_ties([side.kernel.ties for side in sides], most),
         kinks=sides[0].kernel.kinks,  # a mechanism with kinks has one side
     )
-    return Table(sides, kernel)
+    return MechanismTable(sides, kernel)
 
 
 def stacked_ties(sides: Sequence[Ties | None], pieces: int) -> Ties | None:

@@ -23,7 +23,7 @@ stations. What differs by more is another record, or lacks its beginning.
 _OFF_GRID = 0.1  # share of a time step by which the samples of two files may lie between one another
 
 
-class Component(Channel, Protocol):
+class ComponentFacts(Channel, Protocol):
     """The facts that joining asks of a channel, with its samples or without."""
 
     @property
@@ -34,7 +34,7 @@ class Component(Channel, Protocol):
     def borehole(self) -> bool: ...
 
 
-def why_apart(channels: Sequence[Component], samples: Collection[int]) -> Remark | None:
+def why_apart(channels: Sequence[ComponentFacts], samples: Collection[int]) -> Remark | None:
     """Return why channels of several files, of so many samples, cannot be one station's; None where they can."""
     names = Counter(channel.component for channel in channels if not channel.borehole)
     if twice := next((name for name, n in names.items() if n > 1), ""):

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.assessment.case import RecordResult, StationResult
+from rocking.assessment.case import PeriodResult, RecordResult
 from rocking.assessment.conclusion import conclusion_in_words, worst_cases
 from rocking.assessment.cracks import cracked
 from rocking.assessment.decide import Verdict, worse, worst_first
@@ -69,13 +69,13 @@ def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[s
     failure = " ".join(["no result.", *(each.message for each in rows.failures)])
     nothing = {"verdict": Verdict.CANNOT_BE_TOLD, "cell": cell_text(None), "text": failure, "severity": _NONE}
     cases: dict[str, Content] = {}
-    for station in result.worst_periods:
-        name = station.structure
+    for period_result in result.worst_periods:
+        name = period_result.structure
         if name in structures:
-            row = worst.get((result.record, name, station.support_period_s))
+            row = worst.get((result.record, name, period_result.support_period_s))
             # One that cannot be shown costs no other: the page says that it has no result.
             with suppress(FaultError), one_structure(name):
-                cases[name] = _case(station, row, structures[name].mechanism(), result.responses)
+                cases[name] = _case(period_result, row, structures[name].mechanism(), result.responses)
     peaks = [(row.peak_acceleration_m_s2 / GRAVITY, row.peak_velocity_m_s) for row in rows.record]
     pga, pgv = np.max(peaks, axis=0) if peaks else (math.nan, math.nan)
     return {
@@ -200,7 +200,7 @@ def _css(verdict: Verdict) -> str:
 
 
 def _case(
-    station: StationResult,
+    period_result: PeriodResult,
     row: ComparisonRow | None,
     mechanism: Mechanism,
     responses: Mapping[tuple[str, str, float | None], Response],
@@ -209,14 +209,14 @@ def _case(
     predicted = row.predicted_rotation_ratio if row else math.nan
     closed = ratio(predicted, 2)
     band = (
-        f" (5 to 95 % of the members: {band_text(station.ensemble, ' to ')})"
-        if station.ensemble.members
+        f" (5 to 95 % of the members: {band_text(period_result.ensemble, ' to ')})"
+        if period_result.ensemble.members
         else ""
     )
-    crack = f" Crack that governs: {station.crack}." if station.crack else ""
-    reserve = f" Reserve: {station.reserve_in_words}." if station.reserve else ""
-    decision = station.decision
-    place = placed("", station.support_period_s).removeprefix(", ")
+    crack = f" Crack that governs: {period_result.crack}." if period_result.crack else ""
+    reserve = f" Reserve: {period_result.reserve_in_words}." if period_result.reserve else ""
+    decision = period_result.decision
+    place = placed("", period_result.support_period_s).removeprefix(", ")
     place = f"At its worst, {place}: " if place else ""
     share = f", {decision.share_in_words}" if decision.share_in_words else ""
     doubts = f" Doubtful: {'; '.join(map(str, decision.doubts))}." if decision.doubts else ""
@@ -224,9 +224,10 @@ def _case(
         "verdict": str(decision.word),
         "cell": cell_text(decision),
         "text": f"{place}{decision.word}{share}: {decision.why}.{doubts} As given: "
-        f"{ratio(station.rotation_ratio, 2)}{band}; by the closed form: {closed} (rotation over the critical one)."
+        f"{ratio(period_result.rotation_ratio, 2)}{band}; by the closed form: {closed} "
+        "(rotation over the critical one)."
         f"{crack}{reserve}",
-        "severity": [_number(float(np.clip(each, -_EXTREME, _EXTREME))) for each in station.severity],
+        "severity": [_number(float(np.clip(each, -_EXTREME, _EXTREME))) for each in period_result.severity],
         "component": row.component if row else "",
         "predicted": _number(min(predicted, _EXTREME)),
         "closed": closed,
@@ -234,8 +235,8 @@ def _case(
     response = responses.get(row.case) if row else None
     history = None
     if row and response:
-        crack = station.cases[row.component].crack if row.component in station.cases else ""
-        history = rotation_ratios(response, cracked(station.scene.structure, crack).mechanism())
+        crack = period_result.cases[row.component].crack if row.component in period_result.cases else ""
+        history = rotation_ratios(response, cracked(period_result.scene.structure, crack).mechanism())
     if response and history and response.rotation_ratio > NEGLIGIBLE:
         times = history[0]
         ratios = np.clip(history[1], -_BEYOND, _BEYOND)

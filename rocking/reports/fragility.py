@@ -24,7 +24,7 @@ from rocking.fragility.rows import (
 from rocking.quantities import counted
 from rocking.records.sample import FEWEST
 from rocking.reports.pages import CaptionedTable, Part, PlainPage
-from rocking.reports.panels import Curve, draw_probability
+from rocking.reports.panels import CurveBand, draw_probability
 from rocking.reports.printing import (
     Column,
     Figures,
@@ -326,7 +326,7 @@ def _draw_curve(panel: Axes, curve: "DataFrame") -> None:
     levels, probability, low, high, lognormal = curve[columns].to_numpy(dtype=float).T
     if threshold < math.inf:
         label = f"φ > {threshold:g} φcr"
-        draw_probability(panel, Curve(levels, probability), label, _COLOURS[threshold])
+        draw_probability(panel, CurveBand(levels, probability), label, _COLOURS[threshold])
     else:
         label, colour = ("overturns, worst crack", _WORST) if governing else ("overturns", "black")
-        draw_probability(panel, Curve(levels, probability, (low, high), lognormal), label, colour)
+        draw_probability(panel, CurveBand(levels, probability, (low, high), lognormal), label, colour)

@@ -238,7 +238,7 @@ def _draw_ranks(axes: Axes, pulses: Sequence[Pulse]) -> None:
         axes.annotate(text, (farthest, place[1]), (4, 3), textcoords="offset points", **look)
 
 
-class Curve(NamedTuple):
+class CurveBand(NamedTuple):
     """A fragility curve over the levels of its intensity measure, (k,) each.
 
     interval: of 90 %, its lower and its upper end. Both it and the lognormal curve may be left out.
@@ -250,7 +250,7 @@ class Curve(NamedTuple):
     lognormal: np.ndarray | None = None
 
 
-def draw_probability(axes: Axes, curve: Curve, label: str = "empirical", colour: str = "C0") -> None:
+def draw_probability(axes: Axes, curve: CurveBand, label: str = "empirical", colour: str = "C0") -> None:
     """Draw a fragility curve, with its interval and lognormal curve where it has them."""
     levels = curve.levels
     if curve.interval is not None:
@@ -318,7 +318,7 @@ def _plot_fragility(fragility: Fragility, axes: Axes) -> None:
     event = "overturning" if overturning else f"a rotation above {fragility.threshold:g} of the critical one"
     interval = fragility.probability_low, fragility.probability_high
     label = f"empirical, {fragility.sample.words}"
-    curve = Curve(fragility.levels, fragility.probability, interval, fragility.lognormal)
+    curve = CurveBand(fragility.levels, fragility.probability, interval, fragility.lognormal)
     draw_probability(axes, curve, label)
     axes.set(xlabel=f"{fragility.measure} [{fragility.unit or '-'}]", ylabel=f"probability of {event} [-]")
     axes.legend(loc="upper left")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rocking.assessment.case import RecordResult, StationResult
+from rocking.assessment.case import PeriodResult, RecordResult
 from rocking.assessment.conclusion import (
     TO_CHECK,
     UNSAID,
@@ -195,9 +195,9 @@ class RecordReport:
     def left_out(self) -> dict[Remark, list[str]]:
         """What the models of structures that lift leave out, or take from what was typed, with the structures."""
         concerned: dict[Remark, list[str]] = {}
-        for station in self.result.worst_first:
-            for caution in station.scene.structure.cautions if station.rotation_ratio > 0 else ():
-                concerned.setdefault(caution, []).append(self.called(station.structure))
+        for period_result in self.result.worst_first:
+            for caution in period_result.scene.structure.cautions if period_result.rotation_ratio > 0 else ():
+                concerned.setdefault(caution, []).append(self.called(period_result.structure))
         would_crush = [each.structure for each in self.result.worst_first if _would_crush(each)]
         if would_crush:
             concerned[Remark(Kind.CRUSHING_WOULD_TELL)] = [self.called(each) for each in would_crush]
@@ -216,7 +216,9 @@ class RecordReport:
     @cached_property
     def numbers(self) -> dict[str, str]:
         """The number by which each structure is called, from 1, by name."""
-        names = dict.fromkeys([*self.structures, *(station.structure for station in self.result.worst_first)])
+        names = dict.fromkeys(
+            [*self.structures, *(period_result.structure for period_result in self.result.worst_first)]
+        )
         return {name: str(place) for place, name in enumerate(names, start=1)}
 
     def called(self, name: str) -> str:
@@ -251,14 +253,16 @@ class RecordReport:
         """The rotation of each structure that rocks and whose history was kept, the worst first."""
         cases = worst_cases(self.tables.comparison)
         histories = []
-        for station in self.result.worst_periods:
-            case = cases.get((self.result.record, station.structure, station.support_period_s))
+        for period_result in self.result.worst_periods:
+            case = cases.get((self.result.record, period_result.structure, period_result.support_period_s))
             response = self.result.responses.get(case.case) if case else None
             if case and response and case.integrated_rotation_ratio > NEGLIGIBLE:
-                crack = station.cases[case.component].crack if case.component in station.cases else ""
-                mechanism = cracked(self.structures[station.structure], crack).mechanism()
+                crack = (
+                    period_result.cases[case.component].crack if case.component in period_result.cases else ""
+                )
+                mechanism = cracked(self.structures[period_result.structure], crack).mechanism()
                 history = rotation_ratios(response, mechanism)
-                histories += [History(station, case, *history)] if history else []
+                histories += [History(period_result, case, *history)] if history else []
         return histories
 
     @cached_property
@@ -555,17 +559,18 @@ _PULSE_LIKE = {None: printing.NOTHING, True: "yes", False: "no"}
 def _known(report: RecordReport) -> list[Topic]:
     """Return by topic what a reader has to know beside the verdicts, and the warnings, each once."""
     depends = []
-    for station in report.result.worst_first:
+    for period_result in report.result.worst_first:
         ratios = [
             row.integrated_rotation_ratio
             for row in report.tables.variations
             if row.processing
-            and (row.structure, row.support_period_s) == (station.structure, station.support_period_s)
+            and (row.structure, row.support_period_s)
+            == (period_result.structure, period_result.support_period_s)
         ]
         # What the network has corrected is not processed again.
         corrected = all(each.processed for each in report.result.accelerograms)
         if not corrected and any(map(math.isinf, ratios)) and any(map(math.isfinite, ratios)):
-            depends.append(report.called(station.structure))
+            depends.append(report.called(period_result.structure))
     depends = list(dict.fromkeys(depends))
     remark = f"The processing of the record decides whether these overturn: {listed(depends)}."
     carried = sorted(report.result.carried, key=lambda scene: scene.worst.severity, reverse=True)
@@ -614,19 +619,19 @@ def _contacts(report: RecordReport) -> list[str]:
     ]
 
 
-def _would_crush(station: StationResult) -> bool:
+def _would_crush(period_result: PeriodResult) -> bool:
     """Whether a compressive strength of 2 MPa would change a structure that states none.
 
     λ falls, and so does what overturns it in proportion: as far as the reserve on this record tells.
     """
-    reserve = station.reserve
+    reserve = period_result.reserve
     # What no factor overturns, no loss of λ does; to crush an arch takes a fifth of a second.
     if reserve is None or math.isnan(reserve.low):
         return False
-    factor = crushing_factor(station.scene.structure)
+    factor = crushing_factor(period_result.scene.structure)
     if factor is None:
         return False
-    share = 0.0 if math.isnan(station.decision.share) else station.decision.share
+    share = 0.0 if math.isnan(period_result.decision.share) else period_result.decision.share
     reached = [(0.95, reserve.high), (0.5, reserve.median), (0.05, reserve.low)]
     then = next((each for each, at in reached if at <= factor), 0.0)
     return then - share > MOVED or then >= 0.05 > share
@@ -635,11 +640,11 @@ def _would_crush(station: StationResult) -> bool:
 def _advice(report: RecordReport) -> list[str]:
     """Return what would tell more of the cases that are not sure, each thing to do once with its structures."""
     to_do: dict[str, list[str]] = {}
-    for station in report.result.worst_first:
-        if station.decision.word.is_sure:
+    for period_result in report.result.worst_first:
+        if period_result.decision.word.is_sure:
             continue
-        for remark in station.decision.tells:
-            to_do.setdefault(str(remark), []).append(report.called(station.structure))
+        for remark in period_result.decision.tells:
+            to_do.setdefault(str(remark), []).append(report.called(period_result.structure))
     return [
         f"To learn more of {listed(list(dict.fromkeys(names)))}: {thing}." for thing, names in to_do.items()
     ]
@@ -665,7 +670,9 @@ def _notices(report: RecordReport) -> list[Notice]:
     """Return the warnings that stand above everything: nothing moves, scale factor, what to check, what failed."""
     tables = report.tables
     notices: list[Notice] = []
-    if tables.comparison and all(station.rotation_ratio == 0 for station in report.result.worst_first):
+    if tables.comparison and all(
+        period_result.rotation_ratio == 0 for period_result in report.result.worst_first
+    ):
         still = "No structure uplifts: the ground acceleration never reaches an uplift acceleration."
         notices.append(Notice(still, strong=False))
     scaled = [row for row in tables.record if row.scale_factor != 1]
@@ -809,9 +816,9 @@ def _details(report: RecordReport) -> Details:
     )
 
 
-def _reserve_note(stations: Sequence[StationResult]) -> str:
+def _reserve_note(period_results: Sequence[PeriodResult]) -> str:
     """Say of which structures the reserve is that of a mechanism which knows less than may happen; "" of none."""
-    doubtful = [station.structure for station in stations if station.reserve_doubts]
+    doubtful = [period_result.structure for period_result in period_results if period_result.reserve_doubts]
     if not doubtful:
         return ""
     return (
@@ -862,27 +869,40 @@ VERDICT_COLUMNS: list[Column] = [
         "Verdict",
         "0.8",
         "l",
-        lambda station: strong(str(station.decision.word), not station.decision.word.stays_up),
+        lambda period_result: strong(
+            str(period_result.decision.word), not period_result.decision.word.stays_up
+        ),
     ),
-    ("Share that overturns", "0.75", "l", lambda station: words(station.decision.share_in_words)),
-    ("As given", "0.7", "l", lambda station: printing.to_spread(station.rotation_ratio, station.ensemble)),
+    ("Share that overturns", "0.75", "l", lambda period_result: words(period_result.decision.share_in_words)),
+    (
+        "As given",
+        "0.7",
+        "l",
+        lambda period_result: printing.to_spread(period_result.rotation_ratio, period_result.ensemble),
+    ),
     (
         "5 %",
         "0.65",
         "r",
-        lambda station: printing.to_spread(station.ensemble.rotation_ratio_low, station.ensemble),
+        lambda period_result: printing.to_spread(
+            period_result.ensemble.rotation_ratio_low, period_result.ensemble
+        ),
     ),
     (
         "50 %",
         "0.65",
         "r",
-        lambda station: printing.to_spread(station.ensemble.rotation_ratio_median, station.ensemble),
+        lambda period_result: printing.to_spread(
+            period_result.ensemble.rotation_ratio_median, period_result.ensemble
+        ),
     ),
     (
         "95 %",
         "0.65",
         "r",
-        lambda station: printing.to_spread(station.ensemble.rotation_ratio_high, station.ensemble),
+        lambda period_result: printing.to_spread(
+            period_result.ensemble.rotation_ratio_high, period_result.ensemble
+        ),
     ),
     *columns_of(VerdictRow, "direction=1.1 polarity=0.75"),
 ]

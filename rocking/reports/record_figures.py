@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.assessment.case import StationResult
+from rocking.assessment.case import PeriodResult
 from rocking.assessment.methods import Agreement, Method, ratio_in_words
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import RATIO_COLUMNS, ComparisonRow
@@ -51,7 +51,7 @@ class History:
     times: s. ratios: rotation over critical rotation (k,).
     """
 
-    station: StationResult
+    station: PeriodResult
     case: ComparisonRow
     times: np.ndarray
     ratios: np.ndarray
@@ -119,7 +119,7 @@ def pulses_figure(motions: Sequence[Trace]) -> Figure:
 
 
 @styled
-def reserve_figure(stations: Sequence[StationResult], labels: Mapping[str, str]) -> Figure:
+def reserve_figure(stations: Sequence[PeriodResult], labels: Mapping[str, str]) -> Figure:
     """Draw for each structure the factors on the record at which 5, 50 and 95 % of its members overturn, worst first.
 
     A verdict is read off the line at 1: what lies left of it falls under the record as it is. A bar that ends in an

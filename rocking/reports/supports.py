@@ -82,7 +82,7 @@ def supports_figure(panels: Sequence[SupportPanel]) -> Figure:
         share = panel_at(figure, 14, top, 60, height - 18)
         spectra = panel_at(figure, 100, top, 42, height - 18)
         _draw_shares(share, panel.structures)
-        if any(station.reserve for scene in panel.structures for station in scene.stations):
+        if any(period_result.reserve for scene in panel.structures for period_result in scene.periods):
             _draw_reserves(share, panel.structures)
         _draw_spectra(spectra, panel)
     return figure
@@ -91,8 +91,8 @@ def supports_figure(panels: Sequence[SupportPanel]) -> Figure:
 def _draw_shares(axes: Axes, structures: Sequence[SceneResult]) -> None:
     """Draw share against period, one line for each structure; a marker has the colour of its verdict."""
     for line, each in zip(_LINES * len(structures), structures, strict=False):
-        periods = each.periods
-        shares = [station.decision.share for station in each.stations]
+        periods = each.first_periods
+        shares = [period_result.decision.share for period_result in each.periods]
         axes.plot(
             periods,
             shares,
@@ -102,8 +102,8 @@ def _draw_shares(axes: Axes, structures: Sequence[SceneResult]) -> None:
             label=elided(each.scene.name, 24),
             zorder=1,
         )
-        for period, share, station in zip(periods, shares, each.stations, strict=True):
-            colour = LOOKS[station.decision.word][1]
+        for period, share, period_result in zip(periods, shares, each.periods, strict=True):
+            colour = LOOKS[period_result.decision.word][1]
             axes.plot(
                 [period],
                 [share],
@@ -127,8 +127,8 @@ def _draw_reserves(axes: Axes, structures: Sequence[SceneResult]) -> None:
     beside = axes.twinx()
     limits = []
     for each in structures:
-        periods = each.periods
-        reserves = [station.reserve for station in each.stations]
+        periods = each.first_periods
+        reserves = [period_result.reserve for period_result in each.periods]
         factors = [reserve.median if reserve else np.nan for reserve in reserves]
         limits += [reserve.limit for reserve in reserves if reserve]
         beside.plot(periods, factors, linestyle="", marker="x", color=PREDICTED, markersize=3.5)

@@ -53,7 +53,7 @@ compiled = njit(**{**_OPTIONS, "no_cpython_wrapper": True})
 """The compiler of functions that Python does not call: a wrapper for them takes long to compile."""
 
 
-class Side(NamedTuple):
+class PulseSide(NamedTuple):
     """One side of a block under one pulse; ω = ω_g/p, a = |a_g|/(gλ), η of the impact that ends rocking here.
 
     end: x beyond which the mechanism ends. exists: whether the block rocks to this side at all.
@@ -67,7 +67,7 @@ class Side(NamedTuple):
     exists: bool
 
 
-class Course(NamedTuple):
+class PulseHistory(NamedTuple):
     """The course of the motion, by side: 0 the one that the pulse's first half lifts, 1 the other.
 
     peaks: largest x, inf overturns. peak_impacts: impacts before it, −1 where the side never rocks. contacts: impacts
@@ -395,7 +395,7 @@ def course(first, second, begin, end):
     """
     sides, velocity = (first, second), 0.0
     alike = not (first.exists and second.exists) or first == second
-    peaks, at, contacts, impacts, margin, _ = Course((0.0, 0.0), (-1, -1), 0, 0, 1.0, False)
+    peaks, at, contacts, impacts, margin, _ = PulseHistory((0.0, 0.0), (-1, -1), 0, 0, 1.0, False)
     phase, index = _next_uplift(sides, begin, end)
     while index >= 0:
         f = _flight_of(sides[index], index, phase, velocity)
@@ -424,9 +424,9 @@ def course(first, second, begin, end):
             velocity = 0.0
             phase, index = _next_uplift(sides, rest, end)
         elif impacts >= MOST_IMPACTS:
-            return Course(peaks, at, contacts, impacts, math.nan, True)
+            return PulseHistory(peaks, at, contacts, impacts, math.nan, True)
     peaks, margin = _ended(first, second, peaks, margin)
-    return Course(peaks, at, contacts, impacts, margin, False)
+    return PulseHistory(peaks, at, contacts, impacts, margin, False)
 
 
 @entry
@@ -452,8 +452,8 @@ def _course_of(rows, first, frequency, amplitude, begin, end):
     """The `course` of the block of two rows under one pulse, where the first half of a sine lifts row `first`."""
     one, other = rows[first], rows[1 - first]
     return course(
-        Side(frequency / one[0], amplitude / one[1], one[2], one[3], one[4], one[5] != 0),
-        Side(frequency / other[0], amplitude / other[1], other[2], other[3], other[4], other[5] != 0),
+        PulseSide(frequency / one[0], amplitude / one[1], one[2], one[3], one[4], one[5] != 0),
+        PulseSide(frequency / other[0], amplitude / other[1], other[2], other[3], other[4], other[5] != 0),
         begin,
         end,
     )

@@ -212,7 +212,7 @@ def _regime(peak: _Peak, touches_ground_in_pulse: bool, is_as_printed: bool) -> 
     return Regime.PRINTED_EXACT if is_as_printed else Regime.AFTER_FIRST_IMPACT
 
 
-def sides_under(block: EquivalentBlock, pulse: Pulse) -> list["sine_pulse.kernel.Side"]:
+def sides_under(block: EquivalentBlock, pulse: Pulse) -> list["sine_pulse.kernel.PulseSide"]:
     """Return the side that the first half of the pulse rocks the block to, then the other.
 
     Ground that accelerates in the positive direction rocks the block to its negative side.
@@ -236,7 +236,7 @@ def sides_under(block: EquivalentBlock, pulse: Pulse) -> list["sine_pulse.kernel
         frequency_ratio = pulse.circular_frequency / row.frequency_parameter
         amplitude_ratio = abs(pulse.amplitude) / row.uplift_acceleration
         check_ratios(frequency_ratio, amplitude_ratio)
-        side = sine_pulse.kernel.Side(
+        side = sine_pulse.kernel.PulseSide(
             frequency_ratio, amplitude_ratio, row.restitution, row.velocity_scale, row.end, row.exists
         )
         sides.append(side)

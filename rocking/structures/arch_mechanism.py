@@ -17,7 +17,7 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.structures.arch_ring import CONTINUOUS_SECTIONS, EXTRADOS, INTRADOS, PATTERN, Bars, Ring
-from rocking.structures.linkage import Contacts, Linkage, Motion, MotionState, cross, keeps_last
+from rocking.structures.linkage import Contacts, Kinematics, Linkage, MotionState, cross, keeps_last
 
 
 class FourBar(Linkage):
@@ -40,7 +40,7 @@ class FourBar(Linkage):
         self.end_rotation = self._last_rotation()
 
     @keeps_last
-    def motion(self, rotation: np.ndarray) -> Motion:
+    def motion(self, rotation: np.ndarray) -> Kinematics:
         """Return the bars at `rotation` [rad], any shape, short of the dead point."""
         ab, bc, cd = self._directions(rotation)
         closing = cross(bc, cd)
@@ -55,7 +55,7 @@ class FourBar(Linkage):
         arms = turned * (self.rest - self.hinges[[0, 1, 3]]).reshape(3, *[1] * np.ndim(rotation))
         zero = np.zeros_like(ab)
         pivots = np.stack([self.hinges[0] + zero, self.hinges[0] + ab, self.hinges[3] + zero])
-        return Motion(
+        return Kinematics(
             hinges=np.stack([pivots[0], pivots[1], pivots[2] - turned[2] * self._at_rest[2], pivots[2]]),
             angles=np.angle(turned),
             spins=spins,

@@ -12,7 +12,7 @@ from rocking.structures.fields import OptionalUnitWeight, Value, count, length, 
 from rocking.structures.linkage import (
     Contacts,
     Hung,
-    Motion,
+    Kinematics,
     MotionState,
     Parts,
     PointMotion,
@@ -184,7 +184,7 @@ class FrameLinkage(Turning):
         )
 
     @keeps_last
-    def motion(self, rotation: np.ndarray) -> Motion:
+    def motion(self, rotation: np.ndarray) -> Kinematics:
         """Return the first column and the beam; hinges at the feet and the heads of all columns, in two runs."""
         first = super().motion(rotation)
         foot = self.corner
@@ -192,7 +192,7 @@ class FrameLinkage(Turning):
         runs = [np.add.outer(self._apart, start + 0 * rotation) for start in (foot, head)]
         return replace(first, hinges=np.concatenate(runs))
 
-    def carried(self, part: int, start: complex | np.ndarray, motion: Motion) -> PointMotion:
+    def carried(self, part: int, start: complex | np.ndarray, motion: Kinematics) -> PointMotion:
         """Return how points of a column, by its number, or of the beam, whose number is the next, have moved."""
         if part == self._apart.size:
             return super().carried(0, self._head + 0 * start, motion)

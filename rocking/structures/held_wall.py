@@ -22,8 +22,8 @@ from rocking.structures.linkage import (
     STILL,
     Contacts,
     Hung,
+    Kinematics,
     Linkage,
-    Motion,
     MotionState,
     Parts,
     Turning,
@@ -83,7 +83,7 @@ class Chain(Linkage):
         self.end_rotation = float(min(abs(lying - np.angle(self._lower)), np.pi / 2))
 
     @keeps_last
-    def motion(self, rotation: np.ndarray) -> Motion:
+    def motion(self, rotation: np.ndarray) -> Kinematics:
         """Return the bodies at `rotation` ≥ 0, any shape; hinges at the foot, between the bodies and where it is held.
 
         With arms l₀ and l₁ turned by a₀ = ∓φ and a₁, Re(l₀ + l₁) stays what it is at rest; a₁ = 0 where none is held.
@@ -118,7 +118,7 @@ class Chain(Linkage):
         of = self._bodies
         fixed = np.array([self._foot, self._hinge, self._held])[of]
         arms = (self.rest - fixed).reshape(-1, *(1,) * one.ndim) * np.exp(1j * turns[of])
-        motion = Motion(
+        motion = Kinematics(
             hinges=np.array([self._foot + 0 * lower, hinge, held]),
             angles=turns[of],
             spins=spins[of],
@@ -129,7 +129,7 @@ class Chain(Linkage):
         )
         return self._guided_loads(motion) if self._guided and self.loads else motion
 
-    def _guided_loads(self, motion: Motion) -> Motion:
+    def _guided_loads(self, motion: Kinematics) -> Kinematics:
         """The motion where the loads, which are its last parts, rise with their bearings and move to no side."""
         loads = slice(-len(self.loads), None)
         centroids, velocities, accelerations = (
@@ -162,7 +162,7 @@ class Chain(Linkage):
             turned_back = -couple / (stop - motion.hinges[2].imag)
         return np.stack([forces[2].real - above.real - turned_back, turned_back])
 
-    def _balanced(self, state: MotionState) -> tuple[Motion, list[np.ndarray], np.ndarray, np.ndarray]:
+    def _balanced(self, state: MotionState) -> tuple[Kinematics, list[np.ndarray], np.ndarray, np.ndarray]:
         """The motion, the forces on the three bodies, the couple on the third about what is held, and the force on the
         upper body there.
 

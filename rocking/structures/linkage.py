@@ -93,7 +93,7 @@ Owner = TypeVar("Owner")
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class Kinematics:
     """k parts at some rotations of the mechanism, and their first and second derivatives with φ.
 
     hinges: (h, ...) complex contact points. angles: (k, ...) counterclockwise turn of each part from rest, rad; spins
@@ -148,13 +148,13 @@ class Hung(NamedTuple):
         return self.part != STILL and bool(self.force or self.mass or self.tie)
 
 
-def keeps_last(method: Callable[[Owner, np.ndarray], Motion]) -> Callable[[Owner, ArrayLike], Motion]:
+def keeps_last(method: Callable[[Owner, np.ndarray], Kinematics]) -> Callable[[Owner, ArrayLike], Kinematics]:
     """Let `motion` keep what it returned last: I, G and B of the same places are asked for in turn."""
 
     @wraps(method)
-    def keeping(self: Owner, rotation: ArrayLike) -> Motion:
+    def keeping(self: Owner, rotation: ArrayLike) -> Kinematics:
         places = np.asarray(rotation, dtype=float)
-        last: tuple[np.ndarray, Motion] | None = self.__dict__.get("_last")
+        last: tuple[np.ndarray, Kinematics] | None = self.__dict__.get("_last")
         if last is None or not np.array_equal(last[0], places):
             last = self.__dict__["_last"] = places.copy(), method(self, places)
         return last[1]
@@ -207,14 +207,14 @@ class Linkage(ABC):
         self.inertias = np.append(parts.inertias, np.zeros(len(self.loads)))
 
     @abstractmethod
-    def motion(self, rotation: ArrayLike) -> Motion:
+    def motion(self, rotation: ArrayLike) -> Kinematics:
         """Return the parts at `rotation` ≥ 0 [rad], any shape."""
 
     @abstractmethod
     def contacts(self, state: MotionState) -> Contacts:
         """Return the contact forces in a state on this side; raises UnknownContacts, which says why, without them."""
 
-    def carried(self, part: int, start: complex | np.ndarray, motion: Motion) -> PointMotion:
+    def carried(self, part: int, start: complex | np.ndarray, motion: Kinematics) -> PointMotion:
         """Return how points fixed to a part have moved from `start`, where they are at rest."""
         arm = (start - self.rest[part]) * np.exp(1j * motion.angles[part])
         spin = motion.spins[part]
@@ -385,11 +385,11 @@ class Turning(Linkage):
         self.inertia_length = float(inertia / self.unit)
 
     @keeps_last
-    def motion(self, rotation: np.ndarray) -> Motion:
+    def motion(self, rotation: np.ndarray) -> Kinematics:
         """Return the parts at `rotation` ≥ 0, any shape; the corner is the hinge."""
         arms = np.multiply.outer(self.rest - self.corner, np.exp(-1j * rotation))
         spins = -np.ones(arms.shape)
-        return Motion(
+        return Kinematics(
             hinges=np.full((1, *rotation.shape), self.corner),
             angles=spins * rotation,
             spins=spins,
@@ -399,7 +399,7 @@ class Turning(Linkage):
             accelerations=-arms,
         )
 
-    def carried(self, part: int, start: complex | np.ndarray, motion: Motion) -> PointMotion:
+    def carried(self, part: int, start: complex | np.ndarray, motion: Kinematics) -> PointMotion:
         """Return how points have moved; small rotations keep their relative accuracy."""
         return self._turned(start, motion.angles[part])
 

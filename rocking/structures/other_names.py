@@ -6,7 +6,7 @@ Letters say nothing of a meaning: "cavity wall" is near to "wall", which would t
 from typing import NamedTuple
 
 
-class Answer(NamedTuple):
+class OtherName(NamedTuple):
     """The type that describes a thing, "" where none does; and what it leaves out, or why none does."""
 
     type: str
@@ -31,31 +31,33 @@ _RUBBLE = "masonry that comes apart falls before it rocks as a body"
 _TOWER = "a tower bends and cracks before it rocks; what stands on it takes it as its support by stands_on"
 _CANTILEVER = "it bears by its tail under the wall above, not by a face on which it could rock"
 
-OTHER_NAMES: dict[str, Answer] = {
-    **dict.fromkeys(("boundary wall", "garden wall", "freestanding wall", "fence wall"), Answer("free_wall")),
-    **dict.fromkeys(("balustrade", "battlement", "merlon", "attic wall"), Answer("parapet")),
-    **dict.fromkeys(("chimney stack", "smokestack"), Answer("chimney")),
-    **dict.fromkeys(("gable wall", "pediment", "tympanum"), Answer("gable")),
-    **dict.fromkeys(("counterfort",), Answer("buttress")),
-    **dict.fromkeys(("finial",), Answer("pinnacle")),
-    **dict.fromkeys(("steeple", "fleche", "obelisk"), Answer("spire")),
-    **dict.fromkeys(("monolith", "stele", "tombstone", "gravestone", "cabinet"), Answer("block")),
-    **dict.fromkeys(("statue", "sculpture", "vase", "bust"), Answer("rigid_body", _ROLLS)),
-    **dict.fromkeys(("column", "pillar", "pier"), Answer("block", f"it rocks in one piece, and {_ROLLS}")),
-    **dict.fromkeys(("facade wall", "front", "frontage"), Answer("facade")),
+OTHER_NAMES: dict[str, OtherName] = {
+    **dict.fromkeys(
+        ("boundary wall", "garden wall", "freestanding wall", "fence wall"), OtherName("free_wall")
+    ),
+    **dict.fromkeys(("balustrade", "battlement", "merlon", "attic wall"), OtherName("parapet")),
+    **dict.fromkeys(("chimney stack", "smokestack"), OtherName("chimney")),
+    **dict.fromkeys(("gable wall", "pediment", "tympanum"), OtherName("gable")),
+    **dict.fromkeys(("counterfort",), OtherName("buttress")),
+    **dict.fromkeys(("finial",), OtherName("pinnacle")),
+    **dict.fromkeys(("steeple", "fleche", "obelisk"), OtherName("spire")),
+    **dict.fromkeys(("monolith", "stele", "tombstone", "gravestone", "cabinet"), OtherName("block")),
+    **dict.fromkeys(("statue", "sculpture", "vase", "bust"), OtherName("rigid_body", _ROLLS)),
+    **dict.fromkeys(("column", "pillar", "pier"), OtherName("block", f"it rocks in one piece, and {_ROLLS}")),
+    **dict.fromkeys(("facade wall", "front", "frontage"), OtherName("facade")),
     **dict.fromkeys(
         ("partition", "partition wall", "infill", "infill wall"),
-        Answer("wall", "what holds its sides is left out"),
+        OtherName("wall", "what holds its sides is left out"),
     ),
-    **dict.fromkeys(("bearing wall", "load bearing wall"), Answer("loaded_wall")),
+    **dict.fromkeys(("bearing wall", "load bearing wall"), OtherName("loaded_wall")),
     **dict.fromkeys(
         ("vault", "barrel vault", "tunnel vault"),
-        Answer("arch", "one metre of it, without what stiffens its ends"),
+        OtherName("arch", "one metre of it, without what stiffens its ends"),
     ),
-    **dict.fromkeys(("triumphal arch", "gateway", "portal arch"), Answer("arch_on_piers")),
+    **dict.fromkeys(("triumphal arch", "gateway", "portal arch"), OtherName("arch_on_piers")),
     **dict.fromkeys(
         ("portal", "portico", "colonnade", "trilith", "belfry", "bell gable"),
-        Answer("frame", "its columns in one plane, each in one piece, under one beam"),
+        OtherName("frame", "its columns in one plane, each in one piece, under one beam"),
     ),
     **dict.fromkeys(
         (
@@ -67,49 +69,52 @@ OTHER_NAMES: dict[str, Answer] = {
             "veneer",
             "cladding",
         ),
-        Answer("wall", _LEAF),
+        OtherName("wall", _LEAF),
     ),
-    **dict.fromkeys(("pushover curve", "pushover", "capacity curve"), Answer("capacity_curve")),
+    **dict.fromkeys(("pushover curve", "pushover", "capacity curve"), OtherName("capacity_curve")),
     # What nothing here describes.
-    "drum column": Answer("", "drums open and slide on each other, each with a rim on which it rolls"),
+    "drum column": OtherName("", "drums open and slide on each other, each with a rim on which it rolls"),
     **dict.fromkeys(
         ("dome", "cupola", "cloister vault"),
-        Answer("", "a dome is held by its rings, which no section shows"),
+        OtherName("", "a dome is held by its rings, which no section shows"),
     ),
     **dict.fromkeys(
-        ("cross vault", "groin vault", "rib vault", "fan vault"), Answer("", "it bears in two directions")
+        ("cross vault", "groin vault", "rib vault", "fan vault"), OtherName("", "it bears in two directions")
     ),
     **dict.fromkeys(
         ("corner", "corner wedge", "quoin"),
-        Answer(
+        OtherName(
             "", "a corner slides off in two directions at once, above all below the thrust of a hip rafter"
         ),
     ),
-    **dict.fromkeys(("tower", "bell tower", "campanile", "minaret", "lighthouse"), Answer("", _TOWER)),
-    **dict.fromkeys(("cornice", "balcony", "canopy", "eaves", "corbel", "gargoyle"), Answer("", _CANTILEVER)),
+    **dict.fromkeys(("tower", "bell tower", "campanile", "minaret", "lighthouse"), OtherName("", _TOWER)),
+    **dict.fromkeys(
+        ("cornice", "balcony", "canopy", "eaves", "corbel", "gargoyle"), OtherName("", _CANTILEVER)
+    ),
     **dict.fromkeys(
         ("retaining wall", "basement wall", "quay wall", "sea wall"),
-        Answer("", "earth or water presses on it"),
+        OtherName("", "earth or water presses on it"),
     ),
-    "flying buttress": Answer("", "a strut between two bodies that move apart, neither of which is given"),
+    "flying buttress": OtherName("", "a strut between two bodies that move apart, neither of which is given"),
     **dict.fromkeys(
-        ("rubble wall", "dry stone wall", "drystone wall", "adobe wall", "earthen wall"), Answer("", _RUBBLE)
+        ("rubble wall", "dry stone wall", "drystone wall", "adobe wall", "earthen wall"),
+        OtherName("", _RUBBLE),
     ),
     **dict.fromkeys(
         ("bridge", "viaduct", "aqueduct"),
-        Answer("", "its spandrels, fill and piers act together; one arch of it is an arch"),
+        OtherName("", "its spandrels, fill and piers act together; one arch of it is an arch"),
     ),
     **dict.fromkeys(
-        ("building", "house", "church"), Answer("", "only its parts that rock are structures here")
+        ("building", "house", "church"), OtherName("", "only its parts that rock are structures here")
     ),
     **dict.fromkeys(
-        ("wood frame", "steel frame", "concrete frame"), Answer("", "it bends and does not rock")
+        ("wood frame", "steel frame", "concrete frame"), OtherName("", "it bends and does not rock")
     ),
 }
 """By the name in small letters, its words parted by blanks."""
 
 
-def answer(name: object) -> Answer | None:
+def answer(name: object) -> OtherName | None:
     """Return what is known of a name that is no type; None of one that is not in the table."""
     words = str(name).replace("_", " ").replace("-", " ").lower().split()
     spoken = " ".join(words)

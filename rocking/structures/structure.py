@@ -30,8 +30,8 @@ from rocking.structures.linkage import (
     HIGHEST_SHARE,
     STILL,
     Contacts,
+    Kinematics,
     Linkage,
-    Motion,
     MotionState,
     Reaction,
     Restitution,
@@ -238,7 +238,7 @@ class Structure(ABC):
         """Return the contact points (k, 2) in m at a signed `rotation` [rad]; at rest those of the positive side."""
         return plane(self._posed(rotation)[1].hinges, rotation < 0)
 
-    def _posed(self, rotation: float) -> tuple[Linkage, Motion]:
+    def _posed(self, rotation: float) -> tuple[Linkage, Kinematics]:
         """The moving parts of the side of a signed `rotation` [rad], and where they are."""
         sides = self.mechanism().sides
         lowest = 0.0 if self.one_sided else -sides[-1].end_rotation

@@ -27,8 +27,8 @@ from rocking.structures.linkage import (
     HIGHEST_SHARE,
     Contacts,
     Hung,
+    Kinematics,
     Linkage,
-    Motion,
     MotionState,
     Parts,
     Restitution,
@@ -95,7 +95,7 @@ class WallLinkage(Linkage):
         self.end_rotation = float(min(np.pi / 2, slenderness + np.arcsin(_LINKAGE_MARGIN * reach)))
 
     @keeps_last
-    def motion(self, rotation: np.ndarray) -> Motion:
+    def motion(self, rotation: np.ndarray) -> Kinematics:
         """Return the blocks at `rotation` ≥ 0, any shape; hinges at the base, between the blocks and at the top.
 
         The lower block turns clockwise about its right bottom corner, the upper one back about the left edge.
@@ -115,7 +115,7 @@ class WallLinkage(Linkage):
         base = self._half_thickness + np.zeros_like(lower)
         psi = self._upper_slenderness - np.arctan2(upper.real, upper.imag)
         one = np.ones_like(across)
-        blocks = Motion(
+        blocks = Kinematics(
             hinges=np.array([base, base + 2 * lower, base + 2 * lower + 2 * upper]),
             angles=np.array([-np.asarray(rotation) * one, psi]),
             spins=np.array([-one, ratio]),
@@ -126,7 +126,7 @@ class WallLinkage(Linkage):
         )
         return self._loaded(blocks) if self.loads else blocks
 
-    def _loaded(self, blocks: Motion) -> Motion:
+    def _loaded(self, blocks: Kinematics) -> Kinematics:
         """The motion with that of the loads on the top, each of which rises with its bearing and moves to no side."""
         carried = [self.carried(1, each.start, blocks) for each in self.loads]
         # Upwards only: the imaginary part.

@@ -46,7 +46,7 @@ from rocking.study.folder import locked
 from rocking.study.made_from import TABLE, made_from, records_of, what_changed
 from rocking.study.outputs import case_timings_of, cases_of, kept_of, outcome_of, sums_of
 from rocking.study.plan import JOBS, Plan, plan_of_job, scenes_of, study_remarks
-from rocking.study.results import Outcome, outcomes_written
+from rocking.study.results import RecordOutcome, outcomes_written
 from rocking.study.settings import Settings, settings_sha256
 from rocking.study.task import Task
 from rocking.study.terminal import line_writer, log_error, record_line, tell, tell_error
@@ -162,7 +162,7 @@ class Job:
     records: Sequence[CatalogueRecord]
     log: Path
     tell: Callable[..., None]
-    keep: Callable[[str, Outcome], None] = lambda record, outcome: None
+    keep: Callable[[str, RecordOutcome], None] = lambda record, outcome: None
 
     @property
     def kind(self) -> str:
@@ -350,7 +350,7 @@ def _write(result: RecordResult, record: CatalogueRecord, job: Job) -> None:
             write_rows(HistoryRow, histories, folder / HistoryRow.table.file_name)
     tables = {each: list(of_it) for each, of_it in rows.tables.items()}
     sums = sums_of(job.task.product, study.settings) if job.kind == "record" else {}
-    job.keep(record.id, Outcome(tables, page, spectra, sums))
+    job.keep(record.id, RecordOutcome(tables, page, spectra, sums))
     job.tell(f"{record.id}: {record_line(result.scenes.values(), rows.failures)}")
 
 

@@ -27,7 +27,7 @@ from rocking.study.settings import Settings, settings_sha256
 from rocking.tables import Row, read_whole, write_tables, write_whole, written_together
 
 if TYPE_CHECKING:  # as in `assess_stations`
-    from rocking.assessment.case import StationResult
+    from rocking.assessment.case import PeriodResult
 
 
 @dataclass(frozen=True)
@@ -264,7 +264,7 @@ _LARGEST_REPORT = 2**28
 """Bytes of a report."""
 
 
-def _told(station: "StationResult", scale_factor: float) -> Iterator[str]:
+def _told(station: "PeriodResult", scale_factor: float) -> Iterator[str]:
     """Yield the verdict on a structure with its count and reason, then what each component does by itself."""
     decision = station.decision
     share = f" ({decision.share_in_words})" if decision.share_in_words else ""

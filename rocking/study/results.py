@@ -26,7 +26,7 @@ Rows = Mapping[type[Row], Iterable[Row]]
 
 
 @dataclass(frozen=True)
-class Outcome:
+class RecordOutcome:
     """What a record leaves: the rows of its tables, by their class, and what documents over all records show of it.
 
     page: what the page to explore shows. spectra: of the components, m/s², where there is a design level. Without
@@ -41,7 +41,7 @@ class Outcome:
 
 
 @contextmanager
-def outcomes_written(path: Path) -> Iterator[Callable[[str, Outcome], None]]:
+def outcomes_written(path: Path) -> Iterator[Callable[[str, RecordOutcome], None]]:
     """Yield what keeps the outcome of a record by its identifier, in one file that appears whole at the end.
 
     In a file that ends in .zip, which holds those of a batch, each is a member; else the file is that of one record.
@@ -56,7 +56,7 @@ def outcomes_written(path: Path) -> Iterator[Callable[[str, Outcome], None]]:
         )
 
 
-def _encoded_outcome(outcome: Outcome) -> bytes:
+def _encoded_outcome(outcome: RecordOutcome) -> bytes:
     content = {
         "rows": encoded_rows(outcome.rows),
         "page": outcome.page,
@@ -66,7 +66,7 @@ def _encoded_outcome(outcome: Outcome) -> bytes:
     return json.dumps(content, separators=(",", ":")).encode()
 
 
-def read_outcomes(files: Mapping[str, Path]) -> Iterator[Outcome]:
+def read_outcomes(files: Mapping[str, Path]) -> Iterator[RecordOutcome]:
     """Yield the outcome of each record, one at a time; files: by the identifier of the record that which keeps it.
 
     Raises RockingError where one is not what this version writes.
@@ -75,7 +75,7 @@ def read_outcomes(files: Mapping[str, Path]) -> Iterator[Outcome]:
         with _undamaged(path):
             content = json.loads(_kept_outcome(path, record))
             rows = decoded_rows(content["rows"], RECORD_TABLES)
-            yield Outcome(rows, content["page"], content["spectra"], content["sums"])
+            yield RecordOutcome(rows, content["page"], content["spectra"], content["sums"])
 
 
 def _kept_outcome(path: Path, record: str) -> bytes:

@@ -48,7 +48,7 @@ from rocking.study.documents import made_or_told, write_reason
 from rocking.study.job import Job, Study, costs_no_other
 from rocking.study.made_from import versions
 from rocking.study.outputs import PROVENANCE, SUMS, former_files, kept_of, remove, sums_of
-from rocking.study.results import Outcome, kept_rows, read_outcomes
+from rocking.study.results import RecordOutcome, kept_rows, read_outcomes
 from rocking.study.settings import package_sha256, structure_hashes
 from rocking.tables import (
     Row,
@@ -188,7 +188,7 @@ def _documents(
 
 
 def write_summary(
-    outcomes: Iterable[Outcome],
+    outcomes: Iterable[RecordOutcome],
     structures: Mapping[str, Structure],
     target: Path,
     reports: bool,

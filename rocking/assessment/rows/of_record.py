@@ -42,8 +42,8 @@ if TYPE_CHECKING:  # else who reads a table would load numba
     from rocking.assessment.case import (
         CaseResult,
         Failure,
+        PeriodResult,
         RecordResult,
-        StationResult,
         Variation,
     )
     from rocking.assessment.cracks import FollowedCrack
@@ -56,9 +56,9 @@ PEAK_SIDE = "Side of the largest rotation or of the overturning: 1, -1, or 0 wit
 
 @dataclass(frozen=True)
 class OfStructure(Identified):
-    """Anything about one structure under one component of one record. station: its result over all components."""
+    """Anything about one structure under one component of one record. period_result: its result over all components."""
 
-    station: "StationResult"
+    period_result: "PeriodResult"
 
 
 C = TypeVar("C", bound=OfStructure)
@@ -69,8 +69,10 @@ of_structure = Columns(OfStructure)
 class CaseRow(ComponentRow[C]):
     """A row about one structure under one component of one record."""
 
-    structure: str = of_structure(STRUCTURE, lambda each: each.station.structure)
-    support_period_s: float | None = of_structure(SUPPORT_PERIOD, lambda each: each.station.support_period_s)
+    structure: str = of_structure(STRUCTURE, lambda each: each.period_result.structure)
+    support_period_s: float | None = of_structure(
+        SUPPORT_PERIOD, lambda each: each.period_result.support_period_s
+    )
 
     @property
     def case(self) -> tuple[str, str, float | None]:
@@ -82,11 +84,13 @@ class CaseRow(ComponentRow[C]):
 class DecidedRow(CaseRow[C]):
     """A row about a case that says what becomes of the structure over all components."""
 
-    verdict: Verdict = of_structure(f"The verdict: {', '.join(Verdict)}", lambda each: each.station.verdict)
+    verdict: Verdict = of_structure(
+        f"The verdict: {', '.join(Verdict)}", lambda each: each.period_result.verdict
+    )
     overturning_share: float = of_structure(
         "Largest share that overturns, of the members of each crack and the stacks that make the verdict; 0 or 1 of a "
         "single run; empty where unknown",
-        lambda each: each.station.decision.share,
+        lambda each: each.period_result.decision.share,
     )
 
 
@@ -105,7 +109,7 @@ class ComparedCase(OfStructure):
         """The side of the mechanism of the row's crack that the pulse lifts first; without a pulse the positive one."""
         from rocking.assessment.cracks import cracked  # as above: it loads what integrates
 
-        sides = cracked(self.station.scene.structure, self.case.crack).mechanism().sides
+        sides = cracked(self.period_result.scene.structure, self.case.crack).mechanism().sides
         prediction = self.case.prediction
         return sides[-1 if prediction is not None and prediction.pulse.amplitude > 0 else 0]
 
@@ -272,13 +276,13 @@ RATIO_COLUMNS = {
 """The columns of the comparison with the largest rotation by method, over the critical one; INF if it overturns."""
 
 
-of_decision = of_structure.part(lambda of: of.station.decision)
-of_ensemble = of_structure.part(lambda of: of.station.ensemble)
+of_decision = of_structure.part(lambda of: of.period_result.decision)
+of_ensemble = of_structure.part(lambda of: of.period_result.ensemble)
 of_statics = of_structure.optional(
-    lambda of: of.station.ensembles.statics_beside if of.station.ensembles else None
+    lambda of: of.period_result.ensembles.statics_beside if of.period_result.ensembles else None
 )
-of_reserve = of_structure.optional(lambda of: of.station.reserve)
-of_stacks = of_structure.optional(lambda of: of.station.stacks)
+of_reserve = of_structure.optional(lambda of: of.period_result.reserve)
+of_stacks = of_structure.optional(lambda of: of.period_result.stacks)
 
 
 @row("verdicts")
@@ -289,8 +293,8 @@ class VerdictRow(DecidedRow[OfStructure]):
     was not computed.
     """
 
-    decision: Decision = of_structure.kept(lambda of: of.station.decision)
-    reserve: Reserve | None = of_structure.kept(lambda of: of.station.reserve)
+    decision: Decision = of_structure.kept(lambda of: of.period_result.decision)
+    reserve: Reserve | None = of_structure.kept(lambda of: of.period_result.reserve)
     share_low: float = of_decision(
         "Least share that overturns, over the cracks and what failed or is not known",
         lambda decision: decision.share_low,
@@ -317,7 +321,7 @@ class VerdictRow(DecidedRow[OfStructure]):
     )
     crack: str = of_structure(
         "Crack that governs, to which the numbers belong; empty where only one may form",
-        lambda of: of.station.crack,
+        lambda of: of.period_result.crack,
     )
     statics_crack: str = of_statics(
         "Crack of statics where another governs; beside a crack that is known, the worst other",
@@ -341,20 +345,21 @@ class VerdictRow(DecidedRow[OfStructure]):
     )
     rotation_ratio: float = of_structure(
         "Largest rotation over critical rotation as recorded; INF if it overturns",
-        lambda of: of.station.rotation_ratio,
+        lambda of: of.period_result.rotation_ratio,
     )
     friction_needed: float = of_structure(
         "Friction coefficient that a contact needs while it rocks, where it has less, of what (probably) stands",
-        lambda of: of.station.friction_needed,
+        lambda of: of.period_result.friction_needed,
     )
     direction: str = of_structure(
-        "Direction of the largest rotation; empty where there is only one", lambda of: of.station.direction
+        "Direction of the largest rotation; empty where there is only one",
+        lambda of: of.period_result.direction,
     )
     polarity: str = of_ensemble(
         "Sign of the motion of the largest rotation: as recorded, reversed; or empty",
         lambda ensemble: POLARITIES.get(ensemble.worst("polarity"), ""),
     )
-    peak_side: int | None = of_structure(PEAK_SIDE, lambda of: of.station.peak_side)
+    peak_side: int | None = of_structure(PEAK_SIDE, lambda of: of.period_result.peak_side)
     reserve_low: float = of_reserve(
         "Factor on the record at which 5 % of the members overturn; empty: not reached",
         lambda reserve: reserve.low,
@@ -374,11 +379,13 @@ class VerdictRow(DecidedRow[OfStructure]):
     )
     reserve_doubts: tuple[Kind, ...] = of_structure(
         "Kinds of doubt for which the reserve may be too high: it is that of the mechanism alone",
-        lambda of: tuple(each.kind for each in of.station.reserve_doubts) if of.station.reserve else (),
+        lambda of: (
+            tuple(each.kind for each in of.period_result.reserve_doubts) if of.period_result.reserve else ()
+        ),
     )
     decided_by: str = of_structure(
         "What decides where the members disagree, with its share of the variance",
-        lambda of: of.station.decided_by,
+        lambda of: of.period_result.decided_by,
     )
     stack_falls: int | None = of_stacks(
         "Stacks of courses that fall in contact dynamics; empty: not run", lambda stacks: stacks.falls
@@ -427,14 +434,14 @@ class CarriedStructure(OfStructure):
     @property
     def support_name(self) -> str:
         """The name of the support in the list, on the ground below it, too."""
-        return self.station.scene.place.name
+        return self.period_result.scene.place.name
 
     @cached_property
     def measures(self) -> FloorMeasures:
         """The motion on the support beside that of the ground."""
         ground = (self.floor.ground or self.floor).accelerogram
-        period = self.station.support_period_s or 0.0
-        return self.station.scene.place.measures(period, ground=ground, there=self.floor.accelerogram)
+        period = self.period_result.support_period_s or 0.0
+        return self.period_result.scene.place.measures(period, ground=ground, there=self.floor.accelerogram)
 
 
 of_support = Columns(CarriedStructure)
@@ -466,11 +473,11 @@ def structures_carried(
     result: "RecordResult", identities: Mapping[str, Identity]
 ) -> Iterator[CarriedStructure]:
     """Yield every structure on a support under each component. identities: of the components, by name."""
-    for station in (station for scene in result.carried for station in scene.stations):
-        if station.support is not None and station.support not in result.floors:
+    for period_result in (period_result for scene in result.carried for period_result in scene.periods):
+        if period_result.support is not None and period_result.support not in result.floors:
             continue  # the record could not be taken there, as the table of failures says
-        for component, floor in result.components_under(station).items():
-            yield CarriedStructure(identities[component], station, floor)
+        for component, floor in result.components_under(period_result).items():
+            yield CarriedStructure(identities[component], period_result, floor)
 
 
 @dataclass(frozen=True)
@@ -597,21 +604,25 @@ class MechanismRow(CaseRow[HeldMechanism]):
     )
 
 
-def held_mechanisms(station: "StationResult", identity: Identity) -> Iterator[HeldMechanism]:
+def held_mechanisms(period_result: "PeriodResult", identity: Identity) -> Iterator[HeldMechanism]:
     """Yield every mechanism of a structure with each of its holds, and what was found of it; none without a result."""
-    if station.worst is None:
+    if period_result.worst is None:
         return
     from rocking.assessment.cracks import mechanisms_of  # as above: it loads what integrates
 
-    followed = {each.description: each for each in station.ensembles.followed} if station.ensembles else {}
-    family = mechanisms_of(station.scene.structure)
+    followed = (
+        {each.description: each for each in period_result.ensembles.followed}
+        if period_result.ensembles
+        else {}
+    )
+    family = mechanisms_of(period_result.scene.structure)
     for candidate in family:
         only = candidate is family[0]  # which has no name where no other one may form
         own = followed.get(candidate.description) or (followed.get("") if only else None)
-        governs = candidate.description == station.crack or (only and not station.crack)
-        check = station.check_of(candidate)
+        governs = candidate.description == period_result.crack or (only and not period_result.crack)
+        check = period_result.check_of(candidate)
         for place, hold in enumerate(candidate.reactions or (None,)):
-            yield HeldMechanism(identity, station, candidate, governs, own, check, hold, place)
+            yield HeldMechanism(identity, period_result, candidate, governs, own, check, hold, place)
 
 
 @dataclass(frozen=True)
@@ -794,18 +805,18 @@ RECORD_TABLES: tuple[type[Row], ...] = tuple(RecordRows().tables)
 
 
 @contextmanager
-def _told(failures: list[FailedCase], identity: Identity, station: "StationResult") -> Iterator[None]:
+def _told(failures: list[FailedCase], identity: Identity, period_result: "PeriodResult") -> Iterator[None]:
     """Add why the rows of one structure that are made within could not be, to `failures`."""
     try:
-        with one_structure(station.structure):
+        with one_structure(period_result.structure):
             yield
     except RockingError as error:
         from rocking.assessment.case import Failure  # as above
 
         failure = Failure("rows", str(error))
-        period = station.support_period_s
+        period = period_result.support_period_s
         of_case = FailedCase(
-            identity.record, identity.component, station.structure, failure, support_period=period
+            identity.record, identity.component, period_result.structure, failure, support_period=period
         )
         failures.append(of_case)
 
@@ -852,33 +863,33 @@ def rows_of_record(
     if identities:
         by_component[BOTH_COMPONENTS] = replace(identities[0], component=BOTH_COMPONENTS)
     for component, identity in by_component.items():
-        for station, case in result.cases(component):
-            with _told(failures, identity, station):
+        for period_result, case in result.cases(component):
+            with _told(failures, identity, period_result):
                 if case.answer is not None:
-                    compared = ComparedCase(identity, station, case, friction_coefficient)
+                    compared = ComparedCase(identity, period_result, case, friction_coefficient)
                     comparison.append(ComparisonRow.of(compared))
                 variations += [
-                    VariationRow.of(VariedCase(identity, station, each)) for each in case.variations
+                    VariationRow.of(VariedCase(identity, period_result, each)) for each in case.variations
                 ]
             failures += [
                 FailedCase(
                     record,
                     identity.component,
-                    station.structure,
+                    period_result.structure,
                     each,
-                    support_period=station.support_period_s,
+                    support_period=period_result.support_period_s,
                 )
                 for each in case.failures
             ]
     verdicts = []
     mechanisms: list[MechanismRow] = []
-    for station in result.stations:
-        identity = by_component[station.worst.component] if station.worst else identities[0]
-        with _told(failures, identity, station):
-            identity = replace(identity, component=station.component)
-            verdicts.append(VerdictRow.of(OfStructure(identity, station)))
-        with _told(failures, identity, station):
-            mechanisms += [MechanismRow.of(each) for each in held_mechanisms(station, identity)]
+    for period_result in result.periods:
+        identity = by_component[period_result.worst.component] if period_result.worst else identities[0]
+        with _told(failures, identity, period_result):
+            identity = replace(identity, component=period_result.component)
+            verdicts.append(VerdictRow.of(OfStructure(identity, period_result)))
+        with _told(failures, identity, period_result):
+            mechanisms += [MechanismRow.of(each) for each in held_mechanisms(period_result, identity)]
     components = list(zip(identities, result.components, strict=True))
     return RecordRows(
         record=[RecordRow.of(ReadComponent(*each, licence)) for each in components],

@@ -326,7 +326,7 @@ class AskedError(UndeclaredError):
 
 
 @dataclass(frozen=True)
-class Answer:
+class LayoutAnswer:
     """One answer: its text, who gave it, the line it stands on and the file that it was drawn from."""
 
     text: str
@@ -376,10 +376,10 @@ class Layouts:
         _ = self.rows
 
     @cached_property
-    def _answers(self) -> Sequence[tuple[Signature, Answer]]:
+    def _answers(self) -> Sequence[tuple[Signature, LayoutAnswer]]:
         return _answers(self.rows, NAME)
 
-    def _matching(self, signature: Signature) -> list[Answer]:
+    def _matching(self, signature: Signature) -> list[LayoutAnswer]:
         """Return the answers that hold for tables of a signature: those drawn from files that are nearest to it."""
         for answers in (self._answers, _shipped()):
             found = [(off, answer) for row, answer in answers if (off := row.distance(signature)) is not None]
@@ -388,7 +388,7 @@ class Layouts:
                 return [answer for off, answer in found if off == nearest]
         return []
 
-    def answer(self, signature: Signature) -> Answer | None:
+    def answer(self, signature: Signature) -> LayoutAnswer | None:
         """Return the answer for tables of a signature, None where there is none yet.
 
         Raises RecordError where two lines answer otherwise.
@@ -414,7 +414,7 @@ class Layouts:
         """
         return "; ".join(answer.text for answer in self._matching(signature)) if signature else ""
 
-    def idle(self, signatures: Iterable[Signature]) -> list[Answer]:
+    def idle(self, signatures: Iterable[Signature]) -> list[LayoutAnswer]:
         """Return the answers in layouts.csv that hold for no table of these signatures."""
         used = {answer.line for signature in signatures for answer in self._matching(signature)}
         return [answer for _, answer in self._answers if answer.line not in used]
@@ -443,15 +443,17 @@ class Layouts:
         return edited_text([*(row for _, row in self.rows), *new], COLUMNS, self._path)
 
 
-def _answers(rows: Iterable[tuple[int, Mapping[str, str]]], whose: str) -> list[tuple[Signature, Answer]]:
+def _answers(
+    rows: Iterable[tuple[int, Mapping[str, str]]], whose: str
+) -> list[tuple[Signature, LayoutAnswer]]:
     """Return the answers in rows, without what is still open."""
     return [
-        (Signature.of_row(row), Answer(row["answer"].strip(), whose, line, row.get("file") or ""))
+        (Signature.of_row(row), LayoutAnswer(row["answer"].strip(), whose, line, row.get("file") or ""))
         for line, row in rows
         if row["answer"].strip() and OPEN not in row["answer"]
     ]
 
 
 @cache
-def _shipped() -> list[tuple[Signature, Answer]]:
+def _shipped() -> list[tuple[Signature, LayoutAnswer]]:
     return _answers(read_edited(_SHIPPED, CatalogueError, COLUMNS, COLUMNS[:1]), "the layouts of rocking")

@@ -21,9 +21,9 @@ from rocking.records.formats.format import Format, Options, plain
 from rocking.records.formats.labels import ColumnLabel
 from rocking.records.formats.layouts import (
     Above,
-    Answer,
     AskedError,
     Column,
+    LayoutAnswer,
     Layouts,
     Question,
     Signature,
@@ -70,7 +70,7 @@ LONGEST_STEP = 1.0
 
 
 @dataclass(frozen=True)
-class Table:
+class NumberTable:
     """Numbers in columns, and what stands above them.
 
     labels: of the columns, none where no line names them. width: number of columns. start: lines above the numbers.
@@ -88,7 +88,7 @@ class Table:
     tail: tuple[str, ...] = ()
 
     @classmethod
-    def of(cls, content: bytes) -> "Table | None":
+    def of(cls, content: bytes) -> "NumberTable | None":
         """Return the table that a text is, None of another file."""
         lines = text.lines(content, _ABOVE + 2 * _HEAD)
         parted = [re.sub(_TOUCHING.pattern.decode(), r"\1 ", _bare(line)) for line in lines]
@@ -249,7 +249,7 @@ _OTHER_TITLE = re.compile(
 _SPEAKS_OF_MOTION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|match)")
 
 
-def _refuse_others(table: Table, file: str) -> None:
+def _refuse_others(table: NumberTable, file: str) -> None:
     """Refuse a table whose names, text or file name say that it holds no acceleration."""
     names = [label.text for label in table.labels]
     if names and (_SPECTRAL.fullmatch(names[0]) or any(map(_ORDINATE.fullmatch, names[1:]))):
@@ -264,7 +264,7 @@ def _refuse_others(table: Table, file: str) -> None:
 
 
 @lru_cache(maxsize=2)
-def _table_of(content: bytes) -> tuple[Table | None, bytes | None]:
+def _table_of(content: bytes) -> tuple[NumberTable | None, bytes | None]:
     """Return the table that a content is and its plain numbers, which reading asks for at each question anew.
 
     None for another content, and for numbers in which a comma may be either of two things.
@@ -272,7 +272,7 @@ def _table_of(content: bytes) -> tuple[Table | None, bytes | None]:
     if _OTHER_FORMAT.match(content) or b"\0" in content[:4096]:
         return None, None
     pointed = dialect.plain(content)
-    return Table.of(pointed or content), pointed
+    return NumberTable.of(pointed or content), pointed
 
 
 def is_table(content: bytes) -> bool:
@@ -294,7 +294,7 @@ class _Seen:
     `fault` says.
     """
 
-    table: Table
+    table: NumberTable
     body: bytes
     notes: tuple[Remark, ...]
     values: np.ndarray | None
@@ -302,7 +302,7 @@ class _Seen:
     fault: RecordError | None = None
 
     @classmethod
-    def of(cls, table: Table, content: bytes) -> "_Seen":
+    def of(cls, table: NumberTable, content: bytes) -> "_Seen":
         """Return a table as it looks where nothing is declared."""
         try:
             _, start = _above(table, None, content)
@@ -312,7 +312,12 @@ class _Seen:
 
     @classmethod
     def below(
-        cls, table: Table, content: bytes, layout: TableLayout | None, start: int, declared: float | None
+        cls,
+        table: NumberTable,
+        content: bytes,
+        layout: TableLayout | None,
+        start: int,
+        declared: float | None,
     ) -> "_Seen":
         """Return a table as it looks from the line `start` on.
 
@@ -409,7 +414,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     ]
 
 
-def _above(table: Table, layout: TableLayout | None, content: bytes) -> tuple[dict[Above, float], int]:
+def _above(table: NumberTable, layout: TableLayout | None, content: bytes) -> tuple[dict[Above, float], int]:
     """Return the numbers above a series, by what they are, and the line at which its samples begin.
 
     Raises RecordError where an answer names numbers above it that are not there.
@@ -470,7 +475,7 @@ def _is_row(line: str, width: int) -> bool:
     return is_like_one or (width == 1 == len(cells) and bool(re.search(r"\d", bare)))
 
 
-def _told_of_tail(table: Table) -> tuple[Remark, ...]:
+def _told_of_tail(table: NumberTable) -> tuple[Remark, ...]:
     """Return a remark on text below the numbers that is more than a word for their end."""
     told = [line for line in table.tail if not _END.fullmatch(line)]
     return (Remark.of(Kind.TAIL_PASSED_OVER, text=plain(" / ".join(told))[:80]),) if told else ()
@@ -479,7 +484,7 @@ def _told_of_tail(table: Table) -> tuple[Remark, ...]:
 _FILLING = re.compile(rb"(?i)(?:[ \t]+nan)+\s*\Z")
 
 
-def _plain_rows(table: Table, below: bytes) -> tuple[Table, bytes, tuple[Remark, ...]]:
+def _plain_rows(table: NumberTable, below: bytes) -> tuple[NumberTable, bytes, tuple[Remark, ...]]:
     """Return a table with its tail, its rows of numbers without the empty cells behind them, and what there is to say.
 
     NaN may fill up the last row of a series. Raises RecordError where a cell is empty.
@@ -495,7 +500,7 @@ def _plain_rows(table: Table, below: bytes) -> tuple[Table, bytes, tuple[Remark,
     return replace(table, tail=tail), bare, notes
 
 
-def _drawn(table: Table, values: np.ndarray, is_parted: bool, declared: float | None) -> TableLayout:
+def _drawn(table: NumberTable, values: np.ndarray, is_parted: bool, declared: float | None) -> TableLayout:
     """Return the layout of a table as far as its names, and its numbers where it has none, say it; the rest is open.
 
     is_parted: whether commas or semicolons part its numbers. declared: the time step that the caller declares, s.
@@ -569,7 +574,7 @@ def _runs_along_rows(values: np.ndarray, width: int, is_parted: bool) -> bool:
     return along <= (1.0 if width in _OF_CHANNELS else 1.5) * across
 
 
-def _holds(table: Table, drawn: TableLayout, values: np.ndarray) -> str:
+def _holds(table: NumberTable, drawn: TableLayout, values: np.ndarray) -> str:
     """Return what a table holds as far as it can be seen, for a person who knows the rest."""
     rows = values.size // table.width
     size = f"{rows:,} rows".replace(",", " ")
@@ -593,7 +598,7 @@ def _holds(table: Table, drawn: TableLayout, values: np.ndarray) -> str:
 
 
 def _ask_where_open(
-    table: Table, drawn: TableLayout, options: Options, question: Question, body: bytes
+    table: NumberTable, drawn: TableLayout, options: Options, question: Question, body: bytes
 ) -> None:
     """Raise AskedError where a table leaves open what it holds, but for the unit and the step of one series.
 
@@ -621,7 +626,7 @@ def _ask_where_open(
 _ANSWER_IT = "answer it once in layouts.csv, of which rocking catalogue writes the line."
 
 
-def _fitted(answer: Answer, layout: TableLayout, table: Table, drawn: TableLayout) -> TableLayout:
+def _fitted(answer: LayoutAnswer, layout: TableLayout, table: NumberTable, drawn: TableLayout) -> TableLayout:
     """Return the layout of an answer for one table. Raises RecordError where it contradicts the page or the numbers."""
     a_line = layout.per_line or (table.width if layout.is_series else len(layout.columns))
     if a_line != table.width and not layout.width:
@@ -661,7 +666,7 @@ def _point_apart(first: str, second: str) -> bool:
 
 
 def _series(
-    values: np.ndarray, table: Table, layout: TableLayout, above: dict[Above, float], options: Options
+    values: np.ndarray, table: NumberTable, layout: TableLayout, above: dict[Above, float], options: Options
 ) -> list[Accelerogram]:
     """Return the accelerogram of a table that is one series, `above` the numbers that stand there of it."""
     label = table.labels[0] if table.labels else ColumnLabel("")
@@ -715,7 +720,7 @@ def _first_numbers(values: np.ndarray, declared: float | None) -> tuple[Above, .
     return ("dt",) if declared is not None and first == declared else ()
 
 
-def _values(body: bytes, table: Table, layout: TableLayout | None) -> np.ndarray:
+def _values(body: bytes, table: NumberTable, layout: TableLayout | None) -> np.ndarray:
     """Return the numbers of rows, of the width that an answer says where they touch. Raises RecordError for others."""
     if layout and layout.width:
         values = text.fields(text.lines(body), layout.width)
@@ -749,7 +754,7 @@ def _whole_numbers(body: bytes) -> str:
 
 
 def _channels(
-    values: np.ndarray, table: Table, layout: TableLayout, above: dict[Above, float], options: Options
+    values: np.ndarray, table: NumberTable, layout: TableLayout, above: dict[Above, float], options: Options
 ) -> list[Accelerogram]:
     """Return the channels of a table: each column of acceleration, with the times left of it, else the first ones."""
     columns = layout.columns

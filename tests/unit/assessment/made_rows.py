@@ -11,11 +11,11 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from rocking.assessment.case import CaseResult, Failure, StationResult
+from rocking.assessment.case import CaseResult, Failure, PeriodResult
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.decide import Decision
 from rocking.assessment.ensemble import Ensemble
-from rocking.assessment.fidelity import Answer
+from rocking.assessment.fidelity import MethodAnswer
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import (
@@ -68,7 +68,7 @@ def case(component: str, ratio: float, structure: str = "pier", side: int = 0, f
         structure=structure,
         component=component,
         responses={Method.MECHANISM_ON_RECORD: response},
-        answer=Answer(Method.MECHANISM_ON_RECORD, outcome, "", response),
+        answer=MethodAnswer(Method.MECHANISM_ON_RECORD, outcome, "", response),
         ensembles=None if falls is None else of_one_crack(members(falls)),
     )
 
@@ -94,7 +94,7 @@ def broken(component: str, structure: str = "pier", message: str = "No.") -> Cas
     return CaseResult(structure=structure, component=component, failures=(Failure("responses", message),))
 
 
-def station(*cases: CaseResult, falls_in_directions: int | None = None) -> StationResult:
+def station(*cases: CaseResult, falls_in_directions: int | None = None) -> PeriodResult:
     """What became of a structure, from the cases of its components; with an ensemble over directions of 64."""
     directions = None
     if falls_in_directions is not None:
@@ -103,7 +103,7 @@ def station(*cases: CaseResult, falls_in_directions: int | None = None) -> Stati
             ensembles=of_one_crack(members(falls_in_directions)),
         )
     by_component = {each.component: each for each in cases}
-    return StationResult(Scene(cases[0].structure, Block(2.0, 0.2)), by_component, directions)
+    return PeriodResult(Scene(cases[0].structure, Block(2.0, 0.2)), by_component, directions)
 
 
 def decided(decision: Decision, reserve: Reserve | None = None, **values: Any) -> VerdictRow:
@@ -112,7 +112,7 @@ def decided(decision: Decision, reserve: Reserve | None = None, **values: Any) -
     return filled(VerdictRow, decision=decision, reserve=reserve, **own | values)
 
 
-def verdicts(stations: Sequence[StationResult], record: str = "a") -> list[VerdictRow]:
+def verdicts(stations: Sequence[PeriodResult], record: str = "a") -> list[VerdictRow]:
     """Their rows."""
     return [VerdictRow.of(OfStructure(Identity(record, each.component, "", ""), each)) for each in stations]
 

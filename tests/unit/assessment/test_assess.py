@@ -10,7 +10,7 @@ from motion_cases import noise
 from scipy.constants import g
 
 from rocking.assessment.assessor import Assessor, with_histories
-from rocking.assessment.case import CaseResult, StationResult
+from rocking.assessment.case import CaseResult, PeriodResult
 from rocking.assessment.inputs import CaseInputs
 from rocking.assessment.methods import NEGLIGIBLE, Method, agreement, ratio, rests, rocks, within_factor_two
 from rocking.assessment.motions import Component, HorizontalMotion, component_of, horizontal_motions
@@ -53,7 +53,7 @@ def assessed(record: Accelerogram, settings: AssessmentSettings = SETTINGS, vert
 
 
 def compared(case: CaseResult) -> ComparisonRow:
-    station = StationResult(Scene("block", BLOCK), {case.component: case})
+    station = PeriodResult(Scene("block", BLOCK), {case.component: case})
     return ComparisonRow.of(ComparedCase(IDENTITY, station, case, friction_coefficient=0.6))
 
 
@@ -105,15 +105,15 @@ def test_a_fragile_case_is_repeated_and_its_row_and_its_history_say_at_which_tol
     assert integrate(block, record).outcome is Outcome.OVERTURNS
     settings = AssessmentSettings(ensemble=EnsembleSettings(members=0))
     result = Assessor(settings).assess("made", [record], on_the_ground({"block": block}))
-    (kept,) = result.stations[0].cases.values()
+    (kept,) = result.periods[0].cases.values()
     row = compared(kept)
     assert row.fragile and kept.response.tolerance == 1e-9
     assert row.integrated_rotation_ratio == pytest.approx(1.11640268442, rel=1e-8)
 
     scene = result.scenes["block"]
-    station = replace(scene.stations[0], cases={"": kept.kept})
-    without = replace(result, scenes={"block": replace(scene, stations=(station,))})
-    (again,) = with_histories(without, settings.tolerance).stations[0].cases.values()
+    station = replace(scene.periods[0], cases={"": kept.kept})
+    without = replace(result, scenes={"block": replace(scene, periods=(station,))})
+    (again,) = with_histories(without, settings.tolerance).periods[0].cases.values()
     assert again.response.times is not None
     assert (again.response.rotation_ratio, again.response.fragile) == (row.integrated_rotation_ratio, True)
     calm = assessed(RECORD, settings)

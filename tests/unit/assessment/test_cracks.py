@@ -134,10 +134,10 @@ def test_a_single_run_of_a_typed_crack_that_rests_says_nothing_of_the_others(fid
     motion = record(0.5 * (lifts + WALL.static_multiplier) * 9.80665)
     settings = AssessmentSettings(fidelity=fidelity, ensemble=EnsembleSettings(members=0))
     result = Assessor(settings).assess("r", [motion], on_the_ground({"wall": WALL}))
-    (station,) = result.stations
+    (station,) = result.periods
     assert station.decision.word is not Verdict.STANDS
     known = Assessor(settings).assess("r", [motion], on_the_ground({"wall": replace(WALL, crack="known")}))
-    assert known.stations[0].decision.word is Verdict.STANDS
+    assert known.periods[0].decision.word is Verdict.STANDS
 
 
 def test_auto_rests_only_where_every_crack_does():
@@ -213,7 +213,7 @@ def test_a_row_of_the_comparison_speaks_of_the_crack_that_governs_alone(several,
     motions = [replace(record(amplitude), component=name) for name in ("EW", "NS")[:several]]
     assessor = Assessor(AssessmentSettings(ensemble=EnsembleSettings(reserve=0)))
     result = assessor.assess("r", motions, on_the_ground({"wall": wall}))
-    (station,) = result.stations
+    (station,) = result.periods
     crack = station.ensembles.governing.description
     statics, *_ = wall.candidates()
     assert crack != statics.description, "another crack than that of statics governs"

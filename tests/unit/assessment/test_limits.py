@@ -65,7 +65,7 @@ def made_case(seed: int) -> Case:
     distance = rng.choice([-1, 1]) * 10 ** rng.uniform(-11.5, -9)
     motion = record.scaled(limit * (1 + distance))
     loosely, strictly, exactly = (overturns(structure, motion, each) for each in (1e-6, 1e-9, 1e-12))
-    asked = integrate(structure, motion, 1e-6, fragility=True)
+    asked = integrate(structure, motion, 1e-6, repeat_fragile=True)
     return Case(structure, motion, loosely, strictly, exactly, asked)
 
 

@@ -8,7 +8,7 @@ import pytest
 
 import rocking
 from rocking.assessment.assessor import Assessor
-from rocking.assessment.case import StationResult
+from rocking.assessment.case import PeriodResult
 from rocking.assessment.ensemble import CAUSES, lattice
 from rocking.assessment.ladder import Stage, _Ladder, reserve
 from rocking.assessment.motions import GroundMotions
@@ -165,11 +165,11 @@ def test_on_a_support_it_is_sought_on_the_ground_and_at_the_worst_period_alone(t
 
     def assessed(
         period: float | list[float], store: RecordStore | None = None
-    ) -> dict[float | None, StationResult]:
+    ) -> dict[float | None, PeriodResult]:
         roof = place_from_config({"name": "roof", "period_s": period, "participation": 1.3})
         scenes = {"parapet": Scene("parapet", body, roof)}
         result = Assessor(settings, store=store).assess("made", [record], scenes)
-        return {each.support_period_s: each for each in result.stations}
+        return {each.support_period_s: each for each in result.periods}
 
     store = RecordStore(tmp_path / "cases")
     stations = assessed([0.15, 0.6], store)

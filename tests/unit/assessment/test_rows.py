@@ -15,7 +15,7 @@ def test_the_counts_and_quantiles_of_rows_are_those_of_the_members():
     motion = Pulse(3.5, 2 * np.pi / 0.8, 2.0).acceleration(np.arange(1000) * 0.01)
     record = Accelerogram(motion, 0.01, component="H1")
     result = Assessor().assess("made", [record], on_the_ground({"block": Block(2.0, 0.2)}))
-    (case,) = result.stations[0].cases.values()
+    (case,) = result.periods[0].cases.values()
     ratios = case.ensembles.governing.ensemble.rotation_ratios
     falls = int(np.isposinf(ratios).sum())
     assert 0 < falls < ratios.size / 2

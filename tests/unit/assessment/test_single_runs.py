@@ -25,7 +25,7 @@ def sine(amplitude):
 def test_a_bulge_of_statics_is_followed_without_an_ensemble():
     """8 sin 6t of 3 s: as one body on its tie it stands, as a wall between foot and tie it falls."""
     result = Assessor(ONE_RUN).assess("r", [sine(8.0)], on_the_ground({"front": TIED}))
-    (station,) = result.stations
+    (station,) = result.periods
     assert station.rotation_ratio < 1  # the described mechanism
     fallen = [each for each in next(iter(station.cases.values())).variations if "bulges" in each.crack]
     assert [each.integrated_rotation_ratio for each in fallen] == [math.inf]

@@ -75,8 +75,8 @@ def test_on_the_ground_it_is_what_it_is_without_a_support():
 def test_a_pair_and_its_vertical_component_go_through_the_support():
     first, second, up = motion(), motion("HNN", 9), motion("HNZ", 10, vertical=True)
     result = FULL.assess("r", [first, second], on_roof([0.2, 0.6]), up)
-    assert len(result.stations) > 3
-    for station in result.stations:
+    assert len(result.periods) > 3
+    for station in result.periods:
         assert station.directions is not None
         assert station.directions.ensembles is not None
         assert not station.directions.failures
@@ -93,7 +93,7 @@ def test_a_pair_and_its_vertical_component_go_through_the_support():
 def test_a_support_that_the_record_is_too_coarse_for_costs_no_other():
     coarse = replace(motion(), time_step=0.1)
     result = FULL.assess("r", [coarse], on_roof(0.15) | on_the_ground({"pier": BODY}))
-    ground, lost, pier = result.stations
+    ground, lost, pier = result.periods
     assert (lost.structure, lost.support_period_s, str(lost.verdict)) == ("parapet", 0.15, "cannot be told")
     assert "at least two samples of the record, 0.2 s" in lost.decision.why
     assert "cannot be told" not in (str(pier.verdict), str(ground.verdict))
@@ -108,10 +108,10 @@ def test_a_stored_case_of_one_support_is_not_taken_for_another(tmp_path):
     first = replace(FULL, store=store).assess("r", [record], on_roof([0.2, 0.6]))
     again = replace(FULL, store=store).assess("r", [record], on_roof([0.2, 0.6]))
     alone = FULL.assess("r", [record], on_roof([0.2, 0.6]))
-    assert len({station.decision.share for station in first.stations}) > 1
-    assert len(first.stations) > 3
+    assert len({station.decision.share for station in first.periods}) > 1
+    assert len(first.periods) > 3
     for other in (again, alone):
-        for station, same in zip(first.stations, other.stations, strict=True):
+        for station, same in zip(first.periods, other.periods, strict=True):
             assert same.decision.share == station.decision.share
             assert same.rotation_ratio == station.rotation_ratio
 
@@ -137,7 +137,7 @@ def test_a_period_at_which_it_falls_is_found_where_it_stands_at_the_ends_and_in_
     times = np.arange(2000) * STEP
     waves = 0.5 * np.sin(2 * np.pi * times / 0.52) * np.sin(np.pi * times / 20) ** 2
     result = FULL.assess("r", [Accelerogram(waves, STEP)], on_roof([0.1, 0.9]))
-    ground, *carried = result.stations
+    ground, *carried = result.periods
     assert len(carried) == 9
     falls = [station.decision.share for station in carried]
     assert ground.decision.share == falls[0] == falls[4] == falls[8] == 0 < max(falls)
@@ -173,9 +173,9 @@ def test_the_bytes_that_are_kept_change_no_number(monkeypatch):
         monkeypatch.setattr(kept_motions, "_FLOOR_MOTIONS", kept_motions._FloorMotions())
         kept_motions.ground_motions.cache_clear()
         result = FULL.assess("r", [first, second], carried)
-        ratios = [each.ensembles.governing.ensemble.rotation_ratios for each in result.stations]
+        ratios = [each.ensembles.governing.ensemble.rotation_ratios for each in result.periods]
         floors = [
-            each.accelerogram.sha256 for station in result.stations for each in components(result, station)
+            each.accelerogram.sha256 for station in result.periods for each in components(result, station)
         ]
         rows.append((np.concatenate(ratios).tobytes(), floors))
     assert rows[0] == rows[1]

@@ -120,7 +120,7 @@ def test_a_fragile_run_is_repeated_where_the_tolerance_decides_wrongly(
     assert np.isinf(as_asked.rotation_ratio) != np.isinf(ratio)
     assert as_asked.fragile is None
 
-    repeated = integrate(mechanism, record, fragility=True, history=True)
+    repeated = integrate(mechanism, record, repeat_fragile=True, history=True)
     assert repeated.fragile is True
     assert repeated.tolerance == 1e-9
     assert repeated.rotation_ratio == pytest.approx(ratio, rel=1e-8)  # ten times the tolerance it states

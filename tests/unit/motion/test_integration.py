@@ -40,7 +40,7 @@ STILL, SLOW = Accelerogram(np.zeros(299), 0.01), Accelerogram(np.zeros(300), 0.0
         (BLOCK, RECORD, {"initial_velocity": np.nan}, "initial_velocity"),
         (MECHANISMS["one side"], RECORD, {"initial_rotation": -0.01}, "initial_rotation"),
         (BLOCK, RECORD, {"initial_rotation": 2.0}, "initial_rotation"),
-        (BLOCK, RECORD, {"sensitivity": True, "fragility_change": 0.9}, "fragility_change"),
+        (BLOCK, RECORD, {"sensitivity": True, "fragile_change": 0.9}, "fragile_change"),
         ("a block", RECORD, {}, "structure"),
         (BLOCK, 3.0, {}, "motion"),
     ],
@@ -120,7 +120,7 @@ def test_fragile_verdicts_are_marked():
     for factor, fragile in ((0.98, False), (0.995, True), (1.005, True)):
         response = integrate(BLOCK, scaled(threshold * factor), sensitivity=True)
         assert response.fragile is fragile
-    assert integrate(BLOCK, scaled(threshold * 0.98), sensitivity=True, fragility_change=0.03).fragile is True
+    assert integrate(BLOCK, scaled(threshold * 0.98), sensitivity=True, fragile_change=0.03).fragile is True
     assert integrate(BLOCK, scaled(threshold)).fragile is None
 
 

@@ -7,7 +7,7 @@ import pytest
 from numpy.polynomial import Polynomial
 
 from rocking.motion import nonlinear_kernel
-from rocking.motion.nonlinear_kernel import Ground, Member, Sides
+from rocking.motion.nonlinear_kernel import GroundSamples, Member, Sides
 from tests.parts import callable_parts
 
 kernel = callable_parts(nonlinear_kernel)
@@ -116,12 +116,12 @@ def plain_sides(one_sided: bool = False, **changes) -> Sides:
     return Sides(**(known | changes))
 
 
-def ground(horizontal, vertical=None, step=0.1, omega=0.0, gravity=10.0) -> Ground:
+def ground(horizontal, vertical=None, step=0.1, omega=0.0, gravity=10.0) -> GroundSamples:
     horizontal = np.asarray(horizontal, float)
     vertical = np.zeros_like(horizontal) if vertical is None else np.asarray(vertical, float)
     strongest = np.maximum.accumulate(np.abs(horizontal)[::-1])[::-1].copy()
     lightest = np.minimum.accumulate(vertical[::-1])[::-1].copy()
-    return Ground(horizontal, vertical, strongest, lightest, step, omega, gravity)
+    return GroundSamples(horizontal, vertical, strongest, lightest, step, omega, gravity)
 
 
 MEMBER = Member(1.0, 1.0, (0.9, 0.8))
@@ -173,7 +173,7 @@ def test_overturning_is_proved_where_nothing_to_come_can_hold_it(k: int) -> None
     for factor, proved in ((0.999, True), (1.001, False)):
         motion = ground([0.0, -strength * factor, 1.0])
         for arc, speed, lost in ((0.5, 0.1, proved), (1.0, 0.1, True), (0.5, -0.1, False)):
-            outward = kernel.Motion(0, 0.0, arc, speed, 1, arc, 0.1)
+            outward = kernel.RockingState(0, 0.0, arc, speed, 1, arc, 0.1)
             assert kernel._lost(sides, np.zeros((2, 8)), motion, MEMBER, k, outward) == lost
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from rocking.assessment.assessor import Assessor
-from rocking.assessment.case import SceneResult, StationResult
+from rocking.assessment.case import PeriodResult, SceneResult
 from rocking.assessment.decide import Verdict
 from rocking.assessment.rows import (
     AgreementRow,
@@ -56,7 +56,7 @@ def pages(document: bytes) -> list[list[Word]]:
     ]
 
 
-def judged(verdict: Verdict, rotation_ratio: float, structure: str = "", peak_side: int = 1) -> StationResult:
+def judged(verdict: Verdict, rotation_ratio: float, structure: str = "", peak_side: int = 1) -> PeriodResult:
     """What became of a structure, by its verdict and the rotation ratio as given."""
     falls = {Verdict.STANDS: 0, Verdict.OVERTURNS: 64, Verdict.UNCERTAIN: 32}[verdict]
     return station(case("EW", rotation_ratio, structure, peak_side, falls=falls))
@@ -92,7 +92,7 @@ def of_structures(report: RecordReport, kinds: dict[str, str], record: str = "on
     """The report with other structures: by name the one of the report whose results it has."""
     scenes = {}
     for name, kind in kinds.items():
-        (source,) = report.result.scenes[kind].stations
+        (source,) = report.result.scenes[kind].periods
         cases = {component: replace(each, structure=name) for component, each in source.cases.items()}
         scene = replace(source.scene, name=name)
         scenes[name] = SceneResult(scene, (replace(source, scene=scene, cases=cases),))

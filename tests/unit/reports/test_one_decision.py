@@ -64,8 +64,8 @@ def report(example) -> RecordReport:
     scenes = {
         name: replace(
             scene,
-            stations=tuple(
-                with_members(each, *made[name]) if name in made else each for each in scene.stations
+            periods=tuple(
+                with_members(each, *made[name]) if name in made else each for each in scene.periods
             ),
         )
         for name, scene in example.result.scenes.items()
@@ -77,7 +77,7 @@ def report(example) -> RecordReport:
 @pytest.fixture(scope="module")
 def decisions(report):
     """The decision on each structure: what everybody has to say."""
-    return {each.structure: each.decision for each in report.result.stations}
+    return {each.structure: each.decision for each in report.result.periods}
 
 
 def test_the_example_has_five_words_a_range_and_a_doubt(decisions):
@@ -115,7 +115,7 @@ def test_the_workbook_holds_it(report, decisions):
 
 def test_the_terminal_says_it(report, decisions):
     line = record_line(report.result.scenes.values(), [])
-    told = [text for each in report.result.stations for text in _told(each, 1.0)]
+    told = [text for each in report.result.periods for text in _told(each, 1.0)]
     for name, decision in decisions.items():
         (own,) = (text for text in told if text.startswith(f"{name}: "))
         assert own == f"{name}: {decision.word} ({decision.share_in_words}); {decision.why}"
@@ -192,7 +192,7 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
     study = Study(load_scenes(ROOT / "config" / "structures.yaml"))
     result = assess_catalogued(record, study)
     tables = rows_of(result, record, study)
-    decided = {(each.structure, each.support_period_s): each.decision for each in result.stations}
+    decided = {(each.structure, each.support_period_s): each.decision for each in result.periods}
     assert {name for name, _ in decided} == set(study.structures)
 
     write_rows(VerdictRow, tables.verdicts, tmp_path / "verdicts.csv")
@@ -207,7 +207,7 @@ def test_every_case_of_the_shipped_example_is_told_alike(record, tmp_path, undra
 
     report = detailed(RecordReport(result, tables, study.structures, study.settings.for_pages))
     data = report.page()
-    told = [line for each in result.stations for line in _told(each, 1.0)]
+    told = [line for each in result.periods for line in _told(each, 1.0)]
     of_all = zip(report.result.worst_first, data.details[0].verdicts.rows, strict=True)
     lines = workbook_lines(tables)
     stations = {row.record: (row.station, row.event) for row in tables.record}

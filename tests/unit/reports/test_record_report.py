@@ -294,7 +294,7 @@ def test_a_reserve_that_may_be_too_high_is_told_as_such(example):
     scene = example.result.scenes[name]
     station = scene.worst
     cases = {each: replace(case, doubt=Remark(Kind.CONTACTS_OPEN)) for each, case in station.cases.items()}
-    in_doubt = replace(scene, stations=(replace(station, cases=cases),))
+    in_doubt = replace(scene, periods=(replace(station, cases=cases),))
     result = replace(example.result, scenes={**example.result.scenes, name: in_doubt})
     doubtful = replace(detailed(example), result=result, tables=rows_of_record(result, "cd" * 32, "CC0-1.0"))
     data = doubtful.page()

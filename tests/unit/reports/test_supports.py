@@ -57,15 +57,15 @@ def test_the_reserve_stands_on_a_scale_of_its_own_for_each_period(report):
     """A factor that is not reached leaves a gap."""
     (panel,) = support_panels(report.result)
     (structure,) = panel.structures
-    factors = [math.nan, *np.linspace(0.4, 2.0, len(structure.stations) - 1)]
+    factors = [math.nan, *np.linspace(0.4, 2.0, len(structure.periods) - 1)]
     stations = [
         each.with_reserve(Reserve(0.3, factor, math.nan, 3.0))
-        for each, factor in zip(structure.stations, factors, strict=True)
+        for each, factor in zip(structure.periods, factors, strict=True)
     ]
     factors = [each.reserve.median for each in stations]  # held to the share at the record itself
-    figure = supports_figure([replace(panel, structures=[replace(structure, stations=tuple(stations))])])
+    figure = supports_figure([replace(panel, structures=[replace(structure, periods=tuple(stations))])])
     (line,) = [line for axes in figure.axes for line in axes.get_lines() if line.get_marker() == "x"]
-    assert list(line.get_xdata()) == list(structure.periods)
+    assert list(line.get_xdata()) == list(structure.first_periods)
     np.testing.assert_array_equal(line.get_ydata(), factors)
     assert line.axes.get_ylim() == (0.0, 3.0)
     plt.close(figure)

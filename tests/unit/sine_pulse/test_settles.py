@@ -6,14 +6,14 @@ import pytest
 from scipy.optimize import brentq
 
 from rocking.sine_pulse import kernel
-from rocking.sine_pulse.kernel import Side
+from rocking.sine_pulse.kernel import PulseSide
 from tests.parts import callable_parts
 
 _settles = callable_parts(kernel)._settles
 
 
-def side(frequency: float, amplitude: float, restitution: float, scale: float = 1.0) -> Side:
-    return Side(frequency, amplitude, restitution, scale, math.inf, True)
+def side(frequency: float, amplitude: float, restitution: float, scale: float = 1.0) -> PulseSide:
+    return PulseSide(frequency, amplitude, restitution, scale, math.inf, True)
 
 
 def limit(d: float, omega: float, steepest: float, restitution: float, room: float) -> float:

@@ -10,7 +10,7 @@ from rocking.study.contents import ContentHashes
 from rocking.study.job import Job, Study, steps_of
 from rocking.study.outputs import outcome_of
 from rocking.study.plan import Plan
-from rocking.study.results import Outcome, outcomes_written, read_outcomes
+from rocking.study.results import RecordOutcome, outcomes_written, read_outcomes
 from rocking.study.task import Task
 
 
@@ -30,12 +30,12 @@ def made_job(
     return Job(task, plan, study, list(records), results / "made.log", lines.append, partial(_keep, results))
 
 
-def _keep(results: Path, record: str, outcome: Outcome) -> None:
+def _keep(results: Path, record: str, outcome: RecordOutcome) -> None:
     with outcomes_written(outcome_of(results, record)) as keep:
         keep(record, outcome)
 
 
-def outcomes_in(results: Path, records: Sequence[CatalogueRecord]) -> Iterator[Outcome]:
+def outcomes_in(results: Path, records: Sequence[CatalogueRecord]) -> Iterator[RecordOutcome]:
     """What the jobs on `records` left, in their order."""
     yield from read_outcomes({each.id: outcome_of(results, each.id) for each in records})
 

@@ -21,7 +21,7 @@ from rocking.errors import RockingError
 from rocking.remarks import Kind, Remark
 from rocking.study.cli import main
 from rocking.study.outputs import cases_of, former_files, log_of, outcome_of, outputs_of, remove
-from rocking.study.results import Outcome, outcomes_written, verdicts_of
+from rocking.study.results import RecordOutcome, outcomes_written, verdicts_of
 from rocking.study.settings import Settings
 from rocking.tables import read_rows, write_rows
 from tests.unit.assessment.made_rows import case, station, verdicts
@@ -60,7 +60,7 @@ def test_an_outcome_keeps_the_decision_with_the_values_of_its_remarks(tmp_path: 
     for place in (path, outcome_of(tmp_path, "a", "00000_of_00001")):
         rows = {each: [] for each in RECORD_TABLES} | {VerdictRow: [row]}
         with outcomes_written(place) as keep:
-            keep("a", Outcome(rows, {}, {}, {}))
+            keep("a", RecordOutcome(rows, {}, {}, {}))
         (kept,) = verdicts_of({"a": place})
     assert kept.decision == decision
     assert repr(kept.reserve) == repr(reserve)

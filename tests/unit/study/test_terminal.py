@@ -7,14 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from rocking.assessment.case import SceneResult, StationResult
+from rocking.assessment.case import PeriodResult, SceneResult
 from rocking.assessment.rows import ComparisonRow
 from rocking.study import terminal
 from rocking.study.terminal import Progress, _cut, bar, closing_lines, line_writer, paths_to_read, record_line
 from tests.unit.assessment.made_rows import broken, case, compared, failure, station, verdicts
 
 
-def alone(*stations: StationResult) -> list[SceneResult]:
+def alone(*stations: PeriodResult) -> list[SceneResult]:
     """Results of scenes on the ground."""
     return [SceneResult(each.scene, (each,)) for each in stations]
 
@@ -56,7 +56,7 @@ def test_a_failure_stands_first_without_repeating_the_record() -> None:
     assert line == "failed: wall: it cannot stand. it cannot be read.; uncertain: pier (one run)"
 
 
-def compared_as(station_: StationResult, record: str, predicted: float) -> list[ComparisonRow]:
+def compared_as(station_: PeriodResult, record: str, predicted: float) -> list[ComparisonRow]:
     """Rows of the comparison of a station, the closed form beside what was integrated."""
     return [
         compared(
