@@ -292,8 +292,8 @@ def test_a_held_wall_that_turns_far_only_probably_stands():
         (3.2,), (0.4,), 19e3, one_sided=True, restitution=0.5, tie_heights=(3.2,), tie_stiffness=2e7
     )
     words = {}
-    for amplitude in np.arange(3.0, 6.0, 0.25):
-        assessed = rocking.assess(record(float(amplitude), 0.6), front)
+    for amplitude in (4.0, 5.0):
+        assessed = rocking.assess(record(amplitude, 0.6), front)
         (case,) = assessed.cases.values()
         decision = decide(replace(case.facts(front), friction_needed=math.nan, stacks=None))
         farthest = float(np.nanmax(assessed.rotation_ratios))

@@ -165,7 +165,7 @@ def test_the_mean_of_means_scatters_as_by_hand():
     assert spread.error == pytest.approx(spread.deviation / (8 / 3) ** 0.5)
 
 
-@pytest.mark.parametrize("earthquakes", [4, 8])
+@pytest.mark.parametrize("earthquakes", [4, pytest.param(8, marks=pytest.mark.slow)])
 def test_the_interval_of_a_median_holds_it_with_few_earthquakes_of_several_stations(earthquakes):
     """Half of the variance is between earthquakes. Asked: 85 % of 150; by stations as if independent far fewer hold."""
     rng = np.random.default_rng(3)

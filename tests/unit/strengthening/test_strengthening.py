@@ -84,7 +84,13 @@ def test_no_number_of_stations_shows_a_share_that_is_not_below_the_target():
     assert math.isnan(stations_needed(0.4, 0.1))
 
 
-@pytest.mark.parametrize(("stations", "target"), [(25, 0.1), (40, 0.1), (40, 0.2), (80, 0.3)])
+@pytest.mark.parametrize(
+    ("stations", "target"),
+    [
+        (25, 0.1),
+        *(pytest.param(*each, marks=pytest.mark.slow) for each in ((40, 0.1), (40, 0.2), (80, 0.3))),
+    ],
+)
 def test_the_true_share_at_the_value_is_below_the_target_in_nine_of_ten_draws(stations, target):
     """A curve whose truth is known; beside it, the least value whose drawn share is below the target fails far more.
 

@@ -74,11 +74,12 @@ def test_above_a_tie_inside_a_storey_the_wall_falls_from_the_tie_on():
 
 
 @pytest.mark.parametrize("one_storey", [True, False])
-def test_one_list_with_a_tie_below_the_top(one_storey):
-    """Fifty fronts with a tie .25 to 1.6 m below their top; joints of the courses lie a twentieth of a span apart."""
+@pytest.mark.parametrize("fronts", [15, pytest.param(50, marks=pytest.mark.slow)])
+def test_one_list_with_a_tie_below_the_top(one_storey, fronts):
+    """Drawn fronts with a tie .25 to 1.6 m below their top; joints of the courses lie a twentieth of a span apart."""
     draw = np.random.default_rng(62 + one_storey)
     governed = set()
-    for _ in range(50):
+    for _ in range(fronts):
         storeys = 1 if one_storey else 2
         heights = draw.uniform(2.8, 4.2, storeys)
         thicknesses = np.sort(draw.uniform(0.3, 0.6, storeys))[::-1]
@@ -105,11 +106,12 @@ def test_one_list_with_a_tie_below_the_top(one_storey):
     assert "above the tie" in governed
 
 
-def test_one_list_of_walls_between_supports_whose_load_bears_off_the_middle():
-    """A hundred walls between supports, whose hinge may lie between the last two joints at which it is sought."""
+@pytest.mark.parametrize("walls", [10, pytest.param(100, marks=pytest.mark.slow)])
+def test_one_list_of_walls_between_supports_whose_load_bears_off_the_middle(walls):
+    """Drawn walls between supports, whose hinge may lie between the last two joints at which it is sought."""
     draw = np.random.default_rng(63)
     compared = 0
-    while compared < 100:
+    while compared < walls:
         height, thickness = draw.uniform([2.4, 0.2], [4.0, 0.5])
         load = float(draw.uniform(0.01, 0.6)) * WEIGHT * height * thickness
         aside = float(draw.uniform(-0.4, 0.4)) * thickness
