@@ -137,6 +137,15 @@ def _add_record() -> None:
 
 Edit = tuple[str, Callable[[], object], str] | tuple[str, Callable[[], object], str, Callable[[], object]]
 """Its name, the edit, what it makes again, and what the study is before, where that is not as usual."""
+
+
+def _odd_name() -> None:
+    """Of a file, which snakemake would take for one with variables."""
+    Path("records/b.AT2").rename("records/b {x}<y>.AT2")
+    catalogue = Path("records/catalogue.csv")
+    catalogue.write_text(catalogue.read_text().replace("b,b.AT2", "b,b {x}<y>.AT2"))
+
+
 BLOCK, WALL = STRUCTURES
 EDITS: list[Edit] = [
     ("nothing", lambda: None, ""),
@@ -241,6 +250,8 @@ EDITS: list[Edit] = [
         NUMBERS,
         _station_xml,
     ),
+    ("file of a record renamed oddly", _odd_name, "b B S C F T"),
+    ("file of an odd name edited", _bytes("records/b {x}<y>.AT2", _waves(9)), "b B S C F T", _odd_name),
     ("record less", lambda: write_catalogue("records", "a"), "B S C F T"),
     ("record more", _add_record, "p B S C F T"),
     # Structures.

@@ -89,9 +89,8 @@ WHOLE = {
 
 @pytest.fixture(scope="module")
 def run(start, tmp_path_factory) -> SmallStudy:
-    """A study of two records with reports, checks at a design level by its points, and the fragility, after its run."""
+    """A study of three records with reports, checks at a design level by its points, and fragility, after its run."""
     made = start.copy_to(tmp_path_factory.mktemp("reports") / "study")
-    made.write_catalogue(made.rows()[:2])
     (made.folder / "design.csv").write_text(DESIGN)
     (made.folder / "hazard.csv").write_text("intensity,annual_rate\n0.01,0.1\n10,0.00001\n")
     (made.folder / "config.yaml").write_text(yaml.safe_dump(WHOLE))
@@ -108,7 +107,7 @@ def _everything(study: SmallStudy) -> dict[str, bytes]:
         if path.is_file():
             told = {"logs", "benchmarks", ".kept"} & set(name.parts) or path.name in measured
             found[name.as_posix()] = b"" if told else path.read_bytes()
-    shows_times = {"summary/summary.pdf"} if "summary/trade.csv" in found else set()
+    shows_times = {"summary/summary.pdf", "SHA256SUMS"} if "summary/trade.csv" in found else set()
     remembered = {"summary/logs/run.log", ".kept/contents.json"}  # nothing of what was made
     return {
         name: b"" if name in shows_times else content
@@ -140,7 +139,7 @@ def _both(*edits: Callable[[SmallStudy], object]) -> Callable[[SmallStudy], obje
 
 
 def _record_less(study: SmallStudy) -> None:
-    study.write_catalogue(study.rows()[:1])
+    study.write_catalogue(study.rows()[1:])
 
 
 def _record_more(study: SmallStudy) -> None:
@@ -148,9 +147,12 @@ def _record_more(study: SmallStudy) -> None:
 
 
 def _other_content(study: SmallStudy) -> None:
-    rows = study.rows()
-    shutil.copy(study.folder / "records" / "good_2.txt", study.folder / "records" / "good_1.txt")
-    study.write_catalogue([rows[0] | {"sha256": rows[1]["sha256"]}, *rows[1:]])
+    first, *others = study.rows()
+    (study.folder / "records" / "good_1.txt").unlink()
+    study.write_catalogue([])
+    study.add_synthetic("good_1", 7)
+    study.write_catalogue([*study.rows(), *others])
+    assert study.rows()[0]["sha256"] != first["sha256"]
 
 
 def _record_that_fails(study: SmallStudy) -> None:

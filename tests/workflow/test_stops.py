@@ -2,6 +2,7 @@
 
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -108,6 +109,25 @@ def test_a_second_request_to_stop_is_final(finished, start, tmp_path: Path) -> N
         assert process.returncode == 128 + signal.SIGINT
         _, alive = psutil.wait_procs(everyone, timeout=20)
         assert not [each for each in alive if each.status() != psutil.STATUS_ZOMBIE], "killed with it"
+    study.rocking("run", str(study.folder))
+    assert study.tables() == finished.tables() and not study.unfinished()
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, pytest.param(signal.SIGTERM, marks=ON_DEMAND)])
+def test_a_job_that_is_ended_is_named_with_its_cause_and_the_next_run_goes_on(
+    finished, start, tmp_path: Path, number: int
+) -> None:
+    study = start.copy_to(tmp_path / "study")
+    with _started(study, until=lambda study: any(study.results.glob("summary/logs/batch/*.log"))) as process:
+        run = psutil.Process(process.pid)
+        job = next(each for child in run.children() for each in child.children())
+        job.send_signal(number)
+        told = process.communicate(timeout=300)[0]
+    cause = "was ended by SIGKILL" if number == signal.SIGKILL else "ended with status 1"
+    log = (study.results / "summary" / "logs" / "run.log").read_text()
+    assert process.returncode == 1 and re.search(rf"batch/\d+_of_\d+: its process {cause}", told + log), (
+        told + log
+    )
     study.rocking("run", str(study.folder))
     assert study.tables() == finished.tables() and not study.unfinished()
 

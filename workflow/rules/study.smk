@@ -49,19 +49,21 @@ RECORDS_OF = cache(lambda product: of_records(product, PLAN))
 def lists_of(product):
     """The inputs of a product, such as "record/{record}", by what they are: ancient, since their contents are params."""
 
-    def files(wildcards):
-        return dated(*inputs_of(product.format(**wildcards), PLAN)["files"])
+    def of(name):
+        return lambda wildcards: declared(*inputs_of(product.format(**wildcards), PLAN)[name])
 
-    return {"catalogue": dated(SETTINGS.catalogue), "structures": dated(SETTINGS.structures), "files": files}
+    return {name: of(name) for name in ("catalogue", "structures", "files")}
 
 
-def dated(*paths):
-    """The files that may be inputs; behind one that is dated in the future snakemake would remove what a job wrote.
+def declared(*paths):
+    """The files that can be inputs; one that cannot counts by its content all the same, which is a param.
 
-    Such a file counts by its content all the same, which is a param.
+    Behind a file that is dated in the future snakemake would remove what a job wrote, and in a name it takes braces and
+    <> for variables.
     """
     now = time.time()
-    return [ancient(path) for path in paths if not os.path.exists(path) or os.stat(path).st_mtime <= now]
+    plain = (path for path in paths if not set(path) & set("{}<>"))
+    return [ancient(path) for path in plain if not os.path.exists(path) or os.stat(path).st_mtime <= now]
 
 
 def params_of(product):

@@ -1,0 +1,86 @@
+"""A job in a process of its own ends as its function ends, and the error says whose it was and what ended it."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.process
+
+RUN = "import sys\nfrom rocking.study.apart import run_apart, warm_up\n"
+WARM = f"{RUN}from rocking.study.settings import Settings\nwarm_up(Settings())\n"
+
+
+def python(code: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=120, check=False
+    )
+
+
+@pytest.mark.parametrize(
+    ("work", "argument", "words"),
+    [
+        ("os:_exit", 3, "record/a: its process ended with status 3"),
+        ("sys:exit", 4, "record/a: its process ended with status 1"),
+        (
+            "signal:raise_signal",
+            signal.SIGKILL,
+            "record/a: its process was ended by SIGKILL, as a system does that",
+        ),
+        ("signal:raise_signal", signal.SIGTERM, "record/a: its process was ended by SIGTERM"),
+        ("math:sqrt", -1, "record/a: its process ended with status 1"),
+    ],
+)
+def test_an_end_that_is_none_is_an_error_which_names_the_job_and_the_cause(work, argument, words) -> None:
+    done = python(f"{RUN}run_apart({work!r}, 'record/a', {int(argument)})")
+    assert done.returncode == 1 and words in done.stderr.splitlines()[-1]
+    assert ("math domain error" in done.stderr) == (work == "math:sqrt")
+
+
+def test_a_job_has_imported_what_it_needs_and_prints_where_its_scheduler_does() -> None:
+    code = "import os, sys; print('rocking.study.summary' in sys.modules, os.environ['OMP_NUM_THREADS'], os.getppid())"
+    done = python(f"{WARM}import os\nrun_apart('builtins:exec', 'a', {code!r})\nprint(os.getpid())")
+    warm, threads, parent, scheduler = done.stdout.split()
+    assert warm == "True" and threads == "1"
+    assert parent != scheduler, "it is the child of the process that has imported"
+
+
+def test_jobs_run_side_by_side(tmp_path: Path) -> None:
+    """Each waits for the other."""
+    job = (
+        "import sys, time; from pathlib import Path; own, other = map(Path, {names!r}); own.touch()\n"
+        "while not other.exists(): time.sleep(.01)"
+    )
+    names = str(tmp_path / "1"), str(tmp_path / "2")
+    jobs = [job.format(names=names), job.format(names=names[::-1])]
+    done = python(
+        f"{RUN}from threading import Thread\n"
+        f"threads = [Thread(target=run_apart, args=('builtins:exec', 'a', job)) for job in {jobs!r}]\n"
+        "for thread in threads: thread.start()\n"
+        "for thread in threads: thread.join()\n"
+        "print('both')"
+    )
+    assert done.stdout == "both\n" and not done.stderr
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
+def test_the_process_that_jobs_are_forked_from_ends_with_its_scheduler(number: int) -> None:
+    code = f"{WARM}import time\nprint(flush=True)\ntime.sleep(60)"
+    with subprocess.Popen(
+        [sys.executable, "-c", code], stdout=subprocess.PIPE, start_new_session=True
+    ) as scheduler:
+        scheduler.stdout.readline()
+        scheduler.send_signal(number)
+        scheduler.wait()
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline:
+        try:
+            os.killpg(scheduler.pid, 0)
+        except ProcessLookupError:
+            return
+        time.sleep(0.1)
+    pytest.fail("it is still there")
