@@ -175,6 +175,11 @@ class Job:
         return Path(self.study.settings.results)
 
     @property
+    def made_by_hand(self) -> Sequence[str]:
+        """What a product is made from that no whole run makes, and stays until that changes; () for the others."""
+        return () if self.task.product in self.plan.products else self.task.made_from
+
+    @property
     def kept(self) -> Path:
         """The file that keeps the rows of the product for the summary."""
         return kept_of(self.results, self.task.product)

@@ -56,7 +56,7 @@ def checks(task: Task) -> None:
         records = [row for each in rows for row in each[RecordRow] if isinstance(row, RecordRow)]
         mechanisms = [row for each in rows for row in each[MechanismRow] if isinstance(row, MechanismRow)]
         checked = write_checks(job.study, job.results / "summary", verdicts, records, job.tell, mechanisms)
-        keep_rows(job.kept, {CodeCheckRow: checked}, task.made_from)
+        keep_rows(job.kept, {CodeCheckRow: checked}, job.made_by_hand)
 
 
 def fragility(task: Task) -> None:
@@ -70,7 +70,7 @@ def fragility(task: Task) -> None:
         rows, reasons = write_fragility(job.records, job.study, folder, job.tell, job.log)
         write = partial(write_fragility_report, rows) if rows[FragilityRow] else None
         write_beside(write, folder / "fragility.pdf", folder / "fragility.svg", job, rows[FailureRow])
-        keep_rows(job.kept, rows, task.made_from)
+        keep_rows(job.kept, rows, job.made_by_hand)
         job.tell("\n".join([*reasons, *faults_in_words(rows)]) or "All records were used.")
 
 
@@ -93,7 +93,7 @@ def trade(task: Task) -> None:
         write_tables({TradeRow: rows[TradeRow]}, folder, "rocking-trade", "trade.json")
         write = partial(write_trade_report, rows)
         write_beside(write, folder / "trade.pdf", folder / "trade.svg", job, rows[FailureRow])
-        keep_rows(job.kept, rows, task.made_from)
+        keep_rows(job.kept, rows, job.made_by_hand)
 
 
 def _components(

@@ -25,7 +25,7 @@ from rocking.study.contents import ContentHashes
 from rocking.study.folder import REMEMBERED, check_own, results_folder, stands_inside
 from rocking.study.made_from import made_from, records_of, what_changed
 from rocking.study.outputs import FORMER, KEPT, kept_of, outcome_of
-from rocking.study.results import kept_made_from
+from rocking.study.results import made_by_hand
 from rocking.study.settings import Settings, named_files, read_settings
 from rocking.tables.yaml_file import read_yaml
 
@@ -112,18 +112,16 @@ class Plan:
         results = Path(self.settings.results)
         by_hand = () if self.by_name else BY_HAND
         standing = (
-            each
-            for each in by_hand
-            if kept_made_from(kept_of(results, each)) and not self.changed_since(each)
+            each for each in by_hand if made_by_hand(kept_of(results, each)) and not self.changed_since(each)
         )
         return tuple(dict.fromkeys([*(each for each in self.products if each in OVER_ALL), *standing]))
 
     def changed_since(self, product: str) -> str:
-        """Return what has changed since a product over all records was made, as a list in words.
+        """Return what has changed since a product was made by hand, as a list in words.
 
-        "" where nothing has, and where it does not stand.
+        "" where nothing has, and where it was not.
         """
-        before = kept_made_from(kept_of(Path(self.settings.results), product))
+        before = made_by_hand(kept_of(Path(self.settings.results), product))
         return what_changed(before, made_from(product, self)) if before else ""
 
     def outcomes(self) -> dict[str, Path]:

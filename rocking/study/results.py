@@ -87,9 +87,9 @@ def _kept_outcome(path: Path, record: str) -> bytes:
         return batch.read(record)
 
 
-def keep_rows(path: Path, rows: Rows, made_from: Sequence[str] = ()) -> None:
-    """Keep the rows of a product over all records, below what the product was made from."""
-    lines = (json.dumps(each, separators=(",", ":")).encode() for each in (made_from, encoded_rows(rows)))
+def keep_rows(path: Path, rows: Rows, made_by_hand: Sequence[str] = ()) -> None:
+    """Keep the rows of a product over all records; made_by_hand: what one is made from that no whole run makes."""
+    lines = (json.dumps(each, separators=(",", ":")).encode() for each in (made_by_hand, encoded_rows(rows)))
     write_whole(path, b"\n".join(lines))
 
 
@@ -100,8 +100,8 @@ def kept_rows(path: Path, tables: Iterable[type[Row]]) -> dict[type[Row], list[R
         return decoded_rows(json.loads(rows), tables)
 
 
-def kept_made_from(path: Path) -> tuple[str, ...]:
-    """Return what the product was made from whose rows are kept; () where none are, or they are damaged."""
+def made_by_hand(path: Path) -> tuple[str, ...]:
+    """Return what the product was made from whose rows are kept at `path`, if it was made by hand, else ()."""
     try:
         with regular_file(path) as stream:
             return tuple(map(str, json.loads(stream.readline(_LARGEST))))
