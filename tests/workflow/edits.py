@@ -135,16 +135,15 @@ def _add_record() -> None:
     write_catalogue("records", "a", "b", "p")
 
 
-Edit = tuple[str, Callable[[], object], str] | tuple[str, Callable[[], object], str, Callable[[], object]]
-"""Its name, the edit, what it makes again, and what the study is before, where that is not as usual."""
-
-
 def _odd_name() -> None:
     """Of a file, which snakemake would take for one with variables."""
     Path("records/b.AT2").rename("records/b {x}<y>.AT2")
     catalogue = Path("records/catalogue.csv")
     catalogue.write_text(catalogue.read_text().replace("b,b.AT2", "b,b {x}<y>.AT2"))
 
+
+Edit = tuple[str, Callable[[], object], str] | tuple[str, Callable[[], object], str, Callable[[], object]]
+"""Its name, the edit, what it makes again, and what the study is before, where that is not as usual."""
 
 BLOCK, WALL = STRUCTURES
 EDITS: list[Edit] = [
