@@ -8,7 +8,6 @@ from .assessment.trade import trade as trade
 from .codes.check import Check as Check
 from .codes.check import DynamicCheck as DynamicCheck
 from .codes.check import StructureCheck as StructureCheck
-from .codes.design_spectrum import DesignSpectrum as DesignSpectrum
 from .codes.dynamic_check import check as check
 from .codes.selection import Selection as Selection
 from .codes.selection import select as select
@@ -45,6 +44,7 @@ from .records import Accelerogram as Accelerogram
 from .records import RotD as RotD
 from .records import read as read
 from .records import rotd as rotd
+from .records.design_spectrum import DesignSpectrum as DesignSpectrum
 from .records.measures import RecordMeasures as RecordMeasures
 from .records.measures import ResponseSpectrum as ResponseSpectrum
 from .records.measures import record_measures as record_measures

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, fields, is_dataclass, replace
 from difflib import get_close_matches
 from functools import cache, cached_property
 from operator import ge, gt, le, lt
-from types import NoneType
+from types import MappingProxyType, NoneType
 from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 
 from rocking.errors import RockingError
@@ -211,12 +211,14 @@ def read_described(
     defects: list[str],
     above: str = "",
     interpret: Callable[[Any], Any] = lambda value: value,
+    beside: Mapping[str, Any] = MappingProxyType({}),
 ) -> T:
     """Return `default`, a dataclass of described values, with the values that `mapping` gives by their keys.
 
     A field whose default is a dataclass is a mapping of its own. above: what stands before a key in a sentence.
-    interpret: gives what a text means that is not allowed as it stands. Each defect adds a sentence to `defects`: the
-    key, its value and what is allowed.
+    interpret: gives what a text means that is not allowed as it stands. beside: the parts beside this one by their
+    name, of which one may have a key that stands here by mistake. Each defect adds a sentence to `defects`: the key,
+    its value and what is allowed.
     """
     kind: Any = type(default)
     allowed = {each.key: each for each in described_values(kind).values()}
@@ -231,9 +233,9 @@ def read_described(
     before = len(defects)
     for key, value in mapping.items():
         if key in parts:
-            values[key] = read_described(parts[key], value, defects, f"{above}{key}.", interpret)
+            values[key] = read_described(parts[key], value, defects, f"{above}{key}.", interpret, parts)
         elif key not in allowed:
-            defects.append(above + _nothing_has_the_name(key, value, names, parts))
+            defects.append(above + _nothing_has_the_name(key, value, names, {**beside, **parts}))
         else:
             try:
                 values[allowed[key].name] = _meant(allowed[key], value, interpret)
@@ -263,7 +265,10 @@ def _meant(description: Described, value: Any, interpret: Callable[[Any], Any]) 
 
 
 def _nothing_has_the_name(key: object, value: object, names: Sequence[str], parts: Mapping[str, Any]) -> str:
-    """Return the sentence on a key that is none of `names`, with the one that may be meant; parts: by their name."""
+    """Return the sentence on a key that is none of `names`, with the one that may be meant.
+
+    parts: by their name those that may have such a key.
+    """
     name = str(key)
     in_a_part = [f"{part}.{key}" for part, default in parts.items() if key in _keys(default.__class__)]
     near = in_a_part or get_close_matches(name[:_LONGEST_NAME], names, n=1, cutoff=0.6)

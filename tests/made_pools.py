@@ -6,15 +6,10 @@ from rocking.codes.selection import Selection
 from rocking.records import Accelerogram
 from rocking.records.synthetic import SyntheticRecord, noise, pulse
 
-DESIGN = {
-    "ag_g": 0.2,
-    "f0": 2.5,
-    "tc_star_s": 0.4,
-    "stations": 3,
-    "shortest_period_s": 0.6,
-    "longest_period_s": 0.9,
-}
-"""The design level of a study that chooses three stations of such a pool."""
+LEVEL = {"ag_g": 0.2, "f0": 2.5, "tc_star_s": 0.4}
+SETS = {"stations": 3, "shortest_period_s": 0.6, "longest_period_s": 0.9}
+DESIGN = {"design_spectrum": LEVEL, "checks": SETS}
+"""The settings of a study at a design level that chooses three stations of such a pool."""
 
 
 def made_pool(stations, seed=0, duration=12.0, time_step=0.02):

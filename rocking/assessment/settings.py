@@ -19,7 +19,10 @@ class Heading(StrEnum):
     PROCESSING = "Processing, stated in every report"
     METHOD = "Method"
     ENSEMBLE = "Ensemble: the uncertain inputs of a case vary within these ranges"
-    DESIGN = "Design level and the checks of the Italian code: snakemake checks"
+    DESIGN = "Design level, drawn beside the spectra of the records"
+    CHECKS = (
+        "Checks of the Italian code at the design level, and the sets of records for them: rocking select"
+    )
     FRAGILITY = "Fragility from all records of the study: snakemake fragility"
     TRADE = "Trade of error for time: rocking trade"
     OUTPUT = "Output"

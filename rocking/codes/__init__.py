@@ -1,1 +1,1 @@
-"""Codes: the design level, the records that stand for it, and the checks of the Italian code."""
+"""Codes: the records that stand for a design level, and the checks of the Italian code."""

@@ -22,7 +22,6 @@ from rocking.codes.check import (
     DynamicCheck,
     StructureCheck,
 )
-from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.local_mechanism import LIMIT_STATES, LimitState, LocalMechanism
 from rocking.codes.selection import SETS, Selection
 from rocking.codes.static_check import kinematic_check
@@ -30,6 +29,7 @@ from rocking.errors import ConfigurationError
 from rocking.floors.support import Support
 from rocking.quantities import kind_of
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.design_spectrum import DesignSpectrum
 from rocking.remarks import Kind, Remark
 from rocking.structures import Mechanism, Side, Structure
 from rocking.structures.mechanism import SideTie

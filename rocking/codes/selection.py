@@ -13,11 +13,11 @@ from functools import cached_property
 
 import numpy as np
 
-from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.drawn import Drawn
 from rocking.errors import ConfigurationError
 from rocking.quantities import positive
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.design_spectrum import DesignSpectrum
 from rocking.records.measures import response_spectrum
 from rocking.records.sample import Sample, earthquakes_of, stations_of
 from rocking.remarks import Kind, Remark

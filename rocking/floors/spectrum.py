@@ -12,6 +12,7 @@ from rocking.errors import RecordError
 from rocking.floors.support import Mode, Support
 from rocking.quantities import finite, within
 from rocking.records.accelerogram import Accelerogram
+from rocking.records.design_spectrum import damping_factor
 from rocking.records.measures import response_spectrum
 
 GroundSpectrum = Callable[[float, float], float]
@@ -25,21 +26,8 @@ UPPER_PERIOD = 1.1
 LEAST_DAMPING = 0.001
 """Damping ratio below which the formula, which divides by its root, has no value that means anything."""
 
-LEAST_DAMPING_FACTOR = 0.55
-"""Below it η does not fall, however large the damping (NTC 2018, 3.2.3.2.1)."""
-
 FLOOR_DAMPING = 0.05
 """Damping ratio of the floor spectra of tables and reports."""
-
-
-def damping_factor(damping: float) -> float:
-    """Return η = √(10/(5 + ξ)) ≥ 0.55, with ξ in per cent of the critical damping; `damping`: as a share.
-
-    >>> from rocking.floors.spectrum import damping_factor
-    >>> damping_factor(0.05)
-    1.0
-    """
-    return max(math.sqrt(10 / (5 + 100 * damping)), LEAST_DAMPING_FACTOR)
 
 
 def spectrum_of(record: Accelerogram) -> GroundSpectrum:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from rocking.codes.design_spectrum import DesignSpectrum
+    from rocking.records.design_spectrum import DesignSpectrum
 
 _PERIODS = np.geomspace(0.04, 4.0, 60)
 MOST_LINES = 60

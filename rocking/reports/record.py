@@ -92,7 +92,7 @@ from rocking.structures.linkage import FRICTION
 from rocking.structures.structure import Crackable
 
 if TYPE_CHECKING:
-    from rocking.codes.design_spectrum import DesignSpectrum
+    from rocking.records.design_spectrum import DesignSpectrum
 
 MOST_DRAWN = 10
 """Structures of the histories and of the reserve, the worst first; the tables hold all."""

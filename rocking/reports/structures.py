@@ -19,7 +19,6 @@ from rocking.codes.check import (
     says_nothing,
 )
 from rocking.codes.conclusion import CodeConclusion, code_conclusions
-from rocking.codes.design_spectrum import DesignSpectrum, NtcSpectrum, PointSpectrum
 from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
 from rocking.codes.rows import KINDS, code_check_rows
 from rocking.codes.selection import SETS, Selection
@@ -28,6 +27,7 @@ from rocking.errors import RockingError, one_structure
 from rocking.floors.place import GROUND, Place
 from rocking.floors.support import Support
 from rocking.quantities import GRAVITY, percent
+from rocking.records.design_spectrum import DesignSpectrum, NtcSpectrum, PointSpectrum
 from rocking.remarks import Kind, Remark
 from rocking.reports.pages import (
     Answer,

@@ -72,7 +72,7 @@ from rocking.reports.supports import shares_by_period_figure
 from rocking.tables import Row, rows_of
 
 if TYPE_CHECKING:
-    from rocking.codes.design_spectrum import DesignSpectrum
+    from rocking.records.design_spectrum import DesignSpectrum
 
 FEWEST_POINTS = 3
 """Cases from which on the closed form is drawn against the integration; fewer are read from the tables."""

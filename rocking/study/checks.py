@@ -48,6 +48,7 @@ def write_checks(
     both are said. Raises ConfigurationError where there is no design level.
     """
     design = study.settings.design_spectrum
+    asked = study.settings.checks
     spectrum = design.spectrum()
     if spectrum is None:
         raise ConfigurationError(
@@ -65,10 +66,10 @@ def write_checks(
     check_at = partial(
         check,
         spectrum=spectrum,
-        limit_state=design.limit_state,
-        confidence_factor=design.confidence_factor,
-        behaviour_factor=design.behaviour_factor,
-        least_others=design.least_others,
+        limit_state=asked.limit_state,
+        confidence_factor=asked.confidence_factor,
+        behaviour_factor=asked.behaviour_factor,
+        least_others=asked.least_others,
         records=selection,
     )
     pages = []
@@ -106,7 +107,7 @@ def write_checks(
     figures = study.settings.figures
 
     def write() -> None:
-        terms = CodeTerms(limit_state=design.limit_state, confidence_factor=design.confidence_factor)
+        terms = CodeTerms(limit_state=asked.limit_state, confidence_factor=asked.confidence_factor)
         settings = study.settings.for_pages
         page = structures_data(pages, spectrum, settings, terms, selection, without_sets, unread)
         write_document(pdf, page, figures)

@@ -25,7 +25,6 @@ from rocking.study.contents import ContentHashes
 from rocking.study.settings import (
     NUMBERS,
     Settings,
-    StudyDesign,
     StudyFragility,
     layout,
     package_sha256,
@@ -55,7 +54,6 @@ class Inputs(Protocol):
 PLACES = ("catalogue", "structures", "results", "mirror")
 """The settings that say where something lies: what lies there counts, and every job is handed them."""
 _TOLD = ("study", "client", "project_number", "author", "date", "display_units")
-_LEVEL = tuple(f"design_spectrum.{name}" for name in StudyDesign.LEVEL)
 _CURVES = tuple(f"fragility.{each.name}" for each in fields(StudyFragility) if each.name != "in_every_run")
 """When the fragility is measured is no part of it."""
 _PLAIN = " ./,+=()[]'_-"
@@ -88,7 +86,7 @@ class Line:
 
 TABLE: Mapping[str, Line] = {
     "record": Line(
-        (*NUMBERS, *_TOLD, "reports", "details", "figures", "histories", *_LEVEL),
+        (*NUMBERS, *_TOLD, "reports", "details", "figures", "histories", "design_spectrum"),
         files=("design_spectrum.points",),
         documents=False,
     ),
@@ -102,6 +100,7 @@ TABLE: Mapping[str, Line] = {
             "histories",
             "records_per_job",
             "design_spectrum",
+            "checks",
             "fragility",
             "trade",
         ),
@@ -111,7 +110,7 @@ TABLE: Mapping[str, Line] = {
         documents=False,
     ),
     "checks": Line(
-        (*NUMBERS, *_TOLD, "language", "figures", "design_spectrum"),
+        (*NUMBERS, *_TOLD, "language", "figures", "design_spectrum", "checks"),
         files=("design_spectrum.points",),
         pool=True,
         terms=True,
@@ -162,8 +161,8 @@ def inputs_of(product: str, plan: Inputs) -> dict[str, list[str]]:
     if line.opens_records:
         for record in records_of(product, plan):
             files |= dict.fromkeys(plan.files_of(plan.records[record]))
-    if line.pool and settings.design_spectrum.pool:
-        files[settings.design_spectrum.pool] = None
+    if line.pool and settings.checks.pool:
+        files[settings.checks.pool] = None
         for row in _rows_of_pool(plan):
             files |= dict.fromkeys(plan.files_of(row))
     named = [path for path in settings.told_in(line.files).values() if path]
@@ -235,7 +234,7 @@ def _hashes(plan: Inputs, records: Iterable[CatalogueRecord]) -> dict[str, str]:
 
 def _pool(plan: Inputs) -> dict[str, str]:
     """The records of another catalogue, and their files; one that cannot be read is told when it is used."""
-    catalogue = plan.settings.design_spectrum.pool
+    catalogue = plan.settings.checks.pool
     if not catalogue:
         return {}
     return {catalogue: plan.contents.of(Path(catalogue))} | _hashes(plan, _rows_of_pool(plan))
@@ -243,7 +242,7 @@ def _pool(plan: Inputs) -> dict[str, str]:
 
 def _rows_of_pool(plan: Inputs) -> tuple[CatalogueRecord, ...]:
     try:
-        return load_catalogue(plan.settings.design_spectrum.pool or "")
+        return load_catalogue(plan.settings.checks.pool or "")
     except RockingError:
         return ()
 

@@ -208,12 +208,11 @@ def make_plan(config: Mapping[str, Any], by_name: bool = False) -> Plan:
 
 def missing_files(settings: Settings) -> Iterator[tuple[str, str]]:
     """Yield each setting that names a file that is not there, and the sentence that says so."""
-    design = settings.design_spectrum
     named = {
         "catalogue": settings.catalogue,
         "structures": settings.structures,
-        "design_spectrum.points": design.points,
-        "design_spectrum.pool": design.pool,
+        "design_spectrum.points": settings.design_spectrum.points,
+        "checks.pool": settings.checks.pool,
         "fragility.hazard": settings.fragility.hazard,
     }
     for name, value in named.items():

@@ -20,7 +20,7 @@ from rocking.tables import write_whole
 
 def pool_of(settings: Settings) -> Path:
     """Return the catalogue from which the sets of a study are drawn."""
-    return Path(settings.design_spectrum.pool or settings.catalogue)
+    return Path(settings.checks.pool or settings.catalogue)
 
 
 def select_for(study: Study, records: tuple[CatalogueRecord, ...]) -> tuple[Selection, dict[str, str]]:
@@ -30,21 +30,21 @@ def select_for(study: Study, records: tuple[CatalogueRecord, ...]) -> tuple[Sele
     a component each of one station in one earthquake are one pair, by both names (`rows_of_pair`).
     Raises ConfigurationError where there is no design level, or no set meets the limits.
     """
-    design = study.settings.design_spectrum
-    spectrum = design.spectrum()
+    spectrum = study.settings.design_spectrum.spectrum()
     if spectrum is None:
         raise ConfigurationError(
             "setting design_spectrum.ag_g is null, and so is points, but records are selected for a design level; give "
             "one."
         )
+    checks = study.settings.checks
     pool, reasons = opened(study, records)
     selection = select(
         joined_by_station(pool),
         spectrum,
-        design.stations,
-        periods=(design.shortest_period, design.longest_period),
-        factors=(design.least_factor, design.largest_factor),
-        seed=design.seed,
+        checks.stations,
+        periods=(checks.shortest_period, checks.longest_period),
+        factors=(checks.least_factor, checks.largest_factor),
+        seed=checks.seed,
         each_unnamed=study.settings.unnamed_events == "each",
     )
     return selection, reasons

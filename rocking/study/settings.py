@@ -24,6 +24,7 @@ from rocking.described import (
 from rocking.errors import ConfigurationError, RecordError
 from rocking.hashes import sha256_of, sha256_of_sources
 from rocking.quantities import GRAVITY
+from rocking.records.design_spectrum import DesignSpectrum
 from rocking.records.processing import Processing
 from rocking.records.scaling import ScalingTarget
 from rocking.remarks import Kind, Remark
@@ -33,7 +34,6 @@ from rocking.tables.yaml_file import scalar_value
 
 if TYPE_CHECKING:
     from rocking.assessment.scene import Scene
-    from rocking.codes.design_spectrum import DesignSpectrum
 
 _LARGEST_USUAL = 0.6
 """a_g beyond which a remark asks for the unit, g: what maps of hazard give for rock lies below nearly everywhere."""
@@ -41,12 +41,10 @@ _LARGEST_USUAL = 0.6
 
 @dataclass(frozen=True)
 class StudyDesign:
-    """The design level of a study, the checks at it, and where their records are drawn from."""
+    """The design level of a study; without ag and without points there is none."""
 
     heading: ClassVar[Heading] = Heading.DESIGN
     changes_numbers: ClassVar[bool] = False  # of the tables of records
-    LEVEL: ClassVar[tuple[str, ...]] = ("ag", "f0", "tc_star", "soil", "topography", "points", "damping")
-    """Those that give the spectrum itself; without ag and without points there is none."""
 
     ag: float | None = described(
         None, "peak acceleration a_g on rock; null: no design level", "g", gt=0, le=3
@@ -60,6 +58,54 @@ class StudyDesign:
         "in place of ag_g: CSV file of the spectrum, with columns period_s and acceleration_m_s2 or acceleration_g",
     )
     damping: float = described(0.05, "damping ratio of the spectrum", ge=0, le=0.5)
+
+    def __post_init__(self) -> None:
+        check_described(ConfigurationError, self)
+        given = {"f0": self.f0, "tc_star_s": self.tc_star}
+        if self.ag is not None and self.points is not None:
+            raise ConfigurationError(
+                f"points is {self.points!r} beside ag_g = {self.ag:g}, but one of the two must be null."
+            )
+        for name, value in given.items():
+            if self.ag is not None and value is None:
+                raise ConfigurationError(f"{name} is missing, but must be given with ag_g.")
+            if self.ag is None and value is not None:
+                raise ConfigurationError(f"ag_g is missing, but must be given with {name}.")
+
+    @property
+    def remark(self) -> Remark | None:
+        """A remark on an a_g beyond what codes map, as one that was typed in m/s² is; None within."""
+        if self.ag is None or self.ag <= _LARGEST_USUAL:
+            return None
+        return Remark.of(
+            Kind.SIZE_UNUSUAL,
+            "design_spectrum.ag_g",
+            value=self.ag,
+            low=0.0,
+            high=_LARGEST_USUAL,
+            unit=" g",
+            type="a design level",
+        )
+
+    def spectrum(self) -> DesignSpectrum | None:
+        """Return the spectrum; None where there is no design level. Raises ConfigurationError for its points."""
+        if self.points is None and self.ag is None:
+            return None
+        if self.points is not None:
+            return DesignSpectrum.read(Path(self.points), self.damping)
+        assert self.ag is not None and self.f0 is not None and self.tc_star is not None  # checked at birth
+        return DesignSpectrum.ntc(
+            self.ag * GRAVITY, self.f0, self.tc_star, self.soil, self.topography, self.damping
+        )
+
+
+@dataclass(frozen=True)
+class StudyChecks:
+    """The checks at the design level, and the sets of records that stand for it."""
+
+    heading: ClassVar[Heading] = Heading.CHECKS
+    changes_numbers: ClassVar[bool] = False
+
     limit_state: Literal["SLV", "SLC"] = described(
         "SLV", "limit state of the checks: SLV (life safety) or SLC (collapse)"
     )
@@ -91,16 +137,6 @@ class StudyDesign:
 
     def __post_init__(self) -> None:
         check_described(ConfigurationError, self)
-        given = {"f0": self.f0, "tc_star_s": self.tc_star}
-        if self.ag is not None and self.points is not None:
-            raise ConfigurationError(
-                f"points is {self.points!r} beside ag_g = {self.ag:g}, but one of the two must be null."
-            )
-        for name, value in given.items():
-            if self.ag is not None and value is None:
-                raise ConfigurationError(f"{name} is missing, but must be given with ag_g.")
-            if self.ag is None and value is not None:
-                raise ConfigurationError(f"ag_g is missing, but must be given with {name}.")
         if self.shortest_period >= self.longest_period:
             raise ConfigurationError(
                 f"shortest_period_s is {self.shortest_period:g} s, but must be below longest_period_s, "
@@ -111,34 +147,6 @@ class StudyDesign:
                 f"least_factor is {self.least_factor:g}, but must be below largest_factor, "
                 f"{self.largest_factor:g}."
             )
-
-    @property
-    def remark(self) -> Remark | None:
-        """A remark on an a_g beyond what codes map, as one that was typed in m/s² is; None within."""
-        if self.ag is None or self.ag <= _LARGEST_USUAL:
-            return None
-        return Remark.of(
-            Kind.SIZE_UNUSUAL,
-            "design_spectrum.ag_g",
-            value=self.ag,
-            low=0.0,
-            high=_LARGEST_USUAL,
-            unit=" g",
-            type="a design level",
-        )
-
-    def spectrum(self) -> "DesignSpectrum | None":
-        """Return the spectrum; None where there is no design level. Raises ConfigurationError for its points."""
-        if self.points is None and self.ag is None:
-            return None
-        from rocking.codes.design_spectrum import DesignSpectrum
-
-        if self.points is not None:
-            return DesignSpectrum.read(Path(self.points), self.damping)
-        assert self.ag is not None and self.f0 is not None and self.tc_star is not None  # checked at birth
-        return DesignSpectrum.ntc(
-            self.ag * GRAVITY, self.f0, self.tc_star, self.soil, self.topography, self.damping
-        )
 
 
 @dataclass(frozen=True)
@@ -261,6 +269,7 @@ class Settings(AssessmentSettings):
     )
     processing_variants: bool = described(True, "whether other baselines and corner frequencies are tried")
     design_spectrum: StudyDesign = StudyDesign()
+    checks: StudyChecks = StudyChecks()
     fragility: StudyFragility = StudyFragility()
     trade: StudyTrade = StudyTrade()
     reports: bool = described(

@@ -156,7 +156,7 @@ def write_strengthening(
         size, ends = _size(scene, key, between)
         study = Study(plan.scenes, plan.settings)
         records, sample, notes = _records(study)
-        design = plan.settings.design_spectrum
+        checks = plan.settings.checks
         place = target_folder or (Path(plan.settings.results) / "strengthening").absolute()
         name = re.sub(r"[^A-Za-z0-9._-]+", "_", f"{structure}_{size.key}").strip("._-")[:150]
         store = RecordStore(place / f"{name}.cases", tell)
@@ -168,8 +168,8 @@ def write_strengthening(
             target,
             sample,
             study.assessment,
-            design.spectrum(),
-            CodeTerms(confidence_factor=design.confidence_factor, behaviour_factor=design.behaviour_factor),
+            plan.settings.design_spectrum.spectrum(),
+            CodeTerms(confidence_factor=checks.confidence_factor, behaviour_factor=checks.behaviour_factor),
             store=store,
             tell=tell,
         )
@@ -222,8 +222,8 @@ def _size(scene: Scene, key: str, between: str) -> tuple[Field, tuple[float, flo
 
 def _records(study: Study) -> tuple[list[Accelerogram], Sample, list[str]]:
     """The components at the design level, or as the catalogue scales them; their sample, and what there is to say."""
-    design = study.settings.design_spectrum
-    spectrum = design.spectrum()
+    checks = study.settings.checks
+    spectrum = study.settings.design_spectrum.spectrum()
     each_unnamed = study.settings.unnamed_events == "each"
     catalogue = load_catalogue(study.settings.catalogue if spectrum is None else pool_of(study.settings))
     pool, reasons = opened(study, catalogue)
@@ -235,9 +235,9 @@ def _records(study: Study) -> tuple[list[Accelerogram], Sample, list[str]]:
         records = [each for _, each in of_pool]
         rows = [name for name, _ in of_pool]
         return records, Sample.of(records, rows=rows, each_unnamed=each_unnamed), notes
-    limits = (design.least_factor, design.largest_factor)
+    limits = (checks.least_factor, checks.largest_factor)
     scaled = scaled_pool(
-        joined_by_station(pool), spectrum, (design.shortest_period, design.longest_period), limits
+        joined_by_station(pool), spectrum, (checks.shortest_period, checks.longest_period), limits
     )
     within = [place for place, factor in enumerate(scaled.factors.tolist()) if limits[0] < factor < limits[1]]
     if beyond := len(scaled.names) - len(within):

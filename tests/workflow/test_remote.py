@@ -104,7 +104,8 @@ def test_jobs_that_share_no_folder_make_the_same_tables(start, tmp_path: Path) -
     settings = {
         "ensemble": {"members": 16, "reserve": 0},
         "processing_variants": False,
-        "design_spectrum": {"points": "design.csv", "stations": 1},
+        "design_spectrum": {"points": "design.csv"},
+        "checks": {"stations": 1},
     }
     (study.folder / "config.yaml").write_text(yaml.safe_dump(settings))
     _by_git(study)

@@ -34,7 +34,8 @@ SETTINGS = {
     "candidates": 0,
     "vertical": True,
     "fidelity": "contact",
-    "design_spectrum": {"points": "design.csv", "stations": 1},
+    "design_spectrum": {"points": "design.csv"},
+    "checks": {"stations": 1},
 }
 
 

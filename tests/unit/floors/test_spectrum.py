@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from rocking.errors import RecordError
-from rocking.floors.spectrum import damping_factor, floor_spectrum, spectrum_of
+from rocking.floors.spectrum import floor_spectrum, spectrum_of
 from rocking.floors.support import Mode, Support
 from rocking.records import read
+from rocking.records.design_spectrum import damping_factor
 from rocking.records.measures import response_spectrum
 from tests.refusals import refused
 

@@ -14,9 +14,9 @@ from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.decide import Verdict
 from rocking.assessment.rows import VerdictRow, rows_of_record
 from rocking.assessment.scene import load_scenes, placed
-from rocking.codes.design_spectrum import DesignSpectrum
 from rocking.codes.dynamic_check import check
 from rocking.records import load_catalogue
+from rocking.records.design_spectrum import DesignSpectrum
 from rocking.remarks import Kind, Remark
 from rocking.reports.explore import explore_page, record_content
 from rocking.reports.pages import TableCell

@@ -33,7 +33,7 @@ from rocking.study.settings import Settings, read_settings
 from rocking.study.terminal import lines_by_code
 from rocking.tables import read_table, write_rows
 from rocking.tables.workbook import workbook
-from tests.made_pools import DESIGN, made_pool
+from tests.made_pools import DESIGN, SETS, made_pool
 from tests.unit.assessment import made_rows
 from tests.unit.assessment.made_rows import filled
 from tests.unit.reports.conftest import SETTINGS, summarised
@@ -69,7 +69,7 @@ def test_a_structure_list_says_what_vibrates_freely_and_what_falls(study):
         "- {name: free, type: block, breadth_m: 0.45, height_m: 3.0, elastic_period_s: 0.12, support_loss_m: 0.05}\n"
     )
     structures = load_scenes(listed)
-    changed = read_settings(settings | {"design_spectrum": DESIGN})
+    changed = read_settings(settings | DESIGN)
     write_checks(Study(structures, changed), folder, [], [])
     spectrum = changed.design_spectrum.spectrum()
     rows = {(each.structure, each.check): each for each in read_table(CodeCheckRow, folder)}
@@ -89,7 +89,7 @@ def test_every_structure_has_its_checks_and_its_page(study):
     settings, folder = study
     told = []
     write_checks(
-        Study(on_the_ground(STRUCTURES), read_settings(settings | {"design_spectrum": DESIGN})),
+        Study(on_the_ground(STRUCTURES), read_settings(settings | DESIGN)),
         folder,
         [],
         [],
@@ -99,7 +99,7 @@ def test_every_structure_has_its_checks_and_its_page(study):
     assert [(each.structure, each.check) for each in rows] == [
         (name, kind) for name in STRUCTURES for kind in ("linear", "nonlinear", "dynamic")
     ]
-    spectrum = read_settings({"design_spectrum": DESIGN}).design_spectrum.spectrum()
+    spectrum = read_settings(DESIGN).design_spectrum.spectrum()
     for each in rows[:2]:
         alone = getattr(check(STRUCTURES["parapet"], spectrum), each.check)
         assert each.level_capacity_m_s2 == alone.capacity and each.ratio == alone.ratio
@@ -123,7 +123,7 @@ def test_a_page_lists_the_mechanisms_of_its_own_structure(study, monkeypatch):
     pages = []
     monkeypatch.setattr("rocking.study.checks.structures_data", lambda made, *_: pages.extend(made) or {})
     monkeypatch.setattr("rocking.study.checks.write_document", lambda *_: None)
-    written = Study(scenes, read_settings(settings | {"design_spectrum": DESIGN}))
+    written = Study(scenes, read_settings(settings | DESIGN))
     write_checks(written, folder, [], [filled(RecordRow, record="a", station="a")], mechanisms=rows)
     assert [(page.name, page.mechanisms[0].share) for page in pages] == [("one", 0.25), ("other", 0.75)]
 
@@ -134,7 +134,7 @@ def test_without_sets_the_formulas_stand_and_the_page_says_so(study):
     write_checks(
         Study(
             on_the_ground(STRUCTURES),
-            read_settings(settings | {"design_spectrum": DESIGN | {"stations": 40}}),
+            read_settings(settings | DESIGN | {"checks": SETS | {"stations": 40}}),
         ),
         folder,
         [],
@@ -160,7 +160,7 @@ def test_a_fault_in_the_checks_of_a_structure_costs_no_other(study, monkeypatch)
     monkeypatch.setattr("rocking.study.checks.check", check_but_one)
     told = []
     structures = STRUCTURES | {"pier": Block.of_size(0.6, 2.0)}
-    changed = read_settings(settings | {"design_spectrum": DESIGN | {"stations": 40}})
+    changed = read_settings(settings | DESIGN | {"checks": SETS | {"stations": 40}})
     rows = write_checks(Study(on_the_ground(structures), changed), folder, [], [], told.append)
     assert {row.structure for row in rows} == {*structures} - {"parapet"} != set()
     assert any(line.startswith("parapet: ") and "parapet (ZeroDivisionError" in line for line in told)
@@ -172,11 +172,11 @@ def test_a_structure_that_cannot_be_checked_costs_no_other(study):
     settings, folder = study
     points = folder / "site.csv"
     points.write_text("period_s,acceleration_g\n0,0.2\n0.5,0.5\n1.0,0.2\n")
-    design = {"points": str(points), "stations": 40}
+    design = {"design_spectrum": {"points": str(points)}, "checks": {"stations": 40}}
     structures = {"slender": Block.of_size(0.4, 6.0), "stout": Block.of_size(0.4, 0.5)}
     told = []
     write_checks(
-        Study(on_the_ground(structures), read_settings(settings | {"design_spectrum": design})),
+        Study(on_the_ground(structures), read_settings(settings | design)),
         folder,
         [],
         [],
@@ -450,7 +450,7 @@ def test_the_page_to_sign_carries_the_caveat_of_page_one(study, monkeypatch):
     pages = []
     monkeypatch.setattr("rocking.study.checks.structures_data", lambda made, *_: pages.extend(made) or {})
     monkeypatch.setattr("rocking.reports.printing.compile_document", lambda *_: b"")
-    changed = read_settings(settings | {"design_spectrum": DESIGN})
+    changed = read_settings(settings | DESIGN)
     write_checks(Study(on_the_ground(STRUCTURES), changed), folder, verdicts, records)
     data = structures_data(pages, DesignSpectrum.ntc(1.0, 2.5, 0.3), Settings().for_pages)
     signed = {
@@ -467,7 +467,7 @@ def test_the_report_of_a_record_draws_the_design_level_beside_its_spectra(study)
     from rocking.reports.design_figure import design_figure
 
     settings, _ = study
-    level = read_settings(settings | {"design_spectrum": DESIGN}).design_spectrum.spectrum()
+    level = read_settings(settings | DESIGN).design_spectrum.spectrum()
     record = next(iter(made_pool(1).values()))[0]
     (axes,) = design_figure([SimpleNamespace(accelerogram=record)], level).axes
     target = next(line for line in axes.lines if line.get_label() == "design level")
@@ -564,7 +564,7 @@ def test_each_page_tells_the_share_of_its_own_structure(study, monkeypatch):
 
     monkeypatch.setattr("rocking.study.checks.structures_data", report)
     monkeypatch.setattr("rocking.reports.printing.compile_document", lambda *_: b"")
-    changed = read_settings(settings | {"design_spectrum": DESIGN})
+    changed = read_settings(settings | DESIGN)
     write_checks(Study(on_the_ground(STRUCTURES), changed), folder, verdicts, records)
     assert {name: page.overturning_share for name, page in pages.items()} == shares
     assert all(page.records == page.stations == 3 for page in pages.values())

@@ -65,7 +65,7 @@ def test_what_holds_a_parapet_is_what_python_says_of_the_same_records(study, cap
 @pytest.mark.process
 def test_a_tie_is_typed_in_kilonewtons_and_sized_by_the_code_beside(study, capsys):
     """At a design level each record has the factor that brings its spectrum to the target in the mean."""
-    config = {"design_spectrum": DESIGN, "processing": {"apply": "never"}}
+    config = {**DESIGN, "processing": {"apply": "never"}}
     (study / "config.yaml").write_text(yaml.safe_dump(config))
     output = study / "own"
     arguments = ["strengthen", str(study), "tied", "tie_strength_kN_m", "2..40"]

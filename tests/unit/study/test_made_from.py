@@ -19,7 +19,6 @@ from rocking.study.made_from import (
     versions,
     what_changed,
 )
-from rocking.study.settings import StudyDesign
 from rocking.study.workspace import write_catalogue as write_catalogue_of_folder
 from tests.workflow.edits import (
     BATCH,
@@ -111,9 +110,9 @@ def test_what_changed_is_told_by_its_names(study) -> None:
 
 
 def test_two_settings_that_swap_their_values_are_a_change(study) -> None:
-    write_settings(design_spectrum={"least_factor": 0.5, "shortest_period_s": 0.25})
+    write_settings(checks={"least_factor": 0.5, "shortest_period_s": 0.25})
     before = _texts()
-    write_settings(design_spectrum={"least_factor": 0.25, "shortest_period_s": 0.5})
+    write_settings(checks={"least_factor": 0.25, "shortest_period_s": 0.5})
     assert _changed(before) == ["summary", "checks"]
 
 
@@ -145,7 +144,7 @@ def test_every_setting_stands_in_the_table_of_edits() -> None:
         "structures",
         "results",
     }
-    others |= {f"design_spectrum.{name}" for name in StudyDesign.LEVEL}
+    others |= set(settings.told_in(["design_spectrum"]))
     edits = [each[0] for each in EDITS]
     missing = [
         name
@@ -207,5 +206,5 @@ def test_a_job_cannot_read_a_setting_that_its_line_does_not_name(study) -> None:
         ConfigurationError, match=r"setting client: .* add it to rocking\.study\.made_from\.TABLE"
     ):
         _ = settings.client
-    level = TABLE["record"].handed(plan().settings).design_spectrum
-    assert level.points == "design.csv" and level.pool is None, "the pool is no part of a record"
+    with pytest.raises(ConfigurationError, match="setting checks"):
+        _ = TABLE["record"].handed(plan().settings).checks

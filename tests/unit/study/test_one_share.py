@@ -50,7 +50,7 @@ def test_four_tables_say_one_share_of_a_pinnacle_whose_stacks_fall(folder: Path,
         "fidelity": "contact",
         "reports": False,
         "processing": {"apply": "never"},
-        "design_spectrum": DESIGN,
+        **DESIGN,
     }
     plan = make_plan(settings)
     study = Study(plan.scenes, plan.settings)

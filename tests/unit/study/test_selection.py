@@ -11,7 +11,7 @@ from rocking.records import load_catalogue, open_record
 from rocking.study.cli import main
 from rocking.study.selection import joined_by_station
 from rocking.study.settings import read_settings
-from tests.made_pools import DESIGN, made_pool
+from tests.made_pools import DESIGN, LEVEL, SETS, made_pool
 
 
 @pytest.fixture
@@ -37,7 +37,7 @@ def study(tmp_path):
         writer = csv.DictWriter(stream, list(rows[0]))
         writer.writeheader()
         writer.writerows(rows)
-    config = {"design_spectrum": DESIGN, "processing": {"apply": "never"}}
+    config = {**DESIGN, "processing": {"apply": "never"}}
     (folder / "config.yaml").write_text(yaml.safe_dump(config))
     return folder
 
@@ -60,8 +60,8 @@ def test_two_rows_of_one_station_and_earthquake_are_one_pair_with_one_factor(stu
     assert len(joined) == 11
     assert [each.component for each in joined["R1 + R2"]] == ["EW", "NS"]
     config = yaml.safe_load((study / "config.yaml").read_text())
-    config["design_spectrum"]["stations"] = 11
-    config["design_spectrum"]["largest_factor"] = 100.0
+    config["checks"]["stations"] = 11
+    config["checks"]["largest_factor"] = 100.0
     (study / "config.yaml").write_text(yaml.safe_dump(config))
     assert main(["select", str(study)]) == 0
     assert "11 records of as many stations out of 11" in capsys.readouterr().out
@@ -106,20 +106,28 @@ def test_the_catalogue_of_the_set_holds_the_factors_and_can_be_opened(study, cap
     assert (study / "records" / "selected.csv").read_bytes() == first
 
 
+def _level(**values: object) -> dict[str, object]:
+    return {**DESIGN, "design_spectrum": LEVEL | values}
+
+
+def _sets(**values: object) -> dict[str, object]:
+    return {**DESIGN, "checks": SETS | values}
+
+
 @pytest.mark.parametrize(
     ("design", "sentence"),
     [
         ({}, "records are selected for a design level"),
-        (DESIGN | {"f0": None}, "setting design_spectrum.f0 is missing, but must be given with ag_g."),
-        (DESIGN | {"soil": "F"}, "setting design_spectrum.soil is 'F', but must be A or B or C or D or E."),
-        (DESIGN | {"confidence_factor": 0.9}, "confidence_factor is 0.9, but must be a number from 1 to 2."),
-        (DESIGN | {"points": "site.csv"}, "one of the two must be null"),
-        (DESIGN | {"stations": 40}, "a set of 40 needs as many"),
-        (DESIGN | {"largest_factor": 0.26}, "no set of 3 stations lies within -10 and +30 % of the target"),
+        (_level(f0=None), "setting design_spectrum.f0 is missing, but must be given with ag_g."),
+        (_level(soil="F"), "setting design_spectrum.soil is 'F', but must be A or B or C or D or E."),
+        (_sets(confidence_factor=0.9), "confidence_factor is 0.9, but must be a number from 1 to 2."),
+        (_level(points="site.csv"), "one of the two must be null"),
+        (_sets(stations=40), "a set of 40 needs as many"),
+        (_sets(largest_factor=0.26), "no set of 3 stations lies within -10 and +30 % of the target"),
     ],
 )
 def test_what_cannot_be_selected_is_refused_in_a_sentence(study, capsys, design, sentence):
-    (study / "config.yaml").write_text(yaml.safe_dump({"design_spectrum": design}))
+    (study / "config.yaml").write_text(yaml.safe_dump(design))
     assert main(["select", str(study)]) == 2
     assert sentence in capsys.readouterr().err
     assert not (study / "records" / "selected.csv").exists()

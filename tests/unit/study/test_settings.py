@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 from jsonschema import Draft7Validator
 
 from rocking.assessment.settings import AssessmentSettings
-from rocking.codes.design_spectrum import SOILS, TOPOGRAPHIES
 from rocking.described import described_values, parts_of
 from rocking.errors import ConfigurationError
 from rocking.fragility.measures import INTENSITY_MEASURES, MEASURES_IN_WORDS, SPELLINGS
+from rocking.records.design_spectrum import SOILS, TOPOGRAPHIES
 from rocking.records.processing import UNPROCESSED_DEFAULT
 from rocking.study.settings import (
     EXAMPLE,
@@ -235,3 +235,8 @@ def test_what_a_study_is_told_by_stands_in_every_report_and_changes_no_number() 
     numbers = Settings.changing_numbers()
     assert settings.told_in(numbers) == Settings().told_in(numbers)
     assert replace(settings, tolerance=1e-7).told_in(numbers) != settings.told_in(numbers)
+
+
+def test_a_key_in_a_section_beside_its_own_is_told_where_it_belongs() -> None:
+    with pytest.raises(ConfigurationError, match=r"design_spectrum\.stations is 5, .*checks\.stations"):
+        read_settings({"design_spectrum": {"stations": 5}})
