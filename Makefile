@@ -110,7 +110,7 @@ release: setup
 
 lock:
 	$(COMPILE) pyproject.toml --extra build --extra workflow -o requirements.lock
-	$(COMPILE) pyproject.toml --extra build --extra workflow --extra docs --extra test -c requirements.lock -o development.lock
+	$(COMPILE) pyproject.toml --extra build --extra workflow --extra asdf --extra docs --extra test -c requirements.lock -o development.lock
 	printf '%s\n' $(EXECUTOR) $(EXECUTOR)-jobstep | $(COMPILE) - --no-deps -o $(SLURM)
 	{ $(COMPILE) tests/workflow/openquake.in; echo $(ENGINE) | $(COMPILE) - --no-deps; } > tests/workflow/openquake.lock
 

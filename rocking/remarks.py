@@ -780,6 +780,10 @@ class Kind(StrEnum):
         "Block number {after} follows number {before}: blocks are missing, repeated or overwritten.",
         "Il blocco numero {after} segue il numero {before}: mancano blocchi, o sono ripetuti o sovrascritti.",
     )
+    FAILED_IN_GMPROCESS = auto(), Sentence(
+        "gmprocess rejects this record: {reason}; check whether it can be used.",
+        "gmprocess scarta questa registrazione: {reason}; verificare se è utilizzabile.",
+    )
     TOLD_BY_OBSPY = auto(), Sentence("obspy: {text}.", "obspy: {text}.")
 
     # Where a component points, and where its instrument stood.

@@ -1,6 +1,7 @@
 """Archive: a zip or tar file of records, whose members are called `archive.zip/member`, as if it were a folder.
 
-An archive within an archive is a folder in it: `event.tar/knt.tar.gz/AOM001.EW`.
+An archive within an archive is a folder in it: `event.tar/knt.tar.gz/AOM001.EW`. A workspace of gmprocess (HDF5) is an
+archive of stations.
 """
 
 import gzip
@@ -13,12 +14,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path, PurePosixPath
+from typing import Any
 
 from rocking.errors import RecordError
+from rocking.records.formats import workspace
 from rocking.records.formats.format import plain
 from rocking.tables import read_start
 
-ENDINGS = ".zip", ".tar", ".tar.gz", ".tgz"
+_WORKSPACES = ".h5", ".hdf5", ".asdf"
+ENDINGS = ".zip", ".tar", ".tar.gz", ".tgz", *_WORKSPACES
 ZIPPED = b"PK\x03\x04"
 """The begin of a zip file."""
 _MARKS: Mapping[str, tuple[int, bytes]] = {
@@ -26,6 +30,7 @@ _MARKS: Mapping[str, tuple[int, bytes]] = {
     ".tar": (257, b"ustar"),
     ".tar.gz": (0, b"\x1f\x8b"),
     ".tgz": (0, b"\x1f\x8b"),
+    **dict.fromkeys(_WORKSPACES, (0, workspace.MARK)),
 }
 """Where a file that is called so has which bytes."""
 _MOST_MEMBERS = 10_000
@@ -45,7 +50,8 @@ _DAMAGES = (
     EOFError,
     OSError,
     ValueError,
-    NotImplementedError,
+    KeyError,
+    RuntimeError,
 )
 """What the libraries raise of an archive that is damaged."""
 
@@ -85,6 +91,8 @@ def members(archive: Path) -> tuple[str, ...]:
         packed = _packed(archive, place)
         for name in packed.names:
             whole = f"{place}/{name}" if place else name
+            if name in packed.passed_over:
+                continue
             if depth < _DEEPEST and ending_of(name) and _is_nested(packed, name):
                 waiting.append((whole, depth + 1))
             else:
@@ -138,15 +146,21 @@ def _place_in(archive: Path, name: str) -> tuple[str, str]:
 
 @dataclass(frozen=True)
 class _Packed:
-    """An opened archive: the names of its files, those of systems left out, and what reads the start of one of them."""
+    """An opened archive: the names of its files, those of systems left out, and what reads the start of one of them.
+
+    passed_over: those that are read only where they are named: raw motion that stands in the archive processed as well.
+    """
 
     names: frozenset[str]
     start_of: Callable[[str, int], bytes]
+    passed_over: frozenset[str] = frozenset()
 
     def start(self, name: str, size: int, called: str = "") -> bytes:
         """Return the first bytes of a member. Raises RecordError where it cannot be unpacked."""
         try:
             return self.start_of(name, size)
+        except RecordError as error:
+            raise RecordError(f"{called or plain(name)}: {error}") from None
         except Exception as error:  # zipfile raises what it likes: RuntimeError of what is encrypted
             raise RecordError(
                 f"{called or plain(name)}: the file cannot be unpacked, {error}; unpack the archive yourself."
@@ -171,7 +185,8 @@ def _packed(archive: Path, place: str) -> _Packed:
         state = archive.stat()
         return _opened_once(str(archive), place, state.st_mtime_ns, state.st_size, os.getpid())
     except _DAMAGES as error:
-        kind = "zip" if (place or archive.name).lower().endswith(".zip") else "tar"
+        ending = ending_of(place or archive.name)
+        kind = "HDF5" if ending in _WORKSPACES else "zip" if ending == ".zip" else "tar"
         raise RecordError(f"damaged {kind} archive, {error}; fetch it again.") from None
 
 
@@ -188,6 +203,8 @@ def _of_content(source: str | bytes, name: str) -> _Packed:
     """Return the archive at a path, or in bytes."""
     if name.lower().endswith(".zip"):
         return _of_zip(zipfile.ZipFile(source if isinstance(source, str) else io.BytesIO(source)))
+    if ending_of(name) in _WORKSPACES:
+        return _of_workspace(source)
     if not name.lower().endswith(".tar"):
         with gzip.open(source if isinstance(source, str) else io.BytesIO(source)) as packed:
             source = packed.read(_LARGEST_TAR + 1)
@@ -224,6 +241,21 @@ def _of_tar(source: str | bytes) -> _Packed:
             return opened.read(min(size, whole))
 
     return _Packed(_checked({name: size for name, (_, size) in places.items()}), start_of)
+
+
+def _of_workspace(source: str | bytes) -> _Packed:
+    """Its stations are its files; it is opened anew for each, so that it does not stay open."""
+
+    def opened() -> Any:
+        return workspace.opened(source if isinstance(source, str) else io.BytesIO(source))
+
+    def start_of(name: str, size: int) -> bytes:
+        with opened() as file:
+            return workspace.station_content(file, name, size)[:size]
+
+    with opened() as file:
+        names, passed_over = workspace.stations(file)
+    return _Packed(_checked(dict.fromkeys(names, 0)), start_of, passed_over)
 
 
 def _checked(sizes: Mapping[str, int]) -> frozenset[str]:

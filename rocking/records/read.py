@@ -60,7 +60,7 @@ def read(
 ) -> list[Accelerogram]:
     """Return every channel of acceleration in the file at `path`, in the file's order, in m/s².
 
-    Of a zip or tar archive, those of every file in it; "archive.zip/member" names one of them.
+    Of an archive (zip, tar, a workspace of gmprocess), those of every file in it; "archive.zip/member" names one.
 
     What a table leaves open is answered in the layouts.csv beside it, as `rocking catalogue` writes it.
 
@@ -253,9 +253,8 @@ _TOLD = tuple((re.compile(pattern, re.I), sentence) for pattern, sentence in (
     (rb"(?s)\s*<(!doctype html|html|table|meta)(?=.{0,350}<(table|tr|td)\b|.{0,350}(excel|spreadsheet))",
      "this is a web page with a table, as some programs call .xls; open it in a spreadsheet, and save it as CSV."),
     (rb"\s*<(!doctype html|html|table)", "this is a web page, and no record: the download failed; fetch it again."),
-    (rb"\x89HDF", "this is an HDF5 file; of a workspace of gmprocess (ASDF) read each station through pyasdf: "
-     "of_station = pyasdf.ASDFDataSet(path).waveforms['NET.STA'], rocking.from_obspy(of_station[tag], unit='cm/s2') "
-     "of what is processed, or rocking.from_obspy(of_station[tag], inventory=of_station.StationXML) of raw counts."),
+    (rb"\x89HDF", "this is an HDF5 file; call it .h5, by which a workspace of gmprocess (ASDF) is read as an archive "
+     "of its stations."),
     (rb"%PDF|7z\xbc\xaf|Rar!", "this is a PDF or an archive; export the record as text, or unpack it."),
 ))  # fmt: skip
 """Kinds of file that no reader takes, and what to do with each."""

@@ -9,7 +9,7 @@ import numpy as np
 import obspy
 
 from rocking.records import Accelerogram
-from rocking.records.formats import Options
+from rocking.records.formats import Options, workspace
 from rocking.records.read import read_content
 
 N = 40
@@ -388,6 +388,16 @@ def of_obspy(path: str) -> bytes:
     return (Path(obspy.__file__).parent / "io" / path).read_bytes()
 
 
+def asdf_station() -> bytes:
+    """One processed channel of a workspace of gmprocess, as the archive of its stations gives it."""
+    trace = {
+        "location": "20", "channel": "HNE", "start_ns": 0, "rate_hz": 1 / STEP, "type": "<f8", "samples": N,
+        "unit": "cm/s^2", "high_pass_hz": 0.1, "failure": "",
+    }  # fmt: skip
+    facts = {"station": "NZ.MADE", "tag": "us1_default", "event": "us1", "traces": [trace]}
+    return workspace.packed(facts, b"", (100 * TRUE).astype("<f8").tobytes())
+
+
 def _tagged(kind: int, head: bytes, body: bytes) -> bytes:
     checksum = sum(head + body) & 0xFFFF
     return struct.pack(">cBBBLHHHH", b"K", 1, 1, 9, kind, len(head), len(body), 1, checksum) + head + body
@@ -431,6 +441,7 @@ MADE_BINARY: dict[str, tuple[Callable[[], bytes], float, Options]] = {
     "miniSEED": (lambda: by_obspy("MSEED", encoding="FLOAT32"), 1e-7, Options(unit="m/s2")),
     "SAC": (lambda: by_obspy("SAC"), 1e-7, Options(unit="m/s2")),
     "Kinemetrics EVT": (evt, 2e-6, Options()),
+    "ASDF station": (asdf_station, 1e-12, Options()),
     "GSE": (gse, 5e-4, Options(unit="mm/s2")),
     "SLIST or TSPAIR": (lambda: by_obspy("SLIST"), 1e-7, Options(unit="m/s2")),
     "SLIST or TSPAIR: pairs": (lambda: by_obspy("TSPAIR"), 1e-7, Options(unit="m/s2")),

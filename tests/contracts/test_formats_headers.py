@@ -52,6 +52,7 @@ SAID: dict[str, list[tuple[Any, ...]]] = {
     "columns of numbers": [("NS", 0.0, "", "", "", None, None), ("EW", 90.0, "", "", "", None, None)],
     "miniSEED": [("HNE", 90.0, "MADE", "XX", "", False, None)],
     "SAC": [("HNE", 90.0, "MADE", "XX", "", False, None)],
+    "ASDF station": [("HNE", 90.0, "MADE", "NZ", "us1", True, 0.1)],
     "GSE": [("HNE", 90.0, "MADE", "XX", "", False, None)],
     "SLIST or TSPAIR": [("HNE", 90.0, "MADE", "XX", "", False, None)],
     "SLIST or TSPAIR: pairs": [("HNE", 90.0, "MADE", "XX", "", False, None)],

@@ -217,6 +217,7 @@ SAVES = {
 module of the package stands for several. Measured in a process that has imported numpy, `rocking.records`,
 `rocking.structures` and the rows of an assessment, on one core of 2026."""
 OTHERWISE = {
+    "h5py": "it comes with the extra asdf, without which the package runs",
     "obspy": "0.05 s; it loads obspy_plugin.py itself",
     "openpyxl": "0.08 s; workbooks alone need it",
     "pooch": "0.03 s; downloads alone need it",

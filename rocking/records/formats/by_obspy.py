@@ -319,8 +319,8 @@ def _stated_unit(traces: Any, options: Options) -> str | None:
 
 def _inventory(stats: Any, options: Options) -> Any:
     """Return the inventory given, else the one in the folder that names this network and station, or None."""
-    if options.inventory is not None:
-        return _parse(options.inventory)
+    if (given := inventory_of(options)) is not None:
+        return given
     if options.unit is not None or options.folder is None:
         return None
     naming = _naming(stats, options.described) or _naming(stats, sorted(options.folder.glob("*.xml")))
@@ -362,11 +362,16 @@ def _codes_in(path: str, changed: int, size: int) -> frozenset[tuple[str, str]]:
 
 
 def _parse(path: Path) -> Any:
-    return _parsed(read_whole(path, _LARGEST_XML, RecordError, path.name), path.name)
+    return parsed_inventory(read_whole(path, _LARGEST_XML, RecordError, path.name), path.name)
+
+
+def inventory_of(options: Options) -> Any:
+    """Return obspy's inventory of the StationXML that the caller names, None where he names none."""
+    return _parse(options.inventory) if options.inventory is not None else None
 
 
 @lru_cache(maxsize=4)
-def _parsed(content: bytes, name: str) -> Any:
+def parsed_inventory(content: bytes, name: str) -> Any:
     """Return obspy's inventory of a StationXML, which the channels of a station ask for one after another."""
     from obspy import read_inventory  # which takes a second to import
 
