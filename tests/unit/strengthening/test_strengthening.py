@@ -134,10 +134,13 @@ def test_a_rise_that_few_stations_leave_to_chance_harms_nothing():
 
 
 def test_too_few_stations_show_nothing_and_it_says_how_many_would():
-    made = _made(np.zeros((GRID, 8)))
+    shares = np.zeros((GRID, 8))
+    shares[:5] = 1.0  # how many stations the largest value needs, the least ones do not say
+    made = _made(shares)
     assert math.isnan(made.value) and math.isnan(made.share) and made.below is None
     assert made.needed_stations == 22  # the least n of 1 - 0.1^(1/n) <= 0.1
     assert "8 stations of 8 earthquakes, about 22 of as many earthquakes are needed" in made.words
+    assert f"at the largest one it is {made.tried[-1].in_words}, " in made.words
 
 
 def test_a_range_of_which_no_value_holds_names_its_last_two():

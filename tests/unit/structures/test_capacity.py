@@ -1,7 +1,10 @@
 """Capacity curves: static balance at every point, closed forms, participating mass by hand."""
 
+import math
+
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
@@ -57,3 +60,38 @@ def test_a_structure_that_rocks_to_one_side_has_the_curve_of_that_side_alone():
     for structure, side, count in ((one, -1, 9), (both, 0, 9), (both, 1, 1)):
         with refused(StructureError, "side", (side, count)):
             structure.capacity_curve(side, count)
+
+
+@pytest.mark.parametrize(("heights", "elongation"), [((3.8,), 0.6), ((1.5, 3.8), 0.8), ((1.5, 3.8), 0.6)])
+def test_it_collapses_where_what_does_not_break_until_then_lets_go(heights, elongation):
+    """The balance of one body about its toe by hand: W R sin(α − φ) against the ties that have not broken.
+
+    The tie of 3.8 m breaks as it has moved by its elongation and F/k. What overturns as it breaks has no more than the
+    others at hand; where these hold it beyond that, it overturns later, as they let go.
+    """
+    weight, strength, stiffness = 36e3, 3e3, 5e6
+    front = Facade(
+        (4.0,),
+        (0.5,),
+        unit_weight=18e3,
+        restitution=0.8,
+        behind="cross_walls",
+        tie_heights=heights,
+        tie_stiffness=stiffness,
+        tie_strength=strength,
+        tie_plastic_elongation=elongation,
+        crack="known",
+        crack_storey=1,
+    )
+    capacity = front.static_capacity()
+    slenderness = math.atan(0.5 / 4.0)
+
+    def without_the_upper_tie(rotation):
+        lower = strength * 1.5 * math.cos(rotation) if 1.5 in heights else 0.0
+        return weight * math.hypot(0.25, 2.0) * math.sin(slenderness - rotation) + lower
+
+    rupture = math.asin((elongation + strength / stiffness) / 3.8)
+    collapse = brentq(without_the_upper_tie, 0.0, 0.5, xtol=1e-15)
+    assert capacity.ruptures == pytest.approx((rupture,), rel=1e-9)
+    assert capacity.collapse_rotation == pytest.approx(collapse, rel=1e-9)
+    assert capacity.side.critical_rotation == pytest.approx(max(rupture, collapse), rel=1e-9)

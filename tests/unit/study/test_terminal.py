@@ -3,12 +3,14 @@
 import io
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from rocking.assessment.case import PeriodResult, SceneResult
 from rocking.assessment.rows import ComparisonRow
+from rocking.floors.place import place_from_config
 from rocking.study import terminal
 from rocking.study.terminal import Progress, _cut, bar, closing_lines, line_writer, paths_to_read, record_line
 from tests.unit.assessment.made_rows import broken, case, compared, failure, station, verdicts
@@ -17,6 +19,19 @@ from tests.unit.assessment.made_rows import broken, case, compared, failure, sta
 def alone(*stations: PeriodResult) -> list[SceneResult]:
     """Results of scenes on the ground."""
     return [SceneResult(each.scene, (each,)) for each in stations]
+
+
+def carried(count: int) -> list[SceneResult]:
+    """Results of as many scenes on a floor, on the ground below and on it."""
+    support = {"name": "floor", "period_s": 0.3, "damping_ratio": 0.05, "participation": 1.3}
+    place = place_from_config(support)
+    results = []
+    for number in range(count):
+        ground = station(case("EW", 0.25, f"statue {number}", falls=0))
+        scene = replace(ground.scene, place=place)
+        on_floor = replace(ground, scene=scene, support=place.supports[0])
+        results.append(SceneResult(scene, (replace(ground, scene=scene), on_floor)))
+    return results
 
 
 def test_the_worst_component_counts() -> None:
@@ -48,6 +63,19 @@ def test_a_line_names_eight_structures_at_most_and_counts_the_others() -> None:
     line = record_line(alone(*many, *stands), [])
     assert line.count("pier") == 7 and "pier 6 (8\u00a0%), 13 more; stands: 1" in line
     assert line.startswith("overturns: wall (100\u00a0%); probably stands: pier 0")
+
+
+def test_eight_structures_are_all_named_and_no_more_is_counted_behind_them() -> None:
+    many = [station(case("EW", 0.25, f"pier {number}", falls=5)) for number in range(8)]
+    line = record_line(alone(*many), [])
+    assert line.endswith("pier 7 (8\u00a0%)") and "more" not in line
+    first, second = carried(2)
+    line = record_line([*alone(*many[:7]), first], [])
+    assert line.count("pier") == 7 and line.endswith(f"; {first.sentence}")
+    line = record_line([*alone(*many[:7]), first, second], [])
+    assert line.endswith(f"; {first.sentence}; 1 structure more on supports, in verdicts.csv")
+    line = record_line([*alone(*many), first], [])
+    assert line.endswith("; 1 structure on supports, in verdicts.csv")
 
 
 def test_a_failure_stands_first_without_repeating_the_record() -> None:
