@@ -120,8 +120,7 @@ class VariantCell:
     name: str
     chip: Chip
     reserve: str
-    checks: tuple[str, ...]
-    conclusion: str
+    notes: tuple[str, ...]
     difference: str
 
 

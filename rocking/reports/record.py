@@ -35,6 +35,7 @@ from rocking.assessment.rows import (
     structure_rows,
 )
 from rocking.assessment.scene import variants_of
+from rocking.assessment.variants import variants
 from rocking.errors import FaultError, one_structure
 from rocking.pulses.pulse import DOMINATES, LEADS, worth_of
 from rocking.quantities import GRAVITY, counted, listed, percent, percents
@@ -164,7 +165,6 @@ class RecordReport:
         scale_note = f" Accelerations ×\u00a0{factors}, declared." if factors else ""
         with displaying(self.settings):
             if groups:
-                from rocking.codes.variants import variants  # which a study without variants has no need of
                 from rocking.reports.variants import strips as strips_of
 
                 strips = strips_of(variants(groups, self.conclusions), self.structures)

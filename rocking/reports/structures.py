@@ -9,6 +9,7 @@ import numpy as np
 from rocking.assessment.conclusion import TO_CHECK, Conclusion
 from rocking.assessment.decide import ORDER, Verdict
 from rocking.assessment.reserve import Reserve
+from rocking.assessment.variants import variants
 from rocking.codes.check import (
     LEAST_SHARE,
     Check,
@@ -22,7 +23,6 @@ from rocking.codes.conclusion import CodeConclusion, code_conclusions
 from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
 from rocking.codes.rows import KINDS, code_check_rows
 from rocking.codes.selection import SETS, Selection
-from rocking.codes.variants import variants
 from rocking.errors import RockingError, one_structure
 from rocking.floors.place import GROUND, Place
 from rocking.floors.support import Support
@@ -188,9 +188,10 @@ def _sheets(
         if page.variant_of in by_name:
             groups.setdefault(page.variant_of, []).append(name)
     worst = [page.worst for page, *_ in by_name.values() if page.worst]
-    compared = variants(groups, worst, concluded.values())
+    compared = variants(groups, worst)
     drawn = {name: page.structure for name, (page, *_) in by_name.items()}
-    strip_of = {each.name: each for each in strips(compared, drawn, words)}
+    notes = {name: _ratios_and_conclusion(each, words) for name, each in concluded.items()}
+    strip_of = {each.name: each for each in strips(compared, drawn, words, notes)}
     pages = []
     for name, everywhere in by_name.items():
         conclusion = concluded.get(name)
@@ -248,6 +249,16 @@ def _sheets(
             )
         )
     return tuple(pages)
+
+
+def _ratios_and_conclusion(conclusion: CodeConclusion, words: Sentences) -> tuple[str, str]:
+    """The ratios of the checks of a structure and what follows from them, each in a line."""
+    ratios = (
+        f"{words(kind)} {words('falls') if ratio == 'falls' else words.decimal(ratio)}"
+        for kind, ratio in conclusion.ratios.items()
+    )
+    key = "line verified" if conclusion.verified else "line not verified"
+    return ", ".join(ratios), words(key, clause=conclusion.decisive.clause)
 
 
 def _place(page: CheckedStructure, words: Sentences) -> str:

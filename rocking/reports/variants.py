@@ -1,4 +1,4 @@
-"""The strip of the variants of a structure: on one scale, with word, reserve, checks, and difference to the first."""
+"""The strip of the variants of a structure: on one scale, with word, reserve, notes, and difference to the first."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from html import escape
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from rocking.errors import FaultError, one_structure
@@ -15,7 +16,7 @@ from rocking.reports.printing import chip
 from rocking.reports.sentences import Sentences
 
 if TYPE_CHECKING:
-    from rocking.codes.variants import Variant
+    from rocking.assessment.variants import Variant
     from rocking.structures import Structure
 
 _WIDTH, _HEIGHT = 30.0, 24.0
@@ -28,20 +29,25 @@ def strips(
     made: Mapping[str, Sequence[Variant]],
     structures: Mapping[str, Structure],
     words: Sentences | None = None,
+    notes: Mapping[str, Sequence[str]] = MappingProxyType({}),
 ) -> list[Strip]:
     """Return a strip for each structure that has variants, with a cell for each of these.
 
-    made: the variants of each. structures: by the names of the scenes. words: the language.
+    made: the variants of each. structures: by the names of the scenes. words: the language. notes: what else
+    there is to say of a scene, by its name.
     """
     said = words or Sentences()
     return [
-        Strip(name, _cells([each for each in row if each.name in structures], structures, said))
+        Strip(name, _cells([each for each in row if each.name in structures], structures, said, notes))
         for name, row in made.items()
     ]
 
 
 def _cells(
-    row: Sequence[Variant], structures: Mapping[str, Structure], words: Sentences
+    row: Sequence[Variant],
+    structures: Mapping[str, Structure],
+    words: Sentences,
+    notes: Mapping[str, Sequence[str]],
 ) -> tuple[VariantCell, ...]:
     turned = {}
     scales = []
@@ -54,14 +60,19 @@ def _cells(
             scales.append(room(structure, rotation, _WIDTH, _HEIGHT)[0])
             turned[each.name] = rotation
     return tuple(
-        _cell(each, structures[each.name], turned[each.name], min(scales), words)
+        _cell(each, structures[each.name], turned[each.name], min(scales), words, notes.get(each.name, ()))
         for each in row
         if each.name in turned
     )
 
 
 def _cell(
-    variant: Variant, structure: Structure, rotation: float, scale: float, words: Sentences
+    variant: Variant,
+    structure: Structure,
+    rotation: float,
+    scale: float,
+    words: Sentences,
+    notes: Sequence[str],
 ) -> VariantCell:
     conclusion = variant.conclusion
     shapes = sketch(structure, rotation, _WIDTH, _HEIGHT, scale)
@@ -75,22 +86,12 @@ def _cell(
         if figures:
             caveat = "strip reserve alone" if conclusion.verdict.reserve_doubts else "strip reserve"
             reserve = words(caveat, reserve=figures)
-    checks: tuple[str, ...] = ()
-    concluded = ""
-    if variant.code_conclusion:
-        checks = tuple(
-            f"{words(kind)} {words('falls') if ratio == 'falls' else words.decimal(ratio)}"
-            for kind, ratio in variant.code_conclusion.ratios.items()
-        )
-        key = "line verified" if variant.code_conclusion.verified else "line not verified"
-        concluded = words(key, clause=variant.code_conclusion.decisive.clause)
     return VariantCell(
         drawing=drawn_by_hand(shapes, _WIDTH, _HEIGHT, f"{variant.name}, turned, and at rest."),
         name=variant.variant_name,
         chip=word,
         reserve=reserve,
-        checks=checks,
-        conclusion=concluded,
+        notes=tuple(notes),
         difference=_difference(variant, words),
     )
 
@@ -118,7 +119,7 @@ def strips_in_html(made: Sequence[Strip]) -> str:
         for cell in strip.cells:
             word = cell.chip.word
             css = word.removeprefix("? ").replace(" ", "-")
-            lines = [cell.reserve, ", ".join(cell.checks), cell.conclusion, cell.difference]
+            lines = [cell.reserve, *cell.notes, cell.difference]
             texts = "".join(f"<p>{escape(line)}</p>" for line in lines if line)
             parts.append(
                 f"<figure>{cell.drawing.svg}<figcaption><strong>{escape(cell.name)}</strong>"

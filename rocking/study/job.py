@@ -44,9 +44,9 @@ from rocking.structures import Structure
 from rocking.study.contents import ContentHashes
 from rocking.study.folder import locked
 from rocking.study.made_from import TABLE, made_from, records_of, what_changed
+from rocking.study.outcomes import RecordOutcome, outcomes_written
 from rocking.study.outputs import case_timings_of, cases_of, kept_of, outcome_of, sums_of
 from rocking.study.plan import JOBS, Plan, plan_of_job, scenes_of, study_remarks
-from rocking.study.results import RecordOutcome, outcomes_written
 from rocking.study.settings import Settings, settings_sha256
 from rocking.study.task import Task
 from rocking.study.terminal import line_writer, log_error, record_line, tell, tell_error

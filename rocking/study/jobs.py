@@ -13,7 +13,8 @@ from rocking.records import Accelerogram, CatalogueRecord
 from rocking.reports.printing import faults_in_words
 from rocking.reports.trade import write_trade_report
 from rocking.study.job import Study, begin_job, costs_no_other, steps_of
-from rocking.study.results import keep_rows, read_outcomes
+from rocking.study.kept import keep_rows
+from rocking.study.outcomes import read_outcomes
 from rocking.study.summary import summarise, write_beside, write_fragility
 from rocking.study.task import Task
 from rocking.tables import Row, write_tables

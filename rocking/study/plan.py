@@ -23,9 +23,9 @@ from rocking.records.read import LARGEST_FILE
 from rocking.remarks import Kind, Remark
 from rocking.study.contents import ContentHashes
 from rocking.study.folder import REMEMBERED, check_own, results_folder, stands_inside
+from rocking.study.kept import made_by_hand
 from rocking.study.made_from import made_from, records_of, what_changed
 from rocking.study.outputs import FORMER, KEPT, kept_of, outcome_of
-from rocking.study.results import made_by_hand
 from rocking.study.settings import Settings, named_files, read_settings
 from rocking.tables.yaml_file import read_yaml
 

@@ -1,167 +1,17 @@
-"""The results of a study: what is kept of each record for what stands over all records, and the tables read back."""
+"""The results of a study: the tables in its folder, read back."""
 
-import json
-import zipfile
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, get_type_hints
+from typing import TYPE_CHECKING
 
-from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, TimingRow, TradeRow, VerdictRow
-from rocking.assessment.store import decoder, encoded
+from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, TimingRow, TradeRow
 from rocking.errors import RockingError
-from rocking.tables import Row, frame, read_whole, regular_file, whole, write_whole, written_together
-from rocking.tables.rows import check_columns, readable, rows_of
+from rocking.tables import Row, frame, write_whole, written_together
+from rocking.tables.rows import check_columns, readable
 
 if TYPE_CHECKING:
     from pandas import DataFrame
-
-_LARGEST = 200_000_000
-"""Bytes of what is kept of a product that are read; of a record under ten structures some hundred thousand."""
-
-Rows = Mapping[type[Row], Iterable[Row]]
-"""The rows of tables by their class."""
-
-
-@dataclass(frozen=True)
-class RecordOutcome:
-    """What a record leaves: the rows of its tables, by their class, and what documents over all records show of it.
-
-    page: what the page to explore shows. spectra: of the components, m/s², where there is a design level. Without
-    reports both are empty. sums: the sha256 of its report and its tables, by their paths from the folder of the
-    results, where the record has files of its own.
-    """
-
-    rows: Mapping[type[Row], list[Row]]
-    page: dict[str, Any]
-    spectra: Mapping[str, Sequence[float]]
-    sums: Mapping[str, str]
-
-
-@contextmanager
-def outcomes_written(path: Path) -> Iterator[Callable[[str, RecordOutcome], None]]:
-    """Yield what keeps the outcome of a record by its identifier, in one file that appears whole at the end.
-
-    In a file that ends in .zip, which holds those of a batch, each is a member; else the file is that of one record.
-    """
-    if path.suffix != ".zip":
-        yield lambda record, outcome: write_whole(path, _encoded_outcome(outcome))
-        return
-    with whole(path) as stream, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as batch:
-        # A member without a date: the same input gives the same bytes.
-        yield lambda record, outcome: batch.writestr(
-            zipfile.ZipInfo(record), _encoded_outcome(outcome), zipfile.ZIP_DEFLATED
-        )
-
-
-def _encoded_outcome(outcome: RecordOutcome) -> bytes:
-    content = {
-        "rows": encoded_rows(outcome.rows),
-        "page": outcome.page,
-        "spectra": outcome.spectra,
-        "sums": outcome.sums,
-    }
-    return json.dumps(content, separators=(",", ":")).encode()
-
-
-def read_outcomes(files: Mapping[str, Path]) -> Iterator[RecordOutcome]:
-    """Yield the outcome of each record, one at a time; files: by the identifier of the record that which keeps it.
-
-    Raises RockingError where one is not what this version writes.
-    """
-    for record, path in files.items():
-        with _undamaged(path):
-            content = json.loads(_kept_outcome(path, record))
-            rows = decoded_rows(content["rows"], RECORD_TABLES)
-            yield RecordOutcome(rows, content["page"], content["spectra"], content["sums"])
-
-
-def _kept_outcome(path: Path, record: str) -> bytes:
-    if path.suffix != ".zip":
-        return read_whole(path, _LARGEST, RockingError)
-    with regular_file(path) as stream, zipfile.ZipFile(stream) as batch:
-        if batch.getinfo(record).file_size > _LARGEST:
-            raise ValueError(f"{record} is larger than {_LARGEST} bytes")
-        return batch.read(record)
-
-
-def keep_rows(path: Path, rows: Rows, made_by_hand: Sequence[str] = ()) -> None:
-    """Keep the rows of a product over all records; made_by_hand: what one is made from that no whole run makes."""
-    lines = (json.dumps(each, separators=(",", ":")).encode() for each in (made_by_hand, encoded_rows(rows)))
-    write_whole(path, b"\n".join(lines))
-
-
-def kept_rows(path: Path, tables: Iterable[type[Row]]) -> dict[type[Row], list[Row]]:
-    """Return the rows of some tables of a product. Raises RockingError where they are not what this version writes."""
-    with _undamaged(path):
-        _, _, rows = read_whole(path, _LARGEST, RockingError).partition(b"\n")
-        return decoded_rows(json.loads(rows), tables)
-
-
-def made_by_hand(path: Path) -> tuple[str, ...]:
-    """Return what the product was made from whose rows are kept at `path`, if it was made by hand, else ()."""
-    try:
-        with regular_file(path) as stream:
-            return tuple(map(str, json.loads(stream.readline(_LARGEST))))
-    except (OSError, ValueError, TypeError, RecursionError):
-        return ()
-
-
-@contextmanager
-def _undamaged(path: Path) -> Iterator[None]:
-    """Raise RockingError, which names the file, for what only a damaged one gives."""
-    try:
-        yield
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError, zipfile.BadZipFile) as error:
-        raise RockingError(f"{path}: it is damaged ({error}); remove it and run the study again.") from None
-
-
-def verdicts_of(files: Mapping[str, Path]) -> list[VerdictRow]:
-    """Return what became of every structure under the records, from their outcomes: a table is print."""
-    verdicts: list[VerdictRow] = []
-    for record, path in files.items():
-        with _undamaged(path):
-            content = json.loads(_kept_outcome(path, record))
-            verdicts += rows_of(VerdictRow, decoded_rows(content["rows"], [VerdictRow]))
-    return verdicts
-
-
-def encoded_rows(rows: Rows) -> dict[str, list[list[Any]]]:
-    """Return what JSON can hold of the rows of tables: by the name of the table what each row carries."""
-    content = {}
-    for each, of_it in rows.items():
-        names = _carried(each)
-        content[each.table.name] = [[encoded(getattr(row, name)) for name in names] for row in of_it]
-    return content
-
-
-def decoded_rows(
-    content: Mapping[str, list[list[Any]]], tables: Iterable[type[Row]]
-) -> dict[type[Row], list[Row]]:
-    """Return the rows of `tables` that `encoded_rows` gave. Raises ValueError, KeyError or TypeError for others."""
-    rows: dict[type[Row], list[Row]] = {}
-    for each in tables:
-        kept: Any = each
-        columns = _columns_of(kept)
-        rows[each] = [
-            each(**{name: of(cell) for (name, of), cell in zip(columns, cells, strict=True)})
-            for cells in content[each.table.name]
-        ]
-    return rows
-
-
-@cache
-def _columns_of(row_class: Any) -> list[tuple[str, Callable[[Any], Any]]]:
-    """The name of each field of a row, and what makes its value of what is kept."""
-    hints = get_type_hints(row_class)
-    return [(name, decoder(hints[name])) for name in _carried(row_class)]
-
-
-def _carried(row_class: type[Row]) -> tuple[str, ...]:
-    """The names of what a row carries: its columns, and what is kept beside them."""
-    return *row_class.table.column_names, *row_class.table.kept
 
 
 def _lines_of(row_class: type[Row], path: Path, record: str) -> Iterator[bytes]:

@@ -22,9 +22,9 @@ from rocking.study import close_doors
 from rocking.study.apart import warm_up
 from rocking.study.flow import workflow_folder
 from rocking.study.folder import REMEMBERED, locked, new_log
+from rocking.study.outcomes import verdicts_of
 from rocking.study.outputs import CASES, PROVENANCE
 from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_plan
-from rocking.study.results import verdicts_of
 from rocking.study.terminal import (
     Progress,
     check_any_read,

@@ -36,6 +36,7 @@ from rocking.assessment.rows import (
     structure_rows,
 )
 from rocking.assessment.scene import variants_of
+from rocking.assessment.variants import VariantRow, variants
 from rocking.errors import ConfigurationError, RockingError, one_structure
 from rocking.quantities import counted, listed
 from rocking.records import Accelerogram, CatalogueRecord
@@ -46,9 +47,10 @@ from rocking.structures import Mechanism, Structure
 from rocking.structures.equivalent_block import Scale
 from rocking.study.documents import made_or_told, write_reason
 from rocking.study.job import Job, Study, costs_no_other
+from rocking.study.kept import kept_rows
 from rocking.study.made_from import versions
+from rocking.study.outcomes import RecordOutcome, read_outcomes
 from rocking.study.outputs import PROVENANCE, SUMS, former_files, kept_of, remove, sums_of
-from rocking.study.results import RecordOutcome, kept_rows, read_outcomes
 from rocking.study.settings import package_sha256, structure_hashes
 from rocking.tables import (
     Row,
@@ -159,12 +161,11 @@ def _documents(
         checked = code_conclusions(checks)
         sheets |= {CodeCheckRow: beside[CodeCheckRow]} if checks else {}
     if groups := variants_of(study.scenes):
-        from rocking.codes.variants import VariantRow, variants
-        from rocking.reports.variants import strips
+        from rocking.reports.variants import strips  # matplotlib, as above
 
-        verdicts = rows_of(VerdictRow, shown)
-        compared = variants(groups, worst_of_each(conclusions(verdicts, [])), checked)
-        drawn = strips(compared, study.structures)
+        notes = {each.structure: (f"By the code, at the design level: {each}.",) for each in checked}
+        compared = variants(groups, worst_of_each(conclusions(rows_of(VerdictRow, shown), [])))
+        drawn = strips(compared, study.structures, notes=notes)
         sheets[VariantRow] = [VariantRow.of(each) for row in compared.values() for each in row]
     title = study.settings.study or ""
     figures = study.settings.figures

@@ -224,7 +224,6 @@ OTHERWISE = {
     "psutil": "it comes with snakemake, without which the package runs",
     "rocking": "what draws or measures stands above what offers it as a method",
     "rocking.codes": "a study without a design level runs without this folder",
-    "rocking.reports.variants": "likewise",
     "rocking.study.checks": "likewise",
 }
 """What is imported within a function for another reason."""

@@ -12,8 +12,8 @@ import pytest
 
 from rocking.assessment.rows import FailureRow, TradeRow
 from rocking.fragility.rows import FragilitySummaryRow
+from rocking.study.kept import kept_rows
 from rocking.study.outputs import kept_of
-from rocking.study.results import kept_rows
 from rocking.tables import read_table
 
 HEAD = "MADE FOR A TEST\nNowhere, 1/1/2000, A, H1\nACCELERATION TIME SERIES IN UNITS OF G\n"

@@ -11,9 +11,7 @@ from rocking.assessment.conclusion import conclusions, worst_of_each
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import RecordRows
 from rocking.assessment.scene import load_scenes, variants_of
-from rocking.codes.conclusion import code_conclusions
-from rocking.codes.rows import code_check_rows
-from rocking.codes.variants import VariantRow, variants
+from rocking.assessment.variants import VariantRow, variants
 from rocking.reports.explore import explore_page
 from rocking.reports.sentences import Sentences
 from rocking.reports.structures import CheckedStructure, structures_data
@@ -43,8 +41,7 @@ def made():
         for name, falls, low in (("wall", 48, 0.5), ("wall: thicker", 16, 0.9))
     ]
     concluded = worst_of_each(conclusions(made_rows.verdicts(stations), []))
-    rows = [row for name, each in STRUCTURES.items() for row in code_check_rows(name, check(each, SPECTRUM))]
-    return variants(GROUPS, concluded, code_conclusions(rows))
+    return variants(GROUPS, concluded)
 
 
 def test_a_list_says_which_structure_a_variant_is_of(tmp_path):
@@ -62,19 +59,15 @@ def test_each_variant_has_its_difference_to_the_first(made):
     assert math.isnan(first.share_difference) and math.isnan(first.reserve_ratio)
     assert thicker.share_difference == pytest.approx(16 / 64 - 48 / 64)
     assert thicker.reserve_ratio == pytest.approx(0.9 / 0.5)
-    assert thicker.linear_ratio == pytest.approx(check(THICK, SPECTRUM).linear.ratio)
-    assert math.isnan(thicker.dynamic_ratio), "no records, no dynamic check"
     assert issubclass(VariantRow, Row)
 
 
 def test_the_strip_says_it_in_words(made):
-    (strip,) = strips(made, STRUCTURES)
+    (strip,) = strips(made, STRUCTURES, notes={"wall: thicker": ("It is checked.",)})
     first, thicker = strip.cells
     assert [first.chip.word, first.difference] == ["probably overturns", "the first"]
     assert thicker.difference == "−50 points of share, reserve × 1.8"
-    assert list(thicker.checks) == [
-        f"{kind} {getattr(check(THICK, SPECTRUM), kind).ratio_in_words}" for kind in ("linear", "nonlinear")
-    ]
+    assert (first.notes, thicker.notes) == ((), ("It is checked.",))
     (italian,) = strips(made, STRUCTURES, Sentences("it"))
     assert italian.cells[1].difference == "−50 punti percentuali, margine × 1,8"
     assert italian.cells[0].chip.word == "probab. ribalta"
@@ -110,3 +103,8 @@ def test_summary_page_to_explore_and_page_to_sign_hold_the_strip(made):
     for page in structures_data(pages, SPECTRUM, Settings().for_pages).sheets:
         told = [[cell.difference for cell in strip.cells] for strip in page.answers[0].basis.strips]
         assert told == ([["the first", difference]] if page.name == "wall" else []), "once"
+        for strip in page.answers[0].basis.strips:
+            ratios = [
+                getattr(check(THICK, SPECTRUM), kind).ratio_in_words for kind in ("linear", "nonlinear")
+            ]
+            assert strip.cells[1].notes[0] == "linear {}, nonlinear {}".format(*ratios)

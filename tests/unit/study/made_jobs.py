@@ -8,9 +8,9 @@ from pathlib import Path
 from rocking.records import CatalogueRecord
 from rocking.study.contents import ContentHashes
 from rocking.study.job import Job, Study, steps_of
+from rocking.study.outcomes import RecordOutcome, outcomes_written, read_outcomes
 from rocking.study.outputs import outcome_of
 from rocking.study.plan import Plan
-from rocking.study.results import RecordOutcome, outcomes_written, read_outcomes
 from rocking.study.task import Task
 
 

@@ -30,8 +30,10 @@ from rocking.records.catalogue import CatalogueRecord
 from rocking.records.synthetic import SHIPPED, SyntheticRecord, at2_text
 from rocking.structures import Block
 from rocking.study.job import Study, assess_catalogued, rows_of
+from rocking.study.kept import keep_rows
+from rocking.study.outcomes import read_outcomes
 from rocking.study.outputs import cases_of, kept_of, outcome_of, outputs_of
-from rocking.study.results import Results, keep_rows, read_outcomes
+from rocking.study.results import Results
 from rocking.study.settings import Settings, StudyTrade
 from rocking.study.summary import summarise, write_summary
 from rocking.study.terminal import line_writer

@@ -20,8 +20,8 @@ from rocking.assessment.rows import (
 from rocking.errors import RockingError
 from rocking.remarks import Kind, Remark
 from rocking.study.cli import main
+from rocking.study.outcomes import RecordOutcome, outcomes_written, verdicts_of
 from rocking.study.outputs import cases_of, former_files, log_of, outcome_of, outputs_of, remove
-from rocking.study.results import RecordOutcome, outcomes_written, verdicts_of
 from rocking.study.settings import Settings
 from rocking.tables import read_rows, write_rows
 from tests.unit.assessment.made_rows import case, station, verdicts

@@ -1,4 +1,4 @@
-"""The variants of a structure: what becomes of each, its checks, and by how much it differs from the first."""
+"""The variants of a structure: what becomes of each, and by how much it differs from the first."""
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 from rocking.assessment.conclusion import Conclusion
 from rocking.assessment.decide import Verdict
-from rocking.codes.conclusion import CodeConclusion
 from rocking.tables import Columns, RowOf, row
 
 
@@ -14,14 +13,13 @@ from rocking.tables import Columns, RowOf, row
 class Variant:
     """One of the variants of a structure; the first is the structure itself.
 
-    name: of the scene. conclusion: on it under its worst record; None where no record gave one. code_conclusion: at the
-    design level; None without one. first: the structure itself; None of that one.
+    name: of the scene. conclusion: on it under its worst record; None where no record gave one. first: the structure
+    itself; None of that one.
     """
 
     structure: str
     name: str
     conclusion: Conclusion | None
-    code_conclusion: CodeConclusion | None
     first: "Variant | None" = None
 
     @property
@@ -50,13 +48,6 @@ class Variant:
         """Its reserve over that of the first; nan of the first itself."""
         return self.reserve / self.first.reserve if self.first else math.nan
 
-    def ratio(self, check: str) -> float:
-        """Return capacity over demand of one kind of check; nan where it was not made."""
-        made = (
-            {each.check: each.ratio for each in self.code_conclusion.checks} if self.code_conclusion else {}
-        )
-        return made.get(check, math.nan)
-
 
 of_variant = Columns(Variant)
 
@@ -79,34 +70,21 @@ class VariantRow(RowOf[Variant]):
     reserve_factor: float = of_variant(
         "Factor on that record at which 5 % of the members overturn", lambda of: of.reserve
     )
-    linear_ratio: float = of_variant("Capacity over demand, linear", lambda of: of.ratio("linear"))
-    nonlinear_ratio: float = of_variant("Capacity over demand, nonlinear", lambda of: of.ratio("nonlinear"))
-    dynamic_ratio: float = of_variant("Capacity over demand, dynamic", lambda of: of.ratio("dynamic"))
-    conclusion: str = of_variant(
-        "Conclusion at the design level",
-        lambda of: str(of.code_conclusion.remark) if of.code_conclusion else "",
-    )
     share_difference: float = of_variant("Its share minus that of the first", lambda of: of.share_difference)
     reserve_ratio: float = of_variant("Its reserve over that of the first", lambda of: of.reserve_ratio)
 
 
 def variants(
-    groups: Mapping[str, Sequence[str]],
-    concluded: Iterable[Conclusion],
-    checked: Iterable[CodeConclusion] = (),
+    groups: Mapping[str, Sequence[str]], concluded: Iterable[Conclusion]
 ) -> dict[str, list[Variant]]:
     """Return the variants of each structure that has some, the structure itself first.
 
-    groups: names of the scenes by the structure. concluded: on each scene, under its worst record. checked: at the
-    design level.
+    groups: names of the scenes by the structure. concluded: on each scene, under its worst record.
     """
     conclusion_of = {each.verdict.structure: each for each in concluded}
-    check_of = {each.structure: each for each in checked}
     made = {}
     for structure, names in groups.items():
-        first = Variant(structure, structure, conclusion_of.get(structure), check_of.get(structure))
-        others = (
-            Variant(structure, name, conclusion_of.get(name), check_of.get(name), first) for name in names
-        )
+        first = Variant(structure, structure, conclusion_of.get(structure))
+        others = (Variant(structure, name, conclusion_of.get(name), first) for name in names)
         made[structure] = [first, *others]
     return made

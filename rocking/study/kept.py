@@ -1,0 +1,86 @@
+"""What is kept of the rows of tables for other products and for the next run: as JSON, which holds every digit."""
+
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from functools import cache
+from pathlib import Path
+from typing import Any, get_type_hints
+from zipfile import BadZipFile
+
+from rocking.assessment.store import decoder, encoded
+from rocking.errors import RockingError
+from rocking.tables import Row, read_whole, regular_file, write_whole
+
+LARGEST = 200_000_000
+"""Bytes of what is kept of a product that are read; of a record under ten structures some hundred thousand."""
+
+Rows = Mapping[type[Row], Iterable[Row]]
+"""The rows of tables by their class."""
+
+
+def keep_rows(path: Path, rows: Rows, made_by_hand: Sequence[str] = ()) -> None:
+    """Keep the rows of a product over all records; made_by_hand: what one is made from that no whole run makes."""
+    lines = (json.dumps(each, separators=(",", ":")).encode() for each in (made_by_hand, encoded_rows(rows)))
+    write_whole(path, b"\n".join(lines))
+
+
+def kept_rows(path: Path, tables: Iterable[type[Row]]) -> dict[type[Row], list[Row]]:
+    """Return the rows of some tables of a product. Raises RockingError where they are not what this version writes."""
+    with undamaged(path):
+        _, _, rows = read_whole(path, LARGEST, RockingError).partition(b"\n")
+        return decoded_rows(json.loads(rows), tables)
+
+
+def made_by_hand(path: Path) -> tuple[str, ...]:
+    """Return what the product was made from whose rows are kept at `path`, if it was made by hand, else ()."""
+    try:
+        with regular_file(path) as stream:
+            return tuple(map(str, json.loads(stream.readline(LARGEST))))
+    except (OSError, ValueError, TypeError, RecursionError):
+        return ()
+
+
+@contextmanager
+def undamaged(path: Path) -> Iterator[None]:
+    """Raise RockingError, which names the file, for what only a damaged one gives."""
+    try:
+        yield
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError, BadZipFile) as error:
+        raise RockingError(f"{path}: it is damaged ({error}); remove it and run the study again.") from None
+
+
+def encoded_rows(rows: Rows) -> dict[str, list[list[Any]]]:
+    """Return what JSON can hold of the rows of tables: by the name of the table what each row carries."""
+    content = {}
+    for each, of_it in rows.items():
+        names = _carried(each)
+        content[each.table.name] = [[encoded(getattr(row, name)) for name in names] for row in of_it]
+    return content
+
+
+def decoded_rows(
+    content: Mapping[str, list[list[Any]]], tables: Iterable[type[Row]]
+) -> dict[type[Row], list[Row]]:
+    """Return the rows of `tables` that `encoded_rows` gave. Raises ValueError, KeyError or TypeError for others."""
+    rows: dict[type[Row], list[Row]] = {}
+    for each in tables:
+        kept: Any = each
+        columns = _columns_of(kept)
+        rows[each] = [
+            each(**{name: of(cell) for (name, of), cell in zip(columns, cells, strict=True)})
+            for cells in content[each.table.name]
+        ]
+    return rows
+
+
+@cache
+def _columns_of(row_class: Any) -> list[tuple[str, Callable[[Any], Any]]]:
+    """The name of each field of a row, and what makes its value of what is kept."""
+    hints = get_type_hints(row_class)
+    return [(name, decoder(hints[name])) for name in _carried(row_class)]
+
+
+def _carried(row_class: type[Row]) -> tuple[str, ...]:
+    """The names of what a row carries: its columns, and what is kept beside them."""
+    return *row_class.table.column_names, *row_class.table.kept
