@@ -194,8 +194,8 @@ class CaseResult:
         own = self.ensembles.facts if self.ensembles else Facts()
         return replace(
             own,
-            # A component that is missing may lift.
-            rests=rests and not failures,
+            # A component that is missing may lift, and what slides apart does not have to.
+            rests=rests and not failures and not (body.falls_by_sliding and not math.isnan(self.slides_at)),
             run_ratio=max(runs, default=math.nan),
             settled=settled,
             never_lets_go=never_lets_go(body),

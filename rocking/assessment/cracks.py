@@ -9,7 +9,7 @@ body flip between neighbouring values of several inputs, and no single one decid
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache, partial
 
 import numpy as np
@@ -37,14 +37,15 @@ class Crack:
     """A mechanism that may form.
 
     description: what opens, in words; "" of a structure with one mechanism. position: its height [m]; nan without one.
-    friction: the largest friction coefficient that a joint needs as it lifts; 0 of a mechanism without joints. counts,
-    bulges: as of `CrackFacts`. of_geometry: whether it is the first one once more, with the restitution of the geometry
-    in place of a lower one that is typed.
+    structure: that has this crack. friction: the largest coefficient that a joint of the mechanism needs as it lifts; 0
+    without joints. counts, bulges: as of `CrackFacts`. of_geometry: whether it is the first one once more, with the
+    restitution of the geometry in place of a lower one that is typed.
     """
 
     description: str
     position: float
     mechanism: Mechanism
+    structure: Structure = field(compare=False, repr=False)
     friction: float = 0.0
     counts: bool = True
     bulges: bool = False
@@ -53,8 +54,12 @@ class Crack:
     def slides_at(self, friction_coefficient: float) -> float:
         """Return the acceleration [g] at which a joint slides before this lifts; nan where none does.
 
-        Until it lifts the forces of its joints are taken to grow with the acceleration.
+        By statics of all joints, where the structure knows it; else until it lifts the forces of the joints of the
+        mechanism are taken to grow with the acceleration.
         """
+        of_all_joints = self.structure.slides_at(friction_coefficient)
+        if not math.isnan(of_all_joints):
+            return of_all_joints
         if not self.friction > friction_coefficient:
             return math.nan
         return self.mechanism.uplift_multiplier * friction_coefficient / self.friction
@@ -127,6 +132,7 @@ def cracks(structure: Structure) -> tuple[Crack, ...]:
             each.description,
             each.position,
             each.structure.mechanism(),
+            each.structure,
             lifting_friction(each.structure),
             each.counts,
             bulges=_bulges(each),

@@ -433,7 +433,11 @@ def decide(facts: Facts) -> Decision:
         why = "the ground never reaches the uplift acceleration"
         return Decision(Verdict.STANDS, 0.0, (0.0, 0.0), why, (*beside, *left_out))
     if not math.isnan(facts.slides_at) and all(each.slides for each in counting):
-        why = f"slides before it lifts, at {facts.slides_at:.2g} g"
+        why = (
+            f"slides before it lifts, at {facts.slides_at:.2g} g"
+            if facts.slides_at
+            else "slides apart at rest"
+        )
         tells = (Remark(Kind.FRICTION),)
         return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), why, beside, tells)
 

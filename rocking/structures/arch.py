@@ -21,6 +21,7 @@ from rocking.structures.arch_mechanism import (
     Onset,
     TooThin,
     limiting_thickness,
+    multiplier_on_friction,
     onset_at,
     other_hinges,
     static_onset,
@@ -34,6 +35,8 @@ from rocking.structures.structure import Candidate, Crackable
 _CRUSHINGS = 60
 _CRUSHED_ALIKE = 1e-14
 """A change of λ that is rounding."""
+_LIFTS_FROM = 0.99
+"""Share of the λ of its mechanism below which the λ of statics with friction says that it slides before it lifts."""
 UNSAFE_MOMENTUM = "unsafe momentum"
 """The balance of the mirrored mechanism by its name: it loses more speed than the hinges of a real arch do."""
 
@@ -92,6 +95,7 @@ class Arch(Crackable):
 
     type_name: ClassVar[str] = "arch"
     hinges_migrate: ClassVar[bool] = True
+    falls_by_sliding: ClassVar[bool] = True
     crack_name: ClassVar[str] = "hinges"
     statics_chooses: ClassVar[bool] = True
     _usual_restitution: ClassVar[float | str] = 0.9
@@ -209,6 +213,12 @@ class Arch(Crackable):
     def static_multiplier(self) -> float:
         """That of statics: the linear programme is the least over all hinges, so that no candidate has to be formed."""
         return (self.onset if self.crack_is_known else self._static_onset()).multiplier
+
+    def slides_at(self, friction_coefficient: float) -> float:
+        """By statics of all joints, those between the hinges too."""
+        onset = self._static_onset()
+        least = multiplier_on_friction(self._crushed_ring(onset), friction_coefficient)
+        return least if least < _LIFTS_FROM * onset.multiplier else np.nan
 
     def _as_crushed(self, seek: Callable[[Ring], Onset]) -> Onset:
         """The onset that `seek` finds with the contacts where its own line of thrust crushes the joints.

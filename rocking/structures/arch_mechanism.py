@@ -4,7 +4,8 @@ Inertia forces act to the right. The loads are 1 downwards and λ to the right o
 the radius of an element's centroid. λ is the largest multiplier whose thrust line stays inside the ring. With the
 reaction at the left springing u = (M₀, V, H) that is a linear programme in (u, λ), which tells the four sections where
 the line touches; between joints (a continuous ring) each of them then slides to where the line is tangent. The tests
-compare it with the smallest multiplier over all four-hinge mechanisms, by virtual work.
+compare it with the smallest multiplier over all four-hinge mechanisms, by virtual work. On joints of little friction
+the line has to stay within their cones as well (`multiplier_on_friction`).
 
 The hinges make a four-bar linkage A-B-C-D; φ is the clockwise rotation of bar AB about A; A and D follow the ground.
 """
@@ -12,12 +13,16 @@ The hinges make a four-bar linkage A-B-C-D; φ is the clockwise rotation of bar 
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import combinations
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rocking.errors import StructureError
 from rocking.structures.arch_ring import CONTINUOUS_SECTIONS, EXTRADOS, INTRADOS, PATTERN, Bars, Ring
 from rocking.structures.linkage import Contacts, Kinematics, Linkage, MotionState, cross, keeps_last
+
+if TYPE_CHECKING:
+    from scipy.optimize import OptimizeResult
 
 
 class FourBar(Linkage):
@@ -113,6 +118,8 @@ class FourBar(Linkage):
 
 _DOWN = np.array([0.0, 0.0, 0.0, -1.0])
 _ROUNDS = 100
+_SUBDIVISIONS = 4
+"""Parts of the spacing of a continuous ring's sections, between which its joints may slide."""
 _ACCURATELY = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
 _INFEASIBLE = 2
 """The status of scipy's linear programme for constraints that contradict each other."""
@@ -176,6 +183,26 @@ def static_onset(ring: Ring) -> Onset:
     return Onset(float(unknowns[3]), hinges + ring.embrace_angle / 2, unknowns[:3])
 
 
+@lru_cache(maxsize=256)
+def multiplier_on_friction(ring: Ring, coefficient: float) -> float:
+    """Return the largest multiplier whose thrust line stays in the ring and in the cone of friction at every joint.
+
+    That of a ring that rocks, or less, where joints of this coefficient slide before; 0 where it does not stand at
+    rest, as it would not under any multiplier then: a line for λ and its mirror image have a line for 0 between them.
+    Raises as `static_onset` does of a continuous ring.
+    """
+    sections = ring.sections()
+    if ring.voussoirs is None:
+        on_arch = sections[ring.feet(sections) == 0]
+        finer = np.linspace(on_arch[0], on_arch[-1], _SUBDIVISIONS * (on_arch.size - 1) + 1)
+        sections = np.unique([*sections, *finer, *(static_onset(ring).hinges - ring.embrace_angle / 2)])
+    both = np.tile(sections, 2)
+    contacts = np.repeat([INTRADOS, EXTRADOS], sections.size)
+    rows = np.concatenate([ring.gaps(both, contacts), ring.friction_left(sections, coefficient)])
+    solved = _most(rows)
+    return max(float(solved.x[3]), 0.0) if solved.status == 0 else 0.0
+
+
 def onset_at(ring: Ring, hinges: np.ndarray) -> Onset:
     """Return the onset of the mechanism with A, B, C, D at `hinges` (4,), angles from the left springing [rad].
 
@@ -232,14 +259,19 @@ def _touching_line(rows: np.ndarray) -> np.ndarray:
 
 def _weakest(rows: np.ndarray) -> np.ndarray:
     """The four rows that limit λ, in order: those whose dual does not vanish."""
-    from scipy.optimize import linprog  # slow to import, and needed by arches only
-
-    solved = linprog(
-        _DOWN, -rows[:, :4], rows[:, 4], bounds=(None, None), method="highs-ds", options=_ACCURATELY
-    )
+    solved = _most(rows)
     if solved.status:
         raise TooThin if solved.status == _INFEASIBLE else NoMechanism
     return np.sort(np.argsort(solved.ineqlin.marginals)[:4])
+
+
+def _most(rows: np.ndarray) -> "OptimizeResult":
+    """The linear programme of the largest λ for which no row is negative."""
+    from scipy.optimize import linprog  # slow to import, and needed by arches only
+
+    return linprog(
+        _DOWN, -rows[:, :4], rows[:, 4], bounds=(None, None), method="highs-ds", options=_ACCURATELY
+    )
 
 
 def _slide_to_tangency(ring: Ring, hinges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -174,13 +174,20 @@ class Ring:
         softness, *line = self.crushed
         unknowns = np.array([*line, 1.0])
         foot = self.feet(section)
-        # from extrados to intrados, of length 1: the moments about points so far apart differ by the normal force
-        across = np.where(foot == 0, -1j * np.exp(-1j * section), -foot)
+        across = self._across(section)
         load, load_rate = self.loads(section)
         normal = -_moment(0.0, across, load) @ unknowns
         turned = _moment(0.0, np.where(foot == 0, -1j * across, 0.0), load)
         slope = -(turned + _OF_LOADS * _moment(0.0, across, load_rate)) @ unknowns
         return softness * normal, softness * slope
+
+    def _across(self, section: np.ndarray) -> np.ndarray:
+        """The joints from extrados to intrados, complex, of length 1.
+
+        Moments about points so far apart differ by the normal force.
+        """
+        foot = self.feet(section)
+        return np.where(foot == 0, -1j * np.exp(-1j * section), -foot)
 
     def sector(self, first: float, last: float) -> np.ndarray:
         """The outline of the ring between two sections, complex, an arc of points every two degrees."""
@@ -249,6 +256,17 @@ class Ring:
         point = self.contact_points(section, contact)
         result: np.ndarray = -contact[..., None] * _moment(1.0, point, self.loads(section)[0])
         return result
+
+    def friction_left(self, section: np.ndarray, coefficient: float) -> np.ndarray:
+        """Rows (a, b) with a·(M₀, V, H, λ) + b the friction left at `section` to either side, shape (2k, 5).
+
+        It is the coefficient times the normal force, less the force along the joint, and may not be negative.
+        """
+        across = self._across(section)
+        load, _ = self.loads(section)
+        most = -coefficient * _moment(0.0, across, load)
+        along = _moment(0.0, 1j * across, load)
+        return np.concatenate([most - along, most + along])
 
     def gap_slopes(self, section: np.ndarray, contact: np.ndarray) -> np.ndarray:
         """Derivatives of `gaps` with the section, (k, 5); 0 for a foot, which does not move."""

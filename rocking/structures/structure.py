@@ -71,8 +71,9 @@ class Structure(ABC):
     its class method, "" for the class itself. crack_name: what its candidates move ("hinge", "crack"); "" without.
     tapers: whether its courses grow smaller upwards, so that each rocks by itself and throws what stands on it
     (docs/pages/validation.md). hinges_migrate: whether its hinges would move in flight, while the mechanism leaves
-    them. _usual_restitution: where none is given. statics_chooses: whether codes check the mechanism of least λ alone,
-    as between supports limit analysis finds it; otherwise every crack that may open is a mechanism of its own.
+    them. falls_by_sliding: whether it comes apart where its joints slide, though nothing lifts. _usual_restitution:
+    where none is given. statics_chooses: whether codes check the mechanism of least λ alone, as between supports limit
+    analysis finds it; otherwise every crack that may open is a mechanism of its own.
     _contacts_unknown: why no contact forces are known; "" where the moving parts tell them.
     """
 
@@ -82,6 +83,7 @@ class Structure(ABC):
     crack_name: ClassVar[str] = ""
     tapers: ClassVar[bool] = False
     hinges_migrate: ClassVar[bool] = False
+    falls_by_sliding: ClassVar[bool] = False
     _usual_restitution: ClassVar[float | str] = "momentum"
     statics_chooses: ClassVar[bool] = False
     one_sided = False
@@ -131,6 +133,14 @@ class Structure(ABC):
         Though a joint of that mechanism needs more; inf where nobody has shown it.
         """
         return math.inf
+
+    def slides_at(self, friction_coefficient: float) -> float:
+        """Return the acceleration [g] at which joints of this friction slide before any mechanism of it lifts.
+
+        0 where it slides apart at rest; nan where it lifts first, or where statics knows no more of its joints than
+        its mechanisms do.
+        """
+        return math.nan
 
     def mechanism(self) -> Mechanism:
         """Return the structure in standard form; the same object at every call."""
