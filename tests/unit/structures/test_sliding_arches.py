@@ -1,6 +1,7 @@
-"""The multiplier of arches on joints that slide: by the thrust line in the cones of friction, and by block equilibrium."""
+"""The multiplier of arches on joints that slide: by the line of thrust, and by the equilibrium of each voussoir."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import blocks
 import numpy as np
@@ -38,16 +39,14 @@ def drawn(count: int) -> list[Arch]:
 def by_blocks(arch: Arch, friction: float) -> float:
     inner = arch.radius - arch.thickness / 2
     edges = np.linspace(-arch.embrace_angle / 2, arch.embrace_angle / 2, arch.voussoirs + 1)
-    masses, centres = zip(
-        *(
-            blocks.sector(inner, inner + arch.thickness, *ends)
-            for ends in zip(edges, edges[1:], strict=False)
-        ),
-        strict=True,
-    )
+    sectors = [
+        blocks.sector(inner, inner + arch.thickness, first, last) for first, last in pairwise(edges.tolist())
+    ]
+    masses = np.array([area for area, _ in sectors])
+    centres = np.array([centre for _, centre in sectors])
     radial = np.stack([np.sin(edges), np.cos(edges)], axis=1)
     joints = np.stack([inner * radial, (inner + arch.thickness) * radial], axis=1)
-    return blocks.greatest_multiplier(joints, np.array(masses), np.array(centres), friction)
+    return blocks.greatest_multiplier(joints, masses, centres, friction)
 
 
 def test_on_joints_that_do_not_slide_it_is_that_of_the_mechanism():
