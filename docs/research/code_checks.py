@@ -26,6 +26,7 @@ from rocking.codes.selection import SETS, Selection
 from rocking.codes.static_check import kinematic_check
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import GRAVITY
+from rocking.records.sample import Sample
 from rocking.structures import Structure
 from rocking.tables import Row, column, row
 
@@ -84,11 +85,11 @@ def code_check(target: Target) -> None:
     walls = made_walls()
     bodies = list(walls.values())
     falls: list[np.ndarray] = []
-    sites: list[str] = []
+    sites: list[tuple[str, str]] = []
     for component in independent(target.records):
         ratios = integrate_batch(bodies, at_design_level(component.accelerogram))
         falls.append(np.isinf(ratios[:, 0]))
-        sites.append(component.site)
+        sites.append((component.site, component.earthquake))
         target.tell(f"{component.identifier}: {int(falls[-1].sum())} of {len(bodies)} overturn")
     fallen = np.array(falls)  # (records, walls)
     checks = {
@@ -115,7 +116,7 @@ def code_check(target: Target) -> None:
         for place, (kind, height, thickness) in enumerate(walls)
     ]
     kinds = np.array([each.kind for each in rows])
-    scores = list(_scores(fallen, kinds, ratios_of, sites))
+    scores = list(_scores(fallen, kinds, ratios_of, Sample.named(sites)))
     subtitle = (
         f"{len(bodies)} walls under {len(fallen)} components of {len(set(sites))} sites, {SPECTRUM.words}."
     )
@@ -164,8 +165,7 @@ def code_sets(target: Target) -> None:
     of_event: dict[str, list[str]] = {}
     for component in independent(target.records):
         if component.site not in pairs:
-            event = component.accelerogram.event[:4].lower() or component.site
-            of_event.setdefault(event, []).append(component.site)
+            of_event.setdefault(component.earthquake, []).append(component.site)
         pairs.setdefault(component.site, []).append(component.accelerogram)
     sites = sorted(pairs)
     rng = np.random.default_rng(40)
@@ -241,7 +241,7 @@ def _scores(
     fallen: np.ndarray,
     kinds: np.ndarray,
     ratios_of: Mapping[tuple[str, float], np.ndarray],
-    sites: list[str],
+    sample: Sample,
 ) -> Iterator[Score]:
     parts = {
         "cantilevers": kinds == "cantilever",
@@ -257,7 +257,7 @@ def _scores(
                 f"unsafe of the {passed.sum()} that pass": _share(fallen[:, passed], lambda p: p > OFTEN),
                 f"never falls of the {failed.sum()} that fail": _share(fallen[:, failed], lambda p: p == 0),
             }
-            yield from scored(f"{formula}, FC {factor:g}", part, measures, sites)
+            yield from scored(f"{formula}, FC {factor:g}", part, measures, sample)
 
 
 def _share(fallen: np.ndarray, says: Callable[[np.ndarray], np.ndarray]) -> Measure:

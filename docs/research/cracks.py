@@ -27,7 +27,15 @@ from docs.research.comparison.bodies import BASE_DEPTH, RigidBodies, rectangle
 from docs.research.comparison.codes import Question, ask
 from docs.research.comparison.lmgc90 import FALLEN, follow
 from docs.research.report import Tables, Target
-from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting_factor, one_of_each
+from docs.research.sites import (
+    SiteRecord,
+    Trial,
+    draw_of,
+    independent,
+    lifting_factor,
+    one_of_each,
+    sample_of,
+)
 from rocking import Accelerogram, LoadedWall, Mechanism, RigidBody, Verdict
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.decide import Facts, decide
@@ -233,6 +241,7 @@ def crack_row(component: SiteRecord, place: int, checked: bool) -> CrackRow:
         courses=member.courses,
         record=component.identifier,
         site=component.site,
+        earthquake=component.earthquake,
         structure=member.kind,
         scale_factor=factor,
         falls=bool(np.abs(turns).max() > TURN),
@@ -294,7 +303,7 @@ def _case(member: Member, motion: Accelerogram) -> MemberQuestion:
 
 
 def crack_scores(rows: Sequence[CrackRow]) -> Iterator[scores.Score]:
-    """Yield the errors of the rule by kind of member and of all, with intervals by site."""
+    """Yield the errors of the rule by kind of member and of all, with intervals by earthquake."""
     every = pd.DataFrame(rows)
     for kind, own in [("all", every), *every.groupby("structure", sort=False)]:
         as_lmgc90 = (own.falls == own.falls_in_lmgc90).where(own.falls_in_lmgc90.notna())
@@ -305,7 +314,7 @@ def crack_scores(rows: Sequence[CrackRow]) -> Iterator[scores.Score]:
             "falls at the joint of least λ": (own.opened == own.static_joint).where(own.falls),
             "falls or stands as in LMGC90": as_lmgc90,
         }
-        yield from scores.scored("governing crack", kind, measures, own.site.tolist())
+        yield from scores.scored("governing crack", kind, measures, sample_of(own.site, own.earthquake))
 
 
 def main() -> None:

@@ -107,6 +107,7 @@ def try_ensembles(
         about = {
             "record": component.identifier,
             "site": site,
+            "earthquake": component.earthquake,
             "half": CHOSEN if odd and site in near else LEFT_OUT,
         }
         alone.append((about, [record]))
@@ -168,7 +169,7 @@ def ensemble_scores(trials: Sequence[EnsembleTrial]) -> Iterator[scores.Score]:
             measures[f"share of verdicts beyond their risk{limit}"] = (opposite > risk + more).where(decided)
         measures["share of draws inside the 5-95 % band (0.87 to 0.93 is asked)"] = own.inside_band
         measures["verdicts"] = number_of(decided.to_numpy())
-        yield from scores.scored("ensemble", str(half), measures, own.site.tolist())
+        yield from scores.scored("ensemble", str(half), measures, sites.sample_of(own.site, own.earthquake))
 
 
 def number_of(which: np.ndarray) -> scores.Measure:
@@ -219,6 +220,7 @@ def screening_trials(
         yield ScreeningTrial(
             record=component.identifier,
             site=component.site,
+            earthquake=component.earthquake,
             structure=structure_name,
             scale_factor=factor,
             verdict=decide(in_study.facts).word,
@@ -230,7 +232,7 @@ def screening_trials(
 
 
 def screening_scores(trials: Sequence[ScreeningTrial]) -> Iterator[scores.Score]:
-    """Yield misses and verdicts against fresh draws, by structure and of all, with intervals by site."""
+    """Yield misses and verdicts against fresh draws, by structure and of all, with intervals by earthquake."""
     every = pd.DataFrame(trials)
     for part, own in [("all", every), *every.groupby("structure", sort=False)]:
         stands, fresh = own.verdict == Verdict.STANDS, own.fresh_share
@@ -250,4 +252,6 @@ def screening_scores(trials: Sequence[ScreeningTrial]) -> Iterator[scores.Score]
                 open_ & (own.share == 0)
             ),
         }
-        yield from scores.scored("verdict over all cracks", part, measures, own.site.tolist())
+        yield from scores.scored(
+            "verdict over all cracks", part, measures, sites.sample_of(own.site, own.earthquake)
+        )

@@ -15,6 +15,7 @@ from rocking.floors.support import Mode, Support
 from rocking.motion.integration import integrate
 from rocking.pulses import extract_pulses
 from rocking.quantities import GRAVITY
+from rocking.records.sample import Sample
 from rocking.sine_pulse import predict_maximum
 from rocking.structures import Block, Structure
 from rocking.tables import Row, column, row
@@ -37,6 +38,7 @@ class FloorTrial(Row):
 
     record: str = column("Identifier of the record in the catalogue")
     site: str = column("Event and station")
+    earthquake: str = column("Earthquake, as the first record of it names it")
     structure: str = column("Name of the structure")
     support_period_s: float = column("Period of the support; 0 on the ground")
     amplification: float = column("Peak acceleration on the support over that of the ground")
@@ -73,6 +75,7 @@ def floor_trials(component: sites.SiteRecord) -> Iterator[FloorTrial]:
             yield FloorTrial(
                 record=component.identifier,
                 site=component.site,
+                earthquake=component.earthquake,
                 structure=structure,
                 support_period_s=period,
                 amplification=floor.peak_acceleration / ground.peak_acceleration,
@@ -98,7 +101,7 @@ def closed_form_scores(trials: list[FloorTrial]) -> Iterator[scores.Score]:
             "closed form overturns, where it stands": np.where(falls, np.nan, np.isinf(said)),
             "closed form over integration, median": _median(quotient),
         }
-        yield from scores.scored("closed form", part, measures, [each.site for each in own])
+        yield from scores.scored("closed form", part, measures, _sample_of(own))
 
 
 def _median(values: np.ndarray) -> scores.Measure:
@@ -108,6 +111,10 @@ def _median(values: np.ndarray) -> scores.Measure:
         return float(np.median(chosen)) if chosen.size else math.nan
 
     return measure
+
+
+def _sample_of(trials: list[FloorTrial]) -> Sample:
+    return Sample.named((each.site, each.earthquake) for each in trials)
 
 
 def course_scores(trials: list[FloorTrial]) -> Iterator[scores.Score]:
@@ -120,14 +127,14 @@ def course_scores(trials: list[FloorTrial]) -> Iterator[scores.Score]:
                 "share that overturns": [float(math.isinf(each.integrated_rotation_ratio)) for each in there]
             }
             part = f"T_b {period:.3g} s" if period else "on the ground"
-            yield from scores.scored(structure, part, measures, [each.site for each in there])
-        courses: dict[str, list[tuple[float, bool]]] = {}
+            yield from scores.scored(structure, part, measures, _sample_of(there))
+        courses: dict[tuple[str, str], list[tuple[float, bool]]] = {}
         for each in own:
             fell = math.isinf(each.integrated_rotation_ratio)
-            courses.setdefault(each.site, []).append((each.support_period_s, fell))
+            courses.setdefault((each.site, each.earthquake), []).append((each.support_period_s, fell))
         back = [
             float((np.diff(np.array([fell for _, fell in sorted(course)], dtype=int)) < 0).any())
             for course in courses.values()
         ]
         measures = {"outcome turns back as the period grows": back}
-        yield from scores.scored(structure, "over the periods", measures, list(courses))
+        yield from scores.scored(structure, "over the periods", measures, Sample.named(courses))

@@ -91,7 +91,7 @@ def method_scores(
             cpu_s -= curve_s  # which the other methods do not make
         shares = np.isinf(ratios).mean(axis=2)
         measures = _errors(levels, shares, exact) | {"processor time of all, s": np.full(len(shares), cpu_s)}
-        yield from scores.scored(method, name, measures, reference.stations)
+        yield from scores.scored(method, name, measures, reference.sample)
 
 
 def responses_behind(curve: Fragility) -> IncrementalDynamicAnalysis:

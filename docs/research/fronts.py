@@ -11,7 +11,7 @@ import numpy as np
 
 from docs.research import scores
 from docs.research.report import Tables, Target
-from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting_factor
+from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting_factor, sample_of
 from rocking import Facade, integrate
 from rocking.structures import Outcome
 from rocking.tables import column, row
@@ -92,6 +92,7 @@ def front_trial(component: SiteRecord, place: int) -> FrontTrial:
     return FrontTrial(
         record=component.identifier,
         site=component.site,
+        earthquake=component.earthquake,
         structure="front with a tie" if is_tied else "front",
         scale_factor=factor,
         is_tied=is_tied,
@@ -127,4 +128,5 @@ def front_scores(trials: Sequence[FrontTrial]) -> Iterator[scores.Score]:
                     falls, np.nan, one_side
                 ),
             }
-        yield from scores.scored(kind, f"{kind}, both ways and one", measures, [trial.site for trial in own])
+        sample = sample_of([trial.site for trial in own], [trial.earthquake for trial in own])
+        yield from scores.scored(kind, f"{kind}, both ways and one", measures, sample)

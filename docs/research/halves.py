@@ -83,10 +83,9 @@ def scores_of_halves(name: str, found: Strengthening) -> Iterator[Score]:
             here, elsewhere = once
             chosen = choose(found, here, limit)
             if chosen is not None:
-                sites = [found.stations[place] for place in elsewhere]
                 share = {"share of the other half": chosen.shares[elsewhere]}
-                yield from scored(name, part, share, sites)
-                yield _told(name, part, "value chosen (SI)", chosen.value, here.size)
+                yield from scored(name, part, share, found.sample.part(elsewhere))
+                yield _told(name, part, "value chosen (SI)", chosen.value, found.sample.part(here))
             right = []
             for own, other in further:
                 again = choose(found, own, limit)
@@ -94,7 +93,7 @@ def scores_of_halves(name: str, found: Strengthening) -> Iterator[Score]:
                     right.append(float(again.shares[other].mean()) <= limit)
             if right:
                 measure = f"of {len(right)} further halves that choose, those that hold"
-                yield _told(name, part, measure, float(np.mean(right)), len(found.stations))
+                yield _told(name, part, measure, float(np.mean(right)), found.sample)
 
 
 def split(sample: Sample, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
@@ -125,7 +124,7 @@ def seems(found: Strengthening, stations: np.ndarray, limit: float) -> Tried | N
     return next((each for each in found.tried if each.shares[stations].mean() < limit), None)
 
 
-def _told(name: str, part: str, measure: str, value: float, sites: int) -> Score:
+def _told(name: str, part: str, measure: str, value: float, sample: Sample) -> Score:
     """A number without an interval: halves share their stations, and are no independent trials."""
     return Score(
         subject=name,
@@ -134,6 +133,7 @@ def _told(name: str, part: str, measure: str, value: float, sites: int) -> Score
         value=value,
         value_low=math.nan,
         value_high=math.nan,
-        cases=sites,
-        sites=sites,
+        sites=sample.count,
+        earthquakes=sample.earthquakes,
+        cases=sample.count,
     )

@@ -27,7 +27,7 @@ import pandas as pd
 
 from docs.research import scores
 from docs.research.report import Target
-from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting_factor
+from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting_factor, sample_of
 from docs.research.stacks import TRUE_STEP, strong_part
 from rocking import Accelerogram, Facade, LoadedWall, Verdict, assess
 from rocking.assessment.decide import decide
@@ -198,6 +198,7 @@ def held_trial(component: SiteRecord, catalogue: str, kind: str, place: int) -> 
     return HeldTrial(
         record=component.identifier,
         site=component.site,
+        earthquake=component.earthquake,
         structure=kind,
         scale_factor=factor,
         catalogue=catalogue,
@@ -234,7 +235,7 @@ def true_runs(stack: Stack, motion: Accelerogram) -> Iterator[tuple[bool, float]
 
 
 def held_scores(trials: Sequence[HeldTrial]) -> Iterator[scores.Score]:
-    """Yield the shares of what falls among what is said to stand, by kind, with intervals by site."""
+    """Yield the shares of what falls among what is said to stand, by kind, with intervals by earthquake."""
     every = pd.DataFrame(trials)
     for kind, of_kind in [("all", every), *every.groupby("structure", sort=False)]:
         for stations, own in (
@@ -253,4 +254,4 @@ def held_scores(trials: Sequence[HeldTrial]) -> Iterator[scores.Score]:
             measures['some true stack falls among "stands" by mechanisms'] = np.where(
                 by_mechanism, some, np.nan
             )
-            yield from scores.scored(str(kind), stations, measures, own.site.tolist())
+            yield from scores.scored(str(kind), stations, measures, sample_of(own.site, own.earthquake))

@@ -101,15 +101,15 @@ def scatter_scores(
 ) -> list[scores.Score]:
     """Return the scatter of each measure of one structure, and its ratio to that of FIRST."""
     motions = [each.accelerogram for each in records]
-    stations = [each.site for each in records]
-    tried = scatter_of(structure, motions, stations)
+    sample = sites.sample_of([each.site for each in records], [each.earthquake for each in records])
+    tried = scatter_of(structure, motions, sample.stations)
     rows: list[scores.Score] = []
     for name in tried.logs:
         measured = {
             "scatter": partial(tried.efficiency, name),
             f"scatter over that of {FIRST}": partial(tried.ratio, name),
         }
-        rows += scores.scored(name, part, measured, stations, REPLICATES)
+        rows += scores.scored(name, part, measured, sample, REPLICATES)
     return rows
 
 

@@ -94,8 +94,9 @@ def bounds() -> Iterator[scores.Score]:
                         value=reach,
                         value_low=reach,
                         value_high=reach,
-                        cases=count,
                         sites=count,
+                        earthquakes=count,
+                        cases=count,
                     )
 
 

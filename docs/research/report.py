@@ -47,15 +47,15 @@ class Target:
         for part, own in scores[~is_class].groupby("part", sort=False):
             rows = [Score(**each) for each in own.sort_values("measure", kind="stable").to_dict("records")]
             columns = printing.columns_of(
-                Score, "measure=2 subject=1.6 value value_low value_high cases sites", "0.6"
+                Score, "measure=2 subject=1.6 value value_low value_high sites earthquakes cases", "0.6"
             )
-            caption = f"{printing.sentence(str(part))}; 90 % intervals by resampling sites."
+            caption = f"{printing.sentence(str(part))}; 90 % intervals by resampling earthquakes."
             parts.append(Part(table=printing.table_of(rows, *columns), caption=caption))
         if is_class.any():
             drawn = picture(
                 reliability_figure(scores[is_class]), "Overturning share against the stated probability."
             )
-            caption = "Reliability, with 90 % intervals by resampling sites."
+            caption = "Reliability, with 90 % intervals by resampling earthquakes."
             parts.append(Part(pictures=(drawn,), caption=caption))
         page = PlainPage(title=title, subtitle=subtitle, parts=tuple(parts))
         write_whole(self.folder / "report.pdf", compile_document(page))

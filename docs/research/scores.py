@@ -1,4 +1,4 @@
-"""How good probabilities are against what happened, and how well each score is known: by drawing sites anew."""
+"""How good probabilities are against what happened, and how well each score is known: by drawing earthquakes anew."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -7,17 +7,14 @@ from functools import partial
 import numpy as np
 from scipy.optimize import minimize_scalar
 
+from rocking.records.sample import REPLICATES, Sample
 from rocking.tables import Row, column, row
 
-REPLICATES = 1000
-"""Draws of the sites behind an interval."""
-LEVELS = (0.05, 0.95)
-"""Quantiles of the draws between which a 90 % interval lies."""
 LARGEST_LAPSE = 0.1
 STATED, HAPPENED = "stated", "happened"
 """Measures of one class of a reliability diagram: its mean probability, and the share of its cases that overturned."""
 Labels = Sequence[object] | np.ndarray
-"""The site of each case, or what else is independent: an input motion, a case."""
+"""Of each case what is independent: an input motion, a drawn sample, a case."""
 Measure = Callable[[np.ndarray], float]
 """A score of some of the cases, by index, with repeats; nan where they tell none."""
 Measured = Measure | Sequence[float] | np.ndarray
@@ -26,7 +23,10 @@ Prediction = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """Probabilities (k,) of the last cases (k,) after a fit to the first (m,), both by index."""
 
 
-@row("scores", "One row per subject, part of the cases and measure, with a 90 % interval by resampling sites")
+@row(
+    "scores",
+    "One row per subject, part of the cases and measure, with a 90 % interval by resampling earthquakes",
+)
 class Score(Row):
     """One measure of one subject."""
 
@@ -34,23 +34,29 @@ class Score(Row):
     part: str = column("Cases on which it was judged")
     measure: str = column("What was measured")
     value: float = column("Its value on all cases of the part")
-    value_low: float = column("5 % quantile over resampled sites")
-    value_high: float = column("95 % quantile over resampled sites")
-    cases: int = column("Cases behind it")
+    value_low: float = column("Lower end of its 90 % interval, by earthquake")
+    value_high: float = column("Upper end of that interval")
     sites: int = column("Sites behind it; of a shake table: input motions; of codes: cases")
+    earthquakes: int = column("Earthquakes of these sites; of what has none, as many as there are")
+    cases: int = column("Cases behind it")
 
 
 def scored(
-    subject: str, part: str, measures: Mapping[str, Measured], sites: Labels, replicates: int = REPLICATES
+    subject: str,
+    part: str,
+    measures: Mapping[str, Measured],
+    sample: Sample | Labels,
+    replicates: int = REPLICATES,
 ) -> Iterator[Score]:
-    """Yield every measure of the cases at `sites` (n,), with its interval."""
-    draws = resampled(sites, replicates)
-    every = np.arange(len(sites))
-    independent = len(set(sites))
+    """Yield every measure of the cases (n,), with its interval.
+
+    sample: the site and the earthquake of each case, or labels (n,) of what is independent.
+    """
+    drawn = sample if isinstance(sample, Sample) else Sample.scattered(list(map(str, sample)))
+    every = np.arange(drawn.of_record.size)
     for name, each in measures.items():
         measure = each if callable(each) else mean(each)
-        values = [value for rows in draws if not math.isnan(value := measure(rows))]
-        low, high = np.quantile(values, LEVELS).tolist() if values else (math.nan, math.nan)
+        low, high = interval_of(each, measure, drawn, replicates)
         yield Score(
             subject=subject,
             part=part,
@@ -58,9 +64,34 @@ def scored(
             value=measure(every),
             value_low=low,
             value_high=high,
+            sites=drawn.count,
+            earthquakes=drawn.earthquakes,
             cases=every.size,
-            sites=independent,
         )
+
+
+def interval_of(
+    given: Measured, measure: Measure, sample: Sample, replicates: int = REPLICATES
+) -> tuple[float, float]:
+    """Return the 90 % interval of a measure of cases that are the records of a sample.
+
+    Where all or none of the cases that count show something, no draw tells how often others do: the bounds are then
+    those of a share, of which each site counts once.
+    """
+    if not callable(given):
+        values = np.asarray(given, dtype=float)
+        counts = ~np.isnan(values)
+        if counts.any() and np.unique(values[counts]).tolist() in ([0.0], [1.0]):
+            tried = np.bincount(sample.of_record, weights=counts, minlength=sample.count) > 0
+            shown = tried * values[counts][0]
+            low, high = sample.share_bounds(shown, tried=tried.astype(float))
+            return float(low), float(high)
+    return sample.interval(lambda weights: measure(rows_of(weights, sample)), replicates)
+
+
+def rows_of(weights: np.ndarray, sample: Sample) -> np.ndarray:
+    """Return the cases of stations that are drawn so often, (s,), each case as often as its station."""
+    return np.repeat(np.arange(sample.of_record.size), weights[sample.of_record].astype(int))
 
 
 def reliability(
@@ -68,7 +99,7 @@ def reliability(
     part: str,
     probability: np.ndarray,
     outcomes: np.ndarray,
-    sites: Labels,
+    sample: Sample | Labels,
     edges: Sequence[float],
 ) -> Iterator[Score]:
     """Yield what was STATED and what HAPPENED in the classes between `edges` that hold a case; (n,) in [0, 1]."""
@@ -77,7 +108,8 @@ def reliability(
         own = place == which
         called = f"{part}, {edges[which]:g} to {edges[which + 1]:g} stated"
         measures = {STATED: probability[own], HAPPENED: outcomes[own]}
-        yield from scored(subject, called, measures, np.asarray(sites)[own].tolist())
+        part_of = sample.of_records(own) if isinstance(sample, Sample) else np.asarray(sample)[own]
+        yield from scored(subject, called, measures, part_of)
 
 
 def left_out(labels: np.ndarray, predict: Prediction) -> np.ndarray:
@@ -87,18 +119,6 @@ def left_out(labels: np.ndarray, predict: Prediction) -> np.ndarray:
         out = labels == label
         stated[out] = predict(np.flatnonzero(~out), np.flatnonzero(out))
     return stated
-
-
-def resampled(labels: Labels, replicates: int) -> list[np.ndarray]:
-    """Return indices of the cases of as many labels (n,) as there are, drawn with repetition, `replicates` times.
-
-    All cases of a label (a site, an input motion) are drawn together.
-    """
-    names, place = np.unique(np.asarray(labels), return_inverse=True)
-    rows = [np.flatnonzero(place == k) for k in range(names.size)]
-    rng = np.random.default_rng(0)
-    drawn = (rng.integers(names.size, size=names.size) for _ in range(replicates))
-    return [np.concatenate([rows[k] for k in each]) for each in drawn]
 
 
 def drawn_from(pool: np.ndarray) -> Callable[[np.random.Generator, int], np.ndarray]:

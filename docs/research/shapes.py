@@ -8,7 +8,7 @@ import numpy as np
 
 from docs.research.report import Target
 from docs.research.scores import Measured, Score, median, scored
-from docs.research.sites import independent
+from docs.research.sites import SiteRecord, independent, sample_of
 from rocking import Accelerogram, Pulse, integrate, predict_maximum
 from rocking.assessment.methods import Agreement, agreement, ratio, rests
 from rocking.structures import Structure
@@ -40,7 +40,7 @@ def pulse_shapes(target: Target) -> None:
     for each in independent(target.records):
         fits = {name: fit for name in SHAPES if (fit := fitted(each.accelerogram, *SHAPES[name]))}
         if fits:
-            cases += compared(each.site, each.accelerogram, fits, target.structures)
+            cases += compared(each, fits, target.structures)
         target.tell(each.identifier)
     rows = list(scores_of(cases))
     subtitle = f"{len({case.site for case in cases})} sites, {len(target.structures)} structures."
@@ -78,6 +78,7 @@ class Case:
     """One structure under one record: by each shape how much it explains, and the rotation ratio by its closed form."""
 
     site: str
+    earthquake: str
     integrated: float
     explained: Mapping[str, float]
     predicted: Mapping[str, float]
@@ -89,17 +90,17 @@ class Case:
 
 
 def compared(
-    site: str, record: Accelerogram, fits: Mapping[str, Fitted], structures: Mapping[str, Structure]
+    component: SiteRecord, fits: Mapping[str, Fitted], structures: Mapping[str, Structure]
 ) -> Iterator[Case]:
     """Yield each structure that a record moves, or that one of its pulses does."""
     explained = {name: fit.explained for name, fit in fits.items()}
     for structure in structures.values():
         mechanism = structure.mechanism()
         block = mechanism.equivalent_block("rest")
-        integrated = integrate(mechanism, record).rotation_ratio
+        integrated = integrate(mechanism, component.accelerogram).rotation_ratio
         predicted = {name: predict_maximum(block, fit.pulse).rotation_ratio for name, fit in fits.items()}
         if not all(map(rests, (integrated, *predicted.values()))):
-            yield Case(site, integrated, explained, predicted)
+            yield Case(component.site, component.earthquake, integrated, explained, predicted)
 
 
 def scores_of(cases: Sequence[Case]) -> Iterator[Score]:
@@ -128,4 +129,5 @@ def _scored(subject: str, part: str, cases: Sequence[Case], shapes: Sequence[str
         "median error of the rotation": median(errors),
         "explained energy": [case.explained[name] for case, name in zip(cases, shapes, strict=True)],
     }
-    yield from scored(subject, part, measures, [case.site for case in cases])
+    sample = sample_of([case.site for case in cases], [case.earthquake for case in cases])
+    yield from scored(subject, part, measures, sample)

@@ -1,4 +1,4 @@
-"""Real records by site: what counts as independent, the structures that are tried under them, and at what scale."""
+"""Real records by site and earthquake: what counts, the structures that are tried under them, and at what scale."""
 
 import re
 import zlib
@@ -11,6 +11,7 @@ import numpy as np
 
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
+from rocking.records.sample import UNNAMED, Sample, earthquakes_of
 from rocking.structures import Arch, Block, Structure, Wall
 from rocking.tables import Row, column, row
 
@@ -27,10 +28,15 @@ UPLIFTS = (1.3, 8.0)
 
 @dataclass(frozen=True)
 class SiteRecord:
-    """A component that counts. identifier: in the catalogue. site: event and station, as what came first names them."""
+    """A component that counts.
+
+    identifier: in the catalogue. site: event and station, as what came first names them. earthquake: as the first
+    record of it names it.
+    """
 
     identifier: str
     site: str
+    earthquake: str
     accelerogram: Accelerogram
 
 
@@ -40,6 +46,7 @@ class Trial(Row):
 
     record: str = column("Identifier of the record in the catalogue")
     site: str = column("Event and station")
+    earthquake: str = column("Earthquake, as the first record of it names it")
     structure: str = column("Name of the structure")
     scale_factor: float = column("What the record was multiplied by")
 
@@ -60,17 +67,18 @@ def structures_tried() -> dict[str, Structure]:
 def independent(records: Records) -> Iterator[SiteRecord]:
     """Yield the components that count, none under two names.
 
-    A site is an event and a station. Events are alike in the first four letters, stations where the words of one begin
-    with all those of the other: catalogues differ in how much they add. What comes first names the site; a file of
-    another catalogue for the same site, or of a direction that is there already, does not count.
+    A site is an earthquake and a station; stations are alike where the words of one begin with all those of the other,
+    as catalogues differ in how much they add. What comes first names the site; a file of another catalogue for the same
+    site, or of a direction that is there already, does not count.
     """
     sites: list[_Site] = []
-    for identifier, record in records:
-        event = "".join(re.findall(r"[a-z]+", record.event.lower()))[:4]
+    every = list(records)
+    earthquakes = earthquakes_of(record for _, record in every)
+    for (identifier, record), earthquake in zip(every, earthquakes, strict=True):
         words = re.findall(r"[a-z0-9]+", record.station.lower())
-        site = next((each for each in sites if each.is_of(event, words)), None)
+        site = next((each for each in sites if each.is_of(earthquake, words)), None)
         if site is None:
-            site = _Site(event, words, site_of(record))
+            site = _Site(earthquake, words, site_of(record))
             sites.append(site)
         direction: object = record.component or identifier
         if record.azimuth is not None:
@@ -79,22 +87,27 @@ def independent(records: Records) -> Iterator[SiteRecord]:
         is_new = direction not in site.directions and len(site.directions) < MOST_COMPONENTS
         if is_same_catalogue and is_new:
             site.directions.add(direction)
-            yield SiteRecord(identifier, site.name, record)
+            yield SiteRecord(identifier, site.name, earthquake or UNNAMED, record)
 
 
 @dataclass(frozen=True)
 class _Site:
     """A site as the first record names it. directions: of the components that count, degrees modulo 180 or names."""
 
-    event: str
+    earthquake: str
     words: list[str]
     name: str
     directions: set[object] = field(default_factory=set)
 
-    def is_of(self, event: str, words: list[str]) -> bool:
-        """Whether an event and the words of a station are those of the site."""
+    def is_of(self, earthquake: str, words: list[str]) -> bool:
+        """Whether an earthquake and the words of a station are those of the site."""
         begins_alike = words[: len(self.words)] == self.words[: len(words)]
-        return self.event == event and begins_alike and bool(words) and bool(self.words)
+        return self.earthquake == earthquake and begins_alike and bool(words) and bool(self.words)
+
+
+def sample_of(names: Iterable[str], earthquakes: Iterable[str]) -> Sample:
+    """Return the sample of cases by the site and the earthquake of each."""
+    return Sample.named(zip(names, earthquakes, strict=True))
 
 
 def one_of_each(records: Iterable[SiteRecord]) -> list[SiteRecord]:

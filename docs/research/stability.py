@@ -97,10 +97,13 @@ def stability(target: Target) -> None:
     """Hold words against many members, on every site with two components that FEMA P-695 does not hold."""
     trials: list[StabilityTrial] = []
     left_out = left_out_of(*target.catalogues)
-    for site, several in groupby(left_out, lambda component: component.site):
+    for (site, earthquake), several in groupby(
+        left_out, lambda component: (component.site, component.earthquake)
+    ):
         records = [component.accelerogram for component in several]
         if len(records) == sites.MOST_COMPONENTS:
-            trials += stability_trials(site, records, {**target.structures, **SEVERAL_CRACKS})
+            structures = {**target.structures, **SEVERAL_CRACKS}
+            trials += stability_trials(site, earthquake, records, structures)
             target.tell(site)
     tables: Tables = {StabilityTrial: trials, scores.Score: list(stability_scores(trials))}
     target.publish("How stable the words are", f"{len(trials)} cases beside {MEMBERS} members.", tables)
@@ -117,7 +120,7 @@ def left_out_of(chosen_on: Records, *others: Records) -> Iterator[sites.SiteReco
 
 
 def stability_trials(
-    site: str, records: Sequence[Accelerogram], structures: Mapping[str, Structure]
+    site: str, earthquake: str, records: Sequence[Accelerogram], structures: Mapping[str, Structure]
 ) -> Iterator[StabilityTrial]:
     """Yield trials of every kind with some of the structures, drawn by the name of the site."""
     draw = sites.draw_of(site)
@@ -144,6 +147,7 @@ def stability_trials(
             yield StabilityTrial(
                 record=first.source.path or site,
                 site=site,
+                earthquake=earthquake,
                 structure=name,
                 scale_factor=factor,
                 kind=kind,
@@ -182,7 +186,7 @@ def very_many(structure: Structure, motions: GroundMotions) -> CrackEnsembles:
 
 
 def stability_scores(trials: Sequence[StabilityTrial]) -> Iterator[scores.Score]:
-    """Yield how many words are right and how far the others are off, of each kind and of all, by site.
+    """Yield how many words are right and how far the others are off, of each kind and of all, by earthquake.
 
     Cases without a class are counted by themselves and enter no other share.
     """
@@ -201,4 +205,4 @@ def stability_scores(trials: Sequence[StabilityTrial]) -> Iterator[scores.Score]
             "off on the safe side": np.where(told, off > 0, np.nan),
             "members of all cracks": own.members.to_numpy(dtype=float),
         }
-        yield from scores.scored("words", str(part), measures, own.site.tolist())
+        yield from scores.scored("words", str(part), measures, sites.sample_of(own.site, own.earthquake))

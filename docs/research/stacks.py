@@ -22,32 +22,30 @@ and 75 of 129 tied within, 58 % (50-66). 24 runs of a pair took 0.43 s of CPU in
 95th percentile, 64 runs 1.1 and 4.5 s.
 """
 
+import math
 import warnings
 import zlib
-from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from time import process_time
-from typing import ClassVar, Literal
+from typing import Literal
 
 import numpy as np
 import pandas as pd
 
 from docs.research import scores
-from docs.research.cracks import MARGIN, STRONG, Member, members, ruled
+from docs.research.cracks import MARGIN, STRONG, Member, straight
 from docs.research.report import Target
-from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting_factor
-from rocking import Accelerogram, Facade, LoadedWall, Mechanism, Spire, Verdict, assess
-from rocking.assessment.contacts import ContactShare, contact_share
+from docs.research.sites import SiteRecord, Trial, draw_of, independent, lifting_factor, sample_of
+from rocking import Accelerogram, Facade, LoadedWall, Spire, Verdict, assess
 from rocking.assessment.decide import Facts, decide
 from rocking.assessment.fidelity import peak_velocity
-from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.contacts.dynamics import follow_stack
 from rocking.errors import StructureWarning
 from rocking.quantities import GRAVITY
 from rocking.structures import Structure
+from rocking.structures.building_parts import building_part
 from rocking.structures.stack import Stack
 from rocking.structures.structure import Crackable
 from rocking.tables import column, read_rows, row, write_rows
@@ -59,15 +57,16 @@ TRUE_STEP = 2e-4
 UPLIFTS = (1.05, 3.0)
 """Range of peak acceleration over the least uplift acceleration to which records are scaled, log-uniform."""
 TRIALS = {
-    "spire": 9,
-    "pinnacle": 13,
-    "loaded wall": 6,
+    "spire": 6,
+    "pinnacle": 8,
+    "free wall": 4,
+    "loaded wall": 4,
     "gable": 5,
-    "façade with ties": 6,
+    "façade with ties": 4,
     "façade tied within": 4,
 }
-"""Under each component: so many that a hundred of each kind stand, by the shares of an earlier campaign."""
-CAMPAIGN = 2
+"""Under each component."""
+CAMPAIGN = 3
 """Members, scales and courses are drawn anew for each campaign."""
 LIFTED = 1e-4
 """Turn of a course beyond which the true stack has lifted, rad."""
@@ -77,130 +76,77 @@ SETTINGS = AssessmentSettings(fidelity="contact")
 
 
 @dataclass(frozen=True, eq=False)
-class Judged:
-    """What the package says of a member under a motion.
+class Case:
+    """A structure as a user describes it, and the courses that it truly consists of.
 
-    facts: what the decision is told. contact: what contact dynamics says; None where it was not asked.
+    stack_of: the true stack of so many courses, on joints of any friction.
     """
 
-    facts: Facts
-    contact: ContactShare | None = None
+    structure: Structure
+    stack_of: Callable[[int], Stack]
 
     @property
-    def mechanism(self) -> Verdict:
-        """The verdict by mechanisms alone, whatever its contacts do."""
-        return decide(replace(self.facts, doubts=())).word
-
-    @property
-    def without(self) -> Verdict:
-        """The verdict without contact dynamics."""
-        return decide(self.facts).word
-
-    @property
-    def verdict(self) -> Verdict:
-        """The verdict with contact dynamics, which is asked where there is a doubt."""
-        if self.contact is None or not self.contact.runs:
-            return self.without
-        return decide(replace(self.facts, stacks=(self.contact.falls, self.contact.runs))).word
-
-
-class Case(ABC):
-    """A member under motions: the uplift multiplier of statics, what the package says, and the true stack."""
-
-    @property
-    @abstractmethod
     def multiplier(self) -> float:
-        """Uplift multiplier of statics: ground acceleration over g."""
+        """Uplift multiplier of statics, the least over its cracks: ground acceleration over g."""
+        return self.structure.static_multiplier
 
-    @abstractmethod
-    def judged(self, motion: Accelerogram) -> Judged:
-        """Return what the package says."""
+    def facts(self, motion: Accelerogram) -> Facts:
+        """Return what a study with `fidelity: contact` decides by, contact dynamics included where it is asked."""
+        station = assess(motion, self.structure, settings=SETTINGS)
+        (case,) = station.cases.values()
+        return case.facts(self.structure)
 
-    @abstractmethod
-    def stack(self, courses: int | None = None) -> Stack:
-        """Return the member as courses."""
+    def stack(self, courses: int) -> Stack:
+        """Return the true stack, on the friction of the study or less."""
+        stack = self.stack_of(courses)
+        return replace(stack, friction=min(stack.friction, SETTINGS.friction_coefficient))
 
     def begins_storey(self, height: float) -> bool | None:
         """Return whether a storey begins at `height` [m] above the foot; None of what has no storeys."""
-        return None
-
-
-@dataclass(frozen=True, eq=False)
-class Shipped(Case):
-    """A structure that the package has."""
-
-    structure: Structure
-
-    @property
-    def multiplier(self) -> float:
-        """The least over its cracks."""
-        return self.structure.static_multiplier
-
-    def judged(self, motion: Accelerogram) -> Judged:
-        station = assess(motion, self.structure, settings=SETTINGS)
-        (case,) = station.cases.values()
-        return Judged(replace(case.facts(self.structure), stacks=None), case.contact)
-
-    def stack(self, courses: int | None = None) -> Stack:
-        if isinstance(self.structure, Crackable) and self.structure.crack == "known":
-            return self.structure.stack()
-        return self.structure.stack(courses)
-
-    def begins_storey(self, height: float) -> bool | None:
         if not isinstance(self.structure, Facade):
             return None
         return bool(np.isclose(self.structure.levels[:-1], height).any())
 
 
-@dataclass(frozen=True, eq=False)
-class Made(Case):
-    """A member in courses that the package has no structure for: one mechanism for each joint.
+def words_of(facts: Facts) -> tuple[Verdict, Verdict, Verdict]:
+    """Return the word by mechanisms alone whatever their contacts do, that without contact dynamics, and that with."""
+    without = replace(facts, stacks=None)
+    alone = replace(without, doubts=(), friction_needed=math.nan)
+    return decide(alone).word, decide(without).word, decide(facts).word
 
-    size: factor on all of its lengths.
-    """
 
-    kind: str
-    size: float
-    symmetric: ClassVar[bool] = True
-    courses_are_given: ClassVar[bool] = False
+def laid(structure: Structure) -> Case:
+    """Return the case of a structure that lays its own courses; one whose crack is known keeps its bodies."""
+    on_joints = structure.with_friction(SETTINGS.friction_coefficient)
+    is_known = isinstance(structure, Crackable) and structure.crack == "known"
+    return Case(on_joints, lambda courses: on_joints.stack(None if is_known else courses))
 
-    def _member(self, courses: int) -> Member:
-        plain = members(courses)[self.kind]
-        depths = None if plain.depths is None else self.size * plain.depths
-        return replace(
-            plain, sections=self.size * plain.sections, height=self.size * plain.height, depths=depths
-        )
 
-    @property
-    def tapers(self) -> bool:
-        """Whether its courses grow smaller upwards."""
-        return members(COURSES[0])[self.kind].tapers
+def free_wall(draw: np.random.Generator) -> Case:
+    """Held by nothing at its top."""
+    height = float(draw.uniform(0.8, 4.0))
+    thickness = height / float(draw.uniform(4.0, 10.0))
+    return laid(building_part("free_wall").construct(height=height, thickness=thickness))
 
-    @cached_property
-    def mechanisms(self) -> dict[int, Mechanism]:
-        """By the number of courses beneath the joint."""
-        return self._member(COURSES[0]).mechanisms
 
-    @cached_property
-    def static(self) -> int:
-        """The joint of least λ."""
-        return min(self.mechanisms, key=lambda joint: self.mechanisms[joint].uplift_multiplier)
+def gable(draw: np.random.Generator) -> Case:
+    """A triangle that falls out of its plane, known to the package as one body; its courses grow shorter upwards."""
+    height = float(draw.uniform(1.5, 5.0))
+    thickness = height / float(draw.uniform(5.0, 12.0))
+    structure = building_part("gable").construct(height=height, thickness=thickness)
 
-    @property
-    def multiplier(self) -> float:
-        """The least over its joints."""
-        return self.mechanisms[self.static].uplift_multiplier
+    def stack(courses: int) -> Stack:
+        lengths = 2 * height * (1 - (np.arange(courses) + 0.5) / courses)
+        return Member("gable", straight(thickness, thickness, courses), height, lengths).stack
 
-    def judged(self, motion: Accelerogram) -> Judged:
-        facts, _ = ruled(self.mechanisms, self.static, motion, self.tapers)
-        judged = Judged(facts)
-        if judged.without is not Verdict.CANNOT_BE_TOLD:
-            return judged
-        share = contact_share(self, GroundMotions.of(motion), SETTINGS)
-        return replace(judged, contact=share)
+    return Case(structure, stack)
 
-    def stack(self, courses: int | None = None) -> Stack:
-        return self._member(courses or COURSES[0]).stack
+
+def pinnacle(draw: np.random.Generator) -> Case:
+    """A solid pyramid of a slope of 1 in 4 to 1 in 10."""
+    thickness = float(draw.uniform(0.3, 1.0))
+    height = thickness * float(draw.uniform(2.0, 5.0))
+    return laid(building_part("pinnacle").construct(height=height, thickness=thickness))
 
 
 def spire(draw: np.random.Generator) -> Case:
@@ -209,7 +155,7 @@ def spire(draw: np.random.Generator) -> Case:
     wall = None if draw.random() < 0.3 else float(draw.uniform(0.1, 0.25) * width / 2)
     plan: Literal["circular", "square"] = "circular" if draw.random() < 0.5 else "square"
     height = float(width * draw.uniform(3.0, 6.0))
-    return Shipped(Spire(width, height, wall, plan))
+    return laid(Spire(width, height, wall, plan))
 
 
 def loaded_wall(draw: np.random.Generator) -> Case:
@@ -220,10 +166,9 @@ def loaded_wall(draw: np.random.Generator) -> Case:
     with warnings.catch_warnings():
         # A wall that keeps nothing of an impact is meant here.
         warnings.simplefilter("ignore", StructureWarning)
-        # Its top does not slip before its hinge opens: the joints of its stack hold as much.
         size = height, hinge, thickness, UNIT_WEIGHT
-        wall = LoadedWall.hinged_at(*size, top_load=load, top_slab="flat", top_friction=5.0, crack="known")
-    return Shipped(wall)
+        wall = LoadedWall.hinged_at(*size, top_load=load, top_slab="flat", crack="known")
+    return laid(wall)
 
 
 def tied_facade(draw: np.random.Generator) -> Case:
@@ -241,7 +186,7 @@ def tied_facade(draw: np.random.Generator) -> Case:
         tie_strength=float(draw.uniform(2e3, 10e3)),
         tie_plastic_elongation=float(draw.uniform(0.0, 0.03)),
     )
-    return Shipped(facade)
+    return laid(facade)
 
 
 def tied_within(draw: np.random.Generator) -> Case:
@@ -258,26 +203,19 @@ def tied_within(draw: np.random.Generator) -> Case:
         tie_strength=float(draw.uniform(20e3, 60e3)),
         tie_plastic_elongation=0.03,
     )
-    return Shipped(facade)
+    return laid(facade)
 
 
-def made(kind: str, draw: np.random.Generator) -> Case:
-    """Return a member of the research of 0.6 to 1.7 times its size."""
-    return Made(kind, float(np.exp(draw.uniform(-0.5, 0.5))))
-
-
-KINDS = ("spire", "pinnacle", "loaded wall", "gable", "façade with ties", "façade tied within")
-
-
-def case_of(kind: str, draw: np.random.Generator) -> Case:
-    """Return a member of that kind."""
-    shipped = {
-        "spire": spire,
-        "loaded wall": loaded_wall,
-        "façade with ties": tied_facade,
-        "façade tied within": tied_within,
-    }
-    return shipped[kind](draw) if kind in shipped else made(kind, draw)
+DRAWN: Mapping[str, Callable[[np.random.Generator], Case]] = {
+    "spire": spire,
+    "pinnacle": pinnacle,
+    "free wall": free_wall,
+    "loaded wall": loaded_wall,
+    "gable": gable,
+    "façade with ties": tied_facade,
+    "façade tied within": tied_within,
+}
+KINDS = tuple(DRAWN)
 
 
 @row(
@@ -335,30 +273,32 @@ def stack_row(component: SiteRecord, kind: str, place: int) -> StackRow:
     """Return one trial: member, scale and courses drawn."""
     record = component.accelerogram
     draw = draw_of(component.identifier, CAMPAIGN, KINDS.index(kind), place)
-    case = case_of(kind, draw)
+    case = DRAWN[kind](draw)
     factor = lifting_factor(record, case.multiplier, UPLIFTS, draw)
     motion = strong_part(record.scaled(factor), case.multiplier)
     courses = int(draw.choice(COURSES))
     started = process_time()
-    judged = case.judged(motion)
+    facts = case.facts(motion)
     spent = process_time() - started
-    contact = judged.contact
+    mechanism, without, verdict = words_of(facts)
+    stack_falls, stack_runs = facts.stacks or (None, None)
     stack = case.stack(courses)
     response = follow_stack(stack, motion, TRUE_STEP)
     height = stack.courses[response.opened].base
     return StackRow(
         record=component.identifier,
         site=component.site,
+        earthquake=component.earthquake,
         structure=kind,
         scale_factor=factor,
         courses=courses,
         velocity_ratio_s=peak_velocity(motion) / motion.peak_acceleration,
-        mechanism=judged.mechanism,
-        doubt="; ".join(map(str, judged.facts.doubts)),
-        without=judged.without,
-        verdict=judged.verdict,
-        stack_falls=contact.falls if contact else None,
-        stack_runs=contact.runs if contact else None,
+        mechanism=mechanism,
+        doubt="; ".join(map(str, facts.doubts)),
+        without=without,
+        verdict=verdict,
+        stack_falls=stack_falls,
+        stack_runs=stack_runs,
         falls=response.falls,
         turn_rad=float(response.largest_turns.max()),
         opened=response.opened,
@@ -377,7 +317,7 @@ def strong_part(motion: Accelerogram, multiplier: float) -> Accelerogram:
 
 
 def stack_scores(rows: Sequence[StackRow]) -> Iterator[scores.Score]:
-    """Yield errors and open cases by kind of member and of all, with intervals by site."""
+    """Yield errors and open cases by kind of member and of all, with intervals by earthquake."""
     every = pd.DataFrame(rows)
     for kind, own in [("all", every), *every.groupby("structure", sort=False)]:
         open_without, open_with = (
@@ -412,5 +352,5 @@ def stack_scores(rows: Sequence[StackRow]) -> Iterator[scores.Score]:
                     "contact dynamics",
                     str(kind),
                     {measure: values[part].astype(float).tolist()},
-                    own.site[part].tolist(),
+                    sample_of(own.site[part], own.earthquake[part]),
                 )

@@ -87,6 +87,7 @@ def tier_cases(
                     case: dict[str, object] = {
                         "record": component.identifier,
                         "site": component.site,
+                        "earthquake": component.earthquake,
                         "structure": structure,
                         "factor": factor,
                         "share": members.overturning_share,
@@ -125,7 +126,8 @@ def left_out(tier: Tier, cases: pd.DataFrame) -> np.ndarray:
 
 def tier_scores(cases: pd.DataFrame) -> Iterator[scores.Score]:
     """Yield the scores and the reliability of each tier on sites left out."""
-    overturned, labels = cases.share.to_numpy(), cases.site.tolist()
+    overturned = cases.share.to_numpy()
+    sample = sites.sample_of(cases.site, cases.earthquake)
     for tier in Tier:
         stated = left_out(tier, cases)
         measures = {
@@ -133,8 +135,8 @@ def tier_scores(cases: pd.DataFrame) -> Iterator[scores.Score]:
             "Brier skill of the shares themselves": scores.brier_skill(overturned, overturned),
             "calibration slope": scores.logit_slope(logit(stated), overturned),
         }
-        yield from scores.scored(tier, LEFT_OUT, measures, labels)
-        yield from scores.reliability(tier, LEFT_OUT, stated, overturned, labels, BINS)
+        yield from scores.scored(tier, LEFT_OUT, measures, sample)
+        yield from scores.reliability(tier, LEFT_OUT, stated, overturned, sample, BINS)
 
 
 def try_answers(records: Iterable[sites.SiteRecord], cases: pd.DataFrame) -> Iterator[dict[str, object]]:
@@ -153,7 +155,7 @@ def try_answers(records: Iterable[sites.SiteRecord], cases: pd.DataFrame) -> Ite
             _, velocity_s = sites.timed(partial(peak_velocity, motion))
             for mechanism in mechanisms:
                 trial = _answer_trial(mechanism, motion, fits, velocity_s / len(mechanisms))
-                yield {"site": component.site, **trial}
+                yield {"site": component.site, "earthquake": component.earthquake, **trial}
 
 
 def _answer_trial(
@@ -215,4 +217,6 @@ def answer_scores(trials: pd.DataFrame) -> Iterator[scores.Score]:
         ),
         "CPU saved of mechanism and ensemble for all": scores.share_of(paid - spent, paid),
     }
-    yield from scores.scored("fidelity: auto", LEFT_OUT, measures, trials.site.tolist())
+    yield from scores.scored(
+        "fidelity: auto", LEFT_OUT, measures, sites.sample_of(trials.site, trials.earthquake)
+    )

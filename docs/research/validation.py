@@ -104,8 +104,9 @@ def validate(target: Target, campaign: Campaign) -> None:
                 value=middle,
                 value_low=low,
                 value_high=high,
-                cases=len(motions),
                 sites=independent,
+                earthquakes=independent,
+                cases=len(motions),
             )
             rows.append(median)
     subtitle = (

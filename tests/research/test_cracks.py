@@ -54,7 +54,7 @@ def test_the_scores_count_what_they_name():
     cases = [(Verdict.STANDS, False, 0), (Verdict.STANDS, True, 3), (Verdict.OVERTURNS, True, 0)]
     cases += [(Verdict.UNCERTAIN, True, 0)]
     rows = [
-        CrackRow(verdict=verdict, falls=falls, opened=opened, site=str(k), **base)
+        CrackRow(verdict=verdict, falls=falls, opened=opened, site=str(k), earthquake=str(k), **base)
         for k, (verdict, falls, opened) in enumerate(cases)
     ]
     values = [row.value for row in crack_scores(rows) if row.part == "column"]

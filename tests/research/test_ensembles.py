@@ -46,7 +46,14 @@ def test_two_components_of_a_site_are_tried_as_a_pair_too():
 
 def test_each_measure_counts_what_it_names():
     shares = {f"share{which}": 0.5 for which in ("", "_64", "_256", "_drawn")}
-    names = {"record": "a", "site": "s", "half": CHOSEN, "structure": "b", "verdict": Verdict.UNCERTAIN}
+    names = {
+        "record": "a",
+        "site": "s",
+        "earthquake": "e",
+        "half": CHOSEN,
+        "structure": "b",
+        "verdict": Verdict.UNCERTAIN,
+    }
     first = EnsembleTrial(scale_factor=1.0, members=64, draws=4000, inside_band=0.9, **names, **shares)
     wrong = replace(first, share_64=0.6, share_256=0.54, site="t")
     sure = replace(first, verdict=Verdict.STANDS, share=0.0, share_drawn=0.09, site="u")
@@ -75,6 +82,7 @@ def test_each_measure_of_the_screen_counts_what_it_names():
             share=share,
             largest_share=largest,
             site=f"{k}",
+            earthquake=f"{k}",
             **about,
         )
         for k, (verdict, exhaustive, fresh, share, largest) in enumerate(cases)
@@ -85,15 +93,15 @@ def test_each_measure_of_the_screen_counts_what_it_names():
 
 def test_a_crack_that_is_given_is_no_trial_of_the_screen():
     motion = Accelerogram(3 * np.sin(2 * np.pi * TIMES / 1.5) * (TIMES < 1.5), 0.01)
-    given = {"spire": Spire(3.0, 15.0, 0.25, crack_height=5.0)}
-    assert list(ensembles.screening_trials(SiteRecord("r", "s", motion), given)) == []
+    given = {"spire": Spire(3.0, 15.0, 0.25, crack_height=5.0, crack="known")}
+    assert list(ensembles.screening_trials(SiteRecord("r", "s", "e", motion), given)) == []
 
 
 def test_the_verdict_over_all_cracks_is_that_of_the_ensembles_of_all():
     """Of a wall that may crack anywhere; a block has one mechanism and is no trial."""
     motion = Accelerogram(3 * np.sin(2 * np.pi * TIMES / 1.5) * (TIMES < 1.5), 0.01)
     made = {"wall": Wall.of_size(3.2, 0.25), "block": Block(2.0, 0.2)}
-    trials = list(ensembles.screening_trials(SiteRecord("r", "s", motion), made))
+    trials = list(ensembles.screening_trials(SiteRecord("r", "s", "e", motion), made))
     assert [(each.structure, each.verdict) for each in trials] == [("wall", e.exhaustive) for e in trials]
     assert all(each.share <= each.largest_share for each in trials)
     values = {each.measure: each.value for each in ensembles.screening_scores(trials) if each.part == "wall"}

@@ -14,7 +14,7 @@ from rocking.records import Accelerogram
 def test_trials_of_a_pulse():
     pulse = Pulse(amplitude=3.0, circular_frequency=2 * math.pi / 0.8, start_time=0.5)
     record = Accelerogram(pulse.acceleration(np.arange(500) * 0.01), 0.01)
-    trials = list(floor_trials(SiteRecord("made", "site", record)))
+    trials = list(floor_trials(SiteRecord("made", "site", "made", record)))
     assert len(trials) == len(BODIES) * (1 + PERIODS.size)
     on_ground = [each for each in trials if each.support_period_s == 0]
     assert {each.amplification for each in on_ground} == {1.0}
@@ -28,6 +28,7 @@ def trial(site: str, period: float, ratio: float, predicted: float = 0.0) -> Flo
     return FloorTrial(
         record=site,
         site=site,
+        earthquake=site,
         structure="parapet",
         support_period_s=period,
         amplification=1.0,

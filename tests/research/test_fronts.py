@@ -8,7 +8,7 @@ from rocking import Accelerogram, Pulse
 
 PULSE = Pulse(amplitude=3.0, circular_frequency=2 * np.pi / 0.8, start_time=0.5)
 RECORD = Accelerogram(PULSE.acceleration(np.arange(600) * 0.01), 0.01)
-COMPONENT = SiteRecord("made", "site", RECORD)
+COMPONENT = SiteRecord("made", "site", "made", RECORD)
 
 
 def test_a_trial_is_the_same_at_every_call_and_every_other_front_is_tied():
@@ -25,6 +25,7 @@ def test_shares_are_counted_among_falls_outwards_and_among_what_stands():
         return FrontTrial(
             record=site,
             site=site,
+            earthquake=site,
             structure="front",
             scale_factor=1.0,
             is_tied=False,

@@ -8,6 +8,7 @@ from docs.research import scores
 from docs.research.scores import HAPPENED, logistic, logit_slope
 from docs.research.sites import independent
 from rocking.records import Accelerogram
+from rocking.records.sample import Sample
 
 
 def planted(many: int, sites: int = 20) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -96,6 +97,21 @@ def test_intervals_draw_whole_sites():
     narrow, wide = (row.value_high - row.value_low for row in rows)
     assert wide / narrow == pytest.approx(np.sqrt(10), rel=0.15)
     assert wide == pytest.approx(2 * 1.645 * many.std() / np.sqrt(40), rel=0.15)
+
+
+def test_intervals_draw_whole_earthquakes_and_what_none_shows_has_the_bounds_of_a_share():
+    """Stations that say what their earthquake does have the interval of the earthquakes, by an oracle of draws."""
+    of_earthquakes = np.random.default_rng(2).random(20)
+    sample = Sample.named((str(place), str(place // 4)) for place in range(80))
+    (row,) = scores.scored("", "", {"mean": np.repeat(of_earthquakes, 4)}, sample)
+    means = np.random.default_rng(5).choice(of_earthquakes, (4000, 20)).mean(axis=1)
+    oracle = np.quantile(means, (0.05, 0.95))
+    # The ends lie farther out by what 20 hide: Student's 1.73 for 1.64, and the root of 20/19.
+    assert row.value_high - row.value_low == pytest.approx(1.08 * np.ptp(oracle), rel=0.08)
+    assert (row.sites, row.earthquakes, row.cases) == (80, 20, 80)
+    (none,) = scores.scored("", "", {"falls": np.zeros(80)}, sample)
+    # No better than 20 independent trials of which none falls, no worse than four times fewer stations.
+    assert none.value_low == 0 and 1 - 0.05 ** (1 / 80) < none.value_high < 1 - 0.05 ** (1 / 20)
 
 
 def test_reliability_counts_every_case_once():

@@ -29,8 +29,14 @@ def test_a_planted_pulse_is_found_by_its_shape_and_explains_all(shape):
 
 def test_a_verdict_is_wrong_where_one_falls_and_the_other_does_not():
     cases = [
-        Case("a", math.inf, {"one sine": 0.4, "half sine": 0.2}, {"one sine": 0.3, "half sine": math.inf}),
-        Case("b", 0.5, {"one sine": 0.4, "half sine": 0.2}, {"one sine": 0.4, "half sine": 0.5}),
+        Case(
+            "a",
+            "one",
+            math.inf,
+            {"one sine": 0.4, "half sine": 0.2},
+            {"one sine": 0.3, "half sine": math.inf},
+        ),
+        Case("b", "other", 0.5, {"one sine": 0.4, "half sine": 0.2}, {"one sine": 0.4, "half sine": 0.5}),
     ]
     scores = {(each.subject, each.part, each.measure): each.value for each in scores_of(cases)}
     assert scores["one sine", "all records", "wrong verdicts"] == 0.5

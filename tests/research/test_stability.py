@@ -22,20 +22,20 @@ PAIR[1] = replace(PAIR[1], acceleration=np.append(PAIR[1].acceleration, 0.0))  #
 def test_a_trial_holds_the_word_of_its_own_share(monkeypatch):
     monkeypatch.setattr(stability, "MEMBERS", 256)
     structures = {"block": Block(2.0, 0.2), "wall": Wall.of_size(4.0, 0.4)}
-    trials = list(stability_trials("a site", PAIR, structures))
+    trials = list(stability_trials("a site", "an earthquake", PAIR, structures))
     assert [each.kind for each in trials] == [kind for kind in KINDS for _ in range(2)]
     for trial in trials:
         if trial.structure == "block":
             assert trial.true_verdict is step(round(256 * trial.true_share), 256, np.inf)
             assert abs(trial.share - trial.true_share) <= 4 / 64
             assert trial.members in (16, 64, 256, 1024)
-    assert list(stability_trials("a site", PAIR, structures)) == trials
+    assert list(stability_trials("a site", "an earthquake", PAIR, structures)) == trials
 
 
 def test_what_contact_dynamics_says_is_not_held_against_members(monkeypatch):
     """The courses of a spire that lifts may be thrown, which no number of members of its mechanisms tells."""
     monkeypatch.setattr(stability, "MEMBERS", 64)
-    trials = list(stability_trials("a site", PAIR, {"spire": Spire(3.0, 15.0, 0.25)}))
+    trials = list(stability_trials("a site", "an earthquake", PAIR, {"spire": Spire(3.0, 15.0, 0.25)}))
     limited = [each for each in trials if each.verdict is not each.of_members]
     assert limited and all(abs(each.classes_off) <= 1 for each in limited)
 
@@ -50,7 +50,7 @@ def test_a_site_on_which_the_rule_was_chosen_takes_no_part_under_another_name():
 
 def test_the_scores_count_what_they_name():
     base = {"record": "r", "structure": "block", "scale_factor": 1.0, "kind": "pair", "members": 64}
-    base |= {"verdict": Verdict.UNCERTAIN, "share": 0.5, "true_share": 0.5}
+    base |= {"earthquake": "one", "verdict": Verdict.UNCERTAIN, "share": 0.5, "true_share": 0.5}
     first = StabilityTrial(site="a", of_members=Verdict.UNCERTAIN, true_verdict=Verdict.UNCERTAIN, **base)
     unsafe = replace(first, site="b", of_members=Verdict.PROBABLY_STANDS)
     worse = replace(first, site="c", of_members=Verdict.STANDS, true_share=0.4)

@@ -9,16 +9,15 @@ from docs.research import stacks
 from docs.research.report import Target
 from docs.research.sites import SiteRecord
 from docs.research.stacks import (
+    DRAWN,
     KINDS,
     TAPERING,
-    Judged,
     StackRow,
-    case_of,
     judged_kinds,
     stack_row,
     stack_scores,
+    words_of,
 )
-from rocking.assessment.contacts import ContactShare
 from rocking.assessment.decide import CrackFacts, Facts, Verdict
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
@@ -31,12 +30,13 @@ SINE = Accelerogram(3.0 * np.sin(2 * np.pi * TIMES / 0.8) * (TIMES < 1.6), 0.01)
 @pytest.mark.filterwarnings("ignore::rocking.errors.StructureWarning")  # a drawn wall may be squat
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_member_stays_whole_below_uplift_and_falls_far_above_it(kind):
-    case = case_of(kind, np.random.default_rng(1))
+    case = DRAWN[kind](np.random.default_rng(1))
     least = case.multiplier * GRAVITY / SINE.peak_acceleration
     below, above = SINE.scaled(0.9 * least), SINE.scaled(15 * least)
-    assert case.judged(below).verdict is Verdict.STANDS
-    assert case.judged(above).verdict is Verdict.OVERTURNS
+    assert words_of(case.facts(below))[-1] is Verdict.STANDS
+    assert words_of(case.facts(above))[-1] is Verdict.OVERTURNS
     for courses in (6, 10):
+        assert case.stack(courses).friction <= 0.6
         assert not stacks.follow_stack(case.stack(courses), below, 5e-4).falls
         assert stacks.follow_stack(case.stack(courses), above, 5e-4).falls
 
@@ -44,17 +44,19 @@ def test_a_member_stays_whole_below_uplift_and_falls_far_above_it(kind):
 def test_contact_dynamics_decides_what_a_doubt_leaves_open():
     stands = Facts(cracks=(CrackFacts("", 0, 64, farthest=0.5),))
     doubted = replace(stands, doubts=(Remark(Kind.CONTACTS_OPEN),))
-    settled = Judged(doubted, ContactShare(0, 64))
-    assert (settled.mechanism, settled.without) == (Verdict.STANDS, Verdict.CANNOT_BE_TOLD)
-    assert settled.verdict is Verdict.STANDS
-    assert Judged(doubted, ContactShare(0, 6)).verdict is Verdict.PROBABLY_STANDS
-    assert Judged(doubted, ContactShare(1, 6)).verdict is Verdict.UNCERTAIN
-    assert Judged(doubted, ContactShare(reason="no stack")).verdict is Verdict.CANNOT_BE_TOLD
-    assert Judged(stands).verdict is Verdict.STANDS
+    untold = Verdict.CANNOT_BE_TOLD
+    assert words_of(replace(doubted, stacks=(0, 64))) == (Verdict.STANDS, untold, Verdict.STANDS)
+    assert words_of(replace(doubted, stacks=(0, 6)))[-1] is Verdict.PROBABLY_STANDS
+    assert words_of(replace(doubted, stacks=(1, 6)))[-1] is Verdict.UNCERTAIN
+    assert words_of(doubted)[-1] is untold
+    assert set(words_of(stands)) == {Verdict.STANDS}
+    short = replace(stands, friction_needed=0.8)
+    assert words_of(short) == (Verdict.STANDS, Verdict.PROBABLY_STANDS, Verdict.PROBABLY_STANDS)
+    assert words_of(replace(short, stacks=(0, 64)))[-1] is Verdict.STANDS
 
 
 def test_a_trial_is_the_same_at_every_call():
-    component = SiteRecord("made", "a site", SINE)
+    component = SiteRecord("made", "a site", "made", SINE)
     one, again = (stack_row(component, "loaded wall", 3) for _ in range(2))
     assert one.scale_factor == again.scale_factor
     assert (one.mechanism, one.verdict, one.falls) == (again.mechanism, again.verdict, again.falls)
@@ -82,6 +84,7 @@ def test_the_scores_count_what_they_name():
             turn_rad=turn,
             opened_at_storey=at_storey,
             site=str(place),
+            earthquake=str(place),
             **base,
         )
         for place, (mechanism, doubt, without, verdict, fell, turn, at_storey) in enumerate(cases)

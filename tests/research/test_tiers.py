@@ -30,7 +30,7 @@ def made_records(sites: int = 12) -> list[tuple[str, Accelerogram]]:
 @pytest.fixture(scope="module")
 def cases() -> pd.DataFrame:
     """Each record at a site of its own, under two blocks."""
-    records = [SiteRecord(name, f"s {name}", record) for name, record in made_records()]
+    records = [SiteRecord(name, f"s {name}", name, record) for name, record in made_records()]
     return pd.DataFrame(tier_cases(records, STRUCTURES))
 
 
@@ -64,7 +64,13 @@ def trial(site: str, method: Method, overturns: bool, share: float) -> dict[str,
     """An answer that costs a tenth of the mechanism where it settles the case, and a tenth more where it does not."""
     spent = 1.1 if method is Method.MECHANISM_ON_RECORD else 0.1
     verdict = {0.0: Verdict.STANDS, 1.0: Verdict.OVERTURNS}.get(share, Verdict.UNCERTAIN)
-    case = {"site": site, "method": method, "overturns": overturns, "overturning_share": share}
+    case = {
+        "site": site,
+        "earthquake": site,
+        "method": method,
+        "overturns": overturns,
+        "overturning_share": share,
+    }
     case["beside_overturns"] = share == 1
     case |= {"verdict": verdict, "quick_verdict": verdict, "alone_s": spent, "beside_s": spent}
     return case | {"mechanism_s": 1.0, "whole_s": 40.0, "quick_s": 10.0}
