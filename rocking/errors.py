@@ -6,10 +6,24 @@ A message is one sentence: what (file, field), the value, what is allowed, what 
 import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from enum import auto
 from pathlib import Path
 from typing import Self
 
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Kind, Remark, Sentence
+
+
+class ErrorKind(Kind):
+    """What there is to say of a fault in the package itself, in every language."""
+
+    FAULT = (
+        auto(),
+        Sentence(
+            "a fault of rocking in what it computes or draws of {about} ({said}); please report it, with {log}.",
+            "un errore di rocking in ciò che calcola o disegna di {about} ({said}); si prega di segnalarlo, con {log}.",
+        ),
+    )
+
 
 LOGS: list[Path] = []
 """The log that this process writes, if any: what holds the traceback of a fault."""
@@ -159,7 +173,7 @@ def one_structure(name: str) -> Iterator[None]:
             log_fault(fault, log)
         said = " ".join(f"{type(fault).__name__}: {fault}".split())
         where = str(LOGS[0]) if LOGS else "its traceback"
-        remark = Remark.of(Kind.FAULT, name, said=said, log=where)
+        remark = Remark.of(ErrorKind.FAULT, name, said=said, log=where)
         raise FaultError.saying(remark) from fault
 
 

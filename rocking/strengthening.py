@@ -19,6 +19,7 @@ from scipy.special import betaincinv
 from rocking.assessment.assessor import Assessor, Store
 from rocking.assessment.cracks import counting_cracks
 from rocking.assessment.decide import Verdict
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import Component, HorizontalMotion, Motion
 from rocking.assessment.scene import Scene
 from rocking.assessment.settings import AssessmentSettings
@@ -31,7 +32,6 @@ from rocking.quantities import GRAVITY, counted, finite, kind_of, percents, show
 from rocking.records import Accelerogram
 from rocking.records.design_spectrum import DesignSpectrum
 from rocking.records.sample import Sample
-from rocking.remarks import Kind
 from rocking.structures import Structure, structure_from_config
 from rocking.structures.fields import Field, article
 from rocking.structures.structure_list import nearest
@@ -624,7 +624,7 @@ class _Following:
                 kept[name] = _Outcome(
                     share=decision.share,
                     governing=worst.ensembles.governing.description if worst.ensembles else "",
-                    slides=untold and any(each.kind is Kind.FRICTION for each in decision.tells),
+                    slides=untold and any(each.kind is AssessmentKind.FRICTION for each in decision.tells),
                 )
             if self.store is not None:
                 self.store.keep(keys[name], kept[name], {})

@@ -40,11 +40,12 @@ from rocking import Accelerogram, LoadedWall, Mechanism, RigidBody, Verdict
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.decide import Facts, decide
 from rocking.assessment.ensemble import ensemble
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import GroundMotions
 from rocking.contacts.dynamics import follow_stack
 from rocking.errors import StructureWarning
 from rocking.quantities import GRAVITY
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.structures.stack import Course, Stack
 from rocking.tables import column, read_rows, row, write_rows
 
@@ -268,7 +269,7 @@ def ruled(
     facts = CrackEnsembles(tuple(followed)).facts
     lifts = any(np.any(each.rotation_ratios > 0) for each in of_each.values())
     if tapers and lifts:
-        facts = replace(facts, doubts=(Remark(Kind.COURSES_THROWN),))
+        facts = replace(facts, doubts=(Remark(AssessmentKind.COURSES_THROWN),))
     return facts, {joint: each.overturning_share for joint, each in of_each.items()}
 
 

@@ -21,6 +21,7 @@ from rocking.assessment.cracks import (
 from rocking.assessment.decide import BEYOND, Decision, Facts, Severity, Verdict, decide, severity
 from rocking.assessment.ensemble import NO_MEMBERS, Ensemble
 from rocking.assessment.fidelity import Estimate, MethodAnswer
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.motions import Carrier, Component, ComponentPulses, by_name, on_support
 from rocking.assessment.reserve import Reserve
@@ -29,7 +30,7 @@ from rocking.motion.response import UNKNOWN, ModelCheck, Response
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.sine_pulse import AsPrinted, Maximum
 from rocking.structures import EquivalentBlock, Outcome, Structure
 from rocking.structures.structure import Candidate
@@ -176,7 +177,7 @@ class CaseResult:
         """
         several = counting_cracks(body)
         settled = None
-        beyond = Kind.TIES_GIVE if self.ties_give else None
+        beyond = AssessmentKind.TIES_GIVE if self.ties_give else None
         other_runs = [
             each.integrated_rotation_ratio for each in self.variations if each.crack and each.counts
         ]
@@ -186,7 +187,7 @@ class CaseResult:
             followed = [each for each in self.ensembles.followed if each.counts]
             rests = all(bool((each.ensemble.rotation_ratios == 0).all()) for each in followed)
             if any(each.facts.farthest > BEYOND for each in followed):
-                beyond = Kind.HELD_BEYOND
+                beyond = AssessmentKind.HELD_BEYOND
         elif self.answer is not None and self.answer.response is None:
             settled = Verdict.OVERTURNS if self.overturns else Verdict.STANDS
         typed = several[0].mechanism.restitution_range is not None
@@ -370,12 +371,12 @@ class PeriodResult:
         doubts += [
             each
             for each in self.decision.doubts
-            if each.kind in (Kind.MEMBERS_FAILED, Kind.COMPONENT_MISSING)
+            if each.kind in (AssessmentKind.MEMBERS_FAILED, AssessmentKind.COMPONENT_MISSING)
         ]
         if any(each.check.bounces for each in both):
-            doubts.append(Remark(Kind.CONTACTS_OPEN))
+            doubts.append(Remark(AssessmentKind.CONTACTS_OPEN))
         if self.scene.structure.tapers:
-            doubts.append(Remark(Kind.COURSES_THROWN))
+            doubts.append(Remark(AssessmentKind.COURSES_THROWN))
         return tuple(sorted(set(doubts), key=lambda each: each.kind))
 
     @property

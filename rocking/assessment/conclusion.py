@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rocking.assessment.decide import Severity, Verdict
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import (
     ComparisonRow,
     ExpectedFallsRow,
@@ -16,13 +17,14 @@ from rocking.assessment.rows import (
     worst_period_each,
 )
 from rocking.quantities import counted, listed, percents
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
+from rocking.structures.kinds import StructureKind
 
 CLASS = 20
 """Structures from which on a list is a class: how many of them fall is of interest, not which ones."""
-UNSAID = (Kind.NOTHING_TO_DO, Kind.NOTHING_DECIDES)
+UNSAID = (AssessmentKind.NOTHING_TO_DO, AssessmentKind.NOTHING_DECIDES)
 """Remarks of which a row of a report says nothing."""
-TO_CHECK = (Kind.SIZE_UNUSUAL, Kind.BROADER_THAN_TALL, Kind.VERTICAL_MISSING)
+TO_CHECK = (StructureKind.SIZE_UNUSUAL, StructureKind.BROADER_THAN_TALL, AssessmentKind.VERTICAL_MISSING)
 """Kinds of remarks for which somebody has to check what was typed before anything else is read."""
 _MOST_TO_CHECK = 3
 """Remarks of these kinds that are told beside a conclusion; remarks.csv holds all."""
@@ -64,7 +66,7 @@ class Conclusion:
         runs = self.verdict.stack_runs
         # A range whose upper end is that of contact dynamics is not one of cracks.
         if falls and runs and falls / runs == decision.interval[1] > decision.interval[0]:
-            return Remark.of(Kind.STACKS_FALL, falls=falls, runs=runs)
+            return Remark.of(AssessmentKind.STACKS_FALL, falls=falls, runs=runs)
         if not math.isnan(self.verdict.friction_needed):
             return self._sliding(self.verdict.friction_needed)
         if decision.tells and not word.is_sure:
@@ -73,29 +75,29 @@ class Conclusion:
             return decision.doubts[0]
         shares = [each.overturning_share for each in self.elsewhere if each.overturning_share >= 0]
         if shares and "–" in (share := percents(*shares)):
-            return Remark.of(Kind.OTHER_PERIODS, share=share)
+            return Remark.of(AssessmentKind.OTHER_PERIODS, share=share)
         if self.case is not None and self.case.slides:
             return self._sliding(self.case.required_friction)
         falls = self.ratios[-1] == math.inf
         if word is Verdict.PROBABLY_OVERTURNS and not falls:
-            return Remark(Kind.STANDS_AS_RECORDED)
+            return Remark(AssessmentKind.STANDS_AS_RECORDED)
         if word in FALLING:
-            return Remark(Kind.STRENGTHEN)
+            return Remark(AssessmentKind.STRENGTHEN)
         if word.stays_up:
-            return Remark(Kind.NOTHING_TO_DO)
-        return Remark(
-            Kind.FALLS_AS_RECORDED if falls and word is Verdict.PROBABLY_STANDS else Kind.NOTHING_DECIDES
-        )
+            return Remark(AssessmentKind.NOTHING_TO_DO)
+        if falls and word is Verdict.PROBABLY_STANDS:
+            return Remark(AssessmentKind.FALLS_AS_RECORDED)
+        return Remark(AssessmentKind.NOTHING_DECIDES)
 
     def _sliding(self, largest: float) -> Remark:
         """The friction that a contact needs as it lifts, and the `largest`: inf where nothing presses it."""
         if largest == math.inf:
-            return Remark(Kind.CONTACTS_OPEN)
+            return Remark(AssessmentKind.CONTACTS_OPEN)
         # The largest alone is of an instant, and would call a slender pier one that slides.
         lifting = self.case.lifting_friction if self.case else math.nan
         if math.isnan(lifting):
-            return Remark(Kind.FRICTION_SHORT)
-        return Remark.of(Kind.CONTACT_SLIDES, lifting=lifting, largest=largest)
+            return Remark(AssessmentKind.FRICTION_SHORT)
+        return Remark.of(AssessmentKind.CONTACT_SLIDES, lifting=lifting, largest=largest)
 
 
 def worst_cases(comparison: Iterable[ComparisonRow]) -> dict[tuple[str, str, float | None], ComparisonRow]:
@@ -223,12 +225,12 @@ def to_check(remarks: Iterable[RemarkRow]) -> list[str]:
     told: dict[str, RemarkRow] = {}
     without_vertical: dict[str, RemarkRow] = {}
     for row in remarks:
-        if row.kind is Kind.VERTICAL_MISSING:
+        if row.kind is AssessmentKind.VERTICAL_MISSING:
             without_vertical.setdefault(row.record, row)
         elif row.kind in TO_CHECK:
             told[row.sentence] = row
     if without_vertical:  # one setting, whatever number of records it is asked of
-        missing = Remark(Kind.VERTICAL_MISSING, listed(list(without_vertical), _MOST_NAMED))
+        missing = Remark(AssessmentKind.VERTICAL_MISSING, listed(list(without_vertical), _MOST_NAMED))
         told[str(missing)] = next(iter(without_vertical.values()))
     if len(told) <= _MOST_TO_CHECK:
         return list(told)

@@ -18,6 +18,7 @@ import numpy as np
 from rocking.assessment.decide import BEYOND, UNANIMOUS
 from rocking.assessment.decide import step as step_of
 from rocking.assessment.fidelity import peak_velocity
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
@@ -28,7 +29,7 @@ from rocking.floors.place import swinging
 from rocking.motion.integration import Members, integrate, integrate_members, strict
 from rocking.motion.response import check_model
 from rocking.records import Accelerogram
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.structures import Structure
 from rocking.structures.linkage import Turning
 from rocking.structures.stack import COURSES, Stack
@@ -87,11 +88,11 @@ def doubt(
     if not rotation_ratio > 0:
         return None
     if structure.tapers:
-        return Remark(Kind.COURSES_THROWN)
+        return Remark(AssessmentKind.COURSES_THROWN)
     if rotation_ratio <= NEGLIGIBLE:
         return None
     if bounces:
-        return Remark(Kind.CONTACTS_OPEN)
+        return Remark(AssessmentKind.CONTACTS_OPEN)
     candidates = [each.structure for each in structure.candidates()]
     bulges = [each for each in candidates if isinstance(each, Tied) and each.opening]
     first = [each for each in candidates if each not in bulges][:1]
@@ -99,8 +100,8 @@ def doubt(
     for each, sign, direction in product(asked, _signs(structure, settings), _directions(motions)):
         strongest = motions.horizontal[direction].scaled(sign * (1 + settings.ensemble.amplitude_range))
         if _opens(each, strongest, motions.vertical, strict(settings.tolerance)):
-            return Remark(Kind.CONTACTS_OPEN)
-    return Remark(Kind.IMPACT_OPENS) if any(map(_keeps_little, [*asked, *bulges])) else None
+            return Remark(AssessmentKind.CONTACTS_OPEN)
+    return Remark(AssessmentKind.IMPACT_OPENS) if any(map(_keeps_little, [*asked, *bulges])) else None
 
 
 def _keeps_little(structure: Structure) -> bool:

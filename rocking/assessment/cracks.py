@@ -16,11 +16,12 @@ import numpy as np
 
 from rocking.assessment.decide import CrackFacts, Facts, Verdict
 from rocking.assessment.ensemble import CAUSES, Ensemble, Origin, design, drawn, ensemble, grown
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import GroundMotions
 from rocking.assessment.settings import AssessmentSettings
 from rocking.motion.response import lifting_friction
 from rocking.motion.table import forcing_of, table_of
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.structures import Mechanism, Structure
 from rocking.structures.structure import CRACKS, WEAK_MASONRY, Candidate
 from rocking.structures.tied import Tied
@@ -442,7 +443,11 @@ def decided_by(ensembles: CrackEnsembles) -> str:
 
 _TELLS = 0.2
 """Share of the variance of overturning from which on knowing one input better is worth a measurement."""
-_KINDS = {"restitution": Kind.RESTITUTION, "processing": Kind.PROCESSING, CRACK: Kind.CRACK}
+_KINDS = {
+    "restitution": AssessmentKind.RESTITUTION,
+    "processing": AssessmentKind.PROCESSING,
+    CRACK: AssessmentKind.CRACK,
+}
 
 
 def would_tell(ensembles: CrackEnsembles, restitution_is_typed: bool = False) -> tuple[Remark, ...]:
@@ -452,7 +457,7 @@ def would_tell(ensembles: CrackEnsembles, restitution_is_typed: bool = False) ->
     """
     governing = ensembles.governing
     if governing.of_geometry and governing.ensemble.overturning_share > 0 and not restitution_is_typed:
-        return (Remark(Kind.RESTITUTION),)
+        return (Remark(AssessmentKind.RESTITUTION),)
     worth = (
         Remark(_KINDS[each.name])
         for each in deciding(ensembles)

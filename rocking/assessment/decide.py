@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
+from rocking.assessment.kinds import AssessmentKind
 from rocking.quantities import percents
 from rocking.remarks import Kind, Remark
 
@@ -197,7 +198,7 @@ class CrackFacts:
         return self.step(risk).badness, -1.0 if math.isnan(self.share) else self.share, farthest
 
 
-CONTACTS = (Kind.CONTACTS_OPEN, Kind.COURSES_THROWN, Kind.IMPACT_OPENS)
+CONTACTS = (AssessmentKind.CONTACTS_OPEN, AssessmentKind.COURSES_THROWN, AssessmentKind.IMPACT_OPENS)
 """Doubts that contact dynamics settles."""
 
 
@@ -305,7 +306,7 @@ class Decision:
         low, high = self.interval
         if math.isnan(low) or self.word is Verdict.CANNOT_OVERTURN:
             return ""
-        one_run = any(each.kind is Kind.ENSEMBLE for each in self.tells)
+        one_run = any(each.kind is AssessmentKind.ENSEMBLE for each in self.tells)
         if one_run and low == high and self.word.badness <= Verdict.UNCERTAIN.badness:
             return "one run"  # but not where stacks add to it, or say worse
         if self._is_a_least_share:
@@ -413,19 +414,19 @@ def decide(facts: Facts) -> Decision:
     followed = facts.followed
     governing = facts.governing
     unsettled = facts.doubts if facts.stacks is None else ()
-    missing = (Remark(Kind.COMPONENT_MISSING),) if facts.failures else ()
+    missing = (Remark(AssessmentKind.COMPONENT_MISSING),) if facts.failures else ()
     worse_beside = _worse_than_known(facts)
-    beside = (*unsettled, *missing, *([Remark(Kind.OTHER_CRACK_WORSE)] if worse_beside else []))
-    left_out = () if math.isnan(facts.slides_at) else (Remark(Kind.SLIDES_FIRST),)
+    beside = (*unsettled, *missing, *([Remark(AssessmentKind.OTHER_CRACK_WORSE)] if worse_beside else []))
+    left_out = () if math.isnan(facts.slides_at) else (Remark(AssessmentKind.SLIDES_FIRST),)
     asks_for_stacks = facts.stackable and facts.stacks is None
-    contact_dynamics = (Remark(Kind.CONTACT_DYNAMICS),) if asks_for_stacks else ()
+    contact_dynamics = (Remark(AssessmentKind.CONTACT_DYNAMICS),) if asks_for_stacks else ()
     if unsettled and not facts.stackable:
-        beside = (*beside, Remark(Kind.NO_STACK))
+        beside = (*beside, Remark(AssessmentKind.NO_STACK))
     tells: tuple[Remark, ...]
 
     # 1, 2, 3: what no member needs to tell.
     if facts.never_lets_go and not facts.doubts:
-        tells = (Remark(Kind.TIE_STRENGTH),)
+        tells = (Remark(AssessmentKind.TIE_STRENGTH),)
         return Decision(
             Verdict.CANNOT_OVERTURN, 0.0, (0.0, 0.0), facts.never_lets_go, (*beside, *left_out), tells
         )
@@ -438,20 +439,20 @@ def decide(facts: Facts) -> Decision:
             if facts.slides_at
             else "slides apart at rest"
         )
-        tells = (Remark(Kind.FRICTION),)
+        tells = (Remark(AssessmentKind.FRICTION),)
         return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), why, beside, tells)
 
     # 4
     if governing is None and math.isnan(facts.run_ratio) and facts.settled is None:
         why = "; ".join(facts.failures) or "no component gave a result"
-        tells = (Remark(Kind.INPUT),)
+        tells = (Remark(AssessmentKind.INPUT),)
         return Decision(Verdict.CANNOT_BE_TOLD, math.nan, (math.nan, math.nan), why, beside, tells)
 
     if governing is None:
         # 5: one run, whose scatter nobody knows.
         word = Verdict.PROBABLY_STANDS if facts.run_ratio <= FAR else Verdict.UNCERTAIN
         why = "one run as recorded, without an ensemble"
-        tells = (Remark(Kind.ENSEMBLE),)
+        tells = (Remark(AssessmentKind.ENSEMBLE),)
         share = float(facts.run_ratio == math.inf)
         interval = share, share
         if facts.settled is not None:
@@ -471,7 +472,7 @@ def decide(facts: Facts) -> Decision:
             why = f"{why}; another crack slides first, at {facts.slides_at:.2g} g"
         if facts.top is not None:
             why = f"{why}; {facts.top.brief}"
-            tells = (*tells, Remark(Kind.TIE_THE_TOP))
+            tells = (*tells, Remark(AssessmentKind.TIE_THE_TOP))
         first = next((each for each in followed if not each.bulges), governing)
         disagree = not governing.bulges and governing.step(risk) is not first.step(risk)
         ends = {governing, first} if disagree else {governing}
@@ -483,9 +484,9 @@ def decide(facts: Facts) -> Decision:
         )
         if open_ and falls_without.badness < Verdict.PROBABLY_OVERTURNS.badness:
             word = Verdict.CANNOT_BE_TOLD
-            tells = (Remark(Kind.TOLERANCE),)
+            tells = (Remark(AssessmentKind.TOLERANCE),)
         if any(each.failed for each in followed):
-            beside = (*beside, Remark(Kind.MEMBERS_FAILED))
+            beside = (*beside, Remark(AssessmentKind.MEMBERS_FAILED))
 
     if facts.stacks is not None:
         fallen, runs = facts.stacks
@@ -500,15 +501,18 @@ def decide(facts: Facts) -> Decision:
     limits = [Remark(facts.beyond)] if facts.held and facts.beyond else []
     slides = not math.isnan(facts.friction_needed)
     if slides:
-        limits.append(Remark(Kind.FRICTION_SHORT))
+        limits.append(Remark(AssessmentKind.FRICTION_SHORT))
     if limits and (facts.stacks is None or facts.stacks[1] < UNANIMOUS):
         word = worse(word, Verdict.PROBABLY_STANDS)
         beside = (*beside, *limits)
-        tells = (*tells, *contact_dynamics, *([Remark(Kind.FRICTION)] if slides else []))
+        tells = (*tells, *contact_dynamics, *([Remark(AssessmentKind.FRICTION)] if slides else []))
     if facts.stacks is not None:
         of_stacks = step(fallen, runs, risk=risk)
         if of_stacks.badness > word.badness and runs < UNANIMOUS and not fallen:
-            tells = (*tells, Remark(Kind.CONTACT_DYNAMICS))  # more runs of which none falls would say more
+            tells = (
+                *tells,
+                Remark(AssessmentKind.CONTACT_DYNAMICS),
+            )  # more runs of which none falls would say more
         if of_stacks is not word:
             interval = min(interval[0], fallen / runs), interval[1]
         word = worse(word, of_stacks)
@@ -518,7 +522,7 @@ def decide(facts: Facts) -> Decision:
     if (unsettled or missing) and word.badness < Verdict.PROBABLY_OVERTURNS.badness:
         reasons = [*map(str, unsettled), *facts.failures]
         tells = contact_dynamics if unsettled else ()
-        tells += (Remark(Kind.COMPONENT),) if missing else ()
+        tells += (Remark(AssessmentKind.COMPONENT),) if missing else ()
         at_least = interval[0], 1.0
         return Decision(Verdict.CANNOT_BE_TOLD, math.nan, at_least, "; ".join([*reasons, why]), beside, tells)
     # 11

@@ -25,6 +25,7 @@ from rocking.assessment.cracks import (
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.fidelity import MethodAnswer, Tier, cheapest_answer, estimated
 from rocking.assessment.inputs import CaseInputs, PairInputs, PulseInputs, ReserveInputs
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.ladder import reserve
 from rocking.assessment.methods import BOTH_COMPONENTS, Method
 from rocking.assessment.motions import (
@@ -45,7 +46,6 @@ from rocking.motion.integration import Members, integrate, integrate_members, st
 from rocking.motion.response import UNKNOWN, Response, check_model
 from rocking.pulses import Pulse, PulseEvidence, predicting_pulse
 from rocking.records import Accelerogram
-from rocking.remarks import Kind
 from rocking.sine_pulse import predict_as_printed, predict_maximum
 from rocking.structures import Mechanism, Structure
 
@@ -188,7 +188,7 @@ def with_contacts(
         bodies = [cracked(structure, name) for name in dict.fromkeys([lifting.description, *governing])]
         case = replace(case, friction_needed=friction_needed(bodies, motions, settings))
     decision = decide(case.facts(structure))
-    advised = any(each.kind is Kind.CONTACT_DYNAMICS for each in decision.tells)
+    advised = any(each.kind is AssessmentKind.CONTACT_DYNAMICS for each in decision.tells)
     asking = {
         "auto": (),
         "full": (Verdict.CANNOT_BE_TOLD,),

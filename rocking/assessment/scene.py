@@ -20,14 +20,16 @@ from typing import Any, NamedTuple
 import yaml
 
 from rocking.assessment.decide import Verdict
+from rocking.assessment.kinds import AssessmentKind
 from rocking.described import kind_in_words
 from rocking.errors import ConfigurationError, StructureError, StructureWarning
 from rocking.floors.place import GROUND, TYPE_NAME, Place, place_from_config, place_schema
 from rocking.hashes import sha256_of
 from rocking.quantities import finite, listed, shown
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.structures import Mechanism, Structure
 from rocking.structures.alone import as_structure
+from rocking.structures.kinds import StructureKind
 from rocking.structures.structure_list import (
     LONGEST_KEY,
     NAME,
@@ -120,11 +122,11 @@ class Scene:
         above = [
             replace(each, about=self.name)
             for each in self.structure.cautions
-            if each.kind is Kind.RESTITUTION_ABOVE
+            if each.kind is StructureKind.RESTITUTION_ABOVE
         ]
         heavy = self.place.warning(self.name) if self.place.supports else None
         is_wall = self.structure.type_name == "wall"
-        held = Remark(Kind.HELD_AT_CEILING, self.name) if is_wall else None
+        held = Remark(AssessmentKind.HELD_AT_CEILING, self.name) if is_wall else None
         return (*sizes, *above, *filter(None, (heavy, held)))
 
 

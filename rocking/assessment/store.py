@@ -20,6 +20,7 @@ import numpy as np
 
 from rocking.errors import RockingError
 from rocking.hashes import sha256_of_bytes, sha256_of_sources
+from rocking.remarks import Kind, kind_of
 from rocking.tables import read_whole, write_whole
 
 T = TypeVar("T")
@@ -207,5 +208,5 @@ def decoder(kind: Any) -> Callable[[Any], Any]:
             return made(**{name: of_fields[name](each) for name, each in value.items()})
 
         return made_of
-    made_by: Callable[[Any], Any] = kind
+    made_by: Callable[[Any], Any] = kind_of if kind is Kind else kind
     return made_by

@@ -4,11 +4,12 @@ import math
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+from rocking.codes.kinds import CheckKind
 from rocking.codes.local_mechanism import LIMIT_STATES, LimitPoint, LocalMechanism
 from rocking.errors import ConfigurationError
 from rocking.floors.support import Support
 from rocking.quantities import finite, kind_of, positive
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.structures.linkage import Restraint
 
 CONFIDENCE_FACTOR = 1.35
@@ -218,7 +219,7 @@ class DynamicCheck(Check):
             return None
         unseen = 1 - RISK ** (1 / self.stations)
         return Remark.of(
-            Kind.OTHER_STATIONS,
+            CheckKind.OTHER_STATIONS,
             stations=self.stations,
             earthquakes=self.earthquakes,
             unseen_percent=100 * unseen,
@@ -341,4 +342,7 @@ class StructureCheck:
 
 
 def _is_open(check: Check) -> bool:
-    return check.refusal is not None and check.refusal.kind in (Kind.SETS_TOO_FEW, Kind.OTHERS_TOO_FEW)
+    return check.refusal is not None and check.refusal.kind in (
+        CheckKind.SETS_TOO_FEW,
+        CheckKind.OTHERS_TOO_FEW,
+    )

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 from rocking.assessment.scene import placed
 from rocking.codes.check import Part, ratio_in_words, says_nothing
+from rocking.codes.kinds import CheckKind
 from rocking.codes.rows import CodeCheckRow
 from rocking.quantities import counted, percents
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 
 @dataclass(frozen=True)
@@ -46,7 +47,7 @@ class CodeConclusion:
     @property
     def remark(self) -> Remark:
         """The conclusion: "verified by C8.7.1.2.1.9"."""
-        kind = Kind.VERIFIED if self.verified else Kind.NOT_VERIFIED
+        kind = CheckKind.VERIFIED if self.verified else CheckKind.NOT_VERIFIED
         return Remark.of(kind, clause=self.decisive.clause)
 
     @property
@@ -55,8 +56,8 @@ class CodeConclusion:
         if self.other_share is None:
             return None
         if says_nothing(self.other_share):
-            return Remark(Kind.OTHER_SETS_UNKNOWN)
-        return Remark.of(Kind.OTHER_SETS, share=percents(*self.other_share))
+            return Remark(CheckKind.OTHER_SETS_UNKNOWN)
+        return Remark.of(CheckKind.OTHER_SETS, share=percents(*self.other_share))
 
     @property
     def other_share(self) -> tuple[float, float] | None:

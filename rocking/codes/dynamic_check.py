@@ -22,6 +22,7 @@ from rocking.codes.check import (
     DynamicCheck,
     StructureCheck,
 )
+from rocking.codes.kinds import CheckKind
 from rocking.codes.local_mechanism import LIMIT_STATES, LimitState, LocalMechanism
 from rocking.codes.selection import SETS, Selection
 from rocking.codes.static_check import kinematic_check
@@ -30,7 +31,7 @@ from rocking.floors.support import Support
 from rocking.quantities import kind_of
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.design_spectrum import DesignSpectrum
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.structures import Mechanism, Side, Structure
 from rocking.structures.mechanism import SideTie
 
@@ -162,14 +163,14 @@ def _dynamic_check(
 
 def _refusal(found: DynamicCheck, least_others: float, size: int) -> Remark | None:
     if found.exceeding:
-        return Remark.of(Kind.DISPLACEMENT_EXCEEDED, exceeding=found.exceeding, motions=found.motions)
+        return Remark.of(CheckKind.DISPLACEMENT_EXCEEDED, exceeding=found.exceeding, motions=found.motions)
     if not found.met_by_the_set:
-        return Remark(Kind.CHECK_NOT_MET)
+        return Remark(CheckKind.CHECK_NOT_MET)
     if found.sets < SETS:
-        return Remark.of(Kind.SETS_TOO_FEW, sets=found.sets, asked=SETS)
+        return Remark.of(CheckKind.SETS_TOO_FEW, sets=found.sets, asked=SETS)
     if not found.sets_agree:
         return Remark.of(
-            Kind.SETS_DISAGREE,
+            CheckKind.SETS_DISAGREE,
             share_percent=100 * found.share,
             sets=found.sets,
             least_percent=100 * LEAST_SHARE,
@@ -177,7 +178,7 @@ def _refusal(found: DynamicCheck, least_others: float, size: int) -> Remark | No
     low, high = found.interval
     if low < least_others:
         return Remark.of(
-            Kind.OTHERS_TOO_FEW,
+            CheckKind.OTHERS_TOO_FEW,
             low_percent=100 * low,
             high_percent=100 * high,
             stations=found.stations,

@@ -10,8 +10,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rocking.codes.kinds import CheckKind
 from rocking.quantities import GRAVITY
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.structures import Structure
 from rocking.structures.capacity import StaticCapacity
 
@@ -133,15 +134,15 @@ class LocalMechanism:
         Where a vanishes nowhere and nothing else limits it, the displacement is inf, and the others are nan.
         """
         share = state.displacement_share
-        limits = {share * self.ultimate_displacement: Remark.of(Kind.LIMIT_SHARE, share=share)}
+        limits = {share * self.ultimate_displacement: Remark.of(CheckKind.LIMIT_SHARE, share=share)}
         ruptures = self.limiting_ruptures[self.released :] if state.ends_with_ties else ()
         if ruptures:
-            limits[float(self.displacement(ruptures[0] * _JUST_BEFORE))] = Remark(Kind.LIMIT_TIE_BREAKS)
+            limits[float(self.displacement(ruptures[0] * _JUST_BEFORE))] = Remark(CheckKind.LIMIT_TIE_BREAKS)
         if self.support_loss < math.inf:
-            limits[self.support_loss * self.static.displacement_factor] = Remark(Kind.LIMIT_LOAD_FALLS)
+            limits[self.support_loss * self.static.displacement_factor] = Remark(CheckKind.LIMIT_LOAD_FALLS)
         displacement = min(limits)
         if math.isinf(displacement):
-            return LimitPoint(displacement, math.nan, math.nan, Remark(Kind.LIMIT_NOWHERE))
+            return LimitPoint(displacement, math.nan, math.nan, Remark(CheckKind.LIMIT_NOWHERE))
         rotation = self.static.rotation_at(displacement / self.static.displacement_factor)
         acceleration = float(self.acceleration(rotation))
         period = math.nan

@@ -13,6 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
+from rocking.codes.kinds import CheckKind
 from rocking.drawn import Drawn
 from rocking.errors import ConfigurationError
 from rocking.quantities import positive
@@ -20,7 +21,7 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.design_spectrum import DesignSpectrum
 from rocking.records.measures import response_spectrum
 from rocking.records.sample import Sample, earthquakes_of, stations_of
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 STATIONS = 20
 """The stations of a set: with 7 the verdict hangs on the choice for one wall in nine, with 20 for one in thirty-six."""
@@ -349,7 +350,7 @@ def search(
     if not number:
         raise ConfigurationError.saying(
             Remark.of(
-                Kind.NO_SET_WITHIN,
+                CheckKind.NO_SET_WITHIN,
                 count=count,
                 drawn=drawn,
                 below_percent=-100 * below,
@@ -373,7 +374,7 @@ def random_sets(
     """
     names, of_record = np.unique(stations, return_inverse=True)
     if names.size < count:
-        remark = Remark.of(Kind.STATIONS_TOO_FEW, stations=int(names.size), count=count)
+        remark = Remark.of(CheckKind.STATIONS_TOO_FEW, stations=int(names.size), count=count)
         raise ConfigurationError.saying(remark)
     order = np.argsort(of_record, kind="stable")
     sizes = np.bincount(of_record)

@@ -15,11 +15,12 @@ import numpy as np
 from rocking.codes.check import Check, CodeTerms, StructureCheck
 from rocking.codes.crossings import Crossings
 from rocking.codes.floor_demand import FloorDemand
+from rocking.codes.kinds import CheckKind
 from rocking.codes.local_mechanism import LIMIT_STATES, LimitState, LocalMechanism
 from rocking.errors import ConfigurationError, DoesNotStandError, StructureError
 from rocking.quantities import GRAVITY, kind_of, positive
 from rocking.records.design_spectrum import DesignSpectrum
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.structures import Structure
 from rocking.structures.linkage import FRICTION
 from rocking.structures.structure import Candidate, Crackable
@@ -133,7 +134,7 @@ def _level_check(made: StructureCheck, spectrum: DesignSpectrum, clause: str, ca
 
 def _not_made(mechanism: LocalMechanism) -> Remark:
     """Why checks that need d_0 were not made."""
-    return Remark.of(Kind.NO_DISPLACEMENT, why=mechanism.body.mechanism().never_lets_go)
+    return Remark.of(CheckKind.NO_DISPLACEMENT, why=mechanism.body.mechanism().never_lets_go)
 
 
 def _local_mechanisms(structure: Structure, terms: CodeTerms) -> tuple[LocalMechanism, ...]:

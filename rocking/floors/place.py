@@ -13,11 +13,12 @@ from typing import Any
 import numpy as np
 
 from rocking.errors import ConfigurationError, RecordError
+from rocking.floors.kinds import FloorKind
 from rocking.floors.spectrum import FLOOR_DAMPING, floor_spectrum, has_code_spectrum, spectrum_of
 from rocking.floors.support import Mode, Support
 from rocking.quantities import finite
 from rocking.records.accelerogram import Accelerogram
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 TYPE_NAME = "support"
 """The `type` of an entry of a structure list that is a support."""
@@ -104,7 +105,7 @@ class Place:
         if self.mass_ratio is None or self.mass_ratio <= HEAVY:
             return None
         return Remark.of(
-            Kind.HEAVY_ON_SUPPORT, structure, ratio=self.mass_ratio, support=self.name, limit=HEAVY
+            FloorKind.HEAVY_ON_SUPPORT, structure, ratio=self.mass_ratio, support=self.name, limit=HEAVY
         )
 
 

@@ -13,9 +13,10 @@ from typing import NamedTuple
 import numpy as np
 
 from rocking.errors import RecordError
+from rocking.floors.kinds import FloorKind
 from rocking.quantities import finite
 from rocking.records.accelerogram import SHORTEST_STEP, Accelerogram
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 INTERPOLATION_ERROR = 1e-4
 """Largest error of straight lines between the samples of a floor's motion, over its peak. A rotation is up to ten times
@@ -228,7 +229,7 @@ class Support:
             return made
         share = left / made.peak_acceleration
         return made.warned(
-            Remark.of(Kind.STILL_RINGING, share=float(share), after_s=after * record.time_step)
+            Remark.of(FloorKind.STILL_RINGING, share=float(share), after_s=after * record.time_step)
         )
 
     def motions(self, records: Sequence[Accelerogram]) -> tuple[Accelerogram, ...]:

@@ -13,6 +13,7 @@ import numpy as np
 
 from rocking.errors import MotionError
 from rocking.motion import linear_kernel, nonlinear_kernel, runs
+from rocking.motion.kinds import MotionKind
 from rocking.motion.response import Response
 from rocking.motion.table import (
     Forcing,
@@ -25,7 +26,7 @@ from rocking.motion.table import (
 )
 from rocking.quantities import GRAVITY, finite, kind_of, within
 from rocking.records.accelerogram import Accelerogram
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.structures import Outcome
 from rocking.structures.mechanism import EquivalentBlock, Mechanism
 
@@ -352,7 +353,7 @@ def _response(
         peak_side=(1, -1)[largest] if rocks else int(row[runs.SIDE]),
         steps=int(row[runs.STEPS]),
         tolerance=0.0 if isinstance(sides[0], EquivalentBlock) else tolerance,
-        warning=Remark(Kind.WEIGHTLESS) if forcing.weightless else None,
+        warning=Remark(MotionKind.WEIGHTLESS) if forcing.weightless else None,
         **states,
     )
 

@@ -10,10 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from rocking.errors import PulseError
+from rocking.pulses.kinds import PulseKind
 from rocking.pulses.pulse import Pulse, PulseAnalysis, PulseEvidence, PulseSettings
 from rocking.quantities import instance
 from rocking.records.accelerogram import Accelerogram
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 NOTHING_LEFT = 1e-20
 """Share of the record's energy below which what the pursuit leaves, or what a cycle gains, is rounding."""
@@ -348,14 +349,14 @@ def _raised(
     loud = np.abs(samples[[0, -1]]) > EDGE_ACCELERATION * abs(pulse.amplitude)
     changes = np.flatnonzero(np.diff(samples))  # a run of identical samples at an end is padding, no gap
     raised = {
-        Kind.PULSE_UNSTABLE: equal or more_cycles,
-        Kind.PULSE_AT_AN_END: np.any(rooms < np.where(loud, 1.0, EDGE_DISTANCE)),
-        Kind.PULSE_FILTERED: high_pass is not None and pulse.period > FILTERED_CYCLES / high_pass,
-        Kind.PULSE_SYMMETRIC: equal and second is not None and _twin(pulse, second.pulse),
-        Kind.PULSE_AT_BAND_LIMIT: not low * (1 + 1e-9) < frequency < high * (1 - 1e-9),
-        Kind.PULSE_BESIDE_GAP: (np.diff(changes).max(initial=1) - 1) * step > GAP_DURATION,
-        Kind.PULSE_RECORD_SHORT: low > search.settings.lowest_frequency,
-        Kind.PULSE_SAMPLING_COARSE: high < search.settings.highest_frequency,
+        PulseKind.PULSE_UNSTABLE: equal or more_cycles,
+        PulseKind.PULSE_AT_AN_END: np.any(rooms < np.where(loud, 1.0, EDGE_DISTANCE)),
+        PulseKind.PULSE_FILTERED: high_pass is not None and pulse.period > FILTERED_CYCLES / high_pass,
+        PulseKind.PULSE_SYMMETRIC: equal and second is not None and _twin(pulse, second.pulse),
+        PulseKind.PULSE_AT_BAND_LIMIT: not low * (1 + 1e-9) < frequency < high * (1 - 1e-9),
+        PulseKind.PULSE_BESIDE_GAP: (np.diff(changes).max(initial=1) - 1) * step > GAP_DURATION,
+        PulseKind.PULSE_RECORD_SHORT: low > search.settings.lowest_frequency,
+        PulseKind.PULSE_SAMPLING_COARSE: high < search.settings.highest_frequency,
     }
     return tuple(Remark(kind) for kind, holds in raised.items() if holds)
 

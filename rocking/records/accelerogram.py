@@ -11,7 +11,8 @@ from rocking.drawn import Drawn
 from rocking.errors import RecordError, about
 from rocking.hashes import sha256_of_bytes
 from rocking.quantities import GRAVITY, UNPRINTABLE, finite, four_digits, positive
-from rocking.remarks import Kind, Remark
+from rocking.records.kinds import RecordKind
+from rocking.remarks import Remark
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -185,9 +186,9 @@ class Accelerogram(Drawn):
         doubts = []
         if not SHORTEST_STEP <= self.time_step <= LONGEST_STEP:
             limits = {"shortest_s": SHORTEST_STEP, "longest_s": LONGEST_STEP}
-            doubts.append(Remark.of(Kind.STEP_UNUSUAL, "", time_step_s=self.time_step, **limits))
+            doubts.append(Remark.of(RecordKind.STEP_UNUSUAL, "", time_step_s=self.time_step, **limits))
         if self.peak_acceleration > LARGEST_PEAK:
-            doubts.append(Remark(Kind.PEAK_IMPOSSIBLE))
+            doubts.append(Remark(RecordKind.PEAK_IMPOSSIBLE))
         new = (doubt for doubt in doubts if doubt not in self.warnings)
         object.__setattr__(self, "warnings", (*self.warnings, *new))
 

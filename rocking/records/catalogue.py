@@ -12,8 +12,9 @@ from rocking.errors import CatalogueError, RockingError
 from rocking.quantities import acceleration_factor, shown
 from rocking.records.formats.format import plain
 from rocking.records.formats.text import is_number
+from rocking.records.kinds import RecordKind
 from rocking.records.scaling import ScalingTarget
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.tables import edited_text, read_edited
 
 _OBSPY = "obspy:"
@@ -299,7 +300,11 @@ def repeated(records: Iterable[CatalogueRecord]) -> tuple[Remark, ...]:
         if other := next(both, None):
             remarks.append(
                 Remark.of(
-                    Kind.RECORD_REPEATED, record.id, file=file.name, other=other.id, other_file=other.file
+                    RecordKind.RECORD_REPEATED,
+                    record.id,
+                    file=file.name,
+                    other=other.id,
+                    other_file=other.file,
                 )
             )
         same.append(record)

@@ -14,7 +14,8 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.quantities import finite, instance
 from rocking.records.accelerogram import Accelerogram
-from rocking.remarks import Kind, Remark
+from rocking.records.kinds import RecordKind
+from rocking.remarks import Remark
 
 _VERTICAL = {
     "UP", "DOWN", "DN", "DWN", "V", "Z", "UD", "U-D", "U", "VER", "VERT", "VERTICAL", "UPDO", "U/D", "UPWARD",
@@ -205,7 +206,7 @@ def doubts_of_channel(channel: Channel) -> tuple[Remark, ...]:
     is_combined = re.match(r"(?i)rot|srss|gm|geo", name) is not None
     is_longer_angle = re.search(r"\d\d", name) is not None  # an angle to which a program has written more
     unknown = is_beyond or is_combined or not is_longer_angle
-    return (Remark(Kind.DIRECTION_UNKNOWN, name),) if unknown else ()
+    return (Remark(RecordKind.DIRECTION_UNKNOWN, name),) if unknown else ()
 
 
 def contradiction(channel: Channel) -> Remark | None:
@@ -227,7 +228,7 @@ def contradiction(channel: Channel) -> Remark | None:
     direction = (
         "upwards" if channel.vertical else "to no known azimuth" if along is None else f"to {along:g}°"
     )
-    return Remark.of(Kind.DIRECTION_CONTRADICTED, channel.component.strip(), direction=direction)
+    return Remark.of(RecordKind.DIRECTION_CONTRADICTED, channel.component.strip(), direction=direction)
 
 
 def vertical_doubt(channels: Sequence[Channel]) -> Remark | None:
@@ -240,12 +241,16 @@ def vertical_doubt(channels: Sequence[Channel]) -> Remark | None:
     if len(channels) == 1:  # a heading of a table is prose, and no less horizontal for that
         code = channels[0].component.strip()
         is_code = _SEED.fullmatch(code) and not names_acceleration(code)
-        return Remark(Kind.LONE_MAY_BE_VERTICAL, code) if is_code and doubts_of_channel(channels[0]) else None
+        return (
+            Remark(RecordKind.LONE_MAY_BE_VERTICAL, code)
+            if is_code and doubts_of_channel(channels[0])
+            else None
+        )
     of_unknown = [channel.component for channel in channels if channel.azimuth is None]
     if len(channels) < _OF_A_STATION or not of_unknown:
         return None
     names = ", ".join(of_unknown[:_OF_A_STATION])
-    return Remark.of(Kind.SOME_MAY_BE_VERTICAL, channels=len(channels), names=names)
+    return Remark.of(RecordKind.SOME_MAY_BE_VERTICAL, channels=len(channels), names=names)
 
 
 def pair_doubt(horizontal: Sequence[Channel]) -> Remark | None:
@@ -258,7 +263,7 @@ def pair_doubt(horizontal: Sequence[Channel]) -> Remark | None:
         return None
     if names_no_direction(first) and names_no_direction(second):
         return None
-    return Remark.of(Kind.ANGLE_UNKNOWN, first=first, second=second)
+    return Remark.of(RecordKind.ANGLE_UNKNOWN, first=first, second=second)
 
 
 def angle_between(first: Channel, second: Channel) -> float | None:
@@ -368,7 +373,7 @@ def rotate(first: Accelerogram, second: Accelerogram, angle: float) -> Accelerog
     changes: dict[str, Any] = {"component": f"{degrees:.0f}° from {one}"}
     changes["azimuth"] = azimuth_of_axis(first.azimuth, second.azimuth, angle)
     short, long = sorted((first.acceleration.size, second.acceleration.size))
-    cut = [Remark.of(Kind.CUT_TO_THE_SHORTER, short=short, long=long)] if short < long else []
+    cut = [Remark.of(RecordKind.CUT_TO_THE_SHORTER, short=short, long=long)] if short < long else []
     warnings = dict.fromkeys((*first.warnings, *second.warnings, *cut))
     changes["warnings"] = tuple(warnings)
     for name in ("initial_velocity", "initial_displacement"):

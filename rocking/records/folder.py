@@ -20,10 +20,11 @@ from rocking.records.formats.layouts import NAME, Layouts
 from rocking.records.formats.text import day_of, is_number
 from rocking.records.grouping import named_channel, rsn_of, stations, without_direction
 from rocking.records.joining import SQUARE
+from rocking.records.kinds import RecordKind
 from rocking.records.listing import CELLS, ListedChannel, ListedFile, doubts_of, listed_file
 from rocking.records.read import bare_text, bytes_of, printable, recognise, unpack
 from rocking.records.readings import Readings
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.tables import read_start
 
 Row = dict[str, str]
@@ -113,7 +114,7 @@ def catalogue_of_folder(
     new = rows_of_files(listed, (row["id"].lower() for row in rows))
     of_store = [readings.remark] if readings.remark else []
     idle = [
-        Remark.of(Kind.ANSWER_IDLE, NAME, line=each.line, answer=each.text)
+        Remark.of(RecordKind.ANSWER_IDLE, NAME, line=each.line, answer=each.text)
         for each in layouts.idle(signatures)
     ]
     asked = layouts.text((file.file, file.question) for file in listed if file.question)
@@ -158,7 +159,7 @@ def _follow_renamed(
             names[place] = _as_cell(now)
             rows_of[now] = row
             del strangers[sha256.strip()]
-            yield Remark.of(Kind.FILE_RENAMED, row["id"], before=name.strip(), now=now)
+            yield Remark.of(RecordKind.FILE_RENAMED, row["id"], before=name.strip(), now=now)
         row["file"] = ";".join(names)
 
 
@@ -175,7 +176,7 @@ def _mark_repeats(listed: Iterable[ListedFile]) -> None:
             original = originals.setdefault(file.sha256, file.file)
             file.is_repeat = original != file.file
             if file.is_repeat:
-                file.doubts += (Remark.of(Kind.CONTENT_REPEATED, original=original),)
+                file.doubts += (Remark.of(RecordKind.CONTENT_REPEATED, original=original),)
 
 
 def _rows_to_join(listed: Sequence[ListedFile]) -> Iterator[Remark]:
@@ -188,7 +189,7 @@ def _rows_to_join(listed: Sequence[ListedFile]) -> Iterator[Remark]:
         if len(group) > 1 and any(file.record for file in group):
             cell = ";".join(_as_cell(file.file) for file in group)
             rows = " and ".join(file.record for file in group if file.record)
-            yield Remark.of(Kind.ROWS_TO_JOIN, files=cell, rows=rows)
+            yield Remark.of(RecordKind.ROWS_TO_JOIN, files=cell, rows=rows)
 
 
 _FILL = "Fill in {}."
@@ -220,7 +221,7 @@ def rows_of_files(listed: Sequence[ListedFile], taken: Iterable[str] = ()) -> li
         for file in group:
             file.record = rows[-1]["id"] if level else ""
             file.companions = len(group) - 1
-            by_name = [str(doubt) for doubt in file.doubts if doubt.kind is Kind.VERTICAL_BY_NAME]
+            by_name = [str(doubt) for doubt in file.doubts if doubt.kind is RecordKind.VERTICAL_BY_NAME]
             why = filter(None, (_ONLY_VERTICAL, file.separated, *by_name))
             file.refusal = "" if level else " ".join(why)
     return rows
@@ -271,7 +272,7 @@ def _remarks(group: Sequence[ListedFile], level: Sequence[ListedChannel]) -> Ite
     angle = angle_between(*level) if len(level) == 2 else None
     if angle is not None and abs(angle - 90) > SQUARE:
         first, second = (each.component for each in level)
-        yield Remark.of(Kind.NOT_SQUARE, first=first, second=second, angle_deg=min(angle, 180 - angle))
+        yield Remark.of(RecordKind.NOT_SQUARE, first=first, second=second, angle_deg=min(angle, 180 - angle))
     if doubt := pair_doubt(level):
         yield doubt
 
@@ -328,8 +329,8 @@ def unlisted(catalogue: Path) -> tuple[Remark, ...]:
         return ()
     if len(records) == 1:
         name = records[0].relative_to(folder).as_posix()
-        return (Remark.of(Kind.FILE_UNLISTED, printable(name), folder=str(folder)),)
-    return (Remark.of(Kind.FILES_UNLISTED, files=len(records), folder=str(folder)),)
+        return (Remark.of(RecordKind.FILE_UNLISTED, printable(name), folder=str(folder)),)
+    return (Remark.of(RecordKind.FILES_UNLISTED, files=len(records), folder=str(folder)),)
 
 
 def _was_refused(path: Path, folder: Path, readings: Readings) -> bool:

@@ -17,8 +17,9 @@ from rocking.records.direction import (
 )
 from rocking.records.formats.text import day_of
 from rocking.records.joining import SQUARE, why_apart
+from rocking.records.kinds import RecordKind
 from rocking.records.listing import ListedChannel, ListedFile
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 _RSN = re.compile(r"(RSN\d+)_")
 """Number of a record in the databases of PEER, with which the names of its files begin."""
@@ -161,14 +162,16 @@ def _why_apart(group: Sequence[ListedFile]) -> Remark | None:
     by_name = [file for file in group if names_no_direction(file.channels[0].component)]
     unnamed = [file for file in by_name if not _direction(file)]
     if unnamed or len(by_name) not in (0, len(group)):
-        return Remark(Kind.COMPONENT_NOT_NAMED, (unnamed or by_name)[0].file)
+        return Remark(RecordKind.COMPONENT_NOT_NAMED, (unnamed or by_name)[0].file)
     if why := why_apart(channels, [channel.samples for channel in channels]):
         return why
     level = [channel for channel in channels if not channel.vertical]
     if len(level) > 2 or len(channels) - len(level) > 1:
-        return Remark.of(Kind.TOO_MANY_COMPONENTS, horizontal=len(level), vertical=len(channels) - len(level))
+        return Remark.of(
+            RecordKind.TOO_MANY_COMPONENTS, horizontal=len(level), vertical=len(channels) - len(level)
+        )
     if any(each.declarations != group[0].declarations for each in group):
-        return Remark(Kind.DECLARED_BY_SOME)
+        return Remark(RecordKind.DECLARED_BY_SOME)
     return _why_no_pair(group, level)
 
 
@@ -179,8 +182,8 @@ def _why_no_pair(group: Sequence[ListedFile], level: Sequence[ListedChannel]) ->
     first, second = (each.component for each in level)
     angle = angle_between(*level)
     if angle is not None and min(angle, 180 - angle) < SQUARE:
-        return Remark.of(Kind.POINT_THE_SAME_WAY, first=first, second=second)
+        return Remark.of(RecordKind.POINT_THE_SAME_WAY, first=first, second=second)
     by_name = any(_direction(file) for file in group)
     if by_name and (angle is None or abs(angle - 90) > SQUARE):
-        return Remark.of(Kind.NOT_SQUARE_BY_NAME, first=first, second=second)
+        return Remark.of(RecordKind.NOT_SQUARE_BY_NAME, first=first, second=second)
     return None

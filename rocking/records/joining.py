@@ -10,7 +10,8 @@ import numpy as np
 from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.direction import Channel
-from rocking.remarks import Kind, Remark
+from rocking.records.kinds import RecordKind
+from rocking.remarks import Remark
 
 SAME_STEP = 1e-6
 """Share by which the time steps of one station's files may differ: the rounding of their headers."""
@@ -38,15 +39,15 @@ def why_apart(channels: Sequence[ComponentFacts], samples: Collection[int]) -> R
     """Return why channels of several files, of so many samples, cannot be one station's; None where they can."""
     names = Counter(channel.component for channel in channels if not channel.borehole)
     if twice := next((name for name, n in names.items() if n > 1), ""):
-        return Remark.of(Kind.COMPONENT_TWICE, twice, times=names[twice])
+        return Remark.of(RecordKind.COMPONENT_TWICE, twice, times=names[twice])
     steps = [channel.time_step for channel in channels]
     if max(steps) / min(steps) - 1 > SAME_STEP:
-        return Remark.of(Kind.STEPS_UNLIKE, least_s=min(steps), most_s=max(steps))
+        return Remark.of(RecordKind.STEPS_UNLIKE, least_s=min(steps), most_s=max(steps))
     have_starts = [bool(channel.start_time) for channel in channels]
     tail = max(samples) - min(samples)
     allowed = 0 if any(have_starts) else LONGEST_TAIL * max(samples)
     if tail > allowed and not all(have_starts):
-        return Remark.of(Kind.BEGINNINGS_UNKNOWN, least=min(samples), most=max(samples))
+        return Remark.of(RecordKind.BEGINNINGS_UNKNOWN, least=min(samples), most=max(samples))
     return None
 
 

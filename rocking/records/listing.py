@@ -15,6 +15,7 @@ from rocking.records.catalogue import few, stays_inside
 from rocking.records.doors import through
 from rocking.records.formats import Options
 from rocking.records.formats.layouts import NAME, AskedError, Layouts, Question, Signature, families
+from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import OF_COUNTS
 from rocking.records.processing import process, velocity
 from rocking.records.read import printable, read_raw
@@ -27,16 +28,16 @@ _STAND_INS: dict[str, Any] = {"unit": "nm/s2", "time_step": 0.01}
 _BAD_NAME = "its name holds a character that a catalogue does not allow, or a blank at its end; rename it."
 _LEADS_OUT = "it is a link that leads out of the folder; copy the file instead."
 _OF_UNIT = (
-    Kind.PEAK_IMPOSSIBLE,
-    Kind.PEAK_RARE,
-    Kind.PEAK_TINY,
-    Kind.PEAK_TINY_BY_UNIT,
-    Kind.SAMPLE_ALONE,
-    Kind.PEAK_UNLIKE_HEADER,
-    Kind.MEAN_SQUARE_UNLIKE_HEADER,
+    RecordKind.PEAK_IMPOSSIBLE,
+    RecordKind.PEAK_RARE,
+    RecordKind.PEAK_TINY,
+    RecordKind.PEAK_TINY_BY_UNIT,
+    RecordKind.SAMPLE_ALONE,
+    RecordKind.PEAK_UNLIKE_HEADER,
+    RecordKind.MEAN_SQUARE_UNLIKE_HEADER,
 )
 """What says nothing where the unit is a stand-in."""
-_OF_DIRECTION = (Kind.DIRECTION_UNKNOWN, Kind.VERTICAL_BY_NAME, Kind.VERTICAL_IN_NAME)
+_OF_DIRECTION = (RecordKind.DIRECTION_UNKNOWN, RecordKind.VERTICAL_BY_NAME, RecordKind.VERTICAL_IN_NAME)
 """What is no longer in doubt where a row says the direction."""
 _UPWARDS = re.compile(r"(?:^|[-_. ])(UP|UD|DN|DWN|DOWN|VER|VERT|VERTICAL)(?=[-_. ]|$)", re.I)
 
@@ -164,7 +165,7 @@ def _read_for_listing(
     is_unit_known = "unit" not in missing or bool(declared["unit"])
     remarks = list(_doubts_of(channels, () if is_unit_known else _OF_UNIT))
     if not is_unit_known and channels[0].source.format in OF_COUNTS:
-        remarks.append(Remark(Kind.COUNTS_WITHOUT_UNIT))
+        remarks.append(Remark(RecordKind.COUNTS_WITHOUT_UNIT))
     listed = tuple(_without_samples(channel, is_known) for channel in channels)
     return Reading(sha256, listed, tuple(remarks), missing=missing, question=None if is_known else question)
 
@@ -209,7 +210,7 @@ def listed_file(reading: Reading, path: Path, folder: Path, declared: Mapping[st
     file = printable(path.relative_to(folder).as_posix())
     upwards = _UPWARDS.search(path.stem)
     sideways = [
-        Remark.of(Kind.VERTICAL_IN_NAME, channel.component, word=upwards[1])
+        Remark.of(RecordKind.VERTICAL_IN_NAME, channel.component, word=upwards[1])
         for channel in reading.channels
         if upwards and not channel.vertical
     ]

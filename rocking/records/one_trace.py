@@ -12,9 +12,10 @@ from rocking.records.accelerogram import OBSPY_EXTRAS, Accelerogram, Calibration
 from rocking.records.direction import Direction, directed
 from rocking.records.formats.format import plain, without_offset
 from rocking.records.joining import SAME_STEP
+from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import BURIED
 from rocking.records.traces import STEEP, calibrated, names, quantity_order, site, unit_left_by
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 _TO_DISPLACEMENT = "GSE1", "GSE2", "CSS", "NNSA_KB_CORE"
 """The formats whose calibration is in nm of displacement a count, at a period that it is stated for."""
@@ -52,10 +53,10 @@ def _unlike(records: list[Accelerogram]) -> Iterator[Remark]:
     """Yield what lets the channels of a stream be none of one record: several stations, or several time steps."""
     stations = sorted({f"{record.network}.{record.station}" for record in records})
     if len(stations) > 1:
-        yield Remark.of(Kind.STATIONS_UNLIKE, stations=", ".join(stations[:3]), number=len(stations))
+        yield Remark.of(RecordKind.STATIONS_UNLIKE, stations=", ".join(stations[:3]), number=len(stations))
     steps = [record.time_step for record in records]
     if max(steps) > min(steps) * (1 + SAME_STEP):
-        yield Remark.of(Kind.STEPS_OF_STREAM_UNLIKE, least_s=min(steps), most_s=max(steps))
+        yield Remark.of(RecordKind.STEPS_OF_STREAM_UNLIKE, least_s=min(steps), most_s=max(steps))
 
 
 # Whole on purpose: what is known of the samples, what is asked, and what is done to them, each from the one before.
@@ -132,12 +133,12 @@ def as_stated(trace: Any, unit: str, is_due: bool) -> Stated:
         samples = samples * (100 * factor if is_due else 100.0)  # of m/s²
     elif is_due:
         samples = samples * factor
-        doubts = () if form in _CALIBRATED_TO else (Remark.of(Kind.SCALE_APPLIED, factor=factor),)
+        doubts = () if form in _CALIBRATED_TO else (Remark.of(RecordKind.SCALE_APPLIED, factor=factor),)
     elif form in _TO_DISPLACEMENT and factor != 1 and not is_removed:
-        doubts = (Remark.of(Kind.CALIBRATION_NOT_APPLIED, factor=factor),)
+        doubts = (Remark.of(RecordKind.CALIBRATION_NOT_APPLIED, factor=factor),)
     if form == "KINEMETRICS_EVT" and not is_removed:
         samples = samples * (GRAVITY / _OBSPY_G)
-    done = [str(doubt) for doubt in doubts if doubt.kind is Kind.SCALE_APPLIED]
+    done = [str(doubt) for doubt in doubts if doubt.kind is RecordKind.SCALE_APPLIED]
     # To remove the sensitivity leaves the offset of the recorder in.
     is_levelled = form in _RAW if not is_removed else quantity_order(trace)[0] is None
     if is_levelled:
@@ -234,7 +235,7 @@ def header(trace: Any) -> dict[str, Any]:
     named = _channel_named(trace.stats)
     if form == "WIN":  # whose channels have numbers and no directions
         component = named.get("component", str(trace.stats.channel))
-        named["warnings"] = (Remark(Kind.DIRECTION_UNKNOWN, component),)
+        named["warnings"] = (Remark(RecordKind.DIRECTION_UNKNOWN, component),)
     return named
 
 

@@ -18,8 +18,9 @@ from rocking.errors import RecordError
 from rocking.quantities import GRAVITY, acceleration_factor
 from rocking.records.accelerogram import LARGEST_PEAK, Accelerogram
 from rocking.records.doors import advice
+from rocking.records.kinds import RecordKind
 from rocking.records.processing import UNPROCESSED_DEFAULT, integral, process, velocity
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 RARE_PEAK = 3 * GRAVITY
 """m/s²; a handful of records of the world exceed it."""
@@ -88,7 +89,9 @@ def agree_with_header(
             f"states {stated:.6g} m/s², a factor {factor}; the two must agree within 1 %."
         )
     if off > max(_ROUNDING * stated, digit):
-        record = record.warned(Remark.of(Kind.PEAK_UNLIKE_HEADER, peak_m_s2=peak_read, stated_m_s2=stated))
+        record = record.warned(
+            Remark.of(RecordKind.PEAK_UNLIKE_HEADER, peak_m_s2=peak_read, stated_m_s2=stated)
+        )
     if at is None:
         return record
     instants = np.arange(magnitudes.size) * record.time_step if times is None else times
@@ -97,7 +100,7 @@ def agree_with_header(
     if around.max() >= 0.98 * magnitudes.max():
         return record
     stands_at = float(instants[magnitudes.argmax()])
-    return record.warned(Remark.of(Kind.PEAK_ELSEWHERE, stated_s=at, time_s=stands_at))
+    return record.warned(Remark.of(RecordKind.PEAK_ELSEWHERE, stated_s=at, time_s=stands_at))
 
 
 def scaled(record: Accelerogram, factor: float) -> Accelerogram:
@@ -106,7 +109,7 @@ def scaled(record: Accelerogram, factor: float) -> Accelerogram:
     peak = enlarged.peak_acceleration
     if peak <= max(RARE_PEAK, record.peak_acceleration):
         return enlarged
-    return enlarged.warned(Remark.of(Kind.PEAK_RARE_BY_FACTOR, factor=factor, peak_g=peak / GRAVITY))
+    return enlarged.warned(Remark.of(RecordKind.PEAK_RARE_BY_FACTOR, factor=factor, peak_g=peak / GRAVITY))
 
 
 def pass_limits(record: Accelerogram, form: str = "") -> tuple[Remark, ...]:
@@ -119,12 +122,12 @@ def pass_limits(record: Accelerogram, form: str = "") -> tuple[Remark, ...]:
         _refuse_peak(record, f"peak acceleration is {peak:.6g} g", "the 5 g that no ground has reached", form)
     fast = _velocity_limit(record, form)
     if record.peak_acceleration > RARE_PEAK:
-        return (Remark.of(Kind.PEAK_RARE, peak_g=peak), *fast)
+        return (Remark.of(RecordKind.PEAK_RARE, peak_g=peak), *fast)
     if record.peak_acceleration >= SMALLEST_PEAK:
         return fast
     if fits := _fitting_factors(peak):
-        return (Remark.of(Kind.PEAK_TINY_BY_UNIT, peak_g=peak, factors=fits),)
-    return (Remark.of(Kind.PEAK_TINY, peak_g=peak),)
+        return (Remark.of(RecordKind.PEAK_TINY_BY_UNIT, peak_g=peak, factors=fits),)
+    return (Remark.of(RecordKind.PEAK_TINY, peak_g=peak),)
 
 
 def _velocity_limit(record: Accelerogram, form: str) -> tuple[Remark, ...]:
@@ -145,7 +148,7 @@ def _velocity_limit(record: Accelerogram, form: str) -> tuple[Remark, ...]:
         found = f"peak velocity is {fastest:.3g} m/s"
         _refuse_peak(record, found, f"the {LARGEST_VELOCITY:g} m/s that no ground has reached", form)
     if fastest > RARE_VELOCITY:
-        return (Remark.of(Kind.VELOCITY_RARE, velocity_m_s=fastest, rare_m_s=RARE_VELOCITY),)
+        return (Remark.of(RecordKind.VELOCITY_RARE, velocity_m_s=fastest, rare_m_s=RARE_VELOCITY),)
     return ()
 
 
@@ -191,7 +194,7 @@ def agree_with_mean_square(record: Accelerogram, stated: float, unit: str, digit
     if stated <= 0 or abs(in_samples - stated) <= digit + _ROUNDING * stated:
         return record
     return record.warned(
-        Remark.of(Kind.MEAN_SQUARE_UNLIKE_HEADER, value=in_samples, stated=stated, unit=unit)
+        Remark.of(RecordKind.MEAN_SQUARE_UNLIKE_HEADER, value=in_samples, stated=stated, unit=unit)
     )
 
 
@@ -235,14 +238,14 @@ def agree_with_velocity(record: Accelerogram, stated: np.ndarray) -> Accelerogra
         # Where most of the record is still, the usual error says nothing: what rounding explains is no damage.
         if errors[stray] > max(_STRAY * usual, _DIGITS_OFF * digit):
             time = (stray + _REACH) * record.time_step
-            return record.warned(Remark.of(Kind.VELOCITY_UNLIKE_THERE, time_s=time))
+            return record.warned(Remark.of(RecordKind.VELOCITY_UNLIKE_THERE, time_s=time))
 
     times = np.linspace(-1, 1, size)
     differing = stated - integral(record.acceleration, record.time_step)
     differing = differing - differing.mean() - times * np.sum(times * differing) / np.sum(times * times)
     if differing.std() <= _VELOCITY_OFF * stated.std():
         return record
-    return record.warned(Remark(Kind.VELOCITY_UNLIKE))
+    return record.warned(Remark(RecordKind.VELOCITY_UNLIKE))
 
 
 _ODDS = 100.0
@@ -280,7 +283,7 @@ def _sample_alone(record: Accelerogram) -> Remark | None:
     if peak <= _ALONE[0] * near or peak <= _ALONE[1] * others.max():
         return None
     return Remark.of(
-        Kind.SAMPLE_ALONE,
+        RecordKind.SAMPLE_ALONE,
         time_s=at * record.time_step,
         peak_g=peak / GRAVITY,
         others_g=float(others.max()) / GRAVITY,
@@ -302,7 +305,7 @@ def _zeros_in_shaking(record: Accelerogram) -> Remark | None:
     longest = int(np.diff(moving).max(initial=0)) - 1
     if longest < _ZEROS:
         return None
-    return Remark.of(Kind.ZEROS_IN_SHAKING, samples=longest)
+    return Remark.of(RecordKind.ZEROS_IN_SHAKING, samples=longest)
 
 
 _BESIDE = 100
@@ -334,7 +337,9 @@ def _still_stretch(record: Accelerogram) -> Remark | None:
         share = min(before, after)
         by_chance = (last - first) * math.log1p(-min(share, 1 - 1 / _BESIDE)) + math.log(values.size)
         if share >= _LIVELY and by_chance <= -3 * math.log(_ODDS):
-            return Remark.of(Kind.STILL_STRETCH, time_s=first * record.time_step, samples=last - first + 1)
+            return Remark.of(
+                RecordKind.STILL_STRETCH, time_s=first * record.time_step, samples=last - first + 1
+            )
     return None
 
 
@@ -366,7 +371,7 @@ def repeated_rows(records: Sequence[Accelerogram]) -> Remark | None:
     unlikely = places[np.prod(shares, axis=0) * steps < 1 / _ODDS]
     if not unlikely.size:
         return None
-    return Remark.of(Kind.ROW_REPEATED, time_s=float(unlikely[0] + 1) * records[0].time_step)
+    return Remark.of(RecordKind.ROW_REPEATED, time_s=float(unlikely[0] + 1) * records[0].time_step)
 
 
 _STRUCTURE = re.compile(
@@ -396,9 +401,9 @@ def is_down_hole(place: str) -> bool:
 def site_warnings(place: str) -> tuple[Remark, ...]:
     """Return a warning when the `place` of an instrument is in a structure or below the ground."""
     if _DOWN_HOLE.search(place) and (is_down_hole(place) or not _DEPTH.search(place)):
-        return (Remark.of(Kind.DOWN_HOLE, place=place),)
+        return (Remark.of(RecordKind.DOWN_HOLE, place=place),)
     if _STRUCTURE.search(place) and not _FREE.search(place):
-        return (Remark.of(Kind.IN_A_STRUCTURE, place=place),)
+        return (Remark.of(RecordKind.IN_A_STRUCTURE, place=place),)
     return ()
 
 
@@ -408,9 +413,9 @@ def channel_warnings(component: str) -> tuple[Remark, ...]:
     if not code:
         return ()
     if other := _NO_MOTION.get(code[1] or code[2]):
-        return (Remark.of(Kind.CHANNEL_NO_MOTION, component.strip(), sensor=other),)
+        return (Remark.of(RecordKind.CHANNEL_NO_MOTION, component.strip(), sensor=other),)
     kind = {"H": "high-gain seismometer", "L": "low-gain seismometer", "M": "mass position", "P": "geophone"}
-    return (Remark.of(Kind.CHANNEL_OF_VELOCITY, component.strip(), sensor=kind[code[1]]),)
+    return (Remark.of(RecordKind.CHANNEL_OF_VELOCITY, component.strip(), sensor=kind[code[1]]),)
 
 
 _ACCELERATION = re.compile(r"(?<![a-z])(acc|acel|beschl)", re.I)

@@ -31,6 +31,7 @@ from rocking.records.formats.format import Response, plain
 from rocking.records.formats.layouts import Signature
 from rocking.records.formats.tables import signature_of
 from rocking.records.formats.text import lines
+from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import (
     channel_warnings,
     damage_warnings,
@@ -40,7 +41,7 @@ from rocking.records.plausibility import (
     site_warnings,
 )
 from rocking.records.sheet import is_workbook, table_of_workbook
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.tables import read_whole
 
 LARGEST_FILE = 8 * 2**20
@@ -127,9 +128,9 @@ def _read_archive(path: Path, options: Options) -> list[Accelerogram]:
             raise next((error for error in reasons if isinstance(error, UndeclaredError)), reasons[0])
     if refused:
         names = ", ".join(printable(name) for name, _ in refused[:_LISTED])
-        unread = Remark.of(Kind.FILES_NOT_READ, names=names)
+        unread = Remark.of(RecordKind.FILES_NOT_READ, names=names)
         if len(refused) > _LISTED:
-            unread = Remark.of(Kind.MORE_FILES_NOT_READ, names=names, more=len(refused) - _LISTED)
+            unread = Remark.of(RecordKind.MORE_FILES_NOT_READ, names=names, more=len(refused) - _LISTED)
         records[0] = records[0].warned(unread)
     return records
 
@@ -167,7 +168,7 @@ def read_content(
         if not records:
             raise RecordError("the file holds no channel of acceleration; use the acceleration file.")
         is_doubled = b"\r\r\n" in content[:2000] and text is not content
-        notes = [Remark(Kind.LINE_ENDS_DOUBLED)] if is_doubled else []
+        notes = [Remark(RecordKind.LINE_ENDS_DOUBLED)] if is_doubled else []
         of_rows = repeated_rows(records)
         repeated = [of_rows] if of_rows is not None else []
         for i, record in enumerate(records):
@@ -336,7 +337,7 @@ def _named_by_file(records: list[Accelerogram], name: str) -> list[Accelerogram]
     is_open = record.azimuth is None and not record.vertical and not record.borehole
     if not is_open or not names_no_direction(record.component):
         return records
-    return [replace(record, vertical=True).warned(Remark.of(Kind.VERTICAL_BY_NAME, word=word))]
+    return [replace(record, vertical=True).warned(Remark.of(RecordKind.VERTICAL_BY_NAME, word=word))]
 
 
 def distinct_channels(records: Sequence[Accelerogram]) -> list[Accelerogram]:

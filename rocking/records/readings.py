@@ -12,9 +12,10 @@ from rocking.errors import RecordError, RockingError, fault_in_words, log_fault
 from rocking.hashes import sha256_of_bytes, sha256_of_sources
 from rocking.records.formats.layouts import Layouts
 from rocking.records.formats.tables import COLUMNS
+from rocking.records.kinds import RecordKind
 from rocking.records.listing import Reading, read_for_listing
 from rocking.records.read import bytes_of, printable, signature_in
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.tables import read_whole, write_whole
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ class Readings:
                 self._before = _stored(self._store)
             except _UnusableStoreError as error:
                 why = str(error).rstrip(".")
-                self.remark = Remark.of(Kind.READINGS_UNUSABLE, str(self._store), why=why)
+                self.remark = Remark.of(RecordKind.READINGS_UNUSABLE, str(self._store), why=why)
 
     def of(self, path: Path, declared: Mapping[str, Any]) -> Reading:
         """Return the reading of the file at `path`; declared: as read_for_listing takes it."""

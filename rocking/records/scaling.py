@@ -12,9 +12,10 @@ from rocking.errors import RecordError
 from rocking.quantities import VELOCITY_UNITS, acceleration_factor, shown
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.text import is_number
+from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import scaled
 from rocking.records.processing import velocity
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 FORM = "a measure, pga or pgv, a number and its unit, as in pga 0.35 g or pgv 50 cm/s"
 _SPELLING = re.compile(r"(pga|pgv)\s+([-+.,\d]+(?:e[-+]?\d+)?|nan|inf)\s*([a-z].*)", re.I)
@@ -84,7 +85,7 @@ def scaled_to(
     )
 
     is_far = not 1 / LARGEST_FACTOR <= factor <= LARGEST_FACTOR
-    doubt = [Remark.of(Kind.SCALED_FAR, factor=factor, largest=LARGEST_FACTOR)] if is_far else []
+    doubt = [Remark.of(RecordKind.SCALED_FAR, factor=factor, largest=LARGEST_FACTOR)] if is_far else []
 
     def enlarged(record: Accelerogram) -> Accelerogram:
         larger = scaled(record, factor).warned(*doubt)

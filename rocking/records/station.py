@@ -21,10 +21,11 @@ from rocking.records.files import beside_catalogue, path_of
 from rocking.records.formats import Options
 from rocking.records.formats.layouts import Layouts
 from rocking.records.joining import joined
+from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import scaled
 from rocking.records.read import bytes_of, read_raw
 from rocking.records.scaling import ScalingTarget, scaled_to
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 
 @dataclass(frozen=True)
@@ -110,12 +111,12 @@ def _named_by_row(channels: Sequence[Accelerogram], record: CatalogueRecord) -> 
 
 def _called_now(channel: Accelerogram, name: str) -> Accelerogram:
     """Return a channel with another name, and with what is in doubt of the direction that this one says."""
-    kept = tuple(each for each in channel.warnings if each.kind is not Kind.DIRECTION_UNKNOWN)
+    kept = tuple(each for each in channel.warnings if each.kind is not RecordKind.DIRECTION_UNKNOWN)
     named = replace(channel, **directed({"component": name}), warnings=kept)
     return named.warned(*doubts_of_channel(named))
 
 
-_ANSWERED = (Kind.SOME_MAY_BE_VERTICAL, Kind.LONE_MAY_BE_VERTICAL)
+_ANSWERED = (RecordKind.SOME_MAY_BE_VERTICAL, RecordKind.LONE_MAY_BE_VERTICAL)
 """What is no longer in doubt once a row names the horizontal components."""
 
 
@@ -130,7 +131,7 @@ def _horizontal(
     named = [_called(name, channels) for name in record.components]
     if named and len(record.files) == 1:
         return [
-            channel.warned(Remark(Kind.VERTICAL_AS_HORIZONTAL, channel.component))
+            channel.warned(Remark(RecordKind.VERTICAL_AS_HORIZONTAL, channel.component))
             if channel.vertical
             else channel
             for channel in named

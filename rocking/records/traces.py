@@ -13,8 +13,9 @@ import numpy as np
 
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
+from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import BURIED
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 _CORNERS = (0.02, 0.05, 0.8, 0.95)
 """Band in which a full response is removed: Hz, Hz, and shares of the Nyquist frequency."""
@@ -134,7 +135,7 @@ def _by_response(trace: Any, inventory: Any) -> Calibrated:
     limits = " and ".join(f"{band[i]:g}-{band[i + 1]:g} Hz" for i in (0, 2))
     removed = f"full instrument response removed to acceleration between {limits}"
     is_unlike = any("sensitivities" in line for line in lines)
-    doubts = (Remark(Kind.SENSITIVITY_UNLIKE_STAGES, trace.id),) if is_unlike else ()
+    doubts = (Remark(RecordKind.SENSITIVITY_UNLIKE_STAGES, trace.id),) if is_unlike else ()
     return Calibrated(clean.data, f"Mean removed, 5 % cosine taper, {removed}.", doubts)
 
 
@@ -176,7 +177,7 @@ def _check_gain(gain: float, response: Any, name: str, removal: str) -> tuple[Re
     at = response.instrument_sensitivity.frequency
     others = [each.stage_gain_frequency for each in staged if each.stage_gain_frequency is not None]
     if at is not None and any(other > 0 and abs(other / at - 1) > _SAME_FREQUENCY for other in others if at):
-        return (Remark.of(Kind.SENSITIVITY_ELSEWHERE, name, at_hz=float(at), off=off),)
+        return (Remark.of(RecordKind.SENSITIVITY_ELSEWHERE, name, at_hz=float(at), off=off),)
     if staged:
         raise RecordError(
             f"the overall sensitivity is {gain:g}, but the gains of its stages multiply to {product:g}, more than 5 % "
@@ -206,7 +207,7 @@ def site(trace: Any, inventory: Any) -> dict[str, Any]:
             dip = float(orientation["dip"])
             facts["vertical"] = abs(dip) > STEEP
             if min(abs(dip), abs(90 - abs(dip))) > _TILTED:
-                facts["warnings"] = (Remark.of(Kind.TILTED, trace.id, dip_deg=dip),)
+                facts["warnings"] = (Remark.of(RecordKind.TILTED, trace.id, dip_deg=dip),)
     with suppress(Exception):
         place = inventory.get_coordinates(trace.id, trace.stats.starttime)
         facts |= {name: float(place[name]) for name in ("latitude", "longitude", "elevation")}

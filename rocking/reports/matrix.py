@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from rocking.assessment.conclusion import UNSAID, Conclusion, worst_of_each
 from rocking.assessment.decide import ORDER, Verdict, worst_first
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import PulseRow, RecordRow
 from rocking.quantities import GRAVITY, percents
-from rocking.remarks import Kind
 from rocking.reports.pages import Chip, Matrix, MatrixHead, MatrixRow
 from rocking.reports.printing import NOTHING, chip, number
 
@@ -22,7 +22,7 @@ with a legend."""
 MOST_WITH_ALL = 5
 """Records up to which a page has room for their peaks, for what there is to know of each structure, and for the cells
 of what (probably) stands or cannot be told, which beyond it the colour and the hatch say alone."""
-_UNSAID = (Kind.STRENGTHEN, *UNSAID)
+_UNSAID = (AssessmentKind.STRENGTHEN, *UNSAID)
 """Remarks that the word itself says."""
 
 

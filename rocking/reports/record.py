@@ -22,6 +22,7 @@ from rocking.assessment.conclusion import (
 )
 from rocking.assessment.cracks import cracked, crushing_factor
 from rocking.assessment.decide import ORDER, Verdict
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.methods import NEGLIGIBLE, Agreement, agreement
 from rocking.assessment.rows import (
     RATIO_COLUMNS,
@@ -37,6 +38,7 @@ from rocking.assessment.rows import (
 from rocking.assessment.scene import variants_of
 from rocking.assessment.variants import variants
 from rocking.errors import FaultError, one_structure
+from rocking.floors.kinds import FloorKind
 from rocking.pulses.pulse import DOMINATES, LEADS, worth_of
 from rocking.quantities import GRAVITY, counted, listed, percent, percents
 from rocking.records.formats.text import day_of
@@ -46,6 +48,7 @@ from rocking.reports import record_figures as figures
 from rocking.reports.against import against, sizes_of
 from rocking.reports.design_figure import design_figure
 from rocking.reports.drawings import Trace, drawn_by_hand, sketch, svg_path, thinned
+from rocking.reports.kinds import ReportKind
 from rocking.reports.pages import (
     Against,
     Assumed,
@@ -89,6 +92,7 @@ from rocking.reports.sentences import Sentences
 from rocking.reports.style import PULSE, pictures
 from rocking.reports.supports import SupportPanel, floor_sentences, support_panels, supports_figure
 from rocking.structures import Structure
+from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import FRICTION
 from rocking.structures.structure import Crackable
 
@@ -101,7 +105,7 @@ MOVED = 0.1
 """Change of a share that is worth telling."""
 MOST_NOTICED = 3
 """Failures that stand above everything; failures.csv holds all."""
-TOLD_FIRST = (Kind.RESTITUTION_TYPED, Kind.CRUSHING_WOULD_TELL)
+TOLD_FIRST = (StructureKind.RESTITUTION_TYPED, ReportKind.CRUSHING_WOULD_TELL)
 """Remarks on the models that page one tells briefly, before their sentences."""
 MOST_PULSES = 3
 """Ranks of pulses that are printed."""
@@ -200,7 +204,7 @@ class RecordReport:
                 concerned.setdefault(caution, []).append(self.called(period_result.structure))
         would_crush = [each.structure for each in self.result.worst_first if _would_crush(each)]
         if would_crush:
-            concerned[Remark(Kind.CRUSHING_WOULD_TELL)] = [self.called(each) for each in would_crush]
+            concerned[Remark(ReportKind.CRUSHING_WOULD_TELL)] = [self.called(each) for each in would_crush]
         return {remark: list(dict.fromkeys(names)) for remark, names in concerned.items()}
 
     @property
@@ -304,7 +308,7 @@ def _vertical_in_words(report: RecordReport) -> str:
     """Return what the vertical component does; "" where a remark above says that there is none which could act."""
     if acting := _unique(row.vertical_component for row in report.tables.record):
         return f"The vertical component {acting} acts on the integrations, not on the closed form."
-    missing = any(row.kind is Kind.VERTICAL_MISSING for row in report.remarks)
+    missing = any(row.kind is AssessmentKind.VERTICAL_MISSING for row in report.remarks)
     return "" if missing else "The vertical component is left out."
 
 
@@ -580,7 +584,7 @@ def _known(report: RecordReport) -> list[Topic]:
         "Supports": [
             *(f"{scene.sentence}." for scene in carried[:MOST_DRAWN]),
             *(floor_sentences(report.support_panels) if carried else []),
-            *_said(report.remarks, Kind.HEAVY_ON_SUPPORT),
+            *_said(report.remarks, FloorKind.HEAVY_ON_SUPPORT),
         ],
         "Contacts": _contacts(report),
         "Models": [
@@ -613,7 +617,7 @@ def _contacts(report: RecordReport) -> list[str]:
     texts = [f"{name} ({' and '.join(sorted(kinds, reverse=True))})" for name, kinds in failing.items()]
     told = [f"The model does not hold, because a contact fails, for {listed(texts)}."] if texts else []
     return told + [
-        str(Remark.of(Kind.STANDS_AS_VOUSSOIRS, name, needed=largest))
+        str(Remark.of(ReportKind.STANDS_AS_VOUSSOIRS, name, needed=largest))
         for name, largest in needed.items()
         if name not in failing
     ]
@@ -662,8 +666,8 @@ def _said(remarks: Iterable[RemarkRow], kind: Kind) -> list[str]:
 
 def _held_at_ceiling(remarks: Iterable[RemarkRow]) -> list[str]:
     """What walls are taken for, in one sentence on all of them."""
-    walls = [row.about for row in remarks if row.kind is Kind.HELD_AT_CEILING]
-    return [str(Remark(Kind.HELD_AT_CEILING, listed(walls, _MOST_NAMED)))] if walls else []
+    walls = [row.about for row in remarks if row.kind is AssessmentKind.HELD_AT_CEILING]
+    return [str(Remark(AssessmentKind.HELD_AT_CEILING, listed(walls, _MOST_NAMED)))] if walls else []
 
 
 def _notices(report: RecordReport) -> list[Notice]:

@@ -20,6 +20,7 @@ from rocking.codes.check import (
     says_nothing,
 )
 from rocking.codes.conclusion import CodeConclusion, code_conclusions
+from rocking.codes.kinds import CheckKind
 from rocking.codes.local_mechanism import LIMIT_STATES, LocalMechanism
 from rocking.codes.rows import KINDS, code_check_rows
 from rocking.codes.selection import SETS, Selection
@@ -300,7 +301,7 @@ def _conclusion(
         details.append(words("others unknown") if unknown else words("others may not", share=others))
     if dynamic is None:
         # Why there are no sets stands above the page.
-        if checked.remark is not None and checked.remark.kind is Kind.NO_DISPLACEMENT:
+        if checked.remark is not None and checked.remark.kind is CheckKind.NO_DISPLACEMENT:
             details.append(words("it cannot overturn"))
     elif checked.part_of(dynamic) is Part.NO_ANSWER:
         details.append(words("no answer", sets=dynamic.sets, asked=SETS))
@@ -661,7 +662,7 @@ def _sentences(page: CheckedStructure, checked: StructureCheck, words: Sentences
                 factor=words.number(static.participating_mass_ratio / letter),
             )
         )
-    if checked.remark and checked.remark.kind is Kind.NO_DISPLACEMENT:
+    if checked.remark and checked.remark.kind is CheckKind.NO_DISPLACEMENT:
         lines.append(words.of(checked.remark))
     lines += [words.of(each.remark) for each in checked.restraints]
     lines += [words.of(each.slides_out) for each in checked.restraints if each.slides_out]

@@ -13,10 +13,11 @@ import numpy as np
 
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY, shown
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.structures.capacity import StaticCapacity, StaticCurve
 from rocking.structures.drawing import rectangle
 from rocking.structures.fields import Description, OneSided, RestitutionNumber, Value
+from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import Parts, Turning
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.structure import Structure
@@ -194,7 +195,7 @@ class CapacityCurve(Structure):
     @property
     def _leaves_out(self) -> Remark:
         """What a curve does not tell."""
-        return Remark(Kind.CURVE_ALONE)
+        return Remark(StructureKind.CURVE_ALONE)
 
     @cached_property
     def _reach(self) -> float:
@@ -278,7 +279,7 @@ class CapacityCurve(Structure):
 
     def static_capacity(self, side: int = 1) -> StaticCapacity:
         """Raise StructureError: no virtual displacements are known."""
-        raise StructureError.saying(Remark(Kind.CURVE_HAS_NO_GEOMETRY))
+        raise StructureError.saying(Remark(StructureKind.CURVE_HAS_NO_GEOMETRY))
 
     def _linkage(self, mirrored: bool) -> Turning:
         """The slender body as which it is drawn."""

@@ -13,10 +13,11 @@ import numpy as np
 
 from rocking.errors import SizeError, StructureError
 from rocking.quantities import GRAVITY, counted, whole
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import Value, restitution_value
 from rocking.structures.held_wall import HeldWall, Hold, Load, Opening, Storey
+from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import STILL, Hung, Linkage, Parts, Restitution, Turning, inset
 from rocking.structures.stack import (
     MOST_COURSES,
@@ -311,7 +312,7 @@ class Facade(Tied):
         """A remark where floors stand behind it through which the model lets it rock."""
         if self.behind or self.one_sided or not (any(self.floor_loads) or self.tie_heights):
             return None
-        return Remark(Kind.FLOORS_BEHIND)
+        return Remark(StructureKind.FLOORS_BEHIND)
 
     @cached_property
     def held_wall(self) -> HeldWall:

@@ -18,7 +18,8 @@ from annotated_types import Interval, MinLen
 from rocking.described import Described
 from rocking.errors import SizeError, StructureError
 from rocking.quantities import LENGTHS, finite, shown
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
+from rocking.structures.kinds import StructureKind
 
 _SI = {
     "°": np.pi / 180,
@@ -346,7 +347,7 @@ class Description:
             if beyond:
                 usual = {"value": beyond[0], "low": float(low), "high": float(high)}
                 words = {"unit": given.field.suffix, "type": article(self.form.type_name)}
-                unusual.append(Remark.of(Kind.SIZE_UNUSUAL, given.field.key, **usual, **words))
+                unusual.append(Remark.of(StructureKind.SIZE_UNUSUAL, given.field.key, **usual, **words))
         sizes = {given.field.name: given for given in self.values}
         heights = [sizes[name] for name in ("height", "column_height") if name in sizes]
         across = [sizes[name] for name in _ROCKS_OVER if name in sizes]
@@ -356,7 +357,7 @@ class Description:
                 "height_m": heights[0].value,
                 "across_m": across[0].value,
             }
-            unusual.append(Remark.of(Kind.BROADER_THAN_TALL, across[0].field.key, **names))
+            unusual.append(Remark.of(StructureKind.BROADER_THAN_TALL, across[0].field.key, **names))
         return tuple(unusual)
 
     @property

@@ -21,7 +21,8 @@ from numpy.typing import ArrayLike
 
 from rocking.errors import DoesNotStandError, StructureError
 from rocking.quantities import GRAVITY
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
+from rocking.structures.kinds import StructureKind
 from rocking.structures.mechanism import Side, SideTie, Tie
 
 
@@ -299,7 +300,7 @@ class Linkage(ABC):
     def side(self, restitution: float) -> Side:
         """Return the side of rocking. Raises DoesNotStandError where nothing restores at rest."""
         if not self.gravity(0.0) > 0:
-            raise DoesNotStandError.saying(Remark(Kind.FALLS_AT_REST))
+            raise DoesNotStandError.saying(Remark(StructureKind.FALLS_AT_REST))
         critical = self._first_zero() if self.critical is None else self.critical
         functions = self.inertia, self.inertia_slope, self.gravity, self.gravity_slope, self.ground
         return Side(
@@ -562,7 +563,7 @@ class Restraint:
         if not most > self.grip:
             return None
         facts = {"height_m": self.height, "most_kN_m": most / 1e3, "grip_kN_m": self.grip / 1e3}
-        return Remark.of(Kind.ANCHOR_SLIDES, self.holds, **facts)
+        return Remark.of(StructureKind.ANCHOR_SLIDES, self.holds, **facts)
 
     @property
     def remark(self) -> Remark:
@@ -572,12 +573,14 @@ class Restraint:
         given = facts | {"gives_kN_m": self.gives / 1e3}
         if self.kind == "tie":
             if self.ties == float("inf"):
-                return Remark.of(Kind.TIE_MUST_BEAR, about, **facts)
-            return Remark.of(Kind.TIE_YIELDS if self.lets_go else Kind.TIE_BEARS, about, **given)
+                return Remark.of(StructureKind.TIE_MUST_BEAR, about, **facts)
+            return Remark.of(
+                StructureKind.TIE_YIELDS if self.lets_go else StructureKind.TIE_BEARS, about, **given
+            )
         if self.gives == float("inf"):
             if self.weight == 1.0:
-                return Remark.of(Kind.TOP_TAKEN_AS_HELD, about, share=self.needed)
-            return Remark.of(Kind.TOP_MUST_BE_HELD, about, **facts)
-        kind = Kind.TOP_SLIPS if self.lets_go else Kind.TOP_HOLDS
+                return Remark.of(StructureKind.TOP_TAKEN_AS_HELD, about, share=self.needed)
+            return Remark.of(StructureKind.TOP_MUST_BE_HELD, about, **facts)
+        kind = StructureKind.TOP_SLIPS if self.lets_go else StructureKind.TOP_HOLDS
         more = {"tie_kN_m": (self.needed - self.friction) / 1e3} if self.lets_go else {}
         return Remark.of(kind, about, **given, friction=self.coefficient, **more)

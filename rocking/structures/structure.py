@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
 from rocking.quantities import GRAVITY, within
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.structures.capacity import StaticCapacity, StaticCurve
 from rocking.structures.drawing import Dimension, Mark, Path, plane, span
 from rocking.structures.fields import (
@@ -26,6 +26,7 @@ from rocking.structures.fields import (
     forms,
     typed_text,
 )
+from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import (
     HIGHEST_SHARE,
     STILL,
@@ -206,9 +207,9 @@ class Structure(ABC):
             balanced = self.restitution_of_geometry
             most = max(self._momentum_balance(mirrored) for mirrored in (False, True))
             if balanced is not None:
-                cautions.append(Remark.of(Kind.RESTITUTION_TYPED, typed=typed, own=balanced[0]))
+                cautions.append(Remark.of(StructureKind.RESTITUTION_TYPED, typed=typed, own=balanced[0]))
             elif typed - most > TYPED_ABOVE:
-                cautions.append(Remark.of(Kind.RESTITUTION_ABOVE, typed=typed, own=max(most, 0.0)))
+                cautions.append(Remark.of(StructureKind.RESTITUTION_ABOVE, typed=typed, own=max(most, 0.0)))
         return tuple(cautions)
 
     @property

@@ -12,10 +12,11 @@ from numpy.typing import ArrayLike
 
 from rocking.errors import DoesNotStandError, SizeError, StructureError, StructureWarning
 from rocking.quantities import GRAVITY
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.structures.drawing import Mark, plane
 from rocking.structures.fields import OneSided, Value
 from rocking.structures.held_wall import Chain, HeldWall, Opening
+from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import (
     STILL,
     Hung,
@@ -261,7 +262,7 @@ class Tied(CrackedAtHeight):
         """What is taken for granted of how far apart its ties stand, and how rods are spread over the metre."""
         assumed = []
         if self.tie_heights and self.tie_spacing is None and not self.held_between:
-            assumed.append(Remark(Kind.TIES_ALL_ALONG))
+            assumed.append(Remark(StructureKind.TIES_ALL_ALONG))
         if self.rod_diameter and self.rod_length and self.tie_spacing:
             rods: dict[str, float] = {
                 "diameter_mm": self.rod_diameter * 1e3,
@@ -270,7 +271,7 @@ class Tied(CrackedAtHeight):
                 "stiffness_kN_m2": self.tie_stiffness / 1e3,
                 "strength_kN_m": (self.tie_strength or math.inf) / 1e3,
             }
-            assumed.append(Remark.of(Kind.RODS_SPREAD, "", **rods))
+            assumed.append(Remark.of(StructureKind.RODS_SPREAD, "", **rods))
         return (*super().assumptions, *assumed)
 
     @property

@@ -22,7 +22,8 @@ from rocking.records.formats import Options
 from rocking.records.grouping import stations
 from rocking.records.listing import ListedFile, listed_file, reading_of
 from rocking.records.read import bytes_of, read_raw
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
+from rocking.study.kinds import StudyKind
 from rocking.study.settings import Settings, settings_sha256
 from rocking.tables import Row, read_whole, write_tables, write_whole, written_together
 
@@ -142,9 +143,9 @@ def _apart(listed: Sequence[ListedFile]) -> Iterator[Remark]:
     """Yield why files of one station are records of their own, and which files are none."""
     for file in listed:
         if file.separated:
-            yield Remark.of(Kind.FILE_APART, file.file, why=file.separated)
+            yield Remark.of(StudyKind.FILE_APART, file.file, why=file.separated)
         if file.refusal:
-            yield Remark.of(Kind.FILE_WITHOUT_RECORD, file.file, why=file.refusal)
+            yield Remark.of(StudyKind.FILE_WITHOUT_RECORD, file.file, why=file.refusal)
 
 
 _LIKE = 0.7
@@ -178,7 +179,7 @@ def _siblings(
             together = next((group for group in stations([replace(file), beside]) if len(group) == 2), None)
             if together:
                 known.add(other.resolve())
-                yield Remark.of(Kind.SIBLING_NOT_USED, file.file, other=other.name)
+                yield Remark.of(StudyKind.SIBLING_NOT_USED, file.file, other=other.name)
 
 
 STDIN = "-"

@@ -9,6 +9,7 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any, TypeVar
 
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.scene import Scene, load_scenes
 from rocking.described import kind_in_words
 from rocking.errors import ConfigurationError, RockingError
@@ -20,10 +21,11 @@ from rocking.records.folder import unlisted
 from rocking.records.formats.layouts import NAME as ANSWERS
 from rocking.records.formats.layouts import Layouts
 from rocking.records.read import LARGEST_FILE
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.study.contents import ContentHashes
 from rocking.study.folder import REMEMBERED, check_own, results_folder, stands_inside
 from rocking.study.kept import made_by_hand
+from rocking.study.kinds import StudyKind
 from rocking.study.made_from import made_from, records_of, what_changed
 from rocking.study.outputs import FORMER, KEPT, kept_of, outcome_of
 from rocking.study.settings import Settings, named_files, read_settings
@@ -39,7 +41,7 @@ BY_HAND = ("fragility", "trade")
 """Those that may be made by hand, in a study that does not make them in every run."""
 _NAMED = 8
 """Remarks on settings and structures that the terminal tells; remarks.csv holds all."""
-_ON_PAGES = (Kind.HELD_AT_CEILING,)
+_ON_PAGES = (AssessmentKind.HELD_AT_CEILING,)
 """Remarks on what a structure is taken for, which stand on its pages and ask nothing of who starts a run."""
 _MOST_BATCHES = 8
 _MANY = 200
@@ -77,18 +79,24 @@ class Plan:
         more = len(of_study) - _NAMED
         return (
             *of_study[:_NAMED],
-            *([Remark.of(Kind.REMARKS_MORE, number=more)] if more > 0 else []),
+            *([Remark.of(StudyKind.REMARKS_MORE, number=more)] if more > 0 else []),
             *repeated(self.records.values()),
             *unlisted(Path(self.settings.catalogue)),
             *self._outdated,
-            *([Remark(Kind.OTHER_VERSION)] if any((results / former).exists() for former in FORMER) else []),
+            *(
+                [Remark(StudyKind.OTHER_VERSION)]
+                if any((results / former).exists() for former in FORMER)
+                else []
+            ),
         )
 
     @property
     def _outdated(self) -> list[Remark]:
         """What was made by hand and does not hold any more; a run leaves it out, and removes it."""
         made = {each: self.changed_since(each) for each in BY_HAND if each not in self.products}
-        return [Remark.of(Kind.OUTDATED, each, why=f"changed: {why}") for each, why in made.items() if why]
+        return [
+            Remark.of(StudyKind.OUTDATED, each, why=f"changed: {why}") for each, why in made.items() if why
+        ]
 
     @cached_property
     def products(self) -> tuple[str, ...]:

@@ -27,8 +27,9 @@ from rocking.quantities import GRAVITY
 from rocking.records.design_spectrum import DesignSpectrum
 from rocking.records.processing import Processing
 from rocking.records.scaling import ScalingTarget
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.reports.pages import PageSettings
+from rocking.structures.kinds import StructureKind
 from rocking.structures.structure import CRACKS
 from rocking.tables.yaml_file import scalar_value
 
@@ -78,7 +79,7 @@ class StudyDesign:
         if self.ag is None or self.ag <= _LARGEST_USUAL:
             return None
         return Remark.of(
-            Kind.SIZE_UNUSUAL,
+            StructureKind.SIZE_UNUSUAL,
             "design_spectrum.ag_g",
             value=self.ag,
             low=0.0,

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar, datacla
 from rocking.described import Described, described, described_values, number_hint
 from rocking.errors import RockingError
 from rocking.quantities import shown
+from rocking.remarks import Kind, every_kind, kind_of
 from rocking.tables.files import regular_file, whole, write_whole
 
 _UNITS = {
@@ -264,12 +265,13 @@ def typed(name: str, kind: Any, text: str) -> Any:
     """One value of the column `name` as its type `kind`. Raises ValueError with the column and what is allowed."""
     if kind is str:
         return text
+    made_of = kind_of if kind is Kind else kind
     try:
-        return {"true": True, "false": False}[text] if kind is bool else kind(text)
+        return {"true": True, "false": False}[text] if kind is bool else made_of(text)
     except (ValueError, KeyError):
         allowed = {bool: "true or false", int: "a whole number"}.get(kind, "a number")
         if issubclass(kind, StrEnum):
-            allowed = ", ".join(kind)
+            allowed = ", ".join(every_kind() if kind is Kind else kind)
         raise ValueError(f"column {name}: {shown(text)} must be {allowed}{number_hint(text)}") from None
 
 

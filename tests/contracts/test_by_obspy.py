@@ -12,8 +12,8 @@ from made_files import OF_OBSPY, STEP, TRUE, by_obspy, of_obspy
 from rocking.errors import RecordError, UndeclaredError
 from rocking.records import read
 from rocking.records.formats import Options
+from rocking.records.kinds import RecordKind
 from rocking.records.read import read_content, recognise
-from rocking.remarks import Kind
 
 FOLDERS = {
     "nied": 1, "gse2": 9, "ascii": 12, "win": 14, "seisan": 10, "css": 0, "reftek": 4, "kinemetrics": 3, "sac": 9,
@@ -78,7 +78,7 @@ def test_the_calibration_of_gse_leads_to_a_displacement_and_is_not_applied(tmp_p
     trace.write(str(tmp_path / "made"), format="GSE2")
     (record,) = read(tmp_path / "made", unit="mm/s2")
     assert np.allclose(record.acceleration, counts / 1000)
-    assert [remark.kind for remark in record.warnings] == [Kind.CALIBRATION_NOT_APPLIED]
+    assert [remark.kind for remark in record.warnings] == [RecordKind.CALIBRATION_NOT_APPLIED]
 
 
 @pytest.mark.parametrize("form", ["SLIST", "TSPAIR"])
@@ -116,7 +116,7 @@ def test_a_file_of_win_without_a_second_is_refused() -> None:
 def test_where_a_channel_of_win_points_is_in_doubt() -> None:
     """Its four hexadecimal digits number the channel: "0090" is no azimuth."""
     (record,) = read_content(made_files.win(), "f", Options(unit="mm/s2"))
-    assert record.azimuth is None and Kind.DIRECTION_UNKNOWN in {each.kind for each in record.warnings}
+    assert record.azimuth is None and RecordKind.DIRECTION_UNKNOWN in {each.kind for each in record.warnings}
 
 
 def test_text_in_place_of_samples_is_refused() -> None:

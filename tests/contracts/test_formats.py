@@ -11,9 +11,9 @@ from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram, read
 from rocking.records.formats import FORMATS, Options
+from rocking.records.kinds import RecordKind
 from rocking.records.processing import displacement, velocity
 from rocking.records.read import bare_text, read_content
-from rocking.remarks import Kind
 
 pytestmark = pytest.mark.real_records
 
@@ -114,16 +114,16 @@ def test_broken_files_are_refused(real_records: Path, name: str) -> None:
 
 
 WARNED = {
-    "ANLA196.AT2": {Kind.IN_A_STRUCTURE},
-    "RSN77_SFERN_PUL164.AT2": {Kind.IN_A_STRUCTURE},
-    "RSN960_LOS270_one_extra.AT2": {Kind.SAMPLES_SURPLUS},
-    "ARL360_odd_header.at2": {Kind.LINE_ENDS_DOUBLED},
-    "RSN10591_ComalTX11-10-20_IU.CCM.BH1.10.AT2": {Kind.PEAK_TINY, Kind.CHANNEL_OF_VELOCITY},
-    "RSN175_IMPVALL.H_H-E12140_ASCE7_Matched.AT2": {Kind.MATCHED_TO_SPECTRUM},
-    "Cosmos12TimeSeriesTest.v1": {Kind.IN_A_STRUCTURE},
-    "20161113_110259_WTMC_20.V1A": {Kind.PEAK_RARE},
-    "017m30cc.y0a": {Kind.UNEVEN_FILM},
-    "RioDell_CHAN001.V2": {Kind.IN_A_STRUCTURE, Kind.CHANNELS_UNLIKE_HEADER},
+    "ANLA196.AT2": {RecordKind.IN_A_STRUCTURE},
+    "RSN77_SFERN_PUL164.AT2": {RecordKind.IN_A_STRUCTURE},
+    "RSN960_LOS270_one_extra.AT2": {RecordKind.SAMPLES_SURPLUS},
+    "ARL360_odd_header.at2": {RecordKind.LINE_ENDS_DOUBLED},
+    "RSN10591_ComalTX11-10-20_IU.CCM.BH1.10.AT2": {RecordKind.PEAK_TINY, RecordKind.CHANNEL_OF_VELOCITY},
+    "RSN175_IMPVALL.H_H-E12140_ASCE7_Matched.AT2": {RecordKind.MATCHED_TO_SPECTRUM},
+    "Cosmos12TimeSeriesTest.v1": {RecordKind.IN_A_STRUCTURE},
+    "20161113_110259_WTMC_20.V1A": {RecordKind.PEAK_RARE},
+    "017m30cc.y0a": {RecordKind.UNEVEN_FILM},
+    "RioDell_CHAN001.V2": {RecordKind.IN_A_STRUCTURE, RecordKind.CHANNELS_UNLIKE_HEADER},
 }
 """All that real files are warned of: peaks, lengths, rates and counts of every other header agree with its samples."""
 

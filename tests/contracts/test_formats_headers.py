@@ -12,8 +12,9 @@ from made_files import MADE, MADE_BINARY, content_of, format_of, read_text
 from rocking.errors import RecordError
 from rocking.records.formats import Options, by_obspy
 from rocking.records.formats.format import Layout, keyed
+from rocking.records.kinds import RecordKind
 from rocking.records.read import read_content
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 FIELDS = ("component", "azimuth", "station", "network", "event", "processed", "high_pass_frequency")
 SAID: dict[str, list[tuple[Any, ...]]] = {
@@ -103,7 +104,7 @@ def test_a_number_cut_short_is_seen_beside_two_whole_ones(rows: int, warned: boo
     """The first of the lines looked at may itself be cut, by the looking."""
     lines = [f"{i * 0.01:.2f} {0.1 + i * 0.01:.6f}" for i in range(rows)]
     found = read_text("\n".join(lines)[:-2], unit="g")
-    assert (Kind.NUMBER_CUT in {each.kind for each in found[0].warnings}) == warned
+    assert (RecordKind.NUMBER_CUT in {each.kind for each in found[0].warnings}) == warned
 
 
 def test_unam_columns_are_ten_wide_where_the_header_names_no_width() -> None:
@@ -215,7 +216,7 @@ def test_a_channel_down_hole_is_no_motion_of_the_surface(place: str, is_buried: 
 
 def test_a_station_of_peer_down_hole_is_no_motion_of_the_surface() -> None:
     (record,) = read_text(made_files.peer().replace("Station, 45", "Array (Downhole 90 m), 45"))
-    assert record.borehole and Kind.DOWN_HOLE in {each.kind for each in record.warnings}
+    assert record.borehole and RecordKind.DOWN_HOLE in {each.kind for each in record.warnings}
 
 
 @pytest.mark.parametrize(
@@ -232,15 +233,15 @@ def test_codes_above_360_are_no_angles(code: str, vertical: bool) -> None:
     (record,) = read_text(made_files.smc().replace("component=     45", f"component=     {code}"))
     assert record.vertical is vertical and record.azimuth == (0.0 if code == "360" else None)
     kinds = {each.kind for each in record.warnings}
-    assert (kinds == {Kind.DIRECTION_UNKNOWN}) is (code == "700")
+    assert (kinds == {RecordKind.DIRECTION_UNKNOWN}) is (code == "700")
 
 
 @pytest.mark.parametrize(
     ("code", "told"),
     [
-        ("HJ1", Remark.of(Kind.CHANNEL_NO_MOTION, "HJ1", sensor="rotational sensor")),
-        ("BDF", Remark.of(Kind.CHANNEL_NO_MOTION, "BDF", sensor="pressure sensor")),
-        ("HHE", Remark.of(Kind.CHANNEL_OF_VELOCITY, "HHE", sensor="high-gain seismometer")),
+        ("HJ1", Remark.of(RecordKind.CHANNEL_NO_MOTION, "HJ1", sensor="rotational sensor")),
+        ("BDF", Remark.of(RecordKind.CHANNEL_NO_MOTION, "BDF", sensor="pressure sensor")),
+        ("HHE", Remark.of(RecordKind.CHANNEL_OF_VELOCITY, "HHE", sensor="high-gain seismometer")),
         ("HNE", None),
     ],
 )
@@ -260,7 +261,7 @@ def test_a_file_of_the_european_database_holds_velocity_beside_acceleration() ->
     assert record.acceleration.size == made_files.N
     assert record.start_time == "1999-12-31T04:55:53.671000Z"
     kinds = {each.kind for each in record.warnings}
-    assert kinds & {Kind.VELOCITY_UNLIKE, Kind.VELOCITY_UNLIKE_THERE}
+    assert kinds & {RecordKind.VELOCITY_UNLIKE, RecordKind.VELOCITY_UNLIKE_THERE}
 
 
 @pytest.mark.parametrize("kind", ["uncorrected acceleration", "corrected velocity"])

@@ -26,12 +26,12 @@ import rocking
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
 from rocking.records.formats import FORMATS, Format
+from rocking.records.kinds import RecordKind
 from rocking.records.read import read_content, recognise
-from rocking.remarks import Kind
 
 WARNED = {
-    "GeoNet V1A/V2A": Kind.CHANNELS_OF_GEONET,
-    "UNAM/CICESE: repeated last line": Kind.LINES_SURPLUS,
+    "GeoNet V1A/V2A": RecordKind.CHANNELS_OF_GEONET,
+    "UNAM/CICESE: repeated last line": RecordKind.LINES_SURPLUS,
 }
 """What a made file leaves out or holds twice: of the others nothing is said."""
 MEAN_REMOVED = {"BHRC", "K-NET/KiK-net", "SAC", "Kinemetrics EVT"}

@@ -15,8 +15,8 @@ from made_files import evt as made_evt
 import rocking
 from rocking.errors import RecordError, RockingError, UndeclaredError
 from rocking.records.formats import Options
+from rocking.records.kinds import RecordKind
 from rocking.records.read import read_content
-from rocking.remarks import Kind
 
 FACTS = (
     "component", "azimuth", "vertical", "borehole", "station", "network", "location", "processed", "latitude",
@@ -114,7 +114,7 @@ def test_the_scale_of_a_sac_file_is_applied_once() -> None:
     assert second.acceleration == pytest.approx(by_file.acceleration, abs=1e-6)  # in single precision
     assert (
         {each.kind for each in first.warnings}
-        == {Kind.SCALE_APPLIED}
+        == {RecordKind.SCALE_APPLIED}
         != {each.kind for each in second.warnings}
     )
 

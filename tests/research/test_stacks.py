@@ -19,9 +19,10 @@ from docs.research.stacks import (
     words_of,
 )
 from rocking.assessment.decide import CrackFacts, Facts, Verdict
+from rocking.assessment.kinds import AssessmentKind
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 TIMES = np.arange(0, 3, 0.01)
 SINE = Accelerogram(3.0 * np.sin(2 * np.pi * TIMES / 0.8) * (TIMES < 1.6), 0.01)
@@ -43,7 +44,7 @@ def test_a_member_stays_whole_below_uplift_and_falls_far_above_it(kind):
 
 def test_contact_dynamics_decides_what_a_doubt_leaves_open():
     stands = Facts(cracks=(CrackFacts("", 0, 64, farthest=0.5),))
-    doubted = replace(stands, doubts=(Remark(Kind.CONTACTS_OPEN),))
+    doubted = replace(stands, doubts=(Remark(AssessmentKind.CONTACTS_OPEN),))
     untold = Verdict.CANNOT_BE_TOLD
     assert words_of(replace(doubted, stacks=(0, 64))) == (Verdict.STANDS, untold, Verdict.STANDS)
     assert words_of(replace(doubted, stacks=(0, 6)))[-1] is Verdict.PROBABLY_STANDS

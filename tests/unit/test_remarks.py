@@ -3,30 +3,38 @@
 import ast
 import inspect
 import re
+from importlib import import_module
 from pathlib import Path
 from typing import get_args
 
 import pytest
 
 import rocking
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.store import decoded, encoded
-from rocking.remarks import Kind, Language, Remark, Sentence
+from rocking.codes.kinds import CheckKind
+from rocking.floors.kinds import FloorKind
+from rocking.records.kinds import RecordKind
+from rocking.remarks import Kind, Language, Remark, Sentence, every_kind, kind_of
 
 PACKAGE = Path(inspect.getfile(rocking)).parent
 TESTS = Path(__file__).parents[1]
+for declares in PACKAGE.rglob("kinds.py"):
+    import_module(".".join(("rocking", *declares.relative_to(PACKAGE).with_suffix("").parts)))
+KINDS = every_kind()
 
 
-@pytest.mark.parametrize("kind", Kind)
+@pytest.mark.parametrize("kind", KINDS.values())
 def test_every_sentence_is_filled_by_its_values_alone(kind):
     numbers = dict.fromkeys(kind.value_names, 1.5)
     remark = Remark.of(kind, "wall", **numbers)
-    assert Kind(kind.value) is kind
+    assert kind_of(kind.value) is kind
     assert "{" not in str(remark)
     assert all(remark[name] == 1.5 for name in numbers)
     said = {remark.sentence_in(language) for language in get_args(Language)}
     assert all(text and "{" not in text for text in said)
     # What another program says is repeated as it says it.
-    assert len(said) == len(get_args(Language)) or kind is Kind.TOLD_BY_OBSPY
+    assert len(said) == len(get_args(Language)) or kind is RecordKind.TOLD_BY_OBSPY
 
 
 def test_a_sentence_without_one_of_the_languages_cannot_be_made():
@@ -45,17 +53,18 @@ def test_a_kind_that_lacks_a_language_cannot_be_declared(said):
 
 
 def test_numbers_have_the_mark_of_the_language():
-    bears = Remark.of(Kind.LIMIT_SHARE, share=0.4)
+    bears = Remark.of(CheckKind.LIMIT_SHARE, share=0.4)
     assert (bears.sentence_in("en"), bears.sentence_in("it")) == ("0.4 d₀", "0,4 d₀")
 
 
-def test_no_two_kinds_say_the_same():
-    assert len({kind.sentence for kind in Kind}) == len(Kind)
+def test_no_two_kinds_say_the_same_or_have_one_code():
+    assert sum(map(len, Kind.__subclasses__())) == len(KINDS) > 100
+    assert len({kind.sentence for kind in KINDS.values()}) == len(KINDS)
 
 
 def test_values_that_the_sentence_does_not_name_are_refused():
     with pytest.raises(ValueError, match="force"):
-        Remark.of(Kind.CONTACTS_OPEN, force=2.0)
+        Remark.of(AssessmentKind.CONTACTS_OPEN, force=2.0)
 
 
 def test_a_kind_that_the_catalogue_does_not_hold_is_refused():
@@ -64,9 +73,9 @@ def test_a_kind_that_the_catalogue_does_not_hold_is_refused():
 
 
 def test_a_value_that_is_neither_text_nor_number_is_refused(monkeypatch):
-    monkeypatch.setattr(Kind.CONTACTS_OPEN, "value_names", ("count",))
+    monkeypatch.setattr(AssessmentKind.CONTACTS_OPEN, "value_names", ("count",))
     with pytest.raises(ValueError, match=r"count is \[1\], but must be a text or a number"):
-        Remark.of(Kind.CONTACTS_OPEN, count=[1])
+        Remark.of(AssessmentKind.CONTACTS_OPEN, count=[1])
 
 
 def test_every_remark_that_the_package_makes_has_the_values_of_its_sentence():
@@ -78,9 +87,9 @@ def test_every_remark_that_the_package_makes_has_the_values_of_its_sentence():
             makes = ("Remark", "Remark.of")
             if not (isinstance(call, ast.Call) and ast.unparse(call.func) in makes and call.args):
                 continue
-            named = ast.unparse(call.args[0]).removeprefix("Kind.")
+            named = ast.unparse(call.args[0]).rpartition(".")[2].lower()
             given = sorted(each.arg or "" for each in call.keywords if each.arg != "about")
-            if named in Kind.__members__ and "" not in given and given != list(Kind[named].value_names):
+            if named in KINDS and "" not in given and given != list(KINDS[named].value_names):
                 wrong.append(f"{path.name}:{call.lineno}: {named} with {given}")
     assert not wrong
 
@@ -88,7 +97,7 @@ def test_every_remark_that_the_package_makes_has_the_values_of_its_sentence():
 @pytest.mark.process
 def test_the_words_of_the_catalogue_stand_in_no_other_test():
     """So that a better word is a change in one place. Of twenty characters and four words: fewer say other things."""
-    parts = {part for kind in Kind for part in re.split(r"\{[^}]*\}", kind.sentence)}
+    parts = {part for kind in KINDS.values() for part in re.split(r"\{[^}]*\}", kind.sentence)}
     typed = []
     for path in TESTS.rglob("test_*.py"):
         if path == Path(__file__):
@@ -103,17 +112,17 @@ def test_the_words_of_the_catalogue_stand_in_no_other_test():
 
 
 def test_what_a_remark_is_about_stands_before_a_sentence_that_does_not_name_it():
-    assert str(Remark(Kind.CONTACTS_OPEN, "pier")) == "pier: contacts open"
-    assert str(Remark(Kind.VERTICAL_AS_HORIZONTAL, "UD")).startswith("Component UD is vertical")
+    assert str(Remark(AssessmentKind.CONTACTS_OPEN, "pier")) == "pier: contacts open"
+    assert str(Remark(RecordKind.VERTICAL_AS_HORIZONTAL, "UD")).startswith("Component UD is vertical")
 
 
 @pytest.mark.parametrize(("remark", "words"), [
-    (Remark.of(Kind.STEP_UNUSUAL, time_step_s=0.11, shortest_s=1e-4, longest_s=0.1), "is 0.11 s: accelerographs"),
-    (Remark.of(Kind.SAMPLE_ALONE, time_s=1.5, peak_g=3.0591, others_g=0.10197), "at 1.5 s is 3.06 g and"),
-    (Remark.of(Kind.STILL_RINGING, share=0.0314, after_s=60.0), "at 3.1% of its peak"),
-    (Remark.of(Kind.PEAK_UNLIKE_HEADER, peak_m_s2=9.80665, stated_m_s2=9.9), "is 9.80665 m/s², but the header"),
-    (Remark.of(Kind.RATE_NO_NUMBER, rate="1OO"), "a rate of '1OO', which is not a number"),
-    (Remark(Kind.LONE_MAY_BE_VERTICAL, "QQX"), "direction of the component QQX is unknown"),
+    (Remark.of(RecordKind.STEP_UNUSUAL, time_step_s=0.11, shortest_s=1e-4, longest_s=0.1), "is 0.11 s: accelerographs"),
+    (Remark.of(RecordKind.SAMPLE_ALONE, time_s=1.5, peak_g=3.0591, others_g=0.10197), "at 1.5 s is 3.06 g and"),
+    (Remark.of(FloorKind.STILL_RINGING, share=0.0314, after_s=60.0), "at 3.1% of its peak"),
+    (Remark.of(RecordKind.PEAK_UNLIKE_HEADER, peak_m_s2=9.80665, stated_m_s2=9.9), "is 9.80665 m/s², but the header"),
+    (Remark.of(RecordKind.RATE_NO_NUMBER, rate="1OO"), "a rate of '1OO', which is not a number"),
+    (Remark(RecordKind.LONE_MAY_BE_VERTICAL, "QQX"), "direction of the component QQX is unknown"),
 ])  # fmt: skip
 def test_the_words_give_numbers_as_a_person_reads_them(remark, words):
     assert words in str(remark)
@@ -121,8 +130,8 @@ def test_the_words_give_numbers_as_a_person_reads_them(remark, words):
 
 @pytest.mark.parametrize("value", ["wall", 3, 2.5])
 def test_a_remark_is_kept_with_its_values(monkeypatch, value):
-    monkeypatch.setattr(Kind.CONTACTS_OPEN, "value_names", ("force",))
-    remark = Remark.of(Kind.CONTACTS_OPEN, "pier", force=value)
+    monkeypatch.setattr(AssessmentKind.CONTACTS_OPEN, "value_names", ("force",))
+    remark = Remark.of(AssessmentKind.CONTACTS_OPEN, "pier", force=value)
     again = decoded(Remark, encoded(remark))
     assert again == remark
     assert type(again["force"]) is type(value)
@@ -144,7 +153,9 @@ SEARCHES = {
 }
 """Methods of texts and patterns that take words apart."""
 NAMED = re.compile(r"remarks?|doubts?|warnings?|warned|notes?")
-SENTENCES = [re.sub(r"\{[^}]*\}", "0", text).lower() for kind in Kind for text in (kind.sentence, kind.brief)]
+SENTENCES = [
+    re.sub(r"\{[^}]*\}", "0", text).lower() for kind in KINDS.values() for text in (kind.sentence, kind.brief)
+]
 
 
 def searches_of_words(source: str) -> list[str]:

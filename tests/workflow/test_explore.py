@@ -12,13 +12,14 @@ import pytest
 from scipy.signal import detrend
 
 from rocking.assessment.cracks import cracked
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import ComparisonRow, VerdictRow
 from rocking.assessment.scene import load_scenes
 from rocking.motion.integration import integrate
 from rocking.pulses import extract_pulses
 from rocking.records.catalogue import load_catalogue
 from rocking.records.processing import displacement
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.reports.explore import BINS, drawings, explore_page, extremes
 from rocking.sine_pulse import predict_maximum
 from rocking.study.job import Study
@@ -167,7 +168,7 @@ def test_the_page_tells_the_reserve_that_the_table_holds_and_what_it_leaves_out(
         reserve = rows[name].reserve
         # None is sought of what falls in contact dynamics alone.
         assert f"Reserve: {reserve}" in case["text"] if reserve else "Reserve:" not in case["text"]
-        told = str(Remark(Kind.COURSES_THROWN)) in case["text"]
+        told = str(Remark(AssessmentKind.COURSES_THROWN)) in case["text"]
         assert told or name != "spire" or reserve is None
 
 

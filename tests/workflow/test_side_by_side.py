@@ -13,8 +13,9 @@ import numpy as np
 import pytest
 import yaml
 
+from rocking.assessment.kinds import AssessmentKind
 from rocking.quantities import GRAVITY
-from rocking.remarks import Kind
+from rocking.structures.kinds import StructureKind
 from tests.workflow.conftest import ROOT, SmallStudy, new_study
 
 pytestmark = pytest.mark.process
@@ -184,9 +185,9 @@ def test_one_worst_record_and_one_word_and_share(made, pages, explored, told) ->
 def test_one_stream_of_remarks(made, pages, explored, told) -> None:
     study, output = made
     rows = table(study, "remarks.csv")
-    sizes = [row["sentence"] for row in rows if row["kind"] == Kind.SIZE_UNUSUAL]
+    sizes = [row["sentence"] for row in rows if row["kind"] == StructureKind.SIZE_UNUSUAL]
     assert len(sizes) == 2 and all("wall in millimetres" in sentence for sentence in sizes)
-    missing = [row["sentence"] for row in rows if row["kind"] == Kind.VERTICAL_MISSING]
+    missing = [row["sentence"] for row in rows if row["kind"] == AssessmentKind.VERTICAL_MISSING]
     assert len(missing) == 2
     said = missing[0].partition(": ")[2]
     summary = in_a_line(pages["summary/summary.pdf"])
@@ -201,5 +202,9 @@ def test_one_stream_of_remarks(made, pages, explored, told) -> None:
         report = in_a_line(pages[f"{record}/report.pdf"])
         assert report.count(said) == 1 and "vertical component is left out" not in report
         assert all(sentence in report for sentence in sizes)
-        (row,) = (row for row in table(study, "remarks.csv", record) if row["kind"] == Kind.VERTICAL_MISSING)
+        (row,) = (
+            row
+            for row in table(study, "remarks.csv", record)
+            if row["kind"] == AssessmentKind.VERTICAL_MISSING
+        )
         assert row["sentence"] in missing and row["sentence"] in explored[0]

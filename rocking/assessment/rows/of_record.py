@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
 from rocking.assessment.decide import Decision, Severity, Verdict, severity
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.methods import (
     BOTH_COMPONENTS,
     POLARITIES,
@@ -830,7 +831,7 @@ def _remarked(result: "RecordResult", vertical: bool) -> list[Remarked]:
         for remark in each.warnings
     ]
     if vertical and result.components and not any(each.vertical for each in result.components):
-        told.append(Remarked(record, "vertical", Remark(Kind.VERTICAL_MISSING, record)))
+        told.append(Remarked(record, "vertical", Remark(AssessmentKind.VERTICAL_MISSING, record)))
     told += [
         Remarked(record, structure, response.warning)
         for (_, structure, _), response in result.responses.items()

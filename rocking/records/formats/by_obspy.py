@@ -25,10 +25,11 @@ from rocking.records.doors import advice
 from rocking.records.formats import text
 from rocking.records.formats.format import Format, Layout, Options, required
 from rocking.records.formats.text import LARGEST_SERIES
+from rocking.records.kinds import RecordKind
 from rocking.records.one_trace import as_stated, from_traces, header
 from rocking.records.plausibility import refuse_other_quantity
 from rocking.records.traces import first_line, joined, printed
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.tables import read_whole
 
 _DAMAGE = re.compile(r"integrity|not a SEED record|unexpected end|will not be read|corrupt|mismatch", re.I)
@@ -59,11 +60,11 @@ def _stream(content: bytes, form: str, **options: Any) -> Any:
         raise RecordError(f"the {form} file holds no samples.")
     if samples > LARGEST_SERIES:
         raise RecordError(f"the file unpacks to {samples} samples, more than {LARGEST_SERIES}; cut it first.")
-    notes += [Remark.of(Kind.TOLD_BY_OBSPY, text=text) for text in messages]
+    notes += [Remark.of(RecordKind.TOLD_BY_OBSPY, text=text) for text in messages]
     for _, station, _, channel, _, begin, length, _ in result.get_gaps():
         if length < 0:
             of = f"{station} {channel}"
-            notes.append(Remark.of(Kind.BLOCKS_OVERLAP, of, overlap_s=float(-length), time=str(begin)))
+            notes.append(Remark.of(RecordKind.BLOCKS_OVERLAP, of, overlap_s=float(-length), time=str(begin)))
     whole = joined(result)
     if not whole:
         raise RecordError(f"the {form} file holds no samples.")
@@ -96,7 +97,7 @@ def _check_blocks(content: bytes) -> list[Remark]:
         return []
     before = int(numbers[leaps[0]])
     after = int(numbers[leaps[0] + 1])
-    return [Remark.of(Kind.BLOCKS_LEAP, before=before, after=after)]
+    return [Remark.of(RecordKind.BLOCKS_LEAP, before=before, after=after)]
 
 
 _KNET_KEYS = (

@@ -30,6 +30,7 @@ from rocking.records.formats.text import (
     through_points,
     whole,
 )
+from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import (
     StatedPeak,
     agree_with_header,
@@ -38,7 +39,7 @@ from rocking.records.plausibility import (
     refuse_other_quantity,
     site_warnings,
 )
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 Response = Literal["sensitivity", "full"]
 
@@ -286,7 +287,9 @@ class Layout:
         record = options.accelerogram(unit, values, step, **facts)
         announced = optional_number(r"\(\s*(\d+)\s+Chns\s+of", head) or 0.0
         if total < announced < 1e4:
-            record = record.warned(Remark.of(Kind.CHANNELS_UNLIKE_HEADER, announced=announced, held=total))
+            record = record.warned(
+                Remark.of(RecordKind.CHANNELS_UNLIKE_HEADER, announced=announced, held=total)
+            )
         record = record.warned(*site_warnings(self.text("location", head)))
         if duration := self.text("duration", head):
             rounding = self.duration_digits * 10.0 ** -len(duration.partition(".")[2])

@@ -26,8 +26,9 @@ from rocking.records.formats.format import (
     universal,
 )
 from rocking.records.formats.text import NUMBER, iso_date
+from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import agree_with_velocity, refuse_other_quantity
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 
 def _in_zone(time: str, zone: str) -> str:
@@ -240,9 +241,9 @@ def _without_repeats(table: np.ndarray, declared: int) -> tuple[np.ndarray, tupl
     before = table[declared - surplus : declared]
     if not (np.array_equal(last, before) or np.all(last == table[declared - 1])):
         return table, ()
-    remark = Remark.of(Kind.LINE_SURPLUS, declared=declared)
+    remark = Remark.of(RecordKind.LINE_SURPLUS, declared=declared)
     if surplus > 1:
-        remark = Remark.of(Kind.LINES_SURPLUS, declared=declared, lines=surplus)
+        remark = Remark.of(RecordKind.LINES_SURPLUS, declared=declared, lines=surplus)
     return table[:declared], (remark,)
 
 
@@ -306,7 +307,7 @@ After GNS accelerogram data files, Standard Format (2008).
 
 
 def _geonet_channel(block: list[str], options: Options, total: int) -> Accelerogram:
-    note = Remark.of(Kind.CHANNELS_OF_GEONET, held=total)
+    note = Remark.of(RecordKind.CHANNELS_OF_GEONET, held=total)
     head = "\n".join(block[:_TEXT])
     samples = _GEONET.count(head)
     rows = [row for row in block[_HEADER:] if row.strip()]
@@ -412,10 +413,10 @@ def _smc_points(
     counts points or numbers, without the last line where that is of another trace. is_cut: whether a line of comment
     parted the numbers from more of them. Times are printed so coarsely that some points share one.
     """
-    notes: tuple[Remark, ...] = (Remark.of(Kind.SEAM_CUT, declared=samples),) if is_cut else ()
+    notes: tuple[Remark, ...] = (Remark.of(RecordKind.SEAM_CUT, declared=samples),) if is_cut else ()
     if numbers.size == samples + _SMC_TAIL or numbers.size == 2 * samples + _SMC_TAIL:
         numbers = numbers[:-_SMC_TAIL]
-        notes = (Remark.of(Kind.SEAM_CUT, declared=samples),)
+        notes = (Remark.of(RecordKind.SEAM_CUT, declared=samples),)
     is_counted = is_cut or samples in (numbers.size, numbers.size // 2)
     if numbers.size % 2 or numbers.size < 8 or not is_counted:
         return None

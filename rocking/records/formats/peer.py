@@ -7,7 +7,8 @@ from rocking.errors import RecordError
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.formats.format import Format, Layout, Options
 from rocking.records.formats.text import after_lines, count, is_number, lines, number, numbers, whole
-from rocking.remarks import Kind, Remark
+from rocking.records.kinds import RecordKind
+from rocking.remarks import Remark
 
 _STEPS = (
     re.compile(
@@ -81,7 +82,7 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
     corner = points[1] if points else poles[1][1] if len(poles) > 1 and poles[1][0] != "0" else "0"
     facts: dict[str, Any] = {"component": _component(title), "processed": True, "warnings": warnings}
     if re.search(r"\bmatched\b", head[0], re.I):
-        facts["warnings"] += (Remark(Kind.MATCHED_TO_SPECTRUM),)
+        facts["warnings"] += (Remark(RecordKind.MATCHED_TO_SPECTRUM),)
     if len(parts) >= 3:
         undated = _DATE_AT_END.sub("", parts[0])
         facts |= {"station": parts[-2], "event": undated or parts[0]}

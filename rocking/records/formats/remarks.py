@@ -8,7 +8,8 @@ from typing import TypeVar
 from rocking.quantities import acceleration_unit
 from rocking.records.direction import Direction
 from rocking.records.formats.text import NUMBER
-from rocking.remarks import Kind, Remark
+from rocking.records.kinds import RecordKind
+from rocking.remarks import Remark
 
 
 @dataclass(frozen=True)
@@ -171,7 +172,7 @@ def factor_warnings(remarks: Sequence[str]) -> tuple[Remark, ...]:
     spoken = [remark.strip() for remark in remarks if speaks_of_factor(remark)]
     if not spoken:
         return ()
-    return (Remark.of(Kind.FACTOR_NOT_APPLIED, text=spoken[0][:60]),)
+    return (Remark.of(RecordKind.FACTOR_NOT_APPLIED, text=spoken[0][:60]),)
 
 
 def _units(remark: str) -> set[str]:

@@ -36,8 +36,9 @@ from rocking.records.formats.remarks import (
     meaning,
     speaks_of_factor,
 )
+from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import refuse_by_name, refuse_other_quantity
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 _SEPARATOR = re.compile(r"\s*[,;]\s*|\s+")
 _EMPTY_LAST = re.compile(rb"[,;][ \t]*(?:\n|\Z)")
@@ -389,7 +390,7 @@ def _read_columns(content: bytes, options: Options) -> list[Accelerogram]:
     if answer and layout:
         if not table.labels and layout.is_series != drawn.is_series:
             # Another file of its folder was answered for.
-            notes += (Remark.of(Kind.UNLIKE_ITS_ANSWER, answer=answer.text, holds=question.holds),)
+            notes += (Remark.of(RecordKind.UNLIKE_ITS_ANSWER, answer=answer.text, holds=question.holds),)
         layout = _fitted(answer, layout, table, drawn)
         known = (label if label.is_known else ColumnLabel("") for label in table.labels)
         table = replace(table, labels=tuple(known))
@@ -478,7 +479,7 @@ def _is_row(line: str, width: int) -> bool:
 def _told_of_tail(table: NumberTable) -> tuple[Remark, ...]:
     """Return a remark on text below the numbers that is more than a word for their end."""
     told = [line for line in table.tail if not _END.fullmatch(line)]
-    return (Remark.of(Kind.TAIL_PASSED_OVER, text=plain(" / ".join(told))[:80]),) if told else ()
+    return (Remark.of(RecordKind.TAIL_PASSED_OVER, text=plain(" / ".join(told))[:80]),) if told else ()
 
 
 _FILLING = re.compile(rb"(?i)(?:[ \t]+nan)+\s*\Z")
@@ -492,7 +493,7 @@ def _plain_rows(table: NumberTable, below: bytes) -> tuple[NumberTable, bytes, t
     body, tail = _parted(below, table.width)
     may_be_filled = not table.labels and table.width > 2
     bare = body[:-_TAIL] + _FILLING.sub(b"\n", body[-_TAIL:]) if may_be_filled else body
-    notes = (Remark(Kind.ROW_FILLED_UP),) if bare != body else ()
+    notes = (Remark(RecordKind.ROW_FILLED_UP),) if bare != body else ()
     if _EMPTY_LAST.search(bare):
         bare = _EMPTY_END.sub(b"", bare)
     if _EMPTY_CELL.search(bare):
@@ -679,7 +680,9 @@ def _series(
         roles = layout.above or _first_numbers(values, options.time_step)
         above = dict(zip(roles, values.tolist(), strict=False))
         notes = (
-            (Remark.of(Kind.FIRST_NUMBERS, what=", ".join(_MEANT[role] for role in roles)),) if roles else ()
+            (Remark.of(RecordKind.FIRST_NUMBERS, what=", ".join(_MEANT[role] for role in roles)),)
+            if roles
+            else ()
         )
         values = values[len(roles) :]
     counts = [f"{above['n']:g}"] if "n" in above and not notes else [said.samples] if said.samples else []
@@ -814,7 +817,7 @@ def _never_negative(record: Accelerogram) -> tuple[Remark, ...]:
     is_moving = record.acceleration.size >= _FEWEST_OF_BOTH_SIGNS and record.peak_acceleration > 0
     if not is_moving or record.acceleration.min() < 0:
         return ()
-    return (Remark(Kind.NEVER_NEGATIVE, record.component or "the column"),)
+    return (Remark(RecordKind.NEVER_NEGATIVE, record.component or "the column"),)
 
 
 def _cut_number(body: bytes) -> tuple[Remark, ...]:
@@ -823,14 +826,14 @@ def _cut_number(body: bytes) -> tuple[Remark, ...]:
     decimals = [len(match[1]) for line in tail if line.strip() and (match := _DECIMALS.search(line))]
     if len(decimals) < 3 or decimals[-1] >= min(decimals[:-1]):
         return ()
-    return (Remark(Kind.NUMBER_CUT),)
+    return (Remark(RecordKind.NUMBER_CUT),)
 
 
 def _repeats(values: np.ndarray) -> tuple[Remark, ...]:
     """Return a warning when numbers without count or times come twice."""
     half, odd = divmod(values.size, 2)
     is_twice = not odd and half > 1 and np.any(values) and np.array_equal(values[:half], values[half:])
-    return (Remark.of(Kind.HALF_REPEATED, samples=half),) if is_twice else ()
+    return (Remark.of(RecordKind.HALF_REPEATED, samples=half),) if is_twice else ()
 
 
 COLUMNS = Format(

@@ -8,7 +8,8 @@ from datetime import datetime
 import numpy as np
 
 from rocking.errors import RecordError
-from rocking.remarks import Kind, Remark
+from rocking.records.kinds import RecordKind
+from rocking.remarks import Remark
 
 _NUMERIC = b"0123456789+-.eE \t\n\r"
 _LARGEST = 1e100
@@ -130,7 +131,7 @@ def whole(values: np.ndarray, declared: int, per_line: int) -> tuple[np.ndarray,
         raise RecordError(f"{stated}: it is truncated or its header is another's; fetch the whole file.")
     if values.size > declared + per_line:
         raise RecordError(f"{stated}: more than one line too many; mend the header or cut the file.")
-    return values, (Remark.of(Kind.SAMPLES_SURPLUS, declared=declared, held=values.size),)
+    return values, (Remark.of(RecordKind.SAMPLES_SURPLUS, declared=declared, held=values.size),)
 
 
 def filled(rows: list[str], declared: int, per_line: int, width: int, margin: int = 0) -> np.ndarray:
@@ -204,7 +205,7 @@ def resampled(times: np.ndarray) -> tuple[float, np.ndarray, Remark]:
     number = int(min((times[-1] - times[0]) / step, 1e12)) + 1 if step > 0 else 0
     if not 2 <= number <= LARGEST_SERIES:
         raise RecordError(f"the times are uneven and would make {number} samples {step:g} s apart.")
-    remark = Remark.of(Kind.UNEVEN, samples=times.size, number=number, time_step_s=step)
+    remark = Remark.of(RecordKind.UNEVEN, samples=times.size, number=number, time_step_s=step)
     return step, times[0] + step * np.arange(number), remark
 
 
@@ -221,7 +222,11 @@ def through_points(times: np.ndarray) -> tuple[float, np.ndarray, Remark]:
     """
     check_no_gap(times, _LONGEST_LINE)
     even = np.arange(round(times[0] / _APART), int(times[-1] / _APART + 1e-6) + 1) * _APART
-    return _APART, even, Remark.of(Kind.UNEVEN_FILM, samples=times.size, number=even.size, time_step_s=_APART)
+    return (
+        _APART,
+        even,
+        Remark.of(RecordKind.UNEVEN_FILM, samples=times.size, number=even.size, time_step_s=_APART),
+    )
 
 
 def check_no_gap(times: np.ndarray, longest: float) -> None:

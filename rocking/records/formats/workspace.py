@@ -24,10 +24,11 @@ from rocking.records.accelerogram import Accelerogram
 from rocking.records.doors import advice
 from rocking.records.formats.by_obspy import inventory_of, parsed_inventory
 from rocking.records.formats.format import Format, Options
+from rocking.records.kinds import RecordKind
 from rocking.records.one_trace import from_traces
 from rocking.records.plausibility import refuse_other_quantity
 from rocking.records.traces import joined
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 MARK = b"\x89HDF\r\n\x1a\n"
 """The begin of an HDF5 file."""
@@ -237,7 +238,11 @@ def _read(content: bytes, options: Options) -> list[Accelerogram]:
                 high_pass_frequency=noted["high_pass_hz"] or None,
                 **about,
             ).warned(
-                *([Remark.of(Kind.FAILED_IN_GMPROCESS, reason=noted["failure"])] if noted["failure"] else [])
+                *(
+                    [Remark.of(RecordKind.FAILED_IN_GMPROCESS, reason=noted["failure"])]
+                    if noted["failure"]
+                    else []
+                )
             )
         )
     return records

@@ -8,9 +8,10 @@ import pytest
 
 from rocking.assessment.case import Variation
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import Motion
 from rocking.records import Accelerogram
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.reports.printing import cell_text
 from rocking.structures import Wall
 from tests.unit.assessment.made_rows import broken, case, members, station, verdicts
@@ -49,7 +50,7 @@ def test_the_ensemble_over_all_directions_decides_before_those_of_the_components
 @pytest.mark.parametrize("order", [1, -1])
 def test_of_components_that_are_no_pair_the_worse_word_counts_in_either_order(order):
     """A component whose word is worse may have the smaller share: what it does not follow adds to it."""
-    doubtful = replace(case("EW", 0.3, falls=10), doubt=Remark(Kind.CONTACTS_OPEN))
+    doubtful = replace(case("EW", 0.3, falls=10), doubt=Remark(AssessmentKind.CONTACTS_OPEN))
     result = station(*[doubtful, case("NS", 0.3, falls=30)][::order])
     assert (result.verdict, result.component) == ("cannot be told", "EW")
     assert result.decision.interval == (10 / 64, 1.0)

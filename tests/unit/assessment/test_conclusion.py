@@ -8,6 +8,7 @@ import pytest
 
 from rocking.assessment.conclusion import Conclusion, conclusion_in_words, conclusions
 from rocking.assessment.decide import Decision, Verdict
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.reserve import Reserve
 from rocking.remarks import Kind, Remark
 from tests.unit.assessment.made_rows import compared, decided
@@ -30,34 +31,34 @@ def of(
 @pytest.mark.parametrize(
     ("conclusion", "kind"),
     [
-        (of(Verdict.UNCERTAIN, tells=(Kind.RESTITUTION,)), Kind.RESTITUTION),
+        (of(Verdict.UNCERTAIN, tells=(AssessmentKind.RESTITUTION,)), AssessmentKind.RESTITUTION),
         # A range that ends where contact dynamics does is not one of cracks, which to find would tell nothing.
         (
             of(
                 Verdict.UNCERTAIN,
-                tells=(Kind.CRACK,),
+                tells=(AssessmentKind.CRACK,),
                 interval=(0.0, 0.5),
                 stack_falls=12,
                 stack_runs=24,
             ),
-            Kind.STACKS_FALL,
+            AssessmentKind.STACKS_FALL,
         ),
         (
             of(
                 Verdict.UNCERTAIN,
-                tells=(Kind.CRACK,),
+                tells=(AssessmentKind.CRACK,),
                 interval=(0.0, 0.6),
                 stack_falls=12,
                 stack_runs=24,
             ),
-            Kind.CRACK,
+            AssessmentKind.CRACK,
         ),
-        (of(Verdict.OVERTURNS, math.inf, tells=(Kind.RESTITUTION,)), Kind.STRENGTHEN),
-        (of(Verdict.STANDS, doubts=(Kind.OTHER_CRACK_WORSE,)), Kind.OTHER_CRACK_WORSE),
-        (of(Verdict.PROBABLY_OVERTURNS), Kind.STANDS_AS_RECORDED),
-        (of(Verdict.PROBABLY_STANDS, math.inf), Kind.FALLS_AS_RECORDED),
-        (of(Verdict.UNCERTAIN), Kind.NOTHING_DECIDES),
-        (of(Verdict.STANDS), Kind.NOTHING_TO_DO),
+        (of(Verdict.OVERTURNS, math.inf, tells=(AssessmentKind.RESTITUTION,)), AssessmentKind.STRENGTHEN),
+        (of(Verdict.STANDS, doubts=(AssessmentKind.OTHER_CRACK_WORSE,)), AssessmentKind.OTHER_CRACK_WORSE),
+        (of(Verdict.PROBABLY_OVERTURNS), AssessmentKind.STANDS_AS_RECORDED),
+        (of(Verdict.PROBABLY_STANDS, math.inf), AssessmentKind.FALLS_AS_RECORDED),
+        (of(Verdict.UNCERTAIN), AssessmentKind.NOTHING_DECIDES),
+        (of(Verdict.STANDS), AssessmentKind.NOTHING_TO_DO),
     ],
 )
 def test_what_to_do_comes_before_what_explains_the_word(conclusion, kind):
@@ -70,7 +71,7 @@ def test_a_contact_that_slides_is_told_by_what_it_needs_as_it_lifts_and_at_most(
     slides = replace(compared("EW", 0.5), slides=True, lifting_friction=0.22, required_friction=1.84)
     assert replace(made, case=slides).remark.brief == "slides below μ 0.22–1.8"
     lost = replace(slides, required_friction=math.inf)
-    assert replace(made, case=lost).remark.kind is Kind.CONTACTS_OPEN
+    assert replace(made, case=lost).remark.kind is AssessmentKind.CONTACTS_OPEN
 
 
 def test_the_friction_that_limits_a_word_stands_beside_it():
@@ -78,8 +79,8 @@ def test_the_friction_that_limits_a_word_stands_beside_it():
     limited = of(Verdict.PROBABLY_STANDS)
     limited = replace(limited, verdict=replace(limited.verdict, friction_needed=0.67))
     known = replace(limited, case=replace(compared("EW", 0.5), lifting_friction=0.49))
-    assert known.remark == Remark.of(Kind.CONTACT_SLIDES, lifting=0.49, largest=0.67)
-    assert replace(limited, case=None).remark == Remark(Kind.FRICTION_SHORT)
+    assert known.remark == Remark.of(AssessmentKind.CONTACT_SLIDES, lifting=0.49, largest=0.67)
+    assert replace(limited, case=None).remark == Remark(AssessmentKind.FRICTION_SHORT)
 
 
 def test_the_worst_period_stands_for_a_support_and_the_others_are_its_remark():

@@ -20,6 +20,7 @@ from rocking.assessment.contacts import (
 )
 from rocking.assessment.decide import Decision, decide, step
 from rocking.assessment.inputs import CaseInputs
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import GroundMotions, Motion, ground_motions
 from rocking.assessment.one_case import compute_case
 from rocking.assessment.reserve import Reserve
@@ -27,7 +28,7 @@ from rocking.assessment.settings import AssessmentSettings, EnsembleSettings
 from rocking.contacts.dynamics import SECONDS_A_STEP, STEP, follow_stack
 from rocking.errors import MotionError
 from rocking.quantities import GRAVITY
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.structures.alone import as_structure
 from rocking.structures.stack import COURSES
 
@@ -110,7 +111,7 @@ def test_few_runs_of_contact_dynamics_let_a_spire_probably_stand_and_many_let_it
     probably = rocking.assess(motion, SPIRE)
     assert probably.verdict is Verdict.PROBABLY_STANDS
     assert (probably.stacks.falls, probably.stacks.runs) == (0, 18)
-    assert [each.kind for each in probably.decision.tells] == [Kind.CONTACT_DYNAMICS]
+    assert [each.kind for each in probably.decision.tells] == [AssessmentKind.CONTACT_DYNAMICS]
     assert probably.with_reserve(Reserve(1.8, 2.2, 2.6, 3.0)).reserve.low == 1.8
     stands = rocking.assess(motion, SPIRE, settings=CONTACT)
     assert stands.verdict is Verdict.STANDS
@@ -177,7 +178,7 @@ def test_without_an_ensemble_the_single_run_is_doubted_too():
     settings = AssessmentSettings(ensemble=EnsembleSettings(members=0))
     motion = sine(1.3 * SPIRE.static_multiplier * GRAVITY, 0.1)
     case = compute_case(CaseInputs(motion=Motion((motion,)), structure=SPIRE, settings=settings))
-    assert case.doubt == Remark(Kind.COURSES_THROWN)
+    assert case.doubt == Remark(AssessmentKind.COURSES_THROWN)
 
 
 def test_what_keeps_its_contacts_or_rests_is_not_doubted():
@@ -327,7 +328,7 @@ def test_an_impact_that_keeps_little_by_balance_is_doubted_and_a_typed_one_is_no
         remark = doubt(wall, motions, 0.05)
         kinds[kept < 0.3] = remark and remark.kind
         assert doubt(replace(wall, restitution=kept), motions, 0.05) is None
-    assert kinds == {False: None, True: Kind.IMPACT_OPENS}
+    assert kinds == {False: None, True: AssessmentKind.IMPACT_OPENS}
 
 
 def test_what_cannot_be_followed_may_open(monkeypatch):
@@ -338,7 +339,7 @@ def test_what_cannot_be_followed_may_open(monkeypatch):
     wall = Wall(1.6, 1.6, 0.25)
     assert doubt(wall, motions, 0.05) is None
     monkeypatch.setattr("rocking.assessment.contacts.integrate", lost)
-    assert doubt(wall, motions, 0.05) == Remark(Kind.CONTACTS_OPEN)
+    assert doubt(wall, motions, 0.05) == Remark(AssessmentKind.CONTACTS_OPEN)
 
 
 # Friction -----------------------------------------------------------------------------------------------------
@@ -384,7 +385,7 @@ def test_a_block_whose_corner_needs_more_friction_than_it_has_only_probably_stan
     limited = rocking.assess(record, block, settings=settings)
     assert (limited.verdict, limited.overturning_share) == (Verdict.PROBABLY_STANDS, 0.0)
     assert limited.friction_needed == pytest.approx(needed, rel=0.01)
-    assert Kind.FRICTION in [each.kind for each in limited.decision.tells]
+    assert AssessmentKind.FRICTION in [each.kind for each in limited.decision.tells]
     firm = rocking.assess(record, block, settings=replace(settings, friction_coefficient=1.1 * needed))
     assert firm.verdict is Verdict.STANDS
     assert np.isnan(firm.friction_needed)
@@ -430,4 +431,4 @@ def test_a_stack_is_followed_on_the_friction_that_its_courses_have():
     assert few.stacks is not None and few.stacks.runs <= RUNS
     assert many.stacks == ContactShare(0, MOST_RUNS)
     assert many.verdict is Verdict.STANDS
-    assert Kind.FRICTION_SHORT not in [each.kind for each in many.decision.doubts]
+    assert AssessmentKind.FRICTION_SHORT not in [each.kind for each in many.decision.doubts]

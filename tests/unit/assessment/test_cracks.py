@@ -13,6 +13,7 @@ from rocking.assessment.cracks import cracks, ensemble_over_cracks
 from rocking.assessment.decide import Verdict, decide
 from rocking.assessment.ensemble import ensemble
 from rocking.assessment.inputs import CaseInputs
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.motions import GroundMotions, Motion, component_of, processed
 from rocking.assessment.one_case import compute_case, other_cracks, other_processings, predict
 from rocking.assessment.rows import rows_of_record
@@ -22,7 +23,6 @@ from rocking.fragility.curves import fragility
 from rocking.motion import integrate
 from rocking.pulses import Pulse
 from rocking.records import Accelerogram
-from rocking.remarks import Kind
 from rocking.structures import Arch, Block, Facade, LoadedWall, Spire, Wall
 
 STEP, TIMES = 0.01, np.arange(0, 4, 0.01)
@@ -123,7 +123,7 @@ def test_a_crack_that_is_known_decides_and_what_falls_beside_it_is_told():
     assert of_typed.verdict.badness > known.verdict.badness
     assert known.statics.ensemble.overturning_members == of_typed.overturning_members
     assert known.statics_crack == of_typed.crack
-    assert [each.kind for each in known.decision.doubts] == [Kind.OTHER_CRACK_WORSE]
+    assert [each.kind for each in known.decision.doubts] == [AssessmentKind.OTHER_CRACK_WORSE]
     assert of_typed.decision.doubts == ()
 
 
@@ -300,7 +300,7 @@ def test_a_held_wall_that_turns_far_only_probably_stands():
         if farthest <= 1:
             words[farthest > 0.4] = decision.word, [each.kind for each in decision.doubts]
     assert words[False][0] is Verdict.STANDS
-    assert words[True][0] is Verdict.PROBABLY_STANDS and Kind.HELD_BEYOND in words[True][1]
+    assert words[True][0] is Verdict.PROBABLY_STANDS and AssessmentKind.HELD_BEYOND in words[True][1]
 
 
 def test_a_wall_whose_ties_swing_with_the_motion_only_probably_stands():
@@ -346,7 +346,7 @@ def test_ties_that_give_are_told_beside_the_word():
     motion = Accelerogram(1.02 * wall.static_multiplier * 9.80665 * swing, STEP)
     decision = rocking.assess(motion, wall, settings=ROUGH).decision
     assert decision.word is Verdict.PROBABLY_STANDS
-    assert [each.kind for each in decision.doubts] == [Kind.TIES_GIVE]
+    assert [each.kind for each in decision.doubts] == [AssessmentKind.TIES_GIVE]
     unmoved = rocking.assess(motion, replace(wall, tie_stiffness=1e9), settings=ROUGH).decision
     assert (unmoved.word, unmoved.doubts) == (Verdict.STANDS, ())
 
@@ -368,7 +368,7 @@ def test_a_restitution_typed_far_below_that_of_the_geometry_is_followed_beside_i
         if livelier.overturning_members:
             assert both.crack == "restitution 0.98 of its geometry"
             assert both.overturning_members == livelier.overturning_members
-            assert [each.kind for each in both.decision.tells] == [Kind.RESTITUTION]
+            assert [each.kind for each in both.decision.tells] == [AssessmentKind.RESTITUTION]
             assert both.decision.interval[0] < both.decision.interval[1] == livelier.overturning_share
         else:
             assert both.verdict is livelier.verdict

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from rocking.assessment.decide import ORDER, CrackFacts, Facts, Verdict, decide, step
-from rocking.remarks import Kind, Remark
+from rocking.assessment.kinds import AssessmentKind
+from rocking.remarks import Remark
 
-OPEN, THROWN = Remark(Kind.CONTACTS_OPEN), Remark(Kind.COURSES_THROWN)
+OPEN, THROWN = Remark(AssessmentKind.CONTACTS_OPEN), Remark(AssessmentKind.COURSES_THROWN)
 SAFEST_FIRST = (
     "cannot overturn",
     "stands",
@@ -80,7 +81,7 @@ def test_1_what_nothing_overturns_cannot_overturn():
     decision = decide(held)
     assert str(decision.word) == "cannot overturn"
     assert decision.why == "stays tied"
-    assert kinds(decision.tells) == [Kind.TIE_STRENGTH]
+    assert kinds(decision.tells) == [AssessmentKind.TIE_STRENGTH]
     assert decision.share_in_words == ""
     assert word(cracks=(crack(0),), never_lets_go="stays tied", doubts=(OPEN,)) == "cannot be told"
 
@@ -94,7 +95,7 @@ def test_3_what_slides_first_cannot_be_told():
     decision = decide(Facts(cracks=(crack(0, slides=True),), slides_at=0.6))
     assert str(decision.word) == "cannot be told"
     assert decision.why == "slides before it lifts, at 0.6 g"
-    assert kinds(decision.tells) == [Kind.FRICTION]
+    assert kinds(decision.tells) == [AssessmentKind.FRICTION]
     assert math.isnan(decision.share) and decision.share_in_words == ""
     # a motion that does not reach so far lets nothing slide
     assert word(cracks=(crack(0),)) == "stands"
@@ -105,11 +106,11 @@ def test_3_a_crack_that_slides_first_is_left_out_where_another_is_left():
     assert word(cracks=cracks, slides_at=0.6) == "stands"
     for falls, doubted in ((0, True), (20, True), (50, False), (64, False)):
         left = Facts(cracks=(crack(falls, name="base"),), slides_at=0.6)
-        assert (Kind.SLIDES_FIRST in kinds(decide(left).doubts)) is doubted
+        assert (AssessmentKind.SLIDES_FIRST in kinds(decide(left).doubts)) is doubted
         assert "slides first, at 0.6 g" in decide(left).why
-        assert Kind.SLIDES_FIRST not in kinds(decide(replace(left, slides_at=math.nan)).doubts)
+        assert AssessmentKind.SLIDES_FIRST not in kinds(decide(replace(left, slides_at=math.nan)).doubts)
     at_rest = decide(Facts(cracks=(crack(0),), rests=True, slides_at=0.6))
-    assert kinds(at_rest.doubts) == [Kind.SLIDES_FIRST]
+    assert kinds(at_rest.doubts) == [AssessmentKind.SLIDES_FIRST]
     beside = crack(64, name="upper", counts=False)
     assert word(cracks=(crack(0, slides=True), beside), slides_at=0.6) == "cannot be told"
 
@@ -117,7 +118,7 @@ def test_3_a_crack_that_slides_first_is_left_out_where_another_is_left():
 def test_4_without_a_result_it_cannot_be_told():
     decision = decide(Facts(failures=("the motion is too long",)))
     assert (str(decision.word), decision.why) == ("cannot be told", "the motion is too long")
-    assert kinds(decision.tells) == [Kind.INPUT]
+    assert kinds(decision.tells) == [AssessmentKind.INPUT]
     assert word() == "cannot be told"
 
 
@@ -129,7 +130,7 @@ def test_5_one_run_is_never_sure(ratio, expected):
     decision = decide(Facts(run_ratio=ratio))
     assert str(decision.word) == expected
     assert decision.share_in_words == "one run"
-    assert kinds(decision.tells) == [Kind.ENSEMBLE]
+    assert kinds(decision.tells) == [AssessmentKind.ENSEMBLE]
 
 
 @pytest.mark.parametrize("settled", [Verdict.STANDS, Verdict.OVERTURNS])
@@ -167,7 +168,7 @@ def test_6_a_known_crack_decides_alone_and_a_worse_one_is_a_doubt_beside_it():
     upper = crack(64, name="upper", counts=False)
     decision = decide(Facts(cracks=(crack(0), upper)))
     assert (str(decision.word), decision.share) == ("stands", 0.0)
-    assert kinds(decision.doubts) == [Kind.OTHER_CRACK_WORSE]
+    assert kinds(decision.doubts) == [AssessmentKind.OTHER_CRACK_WORSE]
     assert "the known crack; with the upper 64 of 64 would" in decision.why
 
 
@@ -200,8 +201,8 @@ def test_7_members_that_failed_make_nothing_fall():
     decision = decide(Facts(cracks=(crack(0, failed=63, farthest=0.2),)))
     assert str(decision.word) == "cannot be told"
     assert decision.interval == (0.0, 63 / 64)
-    assert kinds(decision.doubts) == [Kind.MEMBERS_FAILED]
-    assert kinds(decision.tells) == [Kind.TOLERANCE]
+    assert kinds(decision.doubts) == [AssessmentKind.MEMBERS_FAILED]
+    assert kinds(decision.tells) == [AssessmentKind.TOLERANCE]
     assert math.isnan(decision.share)
 
 
@@ -213,7 +214,7 @@ def test_8_members_that_fall_decide_whatever_else_is_doubtful():
 
 @pytest.mark.parametrize(("runs", "expected"), [(24, "probably stands"), (64, "stands")])
 def test_8b_a_held_wall_that_turns_far_needs_contact_dynamics_of_many_runs(runs, expected):
-    far = {"cracks": (crack(0),), "held": True, "beyond": Kind.HELD_BEYOND}
+    far = {"cracks": (crack(0),), "held": True, "beyond": AssessmentKind.HELD_BEYOND}
     assert word(**far) == "probably stands"
     assert word(cracks=(crack(0),), held=True) == "stands"
     assert word(**far, stacks=(0, runs)) == expected
@@ -228,28 +229,28 @@ def test_8b_a_contact_that_needs_more_friction_than_it_has_limits_the_word(runs,
     decision = decide(slides)
     assert (str(decision.word), decision.share) == (expected, 0.0)
     limited = expected != "stands"
-    assert (Kind.FRICTION_SHORT in kinds(decision.doubts)) is limited
-    assert (Kind.FRICTION in kinds(decision.tells)) is limited
+    assert (AssessmentKind.FRICTION_SHORT in kinds(decision.doubts)) is limited
+    assert (AssessmentKind.FRICTION in kinds(decision.tells)) is limited
     settled = decide(Facts(settled=Verdict.STANDS, friction_needed=math.inf))
     assert str(settled.word) == "probably stands"
 
 
-@pytest.mark.parametrize("far", [{"doubts": (OPEN,)}, {"held": True, "beyond": Kind.TIES_GIVE}])
+@pytest.mark.parametrize("far", [{"doubts": (OPEN,)}, {"held": True, "beyond": AssessmentKind.TIES_GIVE}])
 def test_contact_dynamics_is_advised_only_where_it_may_still_tell(far):
     """Not where it ran often enough already, nor of what it cannot follow, of which a doubt says so."""
     facts = Facts(cracks=(crack(0),), **far)
-    assert kinds(decide(facts).tells) == [Kind.CONTACT_DYNAMICS]
+    assert kinds(decide(facts).tells) == [AssessmentKind.CONTACT_DYNAMICS]
     cannot = decide(replace(facts, stackable=False))
     assert cannot.tells == ()
     assert cannot.word is decide(facts).word
-    told = [Remark(Kind.NO_STACK)] if facts.doubts else []
+    told = [Remark(AssessmentKind.NO_STACK)] if facts.doubts else []
     assert [each for each in cannot.doubts if each not in decide(facts).doubts] == told
     assert decide(replace(facts, stacks=(0, 64))).tells == ()
 
 
 def test_more_runs_are_advised_where_none_of_few_falls_and_the_members_all_stand():
     facts = Facts(cracks=(crack(0),), doubts=(OPEN,))
-    assert kinds(decide(replace(facts, stacks=(0, 18))).tells) == [Kind.CONTACT_DYNAMICS]
+    assert kinds(decide(replace(facts, stacks=(0, 18))).tells) == [AssessmentKind.CONTACT_DYNAMICS]
     assert decide(replace(facts, stacks=(1, 19))).tells == ()
 
 
@@ -305,7 +306,7 @@ def test_a_further_fall_of_a_crack_of_few_members_takes_nothing_from_the_share()
 
 def test_what_limits_the_word_leaves_the_share():
     """A held wall whose chains go far, and a single run."""
-    far = decide(Facts(cracks=(crack(0),), held=True, beyond=Kind.HELD_BEYOND))
+    far = decide(Facts(cracks=(crack(0),), held=True, beyond=AssessmentKind.HELD_BEYOND))
     assert (str(far.word), far.share) == ("probably stands", 0.0)
     alone = decide(Facts(run_ratio=math.inf))
     assert (str(alone.word), alone.share, alone.share_in_words) == ("uncertain", 1.0, "one run")
@@ -326,7 +327,7 @@ def test_10_a_doubt_leaves_only_the_least_share():
     assert str(decision.word) == "cannot be told"
     assert decision.interval == (12 / 64, 1.0)
     assert decision.share_in_words == "at least 19\u00a0%"
-    assert kinds(decision.tells) == [Kind.CONTACT_DYNAMICS]
+    assert kinds(decision.tells) == [AssessmentKind.CONTACT_DYNAMICS]
     assert decision.why == "contacts open; 12 of 64 members overturn with the hinge"
 
 
@@ -334,15 +335,15 @@ def test_10_a_missing_component_is_not_settled_by_contact_dynamics():
     missing = {"failures": ("the component X gave no result: too short",), "stacks": (0, 64)}
     decision = decide(Facts(cracks=(crack(0),), **missing))
     assert str(decision.word) == "cannot be told"
-    assert kinds(decision.doubts) == [Kind.COMPONENT_MISSING]
-    assert kinds(decision.tells) == [Kind.COMPONENT]
+    assert kinds(decision.doubts) == [AssessmentKind.COMPONENT_MISSING]
+    assert kinds(decision.tells) == [AssessmentKind.COMPONENT]
     assert "too short" in decision.why
     assert word(cracks=(crack(50),), **missing) == "probably overturns"
 
 
 def test_11_tells_what_decides():
-    decision = decide(Facts(cracks=(crack(30),), remarks=(Remark(Kind.RESTITUTION),)))
-    assert kinds(decision.tells) == [Kind.RESTITUTION]
+    decision = decide(Facts(cracks=(crack(30),), remarks=(Remark(AssessmentKind.RESTITUTION),)))
+    assert kinds(decision.tells) == [AssessmentKind.RESTITUTION]
     assert decision.share_in_words == "47\u00a0%"
 
 
@@ -359,7 +360,7 @@ def test_11_tells_what_decides():
         (lambda: Facts(stacks=(3, 2)), "stacks"),
         (lambda: Facts(stacks=(0, 0)), "stacks"),
         (lambda: Facts(settled=Verdict.UNCERTAIN), "settled"),
-        (lambda: Facts(doubts=(Remark(Kind.FRICTION),)), "doubts"),
+        (lambda: Facts(doubts=(Remark(AssessmentKind.FRICTION),)), "doubts"),
         (lambda: Facts(risk=0.5), "risk"),
     ],
 )
@@ -408,7 +409,7 @@ def drawn(chance):
         friction_needed=one_of(0.7, math.inf) if chance() < 0.1 else math.nan,
         doubts=one_of((), (), (), (OPEN,), (THROWN,)),
         held=chance() < 0.3,
-        beyond=Kind.HELD_BEYOND if chance() < 0.3 else None,
+        beyond=AssessmentKind.HELD_BEYOND if chance() < 0.3 else None,
         stacks=(fallen, runs) if chance() < 0.3 else None,
         failures=("component X is cut",) if chance() < 0.1 else (),
     )
@@ -535,7 +536,7 @@ def test_the_share_stands_on_the_word(draws):
 
 def worsened(facts, chance):
     """The facts with one thing gone worse: a doubt, a component, a member or a stack more."""
-    ways = [{"failures": (*facts.failures, "component Y is cut")}, {"beyond": Kind.TIES_GIVE}]
+    ways = [{"failures": (*facts.failures, "component Y is cut")}, {"beyond": AssessmentKind.TIES_GIVE}]
     ways.append({"friction_needed": 0.8})
     ways += [{"doubts": (*facts.doubts, each)} for each in (OPEN, THROWN) if each not in facts.doubts]
     if not math.isnan(facts.run_ratio):

@@ -17,9 +17,10 @@ from rocking.assessment.decide import Verdict
 from rocking.assessment.scene import load_scenes, periods_in_words, placed
 from rocking.assessment.settings import AssessmentSettings
 from rocking.errors import ConfigurationError
+from rocking.floors.kinds import FloorKind
 from rocking.floors.place import GROUND, PERIODS, place_from_config
 from rocking.hashes import sha256_of
-from rocking.remarks import Kind
+from rocking.structures.kinds import StructureKind
 from rocking.study.settings import structure_hashes
 
 BLOCK = "type: block, breadth_m: 0.4, height_m: 1.6"
@@ -171,7 +172,7 @@ def test_a_sentence_repeats_the_begin_of_a_long_name(tmp_path, lines):
 def test_a_heavy_structure_is_warned_of(tmp_path):
     roof = "name: roof, type: support, period_s: 0.3, participation: 1.3, mass_ratio: {}"
     (heavy,) = listed(tmp_path, f"name: a, {BLOCK}, stands_on: roof", roof.format(0.05))["a"].remarks
-    assert (heavy.kind, heavy.about, heavy["ratio"]) == (Kind.HEAVY_ON_SUPPORT, "a", 0.05)
+    assert (heavy.kind, heavy.about, heavy["ratio"]) == (FloorKind.HEAVY_ON_SUPPORT, "a", 0.05)
     assert not listed(tmp_path, f"name: a, {BLOCK}, stands_on: roof", roof.format(0.01))["a"].remarks
 
 
@@ -259,10 +260,10 @@ def test_a_restitution_above_that_of_the_geometry_is_told(tmp_path):
     path.write_text(f"- {{name: a, {sizes}, restitution: 0.99}}\n- {{name: b, {sizes}, restitution: 0.7}}\n")
     scenes = load_scenes(path)
     (told,) = (remark for scene in scenes.values() for remark in scene.remarks)
-    assert (told.kind, told.about) == (Kind.RESTITUTION_ABOVE, "a")
+    assert (told.kind, told.about) == (StructureKind.RESTITUTION_ABOVE, "a")
     assert told["own"] == pytest.approx(0.9423, abs=1e-4)
     kinds = [each.structure.cautions[-1].kind for each in scenes.values()]
-    assert kinds == [Kind.RESTITUTION_ABOVE, Kind.RESTITUTION_TYPED]
+    assert kinds == [StructureKind.RESTITUTION_ABOVE, StructureKind.RESTITUTION_TYPED]
     own = scenes["b"].structure.cautions[-1]["own"]
     assert own == pytest.approx(1 - 1.5 * 0.36 / (0.36 + 9.0), rel=1e-9)
 

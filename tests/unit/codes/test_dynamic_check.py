@@ -20,9 +20,10 @@ from rocking import (
     select,
 )
 from rocking.codes import dynamic_check
+from rocking.codes.kinds import CheckKind
 from rocking.records import Accelerogram
 from rocking.records.sample import Sample
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from tests.made_pools import made_answers, made_pool
 
 SPECTRUM = DesignSpectrum.ntc(2.0, 2.5, 0.4)
@@ -123,7 +124,7 @@ def test_stout_blocks_meet_it_and_slender_ones_do_not(records):
     slender = rocking.check(Block.of_size(0.12, 1.5), SPECTRUM, records=records).dynamic
     assert not slender.passed and slender.exceeding and slender.share == 0
     assert slender.refusal == Remark.of(
-        Kind.DISPLACEMENT_EXCEEDED, exceeding=slender.exceeding, motions=slender.motions
+        CheckKind.DISPLACEMENT_EXCEEDED, exceeding=slender.exceeding, motions=slender.motions
     )
 
 
@@ -142,7 +143,7 @@ def test_what_one_set_meets_is_not_called_met_where_others_do_not(records):
     ]
     assert undecided, "no block is refused for its share alone"
     for each in undecided:
-        assert each.refusal.kind is Kind.SETS_DISAGREE
+        assert each.refusal.kind is CheckKind.SETS_DISAGREE
         assert each.refusal["share_percent"] == pytest.approx(100 * each.share)
 
 
@@ -160,7 +161,7 @@ def test_too_few_sets_call_nothing_met(records):
     few = replace(records, sets=records.sets[:199])
     found = rocking.check(Block.of_size(2.5, 3.0), SPECTRUM, records=few).dynamic
     assert not found.passed and found.share == 1
-    assert found.refusal == Remark.of(Kind.SETS_TOO_FEW, sets=199, asked=200)
+    assert found.refusal == Remark.of(CheckKind.SETS_TOO_FEW, sets=199, asked=200)
 
 
 @pytest.mark.slow
@@ -285,7 +286,7 @@ def test_it_is_called_met_from_the_least_share_of_other_sets_on(records, least, 
     assert found.dynamic.interval[0] == pytest.approx(20 * 19 / (30 * 29))
     assert found.dynamic.passed is is_met
     if not is_met:
-        assert found.dynamic.refusal.kind is Kind.OTHERS_TOO_FEW
+        assert found.dynamic.refusal.kind is CheckKind.OTHERS_TOO_FEW
         assert found.decisive is not found.dynamic
         needed = next(n for n in range(20, 99) if (n - 10) * (n - 11) >= 0.5 * n * (n - 1))
         assert found.dynamic.refusal["needed"] == needed

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from rocking import DesignSpectrum, select
+from rocking.codes.kinds import CheckKind
 from rocking.codes.selection import random_sets, search
 from rocking.errors import ConfigurationError
-from rocking.remarks import Kind
 from tests.made_pools import made_pool
 from tests.oracles.oscillator import spectral_acceleration
 
@@ -135,7 +135,7 @@ def test_the_nearest_set_is_the_one_whose_excess_is_least():
     with pytest.raises(ConfigurationError) as none_near:
         search(ratios, random_sets(np.array(list("abcd")), 3, 2000, np.random.default_rng(0)), 0.05, 0.05)
     remark = none_near.value.remark
-    assert remark.kind is Kind.NO_SET_WITHIN
+    assert remark.kind is CheckKind.NO_SET_WITHIN
     # (1 + 1 + 1.2)/3 − 1
     assert remark["low_percent"] == remark["high_percent"] == pytest.approx(100 * 0.2 / 3)
 

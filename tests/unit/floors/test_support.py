@@ -9,10 +9,10 @@ from coupled import Cases, largest_rotations
 from scipy.integrate import solve_ivp
 
 from rocking.errors import RecordError
+from rocking.floors.kinds import FloorKind
 from rocking.floors.support import INTERPOLATION_ERROR, RINGING, Mode, Support
 from rocking.motion.integration import integrate
 from rocking.records import Accelerogram
-from rocking.remarks import Kind
 from rocking.structures import Block
 from tests.refusals import refused
 
@@ -124,7 +124,7 @@ def test_it_rings_on_until_that_cannot_matter():
         )
         assert not floor.warnings
     undamped = Support((Mode(0.5, 0.0, 1.3),)).motion(record)
-    assert undamped.warnings[-1].kind is Kind.STILL_RINGING
+    assert undamped.warnings[-1].kind is FloorKind.STILL_RINGING
 
 
 def test_components_share_their_samples_and_the_vertical_passes():

@@ -10,8 +10,9 @@ from hypothesis.extra.numpy import arrays
 
 from rocking.errors import PulseError
 from rocking.pulses import Pulse, PulseSettings, extract_pulses
+from rocking.pulses.kinds import PulseKind
 from rocking.records.accelerogram import Accelerogram, Source
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from tests.refusals import refused
 
 STEP = 0.01
@@ -85,7 +86,7 @@ def test_a_record_that_does_not_move_is_refused():
 def test_a_record_shorter_than_the_longest_period_says_so():
     pulse = Pulse(1.0, 2 * np.pi / 0.8, 0.9)
     found = extract_pulses(Accelerogram(pulse.acceleration(TIMES[:300]), STEP))
-    assert Remark(Kind.PULSE_RECORD_SHORT) in found.flags
+    assert Remark(PulseKind.PULSE_RECORD_SHORT) in found.flags
     assert found.band[0] == pytest.approx(1 / 2.99)
     assert found.dominant.period == pytest.approx(0.8, rel=1e-6)
 
@@ -93,7 +94,7 @@ def test_a_record_shorter_than_the_longest_period_says_so():
 def test_a_record_too_coarse_for_the_upper_frequency_says_so():
     times = np.arange(400) * 0.1
     found = extract_pulses(Accelerogram(Pulse(1.0, 2 * np.pi / 2.5, 9.03).acceleration(times), 0.1))
-    assert Remark(Kind.PULSE_SAMPLING_COARSE) in found.flags
+    assert Remark(PulseKind.PULSE_SAMPLING_COARSE) in found.flags
     assert found.band[1] == pytest.approx(1.25)  # eight samples in a cycle
     assert found.dominant.period == pytest.approx(2.5, rel=1e-6)
 

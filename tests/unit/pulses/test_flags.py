@@ -5,8 +5,8 @@ import pytest
 
 from rocking.pulses import Pulse, extract_pulses
 from rocking.pulses.extraction import oscillates
+from rocking.pulses.kinds import PulseKind
 from rocking.records.accelerogram import Accelerogram
-from rocking.remarks import Kind
 
 STEP = 0.01
 TIMES = np.arange(3000) * STEP
@@ -32,8 +32,8 @@ def test_a_clean_pulse_raises_no_flag():
 @pytest.mark.parametrize("missing", [0.1, 0.25, 0.4, 0.45, 0.5, 0.6])
 @pytest.mark.parametrize("period", [0.6, 1.5, 4.0])
 def test_a_truncated_pulse_is_at_the_edge(missing, period):
-    assert Kind.PULSE_AT_AN_END in flags(cycle(2, period, -missing * period))
-    assert Kind.PULSE_AT_AN_END in flags(cycle(2, period, TIMES[-1] - (1 - missing) * period))
+    assert PulseKind.PULSE_AT_AN_END in flags(cycle(2, period, -missing * period))
+    assert PulseKind.PULSE_AT_AN_END in flags(cycle(2, period, TIMES[-1] - (1 - missing) * period))
 
 
 @pytest.mark.parametrize("room", [0.05, 0.15, 0.9, 1.1])
@@ -44,21 +44,21 @@ def test_near_a_loud_end_a_pulse_needs_a_period_of_room_and_near_a_quiet_one_a_t
     for near, start in ((0, room * period), (-1, TIMES[-1] - (1 + room) * period)):
         samples = cycle(2, period, start)
         samples[near] += level
-        assert (Kind.PULSE_AT_AN_END in flags(samples)) is (room < (1.0 if level > 0.6 else 0.1))
+        assert (PulseKind.PULSE_AT_AN_END in flags(samples)) is (room < (1.0 if level > 0.6 else 0.1))
         samples[[near, -1 - near]] = 0.0, 1.0
-        assert (Kind.PULSE_AT_AN_END in flags(samples)) is (room < 0.1)
+        assert (PulseKind.PULSE_AT_AN_END in flags(samples)) is (room < 0.1)
 
 
 @pytest.mark.parametrize("seed", range(10))
 def test_two_cycles_are_unstable(seed):
-    assert Kind.PULSE_UNSTABLE in flags(cycle(2, 0.9, 8.003, cycles=2) + noise(seed, 0.3))
+    assert PulseKind.PULSE_UNSTABLE in flags(cycle(2, 0.9, 8.003, cycles=2) + noise(seed, 0.3))
 
 
 @pytest.mark.parametrize("seed", range(10))
 def test_equal_pulses_are_unstable(seed):
     raised = flags(cycle(2, 0.9, 8.003) + cycle(-2, 1.0, 15) + noise(seed, 0.1))
-    assert Kind.PULSE_UNSTABLE in raised
-    assert Kind.PULSE_SYMMETRIC not in raised
+    assert PulseKind.PULSE_UNSTABLE in raised
+    assert PulseKind.PULSE_SYMMETRIC not in raised
 
 
 def ricker(period, middle):
@@ -70,7 +70,7 @@ def ricker(period, middle):
 def test_a_symmetric_shape_reports_both_solutions(shape):
     found = extract_pulses(Accelerogram(shape, STEP))
     first, second = found.ranked[0].pulse, found.ranked[1].pulse
-    assert {Kind.PULSE_SYMMETRIC, Kind.PULSE_UNSTABLE} <= {each.kind for each in found.flags}
+    assert {PulseKind.PULSE_SYMMETRIC, PulseKind.PULSE_UNSTABLE} <= {each.kind for each in found.flags}
     # mirror images: equal gain, period and magnitude, opposite sign. The middle of the shape lies on a sample, so
     # that the mirror is exact up to the last bits of the search
     assert second.amplitude == pytest.approx(-first.amplitude, rel=1e-4)
@@ -87,19 +87,19 @@ def test_the_middle_of_an_oscillation_shows_in_the_gains_of_its_twins(share, osc
     samples = 3 * np.sin(2 * np.pi * phase) * ((half < 0.5) + share * ((half >= 0.5) & (half < 1)))
     found = extract_pulses(Accelerogram(samples, STEP))
     assert found.gain_ratio == pytest.approx(((1 + share) / 2) ** 2, rel=1e-2)
-    assert (Kind.PULSE_UNSTABLE in {each.kind for each in found.flags}) is oscillates
+    assert (PulseKind.PULSE_UNSTABLE in {each.kind for each in found.flags}) is oscillates
 
 
 def test_a_filter_that_reduces_the_pulse_is_told():
     samples = cycle(2, 3.0, 8.003)
-    assert Kind.PULSE_FILTERED in flags(samples, high_pass_frequency=0.1)  # 3.0 s > 0.2 / 0.1 Hz
-    assert Kind.PULSE_FILTERED not in flags(samples, high_pass_frequency=0.05)
-    assert Kind.PULSE_FILTERED not in flags(samples)
+    assert PulseKind.PULSE_FILTERED in flags(samples, high_pass_frequency=0.1)  # 3.0 s > 0.2 / 0.1 Hz
+    assert PulseKind.PULSE_FILTERED not in flags(samples, high_pass_frequency=0.05)
+    assert PulseKind.PULSE_FILTERED not in flags(samples)
 
 
 @pytest.mark.parametrize("period", [0.12, 9.0])
 def test_a_pulse_outside_the_band_lies_at_its_limit(period):
-    assert Kind.PULSE_AT_BAND_LIMIT in flags(cycle(2, period, 8.003))
+    assert PulseKind.PULSE_AT_BAND_LIMIT in flags(cycle(2, period, 8.003))
 
 
 def test_a_filled_gap_is_told_and_padding_is_not():
@@ -107,8 +107,8 @@ def test_a_filled_gap_is_told_and_padding_is_not():
     holed, padded = samples.copy(), samples.copy()
     holed[1500:1650] = 0.0
     padded[:500] = padded[2000:] = 0.0
-    assert Kind.PULSE_BESIDE_GAP in flags(holed)
-    assert Kind.PULSE_BESIDE_GAP not in flags(padded)
+    assert PulseKind.PULSE_BESIDE_GAP in flags(holed)
+    assert PulseKind.PULSE_BESIDE_GAP not in flags(padded)
 
 
 @pytest.mark.parametrize(

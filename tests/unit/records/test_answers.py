@@ -18,7 +18,7 @@ from rocking.records.formats.layouts import (
     TableLayout,
     families,
 )
-from rocking.remarks import Kind
+from rocking.records.kinds import RecordKind
 from tests.unit.records.test_layouts import MOTION, OTHER, TIMES, UP, answer_all, answered, table, wrapped
 
 G = 9.80665
@@ -150,14 +150,14 @@ def test_an_answer_that_fits_no_file_of_its_folder_is_told(tmp_path: Path) -> No
     assert not catalogue_of_folder(tmp_path).remarks
     (tmp_path / "a.txt").write_text(pairs(90))
     (remark,) = catalogue_of_folder(tmp_path).remarks
-    assert remark.kind is Kind.ANSWER_IDLE and remark["line"] == 2 and remark["answer"] == "t, a g"
+    assert remark.kind is RecordKind.ANSWER_IDLE and remark["line"] == 2 and remark["answer"] == "t, a g"
 
 
 def test_no_ground_moves_at_more_than_four_metres_a_second(tmp_path: Path) -> None:
     """One cycle of a sine of amplitude a and period T moves at a·T/π, and a high-pass takes a part of that away."""
     times = 0.01 * np.arange(2000)
     cycle = np.where((times > 8) & (times < 9.5), np.sin(2 * np.pi * (times - 8) / 1.5), 0.0)
-    for velocity, kinds in ((2.0, set()), (3.6, {Kind.VELOCITY_RARE})):
+    for velocity, kinds in ((2.0, set()), (3.6, {RecordKind.VELOCITY_RARE})):
         (tmp_path / "a.csv").write_text(
             "t,NS (m/s2)\n" + table(times, velocity * np.pi / 1.5 * cycle, parted=",")
         )
@@ -254,7 +254,7 @@ def test_text_below_the_numbers_is_a_tail(tmp_path: Path, tail: str) -> None:
     (record,) = read(path)
     assert record.acceleration == pytest.approx(MOTION, abs=1e-6)
     is_said = tail in TAILS[2:]
-    assert [each.kind for each in record.warnings] == ([Kind.TAIL_PASSED_OVER] if is_said else [])
+    assert [each.kind for each in record.warnings] == ([RecordKind.TAIL_PASSED_OVER] if is_said else [])
     bare = tmp_path / "bare.txt"
     bare.write_text(wrapped(MOTION, 5) + tail)
     with pytest.raises(AskedError) as asked:

@@ -15,8 +15,9 @@ from rocking.records.archive import members
 from rocking.records.catalogue import catalogue_text
 from rocking.records.files import fill_hashes, local_files
 from rocking.records.folder import catalogue_of_folder, list_folder
+from rocking.records.kinds import RecordKind
 from rocking.records.station import open_station
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from tests.contracts.made_files import TRUE, knet, peer
 
 FILES = {"quake/RSN1_MADE_ST000.AT2": peer(), "quake/RSN1_MADE_ST090.AT2": peer().replace(", 45", ", 135")}
@@ -36,7 +37,7 @@ def test_every_member_is_read_as_the_file_is(tmp_path):
         "45",
         "135",
     )
-    assert first.warnings == (Remark.of(Kind.FILES_NOT_READ, names="readme.pdf"),)
+    assert first.warnings == (Remark.of(RecordKind.FILES_NOT_READ, names="readme.pdf"),)
     (alone,) = read(archive / "quake/RSN1_MADE_ST090.AT2")
     assert alone.source.sha256 == second.source.sha256 and alone.source.path.endswith(
         ".zip/quake/RSN1_MADE_ST090.AT2"
@@ -110,7 +111,7 @@ def test_a_tar_file_is_read_as_a_zip_file_is(tmp_path, name, how):
     archive = tarred(tmp_path / name, PLAIN | {"./readme.pdf": b"%PDF"}, how)
     first, second = read(archive)
     assert np.allclose(first.acceleration, TRUE, atol=1e-6) and second.component == "135"
-    assert first.warnings == (Remark.of(Kind.FILES_NOT_READ, names="readme.pdf"),)
+    assert first.warnings == (Remark.of(RecordKind.FILES_NOT_READ, names="readme.pdf"),)
     rows = list_folder(tmp_path)[1]
     assert rows[0]["file"] == ";".join(f"{name}/{member}" for member in FILES)
     (tmp_path / "c.csv").write_text(catalogue_text(rows), encoding="utf-8")
@@ -183,7 +184,7 @@ def test_what_swells_or_is_damaged_is_refused_member_by_member(tmp_path):
     content[content.find(b"ACCELERATION TIME")] ^= 1
     archive.write_bytes(content)
     (record,) = read(archive)
-    assert record.warnings[0].kind is Kind.FILES_NOT_READ
+    assert record.warnings[0].kind is RecordKind.FILES_NOT_READ
     assert "ST000.AT2" in record.warnings[0]["names"]
     with pytest.raises(RecordError, match="cannot be unpacked"):
         read(archive / "quake/RSN1_MADE_ST000.AT2")

@@ -8,6 +8,7 @@ from obspy import Stream, Trace, read_inventory
 
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
+from rocking.records.kinds import RecordKind
 from rocking.remarks import Kind
 
 COUNTS = np.round(1e5 * np.sin(np.arange(3000) / 30) * np.hanning(3000))
@@ -32,12 +33,12 @@ def inventory(units: str = "M/S**2", dip: float = 0.0):
 
 
 @pytest.mark.parametrize(("other", "kind"), [
-    (trace("HNN", "ELSE"), Kind.STATIONS_UNLIKE), (trace("HNN", delta=0.02), Kind.STEPS_OF_STREAM_UNLIKE),
+    (trace("HNN", "ELSE"), RecordKind.STATIONS_UNLIKE), (trace("HNN", delta=0.02), RecordKind.STEPS_OF_STREAM_UNLIKE),
     (trace("HNN"), None),
 ])  # fmt: skip
 def test_channels_of_unlike_stations_or_steps_are_told(other: Trace, kind: Kind | None) -> None:
     records = Accelerogram.from_obspy(Stream([trace(), other]), unit="nm/s2")
-    unlike = {Kind.STATIONS_UNLIKE, Kind.STEPS_OF_STREAM_UNLIKE}
+    unlike = {RecordKind.STATIONS_UNLIKE, RecordKind.STEPS_OF_STREAM_UNLIKE}
     told = [{remark.kind for remark in record.warnings} & unlike for record in records]
     assert told == [{kind} if kind else set()] * 2
 
@@ -74,7 +75,7 @@ def test_removing_the_sensitivity_leaves_the_unit_that_the_response_states(units
 def test_a_tilted_sensor_is_told(dip: float, is_told: bool, vertical: bool) -> None:
     (record,) = Accelerogram.from_obspy(trace(), inventory(dip=dip))
     assert record.vertical == vertical
-    assert (Kind.TILTED in {remark.kind for remark in record.warnings}) == is_told
+    assert (RecordKind.TILTED in {remark.kind for remark in record.warnings}) == is_told
 
 
 def test_a_response_without_stages_is_not_removed_in_full() -> None:

@@ -22,8 +22,9 @@ from rocking.records import CatalogueRecord, files, load_catalogue, open_record
 from rocking.records.catalogue import catalogue_text, repeated
 from rocking.records.files import download, fill_hashes, path_of
 from rocking.records.folder import list_folder
+from rocking.records.kinds import RecordKind
 from rocking.records.listing import listing_text
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 ROWS = (f"{i / 100},{i % 5},{i % 7},{i % 3}\n" for i in range(50))
 TABLE = "time,NS (gal),EW (gal),UD (gal)\n" + "".join(ROWS)
@@ -73,7 +74,7 @@ def test_components_by_name_and_in_the_order_given(folder: Path) -> None:
     (record,) = load_catalogue(write(folder, row(component="UD; NS")))
     vertical, horizontal = open_record(record)
     assert (vertical.component, horizontal.component) == ("UD", "NS") and not horizontal.warnings
-    assert vertical.warnings[-1] == Remark(Kind.VERTICAL_AS_HORIZONTAL, "UD")
+    assert vertical.warnings[-1] == Remark(RecordKind.VERTICAL_AS_HORIZONTAL, "UD")
     (record,) = load_catalogue(write(folder, row(component="XX")))
     with pytest.raises(RecordError, match=r"table.csv: .*'XX', but the file holds NS, EW, UD"):
         open_record(record)
@@ -342,11 +343,11 @@ def test_every_file_is_listed_with_what_it_is(folder: Path) -> None:
     notes = {row["id"]: row["note"] for row in list_folder(folder)[1]}
     assert notes["bare"] == "columns of numbers. Fill in unit and time_step_s."
     kinds = {name: [each.kind for each in file.doubts] for name, file in listed.items()}
-    assert {Kind.CHANNEL_OF_VELOCITY, Kind.PEAK_RARE} <= set(kinds["loud.csv"])
+    assert {RecordKind.CHANNEL_OF_VELOCITY, RecordKind.PEAK_RARE} <= set(kinds["loud.csv"])
     assert not kinds["table.csv"]
-    (rare,) = (each for each in listed["mixed.csv"].doubts if each.kind is Kind.PEAK_RARE)
+    (rare,) = (each for each in listed["mixed.csv"].doubts if each.kind is RecordKind.PEAK_RARE)
     assert rare.about == "EW" and rare["peak_g"] == pytest.approx(4.0)
-    assert Remark.of(Kind.VERTICAL_BY_NAME, word="UP") in listed["quake-UP.csv"].doubts
+    assert Remark.of(RecordKind.VERTICAL_BY_NAME, word="UP") in listed["quake-UP.csv"].doubts
     assert listed["tale.txt"].refusal.startswith("no reader recognises")
 
 
@@ -372,7 +373,7 @@ def test_a_file_under_two_names_is_told_where_it_comes_again(folder: Path) -> No
     named(folder, "again.csv")
     listed, rows = list_folder(folder)
     assert [file.file for file in listed if file.doubts] == ["table.csv"]
-    assert listed[1].doubts == (Remark.of(Kind.CONTENT_REPEATED, original="again.csv"),)
+    assert listed[1].doubts == (Remark.of(RecordKind.CONTENT_REPEATED, original="again.csv"),)
     assert ["again.csv" in row["note"] for row in rows] == [False, True]
 
 
@@ -383,7 +384,7 @@ def test_rows_that_are_one_motion_are_told() -> None:
         first = CatalogueRecord("one", "a.csv", SHA, component="NS;EW")
         return repeated([first, dataclasses.replace(first, **({"id": "two", "file": "b.csv"} | cells))])
 
-    again = Remark.of(Kind.RECORD_REPEATED, "two", file="b.csv", other="one", other_file="a.csv")
+    again = Remark.of(RecordKind.RECORD_REPEATED, "two", file="b.csv", other="one", other_file="a.csv")
     assert told() == (again,)
     assert len(told(component="")) == len(told(component="UD;EW")) == 1
     for other in ({"component": "UD"}, {"scale_factor": 2.0}, {"sha256": "1" * 64}, {"sha256": ""}):

@@ -8,7 +8,7 @@ import pytest
 from rocking.errors import RecordError
 from rocking.records import Accelerogram, read
 from rocking.records.formats.layouts import AskedError
-from rocking.remarks import Kind
+from rocking.records.kinds import RecordKind
 from tests.unit.records.test_layouts import answered
 
 TIMES = np.arange(600) * 0.01
@@ -76,7 +76,7 @@ def test_a_count_above_the_samples_is_no_sample(tmp_path, above):
     (record,) = opened(path) if len(above) == 1 else read(path, unit="m/s2")
     assert record.acceleration.size == 600 and record.time_step == 0.01
     assert record.peak_acceleration == pytest.approx(np.abs(WAVES[0]).max())
-    (told,) = (each for each in record.warnings if each.kind is Kind.FIRST_NUMBERS)
+    (told,) = (each for each in record.warnings if each.kind is RecordKind.FIRST_NUMBERS)
     assert told["what"] == (
         "the number of samples, the time step" if len(above) == 2 else "the number of samples"
     )

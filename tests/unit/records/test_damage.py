@@ -13,6 +13,7 @@ from rocking.errors import RecordError, UndeclaredError
 from rocking.records import Accelerogram
 from rocking.records.formats import Options
 from rocking.records.formats.format import check_duration
+from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import agree_with_velocity
 from rocking.records.read import LARGEST_FILE, read_content, unpack
 from rocking.remarks import Kind, Remark
@@ -40,17 +41,18 @@ RMS = np.sqrt(np.mean(TRUE**2)) / 9.80665
 
 
 @pytest.mark.parametrize(("name", "old", "new", "told"), [
-    ("CSMIP V1/V2", "123.6W", "123.6W  (3 Chns of  3 at Sta)", Kind.CHANNELS_UNLIKE_HEADER),
+    ("CSMIP V1/V2", "123.6W", "123.6W  (3 Chns of  3 at Sta)", RecordKind.CHANNELS_UNLIKE_HEADER),
     # A digit of a scale factor: real headers agree with their samples to 2e-5 beyond their last digit.
-    ("K-NET/KiK-net", "2000(gal)", "2010(gal)", Kind.PEAK_UNLIKE_HEADER),
+    ("K-NET/KiK-net", "2000(gal)", "2010(gal)", RecordKind.PEAK_UNLIKE_HEADER),
     ("K-NET/KiK-net", "2000(gal)", "2001(gal)", None),
-    ("RENADIC", "\nRMS\n", f"\nRMS ACCEL OF COMPLETE RECORD ={1.5 * RMS:6.3f} G\n", Kind.MEAN_SQUARE_UNLIKE_HEADER),
+    ("RENADIC", "\nRMS\n", f"\nRMS ACCEL OF COMPLETE RECORD ={1.5 * RMS:6.3f} G\n",
+     RecordKind.MEAN_SQUARE_UNLIKE_HEADER),
     ("RENADIC", "\nRMS\n", f"\nRMS ACCEL OF COMPLETE RECORD ={RMS:6.3f} G\n", None),
-    ("USGS SMC", "station = Made", "station = Made 12th Fl", Kind.IN_A_STRUCTURE),
-    ("DYNA (ESM, ITACA, AFAD)", "STATION_CODE: X", "STATION_CODE:  12th Fl", Kind.IN_A_STRUCTURE),
-    ("K-NET/KiK-net", "MADE01", "MADE01 12th Fl", Kind.IN_A_STRUCTURE),
-    ("PEER AT2", "Station", "Station 12th Fl", Kind.IN_A_STRUCTURE),
-    ("AFAD/NSMN text", "0921", "0921 12th Fl", Kind.IN_A_STRUCTURE),
+    ("USGS SMC", "station = Made", "station = Made 12th Fl", RecordKind.IN_A_STRUCTURE),
+    ("DYNA (ESM, ITACA, AFAD)", "STATION_CODE: X", "STATION_CODE:  12th Fl", RecordKind.IN_A_STRUCTURE),
+    ("K-NET/KiK-net", "MADE01", "MADE01 12th Fl", RecordKind.IN_A_STRUCTURE),
+    ("PEER AT2", "Station", "Station 12th Fl", RecordKind.IN_A_STRUCTURE),
+    ("AFAD/NSMN text", "0921", "0921 12th Fl", RecordKind.IN_A_STRUCTURE),
 ])  # fmt: skip
 def test_what_a_header_tells_is_warned_of(name: str, old: str, new: str, told: Kind | None) -> None:
     warnings = read_text(made(name).replace(old, new, 1))[0].warnings
@@ -85,7 +87,7 @@ def test_cosmos_has_the_step_of_its_series() -> None:
     assert f"{STEP / 2:13.6f}" in text and read_text(text)[0].time_step == STEP
     (record,) = read_text(text.replace(f"{1000 * STEP:13.6f}", f"{-999:13.6f}", 1))
     assert record.time_step == STEP / 2
-    assert Remark.of(Kind.LENGTH_UNLIKE_HEADER, stated_s=0.4, lasts_s=0.2) in record.warnings
+    assert Remark.of(RecordKind.LENGTH_UNLIKE_HEADER, stated_s=0.4, lasts_s=0.2) in record.warnings
 
 
 @pytest.mark.parametrize(("name", "old", "new"), [
@@ -104,9 +106,9 @@ def test_a_peak_out_of_its_place_is_warned_of(name: str, old: str, new: str) -> 
         return read_text(re.sub(old, new.format(round(at, 3)), text, count=1))[0].warnings
 
     known = set(told(place))
-    assert Kind.PEAK_ELSEWHERE not in {each.kind for each in known}
+    assert RecordKind.PEAK_ELSEWHERE not in {each.kind for each in known}
     (new_one,) = set(told(place + 12 * STEP)) - known
-    assert new_one.kind is Kind.PEAK_ELSEWHERE
+    assert new_one.kind is RecordKind.PEAK_ELSEWHERE
 
 
 COUNTS = np.round(1e4 * np.sin(np.arange(4000) / 30)).astype(np.int32)
@@ -146,14 +148,14 @@ def test_miniseed_blocks_that_come_twice_are_told() -> None:
     """The last blocks overwritten by earlier ones: the record is shorter, without a gap."""
     content = by_obspy("MSEED", COUNTS, reclen=512, encoding="STEIM2")
     whole = read_content(content, "made", IN_MM)[0].warnings
-    assert {each.kind for each in whole} <= {Kind.VELOCITY_RARE}  # of a tone that is made to be loud
+    assert {each.kind for each in whole} <= {RecordKind.VELOCITY_RARE}  # of a tone that is made to be loud
     blocks = [content[i : i + 512] for i in range(0, len(content), 512)]
     (record,) = read_content(b"".join(blocks[:-3] + blocks[:3]), "made", IN_MM)
     assert record.acceleration.size < 4000
-    assert Kind.BLOCKS_OVERLAP in {each.kind for each in record.warnings}
-    assert all(each["after"] != 1 for each in record.warnings if each.kind is Kind.BLOCKS_LEAP)
+    assert RecordKind.BLOCKS_OVERLAP in {each.kind for each in record.warnings}
+    assert all(each["after"] != 1 for each in record.warnings if each.kind is RecordKind.BLOCKS_LEAP)
     (record,) = read_content(b"".join([*blocks[:4], *blocks[3:]]), "made", IN_MM)
-    assert Remark.of(Kind.BLOCKS_LEAP, before=4, after=4) in record.warnings
+    assert Remark.of(RecordKind.BLOCKS_LEAP, before=4, after=4) in record.warnings
 
 
 def test_miniseed_that_fails_its_own_check_is_refused() -> None:
@@ -225,7 +227,7 @@ def test_commas_that_part_columns_still_do() -> None:
 def test_a_gap_is_not_bridged_by_a_line() -> None:
     rows = [f"{i * STEP:.3f} {v:.5f}\n" for i, v in enumerate(TRUE)]
     (one,) = read_text("".join(rows[:10] + rows[11:]), unit="m/s2")
-    assert one.acceleration.size == N and one.warnings[0].kind is Kind.UNEVEN
+    assert one.acceleration.size == N and one.warnings[0].kind is RecordKind.UNEVEN
     with pytest.raises(RecordError, match=r"no samples between 0.09 and 0.16 s.*not bridged"):
         read_text("".join(rows[:10] + rows[16:]), unit="m/s2")
 
@@ -241,7 +243,7 @@ def test_film_is_evened_out_but_for_a_gap_and_its_peak_is_its_own() -> None:
         return text.replace(f"LENGTH = {N * STEP:.3f}", f"LENGTH = {times[-1]:.3f}")
 
     (record,) = read_text(film(times))
-    assert record.time_step == 0.005 and record.warnings[0].kind is Kind.UNEVEN_FILM
+    assert record.time_step == 0.005 and record.warnings[0].kind is RecordKind.UNEVEN_FILM
     even = np.interp(np.arange(record.acceleration.size) * 0.005, np.round(times, 3), TRUE)
     assert np.abs(record.acceleration - even).max() < 1e-3
     with pytest.raises(RecordError, match="not bridged"):
@@ -281,7 +283,7 @@ def test_a_velocity_that_contradicts_its_acceleration_is_warned_of() -> None:
     before, turned = (made_files.columns(values, 8, "10.3f") for values in (velocity, velocity[::-1]))
     other = text.replace(before, turned)
     assert head and other != text and not read_text(text)[0].warnings
-    assert read_text(other)[0].warnings[0].kind is Kind.VELOCITY_UNLIKE
+    assert read_text(other)[0].warnings[0].kind is RecordKind.VELOCITY_UNLIKE
 
 
 def test_a_velocity_that_is_still_but_for_its_last_digit_is_no_damage() -> None:
@@ -294,5 +296,5 @@ def test_a_velocity_that_is_still_but_for_its_last_digit_is_no_damage() -> None:
     assert agree_with_velocity(record, rounded).warnings == ()
     rounded[1200:] += 2e-4
     (stray,) = agree_with_velocity(record, rounded).warnings
-    assert stray.kind is Kind.VELOCITY_UNLIKE_THERE
+    assert stray.kind is RecordKind.VELOCITY_UNLIKE_THERE
     assert stray["time_s"] == pytest.approx(12, abs=0.02)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import pytest
 
 from rocking.records.direction import Direction, directed, direction_in_name, doubts_of_channel, pair_doubt
-from rocking.remarks import Kind
+from rocking.records.kinds import RecordKind
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ def test_a_pair_at_right_angles_by_what_its_names_mean(first: str, second: str, 
     pair = Channel(first), Channel(second)
     assert all(doubts_of_channel(each) == () for each in pair)
     doubt = pair_doubt(pair)
-    assert doubt is None if across else doubt is not None and doubt.kind is Kind.ANGLE_UNKNOWN
+    assert doubt is None if across else doubt is not None and doubt.kind is RecordKind.ANGLE_UNKNOWN
 
 
 def test_a_pair_of_columns_without_names_is_not_doubted() -> None:

@@ -17,8 +17,9 @@ from rocking.records import Accelerogram, load_catalogue, read
 from rocking.records.direction import Direction
 from rocking.records.folder import list_folder
 from rocking.records.formats import FORMATS
+from rocking.records.kinds import RecordKind
 from rocking.records.obspy_plugin import PLUGINS
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 XML = """<?xml version="1.0" encoding="UTF-8"?>
 <FDSNStationXML xmlns="http://www.fdsn.org/xml/station/1" schemaVersion="1.1"><Source>made</Source>
@@ -105,7 +106,7 @@ def test_a_folder_of_counts_hears_that_its_stationxml_is_missing(miniseed: Path)
     files = list_folder(miniseed.parent)[0]
     assert len(files) == 2  # miniSEED and SAC
     for file in files:
-        assert Remark(Kind.COUNTS_WITHOUT_UNIT) in file.doubts
+        assert Remark(RecordKind.COUNTS_WITHOUT_UNIT) in file.doubts
     (miniseed.parent / "station.xml").write_text(XML.format(units="M/S**2"))
     assert [file.doubts for file in list_folder(miniseed.parent)[0]][:2] == [(), ()]
 
@@ -119,7 +120,7 @@ def test_what_the_c_library_says_of_a_response_is_a_warning_of_the_record(minise
     xml = XML.format(units="M/S**2").replace("</PolesZeros>", poles + "</PolesZeros>")
     (miniseed.parent / "station.xml").write_text(xml.replace("<Frequency>1<", "<Frequency>0.01<", 1))
     (record,) = read(miniseed, response="full")
-    assert Kind.SENSITIVITY_UNLIKE_STAGES in {each.kind for each in record.warnings}
+    assert RecordKind.SENSITIVITY_UNLIKE_STAGES in {each.kind for each in record.warnings}
     printed = capfd.readouterr()
     assert "sensitivities" not in printed.err + printed.out
 
@@ -337,7 +338,7 @@ def test_a_sensitivity_at_another_frequency_than_its_stages_is_told() -> None:
     inventory = read_inventory(io.BytesIO(text.encode()), format="STATIONXML")
     (record,) = Accelerogram.from_obspy(trace(), inventory)
     assert np.allclose(record.acceleration, (COUNTS - COUNTS.mean()) / 230000, atol=1e-12)
-    assert [remark.kind for remark in record.warnings] == [Kind.SENSITIVITY_ELSEWHERE]
+    assert [remark.kind for remark in record.warnings] == [RecordKind.SENSITIVITY_ELSEWHERE]
 
 
 def test_the_full_removal_asks_the_stages_alone() -> None:
@@ -365,7 +366,7 @@ def test_names_that_are_no_verticals(name: str, along: float | None) -> None:
 
 def test_a_direction_that_nobody_states_is_told() -> None:
     (record,) = Accelerogram.from_obspy(trace(COUNTS / 1e5, channel="QQX"), unit="m/s2")
-    assert Remark(Kind.LONE_MAY_BE_VERTICAL, "QQX") in record.warnings
+    assert Remark(RecordKind.LONE_MAY_BE_VERTICAL, "QQX") in record.warnings
 
 
 @pytest.mark.real_records

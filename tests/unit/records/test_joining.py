@@ -9,8 +9,9 @@ from rocking.records import CatalogueRecord, load_catalogue, open_station
 from rocking.records.catalogue import catalogue_text
 from rocking.records.direction import direction_in_name
 from rocking.records.folder import catalogue_of_folder, list_folder
+from rocking.records.kinds import RecordKind
 from rocking.records.listing import doubts_of
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 VALUES = 0.3 * np.sin(np.arange(4000) * 0.07) * np.hanning(4000)
 
@@ -76,11 +77,11 @@ def test_an_angle_that_nobody_knows_is_told(tmp_path: Path, names: tuple[str, st
     for name in names:
         peer(tmp_path, f"a_{name}.AT2", name)
     assert len(rows(tmp_path)) == 1
-    told = Remark.of(Kind.ANGLE_UNKNOWN, first=min(names), second=max(names))
+    told = Remark.of(RecordKind.ANGLE_UNKNOWN, first=min(names), second=max(names))
     assert (str(told) in notes(tmp_path)) == is_told
     (station,) = opened(tmp_path)
     for channel in station.horizontal:
-        assert (Kind.ANGLE_UNKNOWN in {each.kind for each in channel.warnings}) == is_told
+        assert (RecordKind.ANGLE_UNKNOWN in {each.kind for each in channel.warnings}) == is_told
 
 
 def test_components_of_unlike_length_are_joined_from_the_first_sample(tmp_path: Path) -> None:
@@ -132,7 +133,7 @@ def test_a_vertical_by_its_name_acts_upwards(tmp_path: Path) -> None:
     (station,) = opened(tmp_path, unit="g")
     assert len(station.horizontal) == 2 and station.vertical.component == "UP"
     kinds = {each.kind for file in catalogue_of_folder(tmp_path).files for each in doubts_of(file)}
-    assert not kinds & {Kind.DIRECTION_UNKNOWN, Kind.VERTICAL_IN_NAME}
+    assert not kinds & {RecordKind.DIRECTION_UNKNOWN, RecordKind.VERTICAL_IN_NAME}
 
 
 @pytest.mark.parametrize("names", [

@@ -12,7 +12,8 @@ from rocking.records import Accelerogram, read
 from rocking.records.direction import Direction
 from rocking.records.formats.format import coordinates
 from rocking.records.formats.layouts import AskedError
-from rocking.remarks import Kind, Remark
+from rocking.records.kinds import RecordKind
+from rocking.remarks import Remark
 from tests.contracts.made_files import TRUE, columns, cwb, smc
 from tests.unit.records.test_layouts import answered
 
@@ -104,7 +105,7 @@ def test_points_of_film_in_smc_are_joined_by_lines(tmp_path):
         100 * record.acceleration, np.interp(even, times, values), atol=0.05
     )  # times to 1e-4 s
     (told,) = record.warnings  # the header puts the peak where it is among the points
-    assert told.kind is Kind.UNEVEN_FILM
+    assert told.kind is RecordKind.UNEVEN_FILM
 
 
 def test_the_disc_of_1999_is_read_as_its_later_files_are(tmp_path):
@@ -193,7 +194,7 @@ def test_a_sac_header_that_contradicts_its_channel_code_is_told(
     SACTrace(data=numbers, delta=0.01, kcmpnm=code, cmpaz=azimuth, cmpinc=inclination).write(str(path))
     (record,) = read(path, unit="m/s2")
     assert (record.azimuth, record.vertical) == (along, vertical)
-    assert (Kind.DIRECTION_CONTRADICTED in {each.kind for each in record.warnings}) == is_told
+    assert (RecordKind.DIRECTION_CONTRADICTED in {each.kind for each in record.warnings}) == is_told
 
 
 def test_the_scale_of_a_sac_file_is_told(tmp_path):
@@ -202,4 +203,4 @@ def test_the_scale_of_a_sac_file_is_told(tmp_path):
     SACTrace(data=numbers, delta=0.01, kcmpnm="HNE", scale=2.0).write(str(path))
     (record,) = read(path, unit="m/s2")
     assert record.acceleration == pytest.approx(2 * (numbers - numbers.mean()), abs=1e-5)
-    assert Remark.of(Kind.SCALE_APPLIED, factor=2.0) in record.warnings
+    assert Remark.of(RecordKind.SCALE_APPLIED, factor=2.0) in record.warnings

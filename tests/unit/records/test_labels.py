@@ -11,7 +11,8 @@ from rocking.records import Accelerogram, read
 from rocking.records.direction import Direction
 from rocking.records.formats.labels import ColumnLabel
 from rocking.records.formats.layouts import AskedError
-from rocking.remarks import Kind, Remark
+from rocking.records.kinds import RecordKind
+from rocking.remarks import Remark
 from tests.unit.records.test_layouts import answered
 
 TIMES = np.arange(600) * 0.01
@@ -226,20 +227,20 @@ def test_three_channels_of_which_none_is_called_vertical_are_told(tmp_path):
     content = table("time (s),Ch1 (m/s2),Ch2 (m/s2),Ch3 (m/s2)\n", TIMES, *WAVES)
     for record in opened(tmp_path, content):
         kinds = {each.kind for each in record.warnings}
-        assert Kind.SOME_MAY_BE_VERTICAL in kinds
-        assert Kind.CHANNEL_OF_VELOCITY not in kinds
+        assert RecordKind.SOME_MAY_BE_VERTICAL in kinds
+        assert RecordKind.CHANNEL_OF_VELOCITY not in kinds
     named = table("time (s),X (m/s2),Y (m/s2),Z (m/s2)\n", TIMES, *WAVES)
-    assert Kind.SOME_MAY_BE_VERTICAL not in {each.kind for each in opened(tmp_path, named)[0].warnings}
+    assert RecordKind.SOME_MAY_BE_VERTICAL not in {each.kind for each in opened(tmp_path, named)[0].warnings}
 
 
 def test_numbers_none_of_which_is_negative_are_told(tmp_path):
     (record,) = opened(tmp_path, table("", TIMES, np.abs(FIRST) + 0.01), unit="m/s2")
-    assert Kind.NEVER_NEGATIVE in {each.kind for each in record.warnings}
+    assert RecordKind.NEVER_NEGATIVE in {each.kind for each in record.warnings}
 
 
 def test_a_column_of_a_floor_is_told(tmp_path):
     _, roof = opened(tmp_path, table("time (s),ground (g),roof (g)\n", TIMES, FIRST, WAVES[1]))
-    assert Remark.of(Kind.IN_A_STRUCTURE, place="roof") in roof.warnings
+    assert Remark.of(RecordKind.IN_A_STRUCTURE, place="roof") in roof.warnings
 
 
 def test_text_above_a_table_is_passed_over_where_nothing_is_left_open(tmp_path):
@@ -356,7 +357,7 @@ def test_the_filling_of_the_last_row_is_left_out(tmp_path):
     (record,) = opened(tmp_path, "# Component: HNZ\n# units: m/s2, dt = 0.01 s\n" + rows)
     assert record.vertical
     assert record.acceleration == pytest.approx(FIRST, abs=1e-6)
-    assert Kind.ROW_FILLED_UP in {each.kind for each in record.warnings}
+    assert RecordKind.ROW_FILLED_UP in {each.kind for each in record.warnings}
     with pytest.raises(RecordError, match="NaN"):
         opened(tmp_path, "# units: m/s2, dt = 0.01 s\n" + rows.replace(numbers[300], "NaN", 1))
 

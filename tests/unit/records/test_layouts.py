@@ -12,7 +12,7 @@ from rocking.records import load_catalogue, open_record, read
 from rocking.records.files import answers_of
 from rocking.records.folder import list_folder
 from rocking.records.formats.layouts import COLUMNS, NAME, AskedError, Layouts, Question, TableLayout
-from rocking.remarks import Kind
+from rocking.records.kinds import RecordKind
 from rocking.study.workspace import write_catalogue
 
 TIMES = 0.01 * np.arange(600)
@@ -345,7 +345,7 @@ def test_a_file_that_looks_unlike_the_others_of_its_folder_is_told(tmp_path: Pat
     assert read(tmp_path / "made.txt")[0].warnings == ()
     (tmp_path / "other.txt").write_text(table(MOTION, OTHER, UP))
     (record,) = read(tmp_path / "other.txt")
-    assert Kind.UNLIKE_ITS_ANSWER in {each.kind for each in record.warnings}
+    assert RecordKind.UNLIKE_ITS_ANSWER in {each.kind for each in record.warnings}
 
 
 def test_an_answer_that_the_file_contradicts_is_refused(tmp_path: Path) -> None:

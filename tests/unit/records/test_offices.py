@@ -14,8 +14,9 @@ from rocking.records import folder as folder_of_records
 from rocking.records import listing, load_catalogue, open_record, read, readings
 from rocking.records.files import fill_hashes
 from rocking.records.folder import list_folder
+from rocking.records.kinds import RecordKind
 from rocking.records.listing import listing_text
-from rocking.remarks import Kind, Remark, Sentence
+from rocking.remarks import Remark, Sentence
 from rocking.study.workspace import write_catalogue
 
 TIMES = 0.01 * np.arange(300)
@@ -159,8 +160,8 @@ def test_nothing_is_decided_by_the_words_of_a_remark(tmp_path: Path, monkeypatch
 
     before = found()
     assert len({kind for file in before[0] for kind in file[4]}) > 3
-    for kind in Kind:
+    for kind in RecordKind:
         words = "".join(f"{{{name}}}" for name in kind.value_names)
         monkeypatch.setattr(kind, "said", Sentence(f"xyzzy{words}", f"xyzzy{words}"))
-    assert str(Remark(Kind.TOLD_BY_OBSPY, values=(("text", "a"),))) == "xyzzya"
+    assert str(Remark(RecordKind.TOLD_BY_OBSPY, values=(("text", "a"),))) == "xyzzya"
     assert found() == before

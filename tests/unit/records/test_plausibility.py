@@ -9,8 +9,9 @@ import rocking
 from rocking.errors import RecordError
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram, Source
+from rocking.records.kinds import RecordKind
 from rocking.records.plausibility import StatedPeak, agree_with_header, pass_limits
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 
 
 def record(peak: float) -> Accelerogram:
@@ -43,15 +44,15 @@ def test_limits() -> None:
     assert pass_limits(record(2.99 * GRAVITY)) == () == pass_limits(record(1.01e-5 * GRAVITY))
     for peak in (3.01, 4.99):
         (rare,) = pass_limits(record(peak * GRAVITY))
-        assert rare.kind is Kind.PEAK_RARE and rare["peak_g"] == pytest.approx(peak)
+        assert rare.kind is RecordKind.PEAK_RARE and rare["peak_g"] == pytest.approx(peak)
     with pytest.raises(
         RecordError, match="counts of the recorder, perhaps; multiply them by their calibration"
     ):
         pass_limits(record(5e6 * GRAVITY))
     (told,) = pass_limits(record(8e-6 * GRAVITY))
-    assert told.kind is Kind.PEAK_TINY_BY_UNIT and told["peak_g"] == pytest.approx(8e-6)
+    assert told.kind is RecordKind.PEAK_TINY_BY_UNIT and told["peak_g"] == pytest.approx(8e-6)
     assert told["factors"].startswith("by 980.665 ")
-    assert pass_limits(record(0.0)) == (Remark.of(Kind.PEAK_TINY, peak_g=0.0),)
+    assert pass_limits(record(0.0)) == (Remark.of(RecordKind.PEAK_TINY, peak_g=0.0),)
 
 
 SHAKING = np.sin(np.arange(400) / 5) * np.hanning(400)
@@ -60,8 +61,8 @@ SHAKING = np.sin(np.arange(400) / 5) * np.hanning(400)
 def test_steps_and_peaks_that_no_instrument_gives_are_told_of_arrays_as_of_files() -> None:
     for step in (1e-9, 0.11, 6.01, 1e3):
         (warning,) = Accelerogram(SHAKING, step).warnings
-        assert warning.kind is Kind.STEP_UNUSUAL and warning["time_step_s"] == step
-    assert Accelerogram(SHAKING * 1000, 0.01).warnings == (Remark(Kind.PEAK_IMPOSSIBLE),)
+        assert warning.kind is RecordKind.STEP_UNUSUAL and warning["time_step_s"] == step
+    assert Accelerogram(SHAKING * 1000, 0.01).warnings == (Remark(RecordKind.PEAK_IMPOSSIBLE),)
     assert len(replace(Accelerogram(SHAKING * 1000, 1e-9), station="A").warnings) == 2
     assert not Accelerogram(SHAKING * 5 * GRAVITY, 1e-4).warnings + Accelerogram(SHAKING, 0.1).warnings
 
@@ -85,4 +86,4 @@ def test_a_stated_peak_may_be_off_by_half_of_the_last_digit_that_is_printed(tmp_
         f"PEER\nMade 1/1/2000, A, 90, PGA={stated} G\nACCELERATION IN UNITS OF G\nNPTS= 200, DT= .01 SEC\n{samples}\n"
     )
     (read,) = rocking.read(path)
-    assert (Kind.PEAK_UNLIKE_HEADER in {each.kind for each in read.warnings}) is is_told
+    assert (RecordKind.PEAK_UNLIKE_HEADER in {each.kind for each in read.warnings}) is is_told

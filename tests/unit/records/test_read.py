@@ -16,8 +16,8 @@ import pytest
 from rocking.errors import RecordError, UnknownFormatError
 from rocking.records import read
 from rocking.records.formats import FORMATS, Options
+from rocking.records.kinds import RecordKind
 from rocking.records.read import LARGEST_FILE, read_content
-from rocking.remarks import Kind
 
 
 def at2(values: list[str], npts: int | None = None, dt: str = ".0100", unit: str = "UNITS OF G") -> str:
@@ -97,10 +97,10 @@ def test_times_rounded_in_print_are_even_and_uneven_ones_are_resampled(tmp_path:
     uneven = "".join(f"{t:.4f} {np.sin(t):.6f}\n" for t in times)
     (record,) = read(written(tmp_path, uneven, "r.txt"), unit="g")
     told = record.warnings[0]
-    assert told.kind is Kind.UNEVEN and record.processing == (str(told),)
+    assert told.kind is RecordKind.UNEVEN and record.processing == (str(told),)
     slow = 0.01 * np.arange(400) * (1 + 1e-5 * np.arange(400))
     slowing = "".join(f"{t:.6f} {np.sin(t):.6f}\n" for t in slow)
-    assert read(written(tmp_path, slowing, "s.txt"), unit="g")[0].warnings[0].kind is Kind.UNEVEN
+    assert read(written(tmp_path, slowing, "s.txt"), unit="g")[0].warnings[0].kind is RecordKind.UNEVEN
     # linear interpolation of sin between points 0.013 s apart errs by h²/8; the print rounds to 5e-7
     truth = np.sin(times[0] + np.arange(record.acceleration.size) * record.time_step)
     assert np.abs(record.acceleration / 9.80665 - truth).max() < 0.013**2 / 8 + 1e-6
@@ -213,7 +213,7 @@ SERIES = "\n".join(f"{value:.6f}" for value in np.sin(np.arange(300) * 0.1)) + "
 def test_a_bare_series_is_vertical_where_its_file_is_called_so(tmp_path: Path, name, component) -> None:
     (record,) = read(written(tmp_path, SERIES, name), unit="m/s2", time_step=0.01)
     assert record.vertical
-    assert Kind.VERTICAL_BY_NAME in {each.kind for each in record.warnings}
+    assert RecordKind.VERTICAL_BY_NAME in {each.kind for each in record.warnings}
 
 
 @pytest.mark.parametrize(

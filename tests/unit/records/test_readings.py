@@ -12,8 +12,9 @@ import pytest
 from rocking.records import listing, load_catalogue
 from rocking.records.catalogue import catalogue_text, read_rows
 from rocking.records.folder import catalogue_of_folder
+from rocking.records.kinds import RecordKind
 from rocking.records.readings import STORE
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.study.workspace import write_catalogue
 
 ROWS = "".join(f"{i / 100},{i % 5},{i % 7}\n" for i in range(400))
@@ -64,7 +65,7 @@ def test_what_is_doubtful_of_a_file_is_kept_with_its_values(folder: Path, reads:
     first, second = (catalogue_of_folder(folder, keeps_readings=True).files for _ in range(2))
     assert len(reads) == 4
     assert [file.doubts for file in second] == [file.doubts for file in first]
-    (rare,) = (each for file in second for each in file.doubts if each.kind is Kind.PEAK_RARE)
+    (rare,) = (each for file in second for each in file.doubts if each.kind is RecordKind.PEAK_RARE)
     assert rare.about == "NS" and rare["peak_g"] == pytest.approx(4.0)
 
 
@@ -150,7 +151,7 @@ def test_a_copy_is_no_new_name(folder: Path) -> None:
     (folder / "copy.csv").write_bytes((folder / "r1.csv").read_bytes())
     text = again(folder)
     assert "is now" not in text and "1 of them new" in text
-    assert str(Remark.of(Kind.CONTENT_REPEATED, original="copy.csv")) in text
+    assert str(Remark.of(RecordKind.CONTENT_REPEATED, original="copy.csv")) in text
 
 
 def test_a_typed_cell_clears_its_request(folder: Path) -> None:

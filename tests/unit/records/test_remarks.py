@@ -7,7 +7,8 @@ import pytest
 
 from rocking.errors import RecordError
 from rocking.records.formats.remarks import Declarations
-from rocking.remarks import Kind, Remark
+from rocking.records.kinds import RecordKind
+from rocking.remarks import Remark
 from tests.unit.records.test_labels import FIRST, TIMES, WAVES, opened, table
 
 BARE = table("", FIRST)
@@ -189,7 +190,7 @@ def test_the_number_of_samples_that_remarks_declare_is_held_against_them(tmp_pat
     with pytest.raises(RecordError, match="declares 600 samples, but the file holds 592"):
         opened(tmp_path, head + wrapped(FIRST[:592], 8))
     (record,) = opened(tmp_path, head + wrapped(np.append(FIRST, np.zeros(4)), 8))
-    assert Remark.of(Kind.SAMPLES_SURPLUS, declared=600, held=604) in record.warnings
+    assert Remark.of(RecordKind.SAMPLES_SURPLUS, declared=600, held=604) in record.warnings
 
 
 @pytest.mark.parametrize(
@@ -223,6 +224,6 @@ def test_a_unit_beside_a_factor_is_not_taken(tmp_path: Path, remark):
 def test_a_factor_in_a_remark_is_told_and_not_applied(tmp_path: Path, remark):
     (record,) = opened(tmp_path, f"# {remark}\n" + TIMED)
     assert record.acceleration == pytest.approx(FIRST, abs=1e-6)
-    assert Remark.of(Kind.FACTOR_NOT_APPLIED, text=remark) in record.warnings
+    assert Remark.of(RecordKind.FACTOR_NOT_APPLIED, text=remark) in record.warnings
     (record,) = opened(tmp_path, "# number of points: 600\n" + TIMED)
-    assert Kind.FACTOR_NOT_APPLIED not in {each.kind for each in record.warnings}
+    assert RecordKind.FACTOR_NOT_APPLIED not in {each.kind for each in record.warnings}

@@ -6,7 +6,8 @@ import pytest
 from rocking.errors import RecordError
 from rocking.records import Accelerogram
 from rocking.records.direction import rotate, rotd
-from rocking.remarks import Kind, Remark
+from rocking.records.kinds import RecordKind
+from rocking.remarks import Remark
 
 RNG = np.random.default_rng(1)
 NORTH, EAST = RNG.standard_normal(500), RNG.standard_normal(500)
@@ -42,7 +43,7 @@ def test_what_came_before_the_record_turns_with_it() -> None:
 def test_unequal_lengths_are_cut_and_told() -> None:
     turned = rotate(component(0), component(90, n=490), 0.8)
     assert turned.acceleration.size == 490
-    assert turned.warnings[-1] == Remark.of(Kind.CUT_TO_THE_SHORTER, short=490, long=500)
+    assert turned.warnings[-1] == Remark.of(RecordKind.CUT_TO_THE_SHORTER, short=490, long=500)
 
 
 @pytest.mark.parametrize(("one", "two"), [(0, 90), (318, 228), (260, 345), (10, 150)])

@@ -16,8 +16,8 @@ from rocking.records.archive import members
 from rocking.records.catalogue import catalogue_text
 from rocking.records.folder import list_folder
 from rocking.records.formats import workspace
+from rocking.records.kinds import RecordKind
 from rocking.records.station import open_station
-from rocking.remarks import Kind
 from tests.contracts.made_files import STEP, TRUE
 from tests.refusals import refused
 
@@ -199,7 +199,7 @@ def test_a_trace_that_gmprocess_rejects_says_so(path: Path) -> None:
         )
     for record in read(path / f"{EVENT}_default" / "NZ.WEAK"):
         (remark,) = record.warnings
-        assert remark.kind is Kind.FAILED_IN_GMPROCESS and remark["reason"] == "Failed SNR"
+        assert remark.kind is RecordKind.FAILED_IN_GMPROCESS and remark["reason"] == "Failed SNR"
 
 
 def test_a_workspace_without_labels_of_gmprocess_is_of_raw_counts(tmp_path: Path) -> None:

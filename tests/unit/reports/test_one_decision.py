@@ -12,12 +12,13 @@ import pytest
 
 from rocking.assessment.cracks import CrackEnsembles, FollowedCrack
 from rocking.assessment.decide import Verdict
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import VerdictRow, rows_of_record
 from rocking.assessment.scene import load_scenes, placed
 from rocking.codes.dynamic_check import check
 from rocking.records import load_catalogue
 from rocking.records.design_spectrum import DesignSpectrum
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.reports.explore import explore_page, record_content
 from rocking.reports.pages import TableCell
 from rocking.reports.printing import LOOKS, cell_text
@@ -59,7 +60,7 @@ def report(example) -> RecordReport:
         "block 4 m": ([64], None),
         "block 1 m": ([50], None),
         "wall 3 m": ([0, 63], None),
-        "arch 20 m": ([12], Remark(Kind.CONTACTS_OPEN)),
+        "arch 20 m": ([12], Remark(AssessmentKind.CONTACTS_OPEN)),
     }
     scenes = {
         name: replace(

@@ -6,9 +6,10 @@ from types import SimpleNamespace
 import pytest
 
 from rocking.assessment.decide import ORDER, CrackFacts, Facts, decide
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import PulseRow
 from rocking.quantities import listed
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.reports import printing
 
 
@@ -69,7 +70,7 @@ def crack(falls: int) -> CrackFacts:
         (Facts(cracks=(crack(62),)), "△ 97 %"),
         (Facts(cracks=(crack(64),)), "▲ 100 %"),
         (Facts(cracks=(crack(0), crack(30))), "≈ 0–47 %"),
-        (Facts(cracks=(crack(8),), doubts=(Remark(Kind.CONTACTS_OPEN),)), "? ≥ 12 %"),
+        (Facts(cracks=(crack(8),), doubts=(Remark(AssessmentKind.CONTACTS_OPEN),)), "? ≥ 12 %"),
         (Facts(cracks=(crack(0),), stacks=(20, 24)), "△ 0–83 %"),
         (Facts(failures=("No.",)), "?"),
         (Facts(cracks=(crack(0),), never_lets_go="stays tied"), "■"),

@@ -8,17 +8,20 @@ import numpy as np
 import pytest
 
 from rocking.assessment.decide import ORDER
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.methods import Agreement
 from rocking.assessment.rows import rows_of_record, structure_rows
 from rocking.assessment.scene import Scene
 from rocking.pulses.pulse import worth_of
 from rocking.records.accelerogram import Accelerogram
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark
 from rocking.reports import printing
+from rocking.reports.kinds import ReportKind
 from rocking.reports.pages import RecordPage, Table, TableCell
 from rocking.reports.printing import MEASURED, compile_document
 from rocking.reports.record import RecordReport, failure_page
 from rocking.structures import Arch, ArchOnPiers, Block, Facade, LoadedWall, Spire, Wall
+from rocking.structures.kinds import StructureKind
 from rocking.tables import cell
 
 from .conftest import HOSTILE, assessed, detailed, of_structures, pages, shaken
@@ -259,7 +262,7 @@ def test_a_contact_that_fails_is_told(example):
     data = with_tables(detailed(example), comparison=comparison)
     failing = f"{next(iter(example.structures))} (slides and bounces)"
     assert any(failing in sentence for sentence in known(data))
-    slides = Remark.of(Kind.CONTACT_SLIDES, lifting=0.2, largest=0.7).brief
+    slides = Remark.of(AssessmentKind.CONTACT_SLIDES, lifting=0.2, largest=0.7).brief
     assert slides in {row.remark for row in data.page_one.rows}
     assert data.details[0].methods.rows[0][-2:] == ("yes", "yes")
 
@@ -274,7 +277,7 @@ def test_an_arch_that_stands_on_its_friction_is_no_model_that_fails(example):
     ]
     arch = Arch(radius=15.0, thickness=2.25, embrace_angle=2.75)
     piers = ArchOnPiers(5.0, 0.8, 3.14, pier_width=1.5, pier_height=4.0)
-    stands = str(Remark.of(Kind.STANDS_AS_VOUSSOIRS, name, needed=0.67))
+    stands = str(Remark.of(ReportKind.STANDS_AS_VOUSSOIRS, name, needed=0.67))
     for structure, friction, told in ((arch, 0.6, True), (arch, 0.4, False), (piers, 0.6, False)):
         report = replace(
             detailed(example),
@@ -293,7 +296,10 @@ def test_a_reserve_that_may_be_too_high_is_told_as_such(example):
     assert detailed(example).page().details[0].reserve_note == ""
     scene = example.result.scenes[name]
     station = scene.worst
-    cases = {each: replace(case, doubt=Remark(Kind.CONTACTS_OPEN)) for each, case in station.cases.items()}
+    cases = {
+        each: replace(case, doubt=Remark(AssessmentKind.CONTACTS_OPEN))
+        for each, case in station.cases.items()
+    }
     in_doubt = replace(scene, periods=(replace(station, cases=cases),))
     result = replace(example.result, scenes={**example.result.scenes, name: in_doubt})
     doubtful = replace(detailed(example), result=result, tables=rows_of_record(result, "cd" * 32, "CC0-1.0"))
@@ -310,7 +316,7 @@ def test_the_reserve_of_a_spire_is_always_told_as_the_mechanisms(example):
     spire = Spire(width=3.0, height=15.0, wall_thickness=0.25, crack_height=5.0)
     words = replace(station, scene=Scene(name, spire)).reserve_in_words
     assert words.startswith(str(station.reserve))
-    assert words.endswith(f"too high where {Remark(Kind.COURSES_THROWN)}")
+    assert words.endswith(f"too high where {Remark(AssessmentKind.COURSES_THROWN)}")
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -322,8 +328,8 @@ def test_a_front_that_is_free_to_rock_through_its_floors_is_told():
         "free": Facade(**sizes),
     }
     report = assessed("one", [shaken()], fronts)
-    told = [each for each in known(report.page()) if str(Remark(Kind.FLOORS_BEHIND)) in each]
-    assert told == [str(Remark(Kind.FLOORS_BEHIND, "floors"))]
+    told = [each for each in known(report.page()) if str(Remark(StructureKind.FLOORS_BEHIND)) in each]
+    assert told == [str(Remark(StructureKind.FLOORS_BEHIND, "floors"))]
 
 
 def _head_and_value(facts: Table) -> list[tuple[str, list[str]]]:
@@ -373,11 +379,11 @@ def test_the_report_says_what_to_do_and_by_how_much_the_record_may_be_stronger()
     shaking = [shaken("NS", scale_factor=3.0), shaken("EW", scale_factor=2.0)]
     unasked = assessed("two", shaking, structures, fidelity="auto")
     data = unasked.page()
-    assert data.advice == (f"To learn more of spire: {Remark(Kind.CONTACT_DYNAMICS)}.",)
+    assert data.advice == (f"To learn more of spire: {Remark(AssessmentKind.CONTACT_DYNAMICS)}.",)
     remarks = {row.name: row.remark for row in data.page_one.rows}
-    assert remarks["spire"] == Remark(Kind.CONTACT_DYNAMICS).brief
+    assert remarks["spire"] == Remark(AssessmentKind.CONTACT_DYNAMICS).brief
     first = "".join(word[4] for word in pages(unasked.pdf())[0])
-    assert Remark(Kind.CONTACT_DYNAMICS).brief.replace(" ", "") in first
+    assert Remark(AssessmentKind.CONTACT_DYNAMICS).brief.replace(" ", "") in first
 
     report = assessed("two", shaking, structures)
     data = report.page()

@@ -9,11 +9,11 @@ import pytest
 from rocking import Block, DesignSpectrum, check
 from rocking.assessment.case import RecordResult
 from rocking.assessment.conclusion import TO_CHECK
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, RecordRows, RemarkRow, rows_of_record
 from rocking.assessment.scene import Scene, on_the_ground
 from rocking.errors import RockingError
 from rocking.quantities import GRAVITY
-from rocking.remarks import Kind
 from rocking.reports.explore import explore_page
 from rocking.reports.record import RecordReport
 from rocking.reports.structures import CheckedStructure, structures_data
@@ -126,7 +126,7 @@ def test_every_document_of_a_study_reads_the_same_remarks(example):
     rows = RemarkRow.of_study(remarks)
     told = [row.sentence for row in rows if row.kind in TO_CHECK]
     assert [row.about for row in rows] == ["design_spectrum.ag_g", "A: height_m", "A: thickness_m", "A"]
-    assert [row.kind for row in rows][-1] is Kind.HELD_AT_CEILING
+    assert [row.kind for row in rows][-1] is AssessmentKind.HELD_AT_CEILING
     assert RemarkRow in RECORD_TABLES and RemarkRow in SUMMARY_TABLES
 
     report = replace(example, of_study=rows)
@@ -155,8 +155,8 @@ def test_every_document_of_a_study_reads_the_same_remarks(example):
 
 def test_a_vertical_component_that_is_asked_for_and_missing_is_told(example):
     asked, unasked = (rows_of_record(example.result, vertical=each).remarks for each in (True, False))
-    assert [row.kind for row in asked if row not in unasked] == [Kind.VERTICAL_MISSING]
-    (row,) = (each for each in asked if each.kind is Kind.VERTICAL_MISSING)
+    assert [row.kind for row in asked if row not in unasked] == [AssessmentKind.VERTICAL_MISSING]
+    (row,) = (each for each in asked if each.kind is AssessmentKind.VERTICAL_MISSING)
     assert (row.record, row.about) == (example.result.record, "vertical")
     report = replace(example, tables=replace(example.tables, remarks=asked))
     assert row.sentence in [each.text for each in report.page().notices]

@@ -12,11 +12,13 @@ import pytest
 import rocking
 from rocking import Block, CapacityCurve, DesignSpectrum, Facade, check
 from rocking.assessment.decide import Verdict
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.reserve import Reserve
 from rocking.codes.check import Part
+from rocking.codes.kinds import CheckKind
 from rocking.codes.selection import random_sets, search
 from rocking.errors import RockingError
-from rocking.remarks import Kind, Language, Remark
+from rocking.remarks import Language, Remark
 from rocking.reports.pages import Picture, SignWords
 from rocking.reports.sentences import Sentences, catalogue
 from rocking.reports.structures import CheckedStructure, structures_data
@@ -108,8 +110,8 @@ def test_every_sentence_of_the_catalogue_is_looked_up():
 def test_numbers_have_the_mark_of_their_language():
     assert Sentences().number(0.4321) == "0.432"
     assert ITALIAN.number(0.4321) == "0,432"
-    assert ITALIAN.of(Remark.of(Kind.LIMIT_SHARE, share=0.4)) == "0,4 d₀"
-    assert ITALIAN.of(Remark.of(Kind.DISPLACEMENT_EXCEEDED, exceeding=3, motions=40)).endswith(
+    assert ITALIAN.of(Remark.of(CheckKind.LIMIT_SHARE, share=0.4)) == "0,4 d₀"
+    assert ITALIAN.of(Remark.of(CheckKind.DISPLACEMENT_EXCEEDED, exceeding=3, motions=40)).endswith(
         "3 dei 40 accelerogrammi"
     )
     assert ITALIAN.counted(1, "station") == "1 stazione" and ITALIAN.counted(2, "station") == "2 stazioni"
@@ -139,9 +141,9 @@ def test_an_italian_page_has_no_english_sentence():
             records=4,
             stations=3,
             verdicts={Verdict.PROBABLY_STANDS: 2, Verdict.CANNOT_BE_TOLD: 1},
-            doubts=(Kind.CONTACTS_OPEN,),
+            doubts=(AssessmentKind.CONTACTS_OPEN,),
             reserves=(Reserve(0.8, 1.1, 1.2, 3.0), Reserve(0.9, 1.1, 1.2, 3.0)),
-            reserve_doubts=(Kind.CONTACTS_OPEN,),
+            reserve_doubts=(AssessmentKind.CONTACTS_OPEN,),
         )
         for each in (tied, Block.of_size(0.4, 3.0))
     ]

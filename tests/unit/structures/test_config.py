@@ -11,8 +11,8 @@ import yaml
 from rocking.assessment.scene import load_scenes, scenes_schema, scenes_schema_file
 from rocking.errors import ConfigurationError, StructureError
 from rocking.floors.place import PERIODS
-from rocking.remarks import Kind
 from rocking.structures import Arch, Block, Facade, Frame, Spire, Wall, structure_from_config
+from rocking.structures.kinds import StructureKind
 
 WORKFLOW = Path(__file__).parents[3] / "workflow"
 SCHEMA = yaml.safe_load((WORKFLOW / "schemas" / "structures.schema.yaml").read_text(encoding="utf-8"))
@@ -209,7 +209,9 @@ def test_a_list_is_asked_for_in_brackets_and_an_angle_by_its_key(load):
 def test_a_body_that_is_broader_than_tall_gets_a_remark(tmp_path, sizes, told):
     path = tmp_path / "list.yaml"
     path.write_text(f"- {{name: w, {sizes}}}\n")
-    said = [str(each) for each in load_scenes(path)["w"].remarks if each.kind is Kind.BROADER_THAN_TALL]
+    said = [
+        str(each) for each in load_scenes(path)["w"].remarks if each.kind is StructureKind.BROADER_THAN_TALL
+    ]
     assert [told in each for each in said] == ([True] if told else [])
 
 
@@ -252,7 +254,7 @@ def test_what_is_not_usual_is_a_remark_and_not_a_refusal(tmp_path):
     text = "- {name: w, type: wall, height_m: 3200, hinge_height_m: 1600, thickness_m: 250}"
     path = tmp_path / "list.yaml"
     path.write_text(text)
-    said = [str(each) for each in load_scenes(path)["w"].remarks if each.kind is Kind.SIZE_UNUSUAL]
+    said = [str(each) for each in load_scenes(path)["w"].remarks if each.kind is StructureKind.SIZE_UNUSUAL]
     assert len(said) == 3
     assert "w: height_m is 3200 m, but is usually between 0.5 and 60 m" in said[0]
 

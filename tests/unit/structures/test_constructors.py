@@ -5,7 +5,7 @@ import pytest
 
 import rocking
 from rocking.errors import RockingError, StructureError
-from rocking.remarks import Kind
+from rocking.structures.kinds import StructureKind
 from tests.refusals import refused
 
 TIED = {"tie_heights": (1.6,), "tie_strength": 4e3}
@@ -49,7 +49,7 @@ def test_a_very_stiff_tie_is_taken_with_the_same_remark_by_facade_and_wall():
     assert facade.mechanism().critical_rotation == pytest.approx(np.pi / 2, abs=1e-3)
     for structure in (facade, wall):
         unusual = structure.described.remarks[0]
-        assert (unusual.kind, unusual.about) == (Kind.SIZE_UNUSUAL, "tie_stiffness_kN_m2")
+        assert (unusual.kind, unusual.about) == (StructureKind.SIZE_UNUSUAL, "tie_stiffness_kN_m2")
         assert (unusual["value"], unusual["unit"]) == (pytest.approx(1e6), " kN/m²")
 
 

@@ -12,9 +12,9 @@ from held import opened_lagrangian
 import rocking
 from rocking.errors import StructureError
 from rocking.quantities import GRAVITY
-from rocking.remarks import Kind
 from rocking.structures import Facade, LoadedWall
 from rocking.structures.held_wall import Chain, Opening
+from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import Hung, Parts
 from rocking.structures.structure import Candidate
 
@@ -432,8 +432,10 @@ def test_a_tie_that_yields_first_leaves_the_wall_to_overturn():
 
 
 def test_remark_on_floors_behind_ends_where_it_is_said_what_stands_there():
-    assert Kind.FLOORS_BEHIND in {each.kind for each in THREE.cautions}
-    assert Kind.FLOORS_BEHIND not in {each.kind for each in replace(THREE, behind="nothing").cautions}
+    assert StructureKind.FLOORS_BEHIND in {each.kind for each in THREE.cautions}
+    assert StructureKind.FLOORS_BEHIND not in {
+        each.kind for each in replace(THREE, behind="nothing").cautions
+    }
 
 
 def test_a_known_crack_leaves_the_bulges_alone():

@@ -9,8 +9,8 @@ import pytest
 import rocking
 from rocking.assessment.settings import AssessmentSettings
 from rocking.quantities import GRAVITY
-from rocking.remarks import Kind
 from rocking.structures import Facade, LoadedWall, Wall
+from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import FRICTION
 
 BY_HAND = 1e-9
@@ -46,7 +46,7 @@ def test_a_light_floor_does_not_hold_the_top():
     assert wall.mechanism().uplift_multiplier == pytest.approx(multiplier, rel=BY_HAND)
     assert top.needed == pytest.approx(force, rel=BY_HAND)
     assert (top.gives, top.friction, top.ties) == pytest.approx((2.4e3, 2.4e3, 0), rel=BY_HAND)
-    assert top.lets_go and top.remark.kind is Kind.TOP_SLIPS
+    assert top.lets_go and top.remark.kind is StructureKind.TOP_SLIPS
     assert top.remark["tie_kN_m"] == pytest.approx((force - 2.4e3) / 1e3, rel=BY_HAND)
     by_hand = ((WEIGHT + FLOOR) * THICKNESS / 2 + 0.6 * FLOOR * HEIGHT) / (WEIGHT * HEIGHT / 2)
     slips = slipping(wall)
@@ -95,10 +95,10 @@ def test_a_wall_at_a_ceiling_says_the_share_of_its_weight_that_its_top_needs():
     wall = Wall.hinged_at(3.2, 1.6, 0.25)
     (top,) = wall.restraints()
     assert top.needed == pytest.approx(4 * 0.25 / 3.2 / 4 + 0.25 / 3.2 / 2, rel=BY_HAND)
-    assert top.remark.kind is Kind.TOP_TAKEN_AS_HELD
+    assert top.remark.kind is StructureKind.TOP_TAKEN_AS_HELD
     (of_stone,) = replace(wall, unit_weight=20e3).restraints()
     assert of_stone.needed == pytest.approx(20e3 * 3.2 * 0.25 * top.needed, rel=BY_HAND)
-    assert of_stone.remark.kind is Kind.TOP_MUST_BE_HELD
+    assert of_stone.remark.kind is StructureKind.TOP_MUST_BE_HELD
 
 
 def test_the_word_is_that_of_the_wall_that_slips():
@@ -121,7 +121,7 @@ def test_ties_say_what_they_bear_and_what_they_give():
         (3.6,), (0.35,), 18e3, floor_loads=(10e3,), eccentricity=0.05, behind="cross_walls", restitution=0.7,
         tie_heights=(3.6,), tie_stiffness=2e7,
     )  # fmt: skip
-    kinds = {None: Kind.TIE_MUST_BEAR, 30e3: Kind.TIE_BEARS, 6e3: Kind.TIE_YIELDS}
+    kinds = {None: StructureKind.TIE_MUST_BEAR, 30e3: StructureKind.TIE_BEARS, 6e3: StructureKind.TIE_YIELDS}
     for strength, kind in kinds.items():
         (tie,) = replace(facade, tie_strength=strength).restraints()
         assert tie.needed == pytest.approx(8.858030e3, abs=5e-3)

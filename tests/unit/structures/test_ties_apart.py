@@ -12,8 +12,8 @@ from rocking.assessment.contacts import stackable
 from rocking.assessment.cracks import cracks, mechanisms_of
 from rocking.codes.static_check import kinematic_check
 from rocking.errors import RockingError, StructureError
-from rocking.remarks import Kind
 from rocking.structures import Facade, LoadedWall
+from rocking.structures.kinds import StructureKind
 
 G = 9.80665
 TRIANGLE = "falls between two ties of a row"
@@ -153,7 +153,7 @@ def test_triangle_joins_where_ties_stand_farther_apart_than_three_units():
     assert TRIANGLE in {each.name for each in mechanisms_of(far)}
     unsaid = replace(FRONT, tie_spacing=None, unit_length=None)
     kinds = [[each.kind for each in wall.cautions] for wall in (unsaid, near, floor)]
-    assert [Kind.TIES_ALL_ALONG in each for each in kinds] == [True, False, False]
+    assert [StructureKind.TIES_ALL_ALONG in each for each in kinds] == [True, False, False]
 
 
 def test_wall_between_supports_falls_between_its_ties_as_without_them():
@@ -268,7 +268,7 @@ def test_rods_are_spread_over_the_metre():
         one_sided=True,
     )
     assert rods.static_multiplier == spread.static_multiplier
-    (said,) = (each for each in rods.assumptions if each.kind is Kind.RODS_SPREAD)
+    (said,) = (each for each in rods.assumptions if each.kind is StructureKind.RODS_SPREAD)
     assert said["stiffness_kN_m2"] == pytest.approx(7540, rel=1e-3)
     assert replace(rods, floor_loads=(6e3,)).tie_stiffness == rods.tie_stiffness
 

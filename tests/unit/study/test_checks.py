@@ -13,11 +13,13 @@ import pytest
 from rocking import Block, DesignSpectrum, Facade, Wall, check
 from rocking.assessment.cracks import mechanisms_of
 from rocking.assessment.decide import Decision, Verdict
+from rocking.assessment.kinds import AssessmentKind
 from rocking.assessment.reserve import Reserve
 from rocking.assessment.rows import MechanismRow, RecordRow, RecordRows
 from rocking.assessment.scene import load_scenes, on_the_ground
 from rocking.codes.check import DynamicCheck
 from rocking.codes.conclusion import code_conclusion_in_words, code_conclusions
+from rocking.codes.kinds import CheckKind
 from rocking.codes.rows import CodeCheckRow, code_check_rows
 from rocking.errors import ConfigurationError
 from rocking.motion.response import ModelCheck
@@ -27,6 +29,7 @@ from rocking.reports.pages import Fact
 from rocking.reports.sentences import Sentences
 from rocking.reports.structures import CheckedStructure, structures_data
 from rocking.reports.summary import summary_data
+from rocking.structures.kinds import StructureKind
 from rocking.study.checks import write_checks
 from rocking.study.job import Study
 from rocking.study.settings import Settings, read_settings
@@ -189,7 +192,7 @@ def test_a_structure_that_cannot_be_checked_costs_no_other(study):
 def found(passed, exceeding=0, **others):
     values = {
         "clause": "C8.7.1.2.1.9", "limit_state": "SLV", "capacity": 0.1, "demand": 0.05 if passed else 0.2,
-        "mechanism": "as given", "unit": "m", "refusal": None if passed else Remark(Kind.CHECK_NOT_MET),
+        "mechanism": "as given", "unit": "m", "refusal": None if passed else Remark(CheckKind.CHECK_NOT_MET),
         "exceeding": exceeding,
         "motions": 40, "stations": 57,
         "earthquakes": 20, "sets": 200, "share": 1.0 if passed else 0.1, "interval": (0.0, 1.0),
@@ -199,8 +202,8 @@ def found(passed, exceeding=0, **others):
 
 FORMULAS = check(Block.of_size(0.6, 2.0), DesignSpectrum.ntc(1.0, 2.5, 0.3))
 WEAK = check(Block.of_size(0.1, 2.0), DesignSpectrum.ntc(1.0, 2.5, 0.3))
-FEW = Remark.of(Kind.SETS_TOO_FEW, sets=72, asked=200)
-UNLIKE = Remark.of(Kind.SETS_DISAGREE, share_percent=44.0, sets=200, least_percent=95.0)
+FEW = Remark.of(CheckKind.SETS_TOO_FEW, sets=72, asked=200)
+UNLIKE = Remark.of(CheckKind.SETS_DISAGREE, share_percent=44.0, sets=200, least_percent=95.0)
 
 
 @pytest.mark.parametrize(
@@ -264,7 +267,7 @@ def test_an_interval_that_spans_everything_is_told_as_too_few_stations():
     """ "0–100 %" tells a reader nothing, wherever it would stand."""
     rows = code_check_rows("pier", replace(FORMULAS, dynamic=found(True, interval=(0.004, 1.0))))
     (conclusion,) = code_conclusions(rows)
-    assert conclusion.other_sets == Remark(Kind.OTHER_SETS_UNKNOWN)
+    assert conclusion.other_sets == Remark(CheckKind.OTHER_SETS_UNKNOWN)
     assert "too few stations" in conclusion.other_share_in_words
     assert "too few stations to speak for others" in code_conclusion_in_words([conclusion])
     (wide,) = code_conclusions(
@@ -432,7 +435,7 @@ def test_the_page_tells_a_reserve_that_was_not_sought_from_one_that_was_not_reac
     assert both.startswith("0.80\u00a0× applied to the most demanding record lets 5 %")
     assert both.endswith("; the median over 3 records is 1.6\u00a0×.")
     assert "the median over 3 records is > 3\u00a0×" in share(low, never, never)
-    assert share(low, doubts=(Kind.CONTACTS_OPEN,)).endswith("too high where contacts open.")
+    assert share(low, doubts=(AssessmentKind.CONTACTS_OPEN,)).endswith("too high where contacts open.")
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -514,7 +517,7 @@ def test_a_page_says_on_what_its_structure_stands_and_what_is_not_checked(tmp_pa
     assert ground[1] == pages[0].checked.linear.ratio_in_words
     assert page["plain"].answers[0].basis.periods.rows == ()
     (tied,) = [each.checked.remark for each in pages if each.name == "tied"]
-    assert tied.kind is Kind.TIE_MUST_BEAR
+    assert tied.kind is StructureKind.TIE_MUST_BEAR
     assert str(tied) in " ".join(page["tied"].answers[0].basis.sentences)
     assert not any("strength" in text for text in page["plain"].answers[0].basis.sentences)
 

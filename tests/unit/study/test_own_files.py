@@ -14,8 +14,9 @@ from made_files import TRUE, by_obspy, knet, peer
 from rocking.assessment.rows import RemarkRow
 from rocking.errors import ConfigurationError, RecordError
 from rocking.records.folder import list_folder
-from rocking.remarks import Kind
+from rocking.structures.kinds import StructureKind
 from rocking.study.cli import main
+from rocking.study.kinds import StudyKind
 from rocking.study.own_files import Declared, read_files, scenes_of, stations_of
 
 FILES = {
@@ -70,8 +71,8 @@ def test_a_component_beside_a_file_that_is_not_given_is_named(folder: Path) -> N
     (folder / "RSN2_OTHER_XX000.AT2").write_text(FILES["RSN1_MADE_ST000.AT2"].replace("Made", "Elsewhere"))
     own = stations_of(paths(folder)[:1], NOTHING)
     assert {(each.kind, each["other"]) for each in own.remarks} == {
-        (Kind.SIBLING_NOT_USED, "RSN1_MADE_ST090.AT2"),
-        (Kind.SIBLING_NOT_USED, "RSN1_MADE_ST-UP.AT2"),
+        (StudyKind.SIBLING_NOT_USED, "RSN1_MADE_ST090.AT2"),
+        (StudyKind.SIBLING_NOT_USED, "RSN1_MADE_ST-UP.AT2"),
     }
     assert not stations_of(paths(folder), NOTHING).remarks
 
@@ -165,6 +166,6 @@ def test_a_size_in_another_unit_is_told_beside_the_verdict(
         assert main(["assess", *given, "--structures", wall, "--output", str(out)]) == 0
         told = capsys.readouterr().out.splitlines()
         with (out / "summary" / RemarkRow.table.file_name).open(newline="") as table:
-            rows = [row for row in csv.DictReader(table) if row["kind"] == Kind.SIZE_UNUSUAL]
+            rows = [row for row in csv.DictReader(table) if row["kind"] == StructureKind.SIZE_UNUSUAL]
         assert bool(rows) is unusual
         assert [row["sentence"] for row in rows] == [line for line in told if "usually" in line]

@@ -10,9 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rocking.assessment.kinds import AssessmentKind
 from rocking.errors import ConfigurationError
 from rocking.records import CatalogueRecord
-from rocking.remarks import Kind
+from rocking.structures.kinds import StructureKind
 from rocking.study import contents as contents_module
 from rocking.study import settings as settings_module
 from rocking.study.contents import ContentHashes
@@ -274,7 +275,7 @@ def test_what_walls_are_taken_for_is_a_remark_of_the_study_that_asks_nothing_bef
     plan = make_plan(_write(tmp_path, f"a,a.AT2,{SHA256}\n", entries + free))
     told = study_remarks(plan.settings, plan.scenes)
     assert [(each.kind, each.about) for each in told] == [
-        (Kind.HELD_AT_CEILING, f"w{number}") for number in range(10)
+        (AssessmentKind.HELD_AT_CEILING, f"w{number}") for number in range(10)
     ]
     assert plan.doubts == ()
 
@@ -283,6 +284,6 @@ def test_what_walls_are_taken_for_is_a_remark_of_the_study_that_asks_nothing_bef
 def test_a_design_level_typed_in_another_unit_gets_a_remark(tmp_path: Path, ag: float, told: bool) -> None:
     level = {"ag_g": ag, "f0": 2.4, "tc_star_s": 0.3}
     plan = make_plan(_write(tmp_path, f"a,a.AT2,{SHA256}\n", design_spectrum=level))
-    remarks = [str(remark) for remark in plan.doubts if remark.kind is Kind.SIZE_UNUSUAL]
+    remarks = [str(remark) for remark in plan.doubts if remark.kind is StructureKind.SIZE_UNUSUAL]
     said = "design_spectrum.ag_g is 2.55 g, but is usually between 0 and 0.6 g for a design level; check the unit."
     assert remarks == [said] * told

@@ -18,7 +18,7 @@ from rocking.assessment.rows import (
     VerdictRow,
 )
 from rocking.errors import RockingError
-from rocking.remarks import Kind, Remark
+from rocking.remarks import Remark, every_kind
 from rocking.study.cli import main
 from rocking.study.outcomes import RecordOutcome, outcomes_written, verdicts_of
 from rocking.study.outputs import cases_of, former_files, log_of, outcome_of, outputs_of, remove
@@ -50,7 +50,7 @@ def test_an_outcome_keeps_the_decision_with_the_values_of_its_remarks(tmp_path: 
     """Of every kind in the catalogue; a row read back from its print raised ValueError for each that has values."""
     remarks = tuple(
         Remark.of(kind, "pier", **{name: 0.1 * place for place, name in enumerate(kind.value_names, start=1)})
-        for kind in Kind
+        for kind in every_kind().values()
     )
     assert sum(bool(remark.values) for remark in remarks) > 20
     decision = Decision(Verdict.UNCERTAIN, 1 / 3, (0.0, 2 / 3), "32 of 64 members overturn", remarks, remarks)
