@@ -1,5 +1,7 @@
 """Rocking of structures under recorded earthquakes: from a catalogue of accelerograms to reports and tables."""
 
+import sys
+
 from snakemake.utils import min_version
 
 min_version("9.27")
@@ -24,6 +26,12 @@ include: "workflow/rules/checks.smk"
 include: "workflow/rules/fragility.smk"
 include: "workflow/rules/trade.smk"
 include: "workflow/rules/summary.smk"
+
+
+# What follows takes its work from docs/, which lies beside workflow/.
+sys.path.append(str(HOME))
+
+
 include: "workflow/rules/paper.smk"
 include: "workflow/rules/documentation.smk"
 

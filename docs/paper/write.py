@@ -15,6 +15,12 @@ SHIPPED = Path(__file__).parents[2] / "records" / "20161113_110259_WTMC_20.V2A"
 """The real record that comes with the project, whose component N28W takes the place of Rinaldi."""
 
 
+def paper(catalogue: str, mirror: str | None, folder: str, log: str) -> None:
+    """Do the job of the rule paper."""
+    message = write_paper(Path(catalogue), mirror, Path(folder))
+    write_whole(Path(log), f"{message}\n".encode())
+
+
 def write_paper(catalogue: Path, mirror: str | None, folder: Path) -> str:
     """Write the paper's figures (SVG and CSV), the tables of its equations and predictions and paper.pdf into `folder`.
 

@@ -100,5 +100,8 @@ for TARGET, (TELLS, CATALOGUES, FILES) in TARGETS_OF_RESEARCH.items():
             package_sha256=package_sha256(),
         message:
             TELLS
-        script:
-            "run.py"
+        run:
+            folder = os.path.dirname(output[0])
+            run_apart(
+                "docs.research.run:run", rule, rule, list(input.catalogues), dict(config), folder, log[0]
+            )

@@ -1,19 +1,13 @@
-"""Run one target of the research: snakemake.* onto docs.research."""
+"""Run one target of the research, as its rule asks."""
 
-import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from snakemake.iocontainers import Snakemake
-
     from docs.research.report import Target
     from docs.research.sites import NamedRecord
     from rocking.records import CatalogueRecord
-
-    snakemake: Snakemake
-    """What snakemake puts into the namespace of a script."""
 
 
 def targets() -> "dict[str, Callable[[Target], None]]":
@@ -60,29 +54,27 @@ def targets() -> "dict[str, Callable[[Target], None]]":
     }
 
 
-def main(
-    name: str,
-    catalogues: Sequence[str],
-    mirror: str | None,
-    structures: str,
-    folder: Path,
-    tell: Callable[[str], None],
-) -> None:
-    """Run the target of the rule `name`, and write its tables and its report into `folder`."""
+def run(name: str, catalogues: Sequence[str], config: Mapping[str, Any], folder: str, log: str) -> None:
+    """Do the job of the rule `name`: write the tables and the report of a target into `folder`."""
     from docs.research import validation
     from docs.research.report import Target
     from docs.research.shake_table import Campaign
     from rocking.assessment.scene import load_scenes
     from rocking.records import load_catalogue
+    from rocking.study.settings import read_settings
+    from rocking.study.terminal import line_writer
 
+    settings = read_settings(config)
+    mirror = settings.mirror
+    tell = line_writer(Path(log), name)
     if name == "validate":
         campaign = Campaign.open(Path(catalogues[0]), Path(mirror) if mirror else None)
-        validation.validate(Target(folder, tell), campaign)
+        validation.validate(Target(Path(folder), tell), campaign)
         return
     motions = [motions_of(load_catalogue(Path(each)), mirror, tell) for each in catalogues]
-    listed = load_scenes(Path(structures))
+    listed = load_scenes(Path(settings.structures))
     on_the_ground = {name: each.structure for name, each in listed.items() if not each.place.supports}
-    targets()[name](Target(folder, tell, motions, on_the_ground))
+    targets()[name](Target(Path(folder), tell, motions, on_the_ground))
 
 
 def motions_of(
@@ -94,19 +86,3 @@ def motions_of(
     for count, record in enumerate(catalogue, start=1):
         tell(f"{count} of {len(catalogue)}: {record.id}")
         yield from ((record.id, accelerogram) for accelerogram in open_record(record, mirror))
-
-
-if __name__ == "__main__":
-    sys.path.append(str(Path(snakemake.scriptdir).parents[1]))  # docs/ lies beside rocking/
-    from rocking.study.settings import read_settings
-    from rocking.study.terminal import line_writer
-
-    settings = read_settings(snakemake.config)
-    main(
-        snakemake.rule,
-        snakemake.input.catalogues,
-        settings.mirror,
-        settings.structures,
-        Path(snakemake.output[0]).parent,
-        line_writer(Path(snakemake.log[0]), snakemake.rule),
-    )

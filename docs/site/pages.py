@@ -36,6 +36,12 @@ _MEASURED = re.compile(r"<!-- measured: (\S+) -->")
 _EXAMPLE = re.compile(r"^```python\n(.*?)^```$|^<!-- figure: (\w+)\. (.*?) -->$", re.M | re.S)
 
 
+def documentation(target: str, log: str) -> None:
+    """Do the job of the rule documentation."""
+    pages = write_site(Path(target))
+    Path(log).write_text("\n".join(map(str, pages)) + "\n", encoding="utf-8")
+
+
 def write_site(target: Path) -> list[Path]:
     """Write the site into the folder `target` and return its pages.
 

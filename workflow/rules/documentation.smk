@@ -16,5 +16,5 @@ rule documentation:
         package_sha256=package_sha256(),
     message:
         "Set the documentation"
-    script:
-        "../scripts/documentation.py"
+    run:
+        run_apart("docs.site.pages:documentation", rule, output[0], log[0])

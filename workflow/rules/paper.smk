@@ -13,5 +13,5 @@ rule paper:
         package_sha256=package_sha256(),
     message:
         "Redraw the figures of the paper"
-    script:
-        "../scripts/paper.py"
+    run:
+        run_apart("docs.paper.write:paper", rule, input.catalogue, SETTINGS.mirror, output[0], log[0])
