@@ -7,7 +7,7 @@ bounds (theory: section 11). "Stands" is then not said.
 
 import math
 from collections.abc import Iterable, Sequence
-from contextlib import suppress
+from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import product
@@ -15,6 +15,7 @@ from typing import Protocol
 
 import numpy as np
 
+from rocking.assessment.cores import in_order
 from rocking.assessment.decide import BEYOND, UNANIMOUS
 from rocking.assessment.decide import step as step_of
 from rocking.assessment.fidelity import peak_velocity
@@ -248,16 +249,24 @@ def contact_share(
         stacks = _stacks(structure, settings.friction_coefficient)
         if len(stacks[0].courses) == 1:
             return ContactShare(reason="one rigid body moves as its mechanism does, whose members say more")
-        for followed, (amplitude, motion, sign, place) in enumerate(cases, start=1):
+
+        def falls_in(case: tuple[float, Accelerogram, float, int]) -> bool:
+            amplitude, motion, sign, place = case
             # Each stack meets every step in turn.
             stack = stacks[place % len(stacks)]
             step = STEPS[place // len(stacks) % len(STEPS)]
             short_enough = min(step, stack.longest_step * step / STEP)
-            falls += _falls(stack, motion.scaled(sign * amplitude), short_enough, motions.vertical)
-            left = len(cases) - followed
-            words = [step_of(each, len(cases), risk=settings.ensemble.risk) for each in (falls, falls + left)]
-            if words[0] is words[1]:
-                break
+            return _falls(stack, motion.scaled(sign * amplitude), short_enough, motions.vertical)
+
+        with closing(in_order(falls_in, cases)) as runs_in_order:
+            for followed, it_falls in enumerate(runs_in_order, start=1):
+                falls += it_falls
+                left = len(cases) - followed
+                words = [
+                    step_of(each, len(cases), risk=settings.ensemble.risk) for each in (falls, falls + left)
+                ]
+                if words[0] is words[1]:
+                    break
     except RockingError as error:
         return ContactShare(reason=str(error))
     return ContactShare(falls, followed)

@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 
+from rocking.assessment.cores import on_cores
 from rocking.assessment.rows import FailureRow, MechanismRow, RecordRow, TradeRow, VerdictRow
 from rocking.assessment.trade import trade as measure_trade
 from rocking.errors import RockingError
@@ -25,7 +26,7 @@ MOST_RECORDS = 70
 
 def record(task: Task) -> None:
     """Take the records of a task through the five steps, each on what the one before it gave."""
-    with begin_job(task) as job:
+    with begin_job(task) as job, on_cores(task.cores):
         for each in job.records:
             with steps_of(each, job) as step:
                 motion = step.read()  # 1: by obspy, or by a reader of ours where it has none

@@ -13,7 +13,7 @@ class Task:
     product: "record/a", "summary", .... config: of the study. made_from: the params of the rule, what the product was
     planned to be made from. folder: in which the files lie that the rule declares, as the study names them; on another
     machine they are copies. log: from the folder of the study. beside: the products over all records that a summary
-    shows. by_name: see `rocking.study.plan.Plan`.
+    shows. by_name: see `rocking.study.plan.Plan`. cores: that its kernels may use.
     """
 
     product: str
@@ -23,6 +23,7 @@ class Task:
     log: str = "log"
     beside: Sequence[str] = ()
     by_name: bool = False
+    cores: int = 1
 
 
 def folder_of(copy: str, named: str) -> str:

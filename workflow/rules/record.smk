@@ -8,6 +8,7 @@ rule record:
         files_of("record/{record}"),
     log:
         log_file("record/{record}"),
+    threads: cores_of_record
     resources:
         mem_mb=2000,
         runtime=60,
@@ -16,4 +17,4 @@ rule record:
     message:
         "Record {wildcards.record}"
     run:
-        work(rule, wildcards, input, params, log)
+        work(rule, wildcards, input, params, log, threads)

@@ -93,12 +93,28 @@ def in_report(output, path):
     return report(path, caption=f"../report/{output.caption}.rst", category=output.category, labels=labels)
 
 
-def work(rule, wildcards, input, params, log):
+def cores_of_record(wildcards):
+    """The cores over the records under way. A job on another machine has one."""
+    if workflow.remote_exec or not workflow.local_exec:
+        return 1
+    cores = min(workflow.resource_settings.cores or 1, os.cpu_count() or 1)
+    return max(1, cores // records_of_run())
+
+
+@cache
+def records_of_run():
+    """How many records this run makes; where snakemake has begun a process for each, those of the study."""
+    if not workflow.is_main_process:
+        return len(PLAN.records)
+    return sum(job.rule.name == "record" for job in workflow.dag.needrun_jobs()) or 1
+
+
+def work(rule, wildcards, input, params, log, threads=1):
     """Do the job of a rule in a process of its own, which knows what it is handed here."""
     product = "/".join([rule, *wildcards])
     beside = [each for each in PLAN.beside_summary if input.get(each)]
     folder = folder_of(*input.catalogue, SETTINGS.catalogue) if BY_NAME else ""
-    task = Task(product, dict(config), list(params), folder, log[0], beside, BY_NAME)
+    task = Task(product, dict(config), list(params), folder, log[0], beside, BY_NAME, threads)
     run_apart(f"rocking.study.jobs:{rule}", product, task)
 
 
