@@ -345,7 +345,8 @@ class LayoutAnswer:
     def wrong(self, why: str) -> RecordError:
         """Return the error that says why it cannot hold."""
         drawn = f", drawn from {self.file}" if self.file else ""
-        return RecordError(f"{self.whose}, line {self.line}, column answer, {self.text!r}{drawn}: {why}")
+        place = f"{self.whose}, line {self.line}, column answer, {self.text!r}{drawn}"
+        return RecordError.naming("answer", self.text, f"{place}: {why}")
 
 
 class Layouts:

@@ -75,14 +75,17 @@ OF_ACCELERATION = re.compile(r"(?i)(?<![a-z])(acc|acel|beschl|amplitud)")
 """Words beside which a unit in brackets is that of the numbers: elsewhere "(G)" may be the code of a network."""
 _TIMES = re.compile(r"(?i)(?:[x×*]|\btimes|\b(?:multiplied|divided) by)\s*\d|\d\s*[x×*]\s*(?:acc|g\b)")
 """A factor by which numbers are multiplied, as in "cm/s2 * 100": the unit beside it is not that of the numbers."""
-_SCALED = re.compile(r"(?i)\b(scal\w*|fa[ck]?t+(?:eu|[eo])re?\w*|multipl\w*|gain|sensitivity|counts)\b")
+_SCALED = re.compile(
+    r"(?i)\b(s[ck]al\w*|fa[ck]?t+(?:eu|[eo])re?\w*|m[uo]ltipl\w*|gain|guadagno|ganancia|sensitivity|counts|conteggi|"
+    r"cuentas|çarpan\w*|katsayı\w*|ölçek\w*)\b|倍率|係数|系数|カウント"
+)
 """Words that speak of a factor by which numbers may still have to be multiplied."""
 _CELLS = re.compile(r"^\s*([^:=,;\t]+?)\s*[,;\t]\s*([^:=,;\t]+?)[\s,;]*$")
 """A remark of two cells, as "Unit,gal"."""
 _OF_PEAK = re.compile(r"(?i)\b(pga|peak|max\w*|scale\w*|factor|picco|pico)\b")
 """The subjects of a remark whose unit need not be that of the numbers."""
 _UNIT = re.compile(
-    r"\b(?:units?|unidad(?:es)?|unit[aà])\b[^:=]*[:=]\s*[(\[]?\s*([^\s,;()\[\]]+)|"
+    r"(?:\b(?:units?|unidad(?:es)?|unit[aà]|unités?|einheit(?:en)?|birim(?:i|ler)?)\b|単位|单位)[^:=：]*[:=：]\s*[(\[]?\s*([^\s,;()\[\]]+)|"
     r"\b(?:acc|accel|acceleration|acel|aceleraci[oó]n)\s*[:=]\s*([a-z][\w/^*²]*)|"
     r"\bunits?(?: of| are| is)?\s+[(\[]?([A-Za-z][\w/^*²]*)|(?:\bin\s+|[(\[]\s*)([A-Za-z][\w/^*²]*)",
     re.I,
@@ -90,15 +93,19 @@ _UNIT = re.compile(
 _SECONDS = r"(?:s|seg|secs?|segundos?|seconds?)"
 _END = r"\s*(?:\.?\s*$|[,;)\]]|\s/\s)"
 _STEP = re.compile(
-    r"\b(?:dt|delta|time[ _-]?(?:step|interval|increment)|(?:sampling|sample)[ _-]?(?:interval|period|step)|"
-    r"(?:equal )?spacing|intervals|intervalo(?: de muestreo)?)\b"
-    rf"\s*(?:[(\[]\s*{_SECONDS}\s*[)\]])?\s*(?:[:=]|is|of)?\s*({NUMBER})\s*\(?{_SECONDS}?{_END}|"
+    r"(?:\b(?:dt|delta|time[ _-]?(?:step|interval|increment)|(?:sampling|sample)[ _-]?(?:interval|period|step)|"
+    r"(?:equal )?spacing|intervals|intervalo(?: de muestreo)?|(?:passo|intervallo) (?:di campionamento|temporale)|"
+    r"(?:pas|intervalle) (?:de temps|d.échantillonnage)|abtastintervall|zeitschritt|"
+    r"(?:örnekleme|zaman) (?:aralığı|adımı))|サンプリング間隔|采样间隔)"
+    rf"\s*(?:[(\[]\s*{_SECONDS}\s*[)\]])?\s*(?:[:=：]|is|of)?\s*({NUMBER})\s*\(?{_SECONDS}?{_END}|"
     rf"^\s*(?:sampling|muestreo)\s*[:=]\s*({NUMBER})\s*{_SECONDS}\s*$",
     re.I,
 )
 _RATE = re.compile(
-    r"\b(?:fs|(?:sampling|sample)[ _-]?(?:rate|frequency)|tasa de muestreo|frecuencia de muestreo)\b"
-    rf"\s*(?:[(\[]\s*hz\s*[)\]])?\s*(?:[:=]|is|of)\s*({NUMBER})\s*(?:hz|sps)?{_END}|"
+    r"(?:\b(?:fs|(?:sampling|sample)[ _-]?(?:rate|frequency)|tasa de muestreo|frecuencia de muestreo|"
+    r"frequenza di campionamento|fréquence d.échantillonnage|abtast(?:rate|frequenz)|örnekleme (?:frekansı|hızı))\b|"
+    r"サンプリング周波数|采样频率)"
+    rf"\s*(?:[(\[]\s*hz\s*[)\]])?\s*(?:[:=：]|is|of)\s*({NUMBER})\s*(?:hz|sps)?{_END}|"
     rf"\bsampled at ({NUMBER})\s*(?:hz|sps){_END}",
     re.I,
 )
@@ -106,7 +113,7 @@ _RATE_TOLD = re.compile(
     rf"(?<![\w.])({NUMBER})\s*(?:hz|sps|samples? ?(?:/|per) ?s(?:ec(?:ond)?)?)(?![a-z])", re.I
 )
 _SAMPLED = re.compile(
-    r"(?i)sampl|decimat|interpol|digiti|muestr|abtast|chantill|campion|rate|frecuencia de m"
+    r"(?i)sampl|decimat|interpol|digiti|muestr|abtast|chantill|campion|örnekle|サンプリング|采样|rate|frecuencia de m"
 )
 """Words beside which a second rate leaves open which one the numbers have."""
 _OF_FILTER = re.compile(

@@ -5,14 +5,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rocking.errors import RecordError
+from rocking.errors import RecordError, UndeclaredError
 from rocking.quantities import acceleration_factor
 from rocking.records import Accelerogram, read
 from rocking.records.direction import Direction
 from rocking.records.formats.labels import ColumnLabel
-from rocking.records.formats.layouts import AskedError
+from rocking.records.formats.layouts import NAME, AskedError
 from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
+from tests.refusals import refused
 from tests.unit.records.test_layouts import answered
 
 TIMES = np.arange(600) * 0.01
@@ -110,6 +111,74 @@ def test_heads_that_leave_nothing_open_are_read(tmp_path, head):
     (record,) = opened(tmp_path, table(head, TIMES, FIRST, parted=";" if ";" in head else "  "))
     assert record.acceleration == pytest.approx(FIRST * 9.80665, abs=1e-5)
     assert record.time_step == pytest.approx(TIMES[1], rel=1e-9)
+
+
+LANGUAGES = {
+    "English": (
+        "Time (s);Acc NS (gal);Acc EW (gal)", ["Station: A", "Sampling rate: 100 Hz", "Units: gal"], "Factor: 10",
+    ),
+    "Italian": (
+        "Tempo (s);Accelerazione NS (gal);Accelerazione EO (gal)",
+        ["Stazione: A", "Frequenza di campionamento: 100 Hz", "Unità di misura: gal"], "Fattore di scala: 10",
+    ),
+    "Spanish": (
+        "Tiempo (s);Aceleración NS (gal);Aceleración EO (gal)",
+        ["Estación: A", "Frecuencia de muestreo: 100 Hz", "Unidades: gal"], "Factor de escala: 10",
+    ),
+    "French": (
+        "Temps (s);Accélération NS (gal);Accélération EO (gal)",
+        ["Station : A", "Fréquence d'échantillonnage : 100 Hz", "Unité : gal"], "Facteur d'échelle : 10",
+    ),
+    "German": (
+        "Zeit (s);Beschleunigung NS (gal);Beschleunigung OW (gal)",
+        ["Station: A", "Abtastrate: 100 Hz", "Einheit: gal"], "Skalierung: 10",
+    ),
+    "Turkish": (
+        "Zaman (s);İvme KG (gal);İvme DB (gal)",
+        ["İstasyon: A", "Örnekleme frekansı: 100 Hz", "Birim: gal"], "Çarpan: 10",
+    ),
+    "Japanese": (
+        "時間(s);加速度NS(gal);加速度EW(gal)", ["観測点: A", "サンプリング周波数: 100 Hz", "単位: gal"], "倍率: 10",
+    ),
+}  # fmt: skip
+"""Language → names of columns, lines above a series, and a line on a factor."""
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_heads_of_other_languages_are_read_as_the_english_one_is(tmp_path: Path, language: str) -> None:
+    """Directions that are not known are said to be so, and a factor is asked, as it is in English."""
+    names, lines, factor = LANGUAGES[language]
+    of_columns = opened(tmp_path, table(f"{names}\n", TIMES, *WAVES[:2], parted=";"))
+    assert len(of_columns) == 2
+    for record, wave in zip(of_columns, WAVES, strict=False):
+        assert record.acceleration == pytest.approx(wave / 100, abs=1e-7)
+        is_unknown = record.azimuth is None
+        assert (RecordKind.DIRECTION_UNKNOWN in {remark.kind for remark in record.warnings}) is is_unknown
+    head = "\n".join(lines)
+    (record,) = opened(tmp_path, table(f"{head}\n", FIRST))
+    assert record.acceleration == pytest.approx(FIRST / 100, abs=1e-7)
+    assert record.time_step == pytest.approx(0.01)
+    with pytest.raises(AskedError):
+        opened(tmp_path, table(f"{head}\n{factor}\n", FIRST))
+    marked = "".join(f"# {line}\n" for line in (*lines, factor))
+    with refused(UndeclaredError, "unit"):
+        opened(tmp_path, table("".join(f"# {line}\n" for line in (*lines[:2], f"{lines[2]} * 100")), FIRST))
+    (record,) = opened(tmp_path, table(marked, FIRST))
+    assert RecordKind.FACTOR_NOT_APPLIED in {remark.kind for remark in record.warnings}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_rates_in_other_languages_contradict_an_answer(tmp_path: Path, language: str) -> None:
+    content = table("\n".join(LANGUAGES[language][1][:2]) + "\n", FIRST)
+    with pytest.raises(AskedError) as asked:
+        opened(tmp_path, content)
+    assert asked.value.question is not None
+    answered(tmp_path, asked.value.question, "a gal, dt .005")
+    with refused(RecordError, "answer", "a gal, dt .005"):
+        opened(tmp_path, content)
+    (tmp_path / NAME).unlink()
+    answered(tmp_path, asked.value.question, "a gal, dt .01")
+    assert opened(tmp_path, content)[0].acceleration == pytest.approx(FIRST / 100, abs=1e-7)
 
 
 def test_one_line_that_declares_unit_and_step_stands_above_one_series(tmp_path):
