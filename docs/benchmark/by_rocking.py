@@ -131,7 +131,7 @@ def _landing(block: rocking.Block, velocity: float, step: float, samples: int) -
 
 def _tied() -> float:
     wall = rocking.Facade(
-        (6.0,), (0.6,), 20e3, restitution=0.7, behind="cross_walls", crack="known",
+        (6.0,), (0.6,), 20e3, restitution=0.7, behind="cross_walls", crack_storey=1, crack="known",
         tie_heights=(5.8,), tie_stiffness=1e6, tie_strength=8e3,
     )  # fmt: skip
     return wall.static_capacity().onset_multiplier

@@ -247,12 +247,13 @@ def ensemble_over_cracks(
 ) -> CrackEnsembles:
     """Return the ensembles of the cracks that may govern.
 
-    Where the crack that statics chooses overturns, it says all. Otherwise the bulge of a held wall is followed in full,
-    and every crack that `screened` leaves in doubt, and the one that then governs with as many members as its word
-    needs. A crack other than a bulge that slides before it lifts is left out where one that counts is left. exhaustive:
-    every crack is followed, whatever the screen says; docs/pages/validation.md counts what it misses. With fidelity:
-    auto only as many members are followed as the verdict needs.
-    Raises MotionError as `integrate` does.
+    Where the crack that statics chooses overturns, it says all; where one that is known does, the others are followed
+    only until one of them overturns, too, so that the worst of them can be told beside it. Otherwise the bulge of a
+    held wall is followed in full, and every crack that `screened` leaves in doubt, and the one that then governs with
+    as many members as its word needs. A crack other than a bulge that slides before it lifts is left out where one that
+    counts is left. exhaustive: every crack is followed, whatever the screen says; docs/pages/validation.md counts what
+    it misses. With fidelity: auto only as many members are followed as the verdict needs. Raises MotionError as
+    `integrate` does.
     """
     several = cracks(structure)
     counting = [each for each in several if each.counts]
@@ -270,15 +271,20 @@ def ensemble_over_cracks(
     )
     name = first.description if len(several) > 1 or first.bulges else ""
     statics = FollowedCrack(name, first.position, of_statics, first in sliding, bulges=first.bulges)
-    if not others or statics.facts.step(settings.ensemble.risk) is Verdict.OVERTURNS:
+    risk = settings.ensemble.risk
+    settled = statics.facts.step(risk) is Verdict.OVERTURNS
+    if settled:
+        others = [each for each in others if not each.counts]
+    if not others:
         return CrackEnsembles((statics,), slides_at)
     doubtful = others
     if not exhaustive:
         always = [each for each in others if each.bulges]
         rest = [each for each in others if not each.bulges]
         doubtful = always + screened(rest, of_statics, motions, settings, first.mechanism.uplift_multiplier)
-    mechanisms = {
-        FollowedCrack(
+    mechanisms = {}
+    for each in doubtful:
+        followed = FollowedCrack(
             each.description,
             each.position,
             _alone(each, motions, settings),
@@ -286,9 +292,10 @@ def ensemble_over_cracks(
             each.counts,
             each.bulges,
             each.of_geometry,
-        ): each.mechanism
-        for each in doubtful
-    }
+        )
+        mechanisms[followed] = each.mechanism
+        if settled and followed.facts.step(risk) is Verdict.OVERTURNS:
+            break
     ensembles = CrackEnsembles((statics, *mechanisms), slides_at)
     while (governing := ensembles.governing) in mechanisms:
         # Another crack may govern once this one has its members; each grows once.

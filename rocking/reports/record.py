@@ -441,7 +441,7 @@ def _known_crack(structure: Structure | None, verdict: VerdictRow) -> str:
         words("crack known at", height=plain(position)) if math.isfinite(position) else words("crack known")
     )
     if not verdict.statics_crack or verdict.statics_crack == structure.crack_in_words:
-        return known
+        return f"{known}; no other is in doubt" if verdict.members else known
     falls = f"{verdict.statics_overturning_members} of {verdict.statics_members}"
     return f"{known}; {verdict.statics_crack}: {falls} fall"
 

@@ -10,7 +10,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
@@ -30,7 +30,7 @@ from rocking.structures.arch_ring import EXTRADOS, INTRADOS, PATTERN, Bars, Fill
 from rocking.structures.drawing import Path, plane, span, swept
 from rocking.structures.fields import OptionalUnitWeight, Value, count, length, restitution_value
 from rocking.structures.linkage import PRESSED, STILL, Restitution, momentum_balance
-from rocking.structures.structure import Candidate, Crackable
+from rocking.structures.structure import Candidate, Crackable, unplaced
 
 _CRUSHINGS = 60
 _CRUSHED_ALIKE = 1e-14
@@ -129,6 +129,8 @@ class Arch(Crackable):
             "Density of the fill over that of the masonry", 0.8, usual=(0.3, 1.2), bounds={"ge": 0, "le": 10}
         ),
     ] = 0.8
+    # No key of a list, as the angles that would say where are none.
+    crack: Literal["known"] | None = field(default=None, kw_only=True)
     hinge_angles: tuple[float, ...] | None = field(default=None, kw_only=True)
     unit_weight: OptionalUnitWeight = field(default=None, kw_only=True)
 
@@ -146,6 +148,8 @@ class Arch(Crackable):
                 repr(self.thickness),
                 f" m, but must be less than twice the radius of {self.radius!r} m.",
             )
+        if self.crack_is_known and self.hinge_angles is None:
+            raise unplaced("hinge_angles")
         self.onset  # noqa: B018  an arch that cannot stand or rock is refused at birth
 
     @property

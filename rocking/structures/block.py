@@ -1,8 +1,8 @@
 """Rigid bodies that rock about a corner (theory: section 2): rectangular block (Housner 1963), spire, any other."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from rocking.structures.drawing import Path, rectangle, span, swept
 from rocking.structures.fields import OneSided, OptionalUnitWeight, Value, count, length, restitution_value
 from rocking.structures.linkage import PRESSED, STILL, Parts, Restitution, Turning, check_pressed, inset
 from rocking.structures.stack import MOST_COURSES, Course, Stack, counted_courses, courses_between
-from rocking.structures.structure import CrackedAtHeight, Crushable
+from rocking.structures.structure import CrackedAtHeight, Crushable, unplaced
 
 Balanced = Annotated[Restitution, restitution_value("momentum", "housner")]
 
@@ -390,6 +390,8 @@ class Spire(CrackedAtHeight):
                 f" m, but must be less than half the width, "
                 f"{self.width / 2!r} m; leave it out for a solid spire.",
             )
+        if self.crack_is_known and self.crack_height is None:
+            raise unplaced("crack_height")
         if self.crack_position >= self.height:
             raise SizeError.of(
                 "crack_height",
@@ -499,8 +501,8 @@ class Spire(CrackedAtHeight):
         squares = (slope * (self.height - low - z) - inset) ** 2 * _SECTION_SPREAD[self.plan]
         return np.array([areas.sum(), areas @ z, areas @ z**2, areas @ squares])
 
-    def cracked_at(self, height: float) -> "Spire":
-        return replace(self, crack_height=height)
+    def _placed(self, height: float) -> dict[str, Any]:
+        return {"crack_height": height}
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         base = self.width / 2

@@ -7,7 +7,7 @@ from collections import Counter
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 
@@ -34,6 +34,7 @@ from rocking.structures.stack import (
     loaded,
     slab,
 )
+from rocking.structures.structure import unplaced
 from rocking.structures.tied import Eccentricity, Tied, TopSlab, UnitWeight, check_eccentricity, check_inside
 
 _MOST_STOREYS = 50
@@ -240,6 +241,8 @@ class Facade(Tied):
             object.__setattr__(
                 self, "crack_storey", whole("crack_storey", self.crack_storey, 1, len(heights))
             )
+        if self.crack_is_known and self.crack_storey is None and self.crack_height is None:
+            raise unplaced("crack_storey or crack_height")
         if self.thrust_height is not None:
             check_inside("thrust_height", self.thrust_height, self.height)
         # The ground floor beside a height was the default once, and stands in files.
@@ -510,12 +513,11 @@ class Facade(Tied):
             made += courses_between(levels, faces, self.unit_weight / GRAVITY, [1.0] * number)
         return tuple(made)
 
-    def cracked_at(self, height: float) -> "Facade":
-        """Return this façade cracked at `height` [m] above the ground."""
+    def _placed(self, height: float) -> dict[str, Any]:
         foot = np.flatnonzero(self.levels[:-1] == height)
         if foot.size:
-            return replace(self, crack_storey=int(foot[0]) + 1, crack_height=None)
-        return replace(self, crack_storey=None, crack_height=height)
+            return {"crack_storey": int(foot[0]) + 1, "crack_height": None}
+        return {"crack_storey": None, "crack_height": height}
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         if self.opening is not None:

@@ -711,6 +711,16 @@ class Crackable(Crushable):
         """The mechanisms that may form, by their λ."""
 
 
+def unplaced(fields: str) -> StructureError:
+    """Return the error of a crack that is known where nothing says where it is. fields: one of which has to say it."""
+    return StructureError.naming(
+        "crack",
+        "known",
+        f"crack is 'known', but {fields} is missing, which says where; give it, or leave crack out, so that every "
+        "place counts.",
+    )
+
+
 @dataclass(frozen=True, repr=False)
 class CrackedAtHeight(Crackable):
     """A structure that opens along a horizontal section, at whatever height."""
@@ -724,8 +734,12 @@ class CrackedAtHeight(Crackable):
         """Height of the structure, of which the shares are taken, m."""
 
     @abstractmethod
+    def _placed(self, height: float) -> dict[str, Any]:
+        """The fields of its description that say that it is cracked at `height` [m] above its base, by name."""
+
     def cracked_at(self, height: float) -> Self:
         """Return this structure cracked at `height` [m] above its base."""
+        return replace(self, **self._placed(height))
 
     @property
     def crack_in_words(self) -> str:
@@ -780,7 +794,7 @@ class CrackedAtHeight(Crackable):
     @cached_property
     def _cracked_there_only(self) -> Self:
         """This structure with its crack known, from which those cracked elsewhere are made."""
-        return replace(self, crack="known")
+        return replace(self, crack="known", **self._placed(self.crack_position))
 
     def _candidate(self, height: float) -> Candidate | None:
         try:

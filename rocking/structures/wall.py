@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Annotated, ClassVar, Literal, Self, TypedDict, Unpack
+from typing import Annotated, Any, ClassVar, Literal, Self, TypedDict, Unpack
 
 import numpy as np
 
@@ -49,7 +49,7 @@ from rocking.structures.stack import (
     joints_between,
     slab,
 )
-from rocking.structures.structure import CrackedAtHeight
+from rocking.structures.structure import CrackedAtHeight, unplaced
 from rocking.structures.tied import (
     LEAST_STIFFNESS,
     Eccentricity,
@@ -236,9 +236,7 @@ class CrackedWall(CrackedAtHeight):
         cls._check_values("of_size", height=height)
         if hinge_height is None:
             if crack is not None:
-                raise StructureError(
-                    f"crack is {crack!r}, but hinge_height is missing; give the height of the hinge."
-                )
+                raise unplaced("hinge_height")
             return height / 2, height / 2
         hinge = finite(StructureError, "hinge_height", hinge_height, "m")
         if not 0 < hinge < height:
@@ -292,8 +290,8 @@ class CrackedWall(CrackedAtHeight):
         faces = [(-self.thickness / 2, self.thickness / 2)] * (number + 1)
         return courses_between(levels, faces, density, [1.0] * number)
 
-    def cracked_at(self, height: float) -> Self:
-        return replace(self, lower_height=height, upper_height=self.height - height)
+    def _placed(self, height: float) -> dict[str, Any]:
+        return {"lower_height": height, "upper_height": self.height - height}
 
     def _parts(self) -> list[tuple[int, np.ndarray]]:
         half = self.thickness / 2

@@ -127,6 +127,20 @@ def test_a_crack_that_is_known_decides_and_what_falls_beside_it_is_told():
     assert of_typed.decision.doubts == ()
 
 
+def test_beside_a_known_crack_that_overturns_the_worst_other_is_told_and_followed_no_farther():
+    """With the one that statics chooses all members fall, too; a stronger motion does not change what is said of it."""
+    typed = Wall.hinged_at(6.0, 3.0, 0.4, crack="known")
+    for factor in (6.0, 12.0):
+        known = rocking.assess(record(factor * typed.mechanism().uplift_multiplier * 9.80665), typed)
+        assert known.verdict is Verdict.OVERTURNS and known.decision.doubts == ()
+        assert known.crack == typed.crack_in_words
+        first, *beside = known.ensembles.followed
+        assert first.description == typed.crack_in_words and not any(each.counts for each in beside)
+        *before, last = (each.facts.step(0.05) for each in beside)
+        assert last is Verdict.OVERTURNS and Verdict.OVERTURNS not in before
+        assert known.statics is beside[-1] and len(beside) < len(cracks(typed)) - 1
+
+
 @pytest.mark.parametrize("fidelity", ["full", "auto"])
 def test_a_single_run_of_a_typed_crack_that_rests_says_nothing_of_the_others(fidelity):
     """Without an ensemble, too: what statics chooses lifts below it."""
@@ -249,6 +263,7 @@ def test_a_wall_falls_as_it_bulges_below_the_tie_that_holds_it_for_good(crack):
         restitution=0.7,
         tie_heights=(6.4,),
         tie_stiffness=2e7,
+        crack_storey=1,
         crack=crack,
     )
     times = np.arange(0, 12, STEP)

@@ -277,6 +277,7 @@ FACADE = {
     "unit_weight_kN_m3": 19,
     "tie_heights_m": [6.2],
     "tie_stiffness_kN_m2": 1e4,
+    "crack_storey": 1,
     "crack": "known",
 }
 CURVE = {"name": "curve", "type": "capacity_curve", "weight_kN": 120, "restitution": 0.9}

@@ -410,6 +410,10 @@ def test_page_one_says_that_a_crack_is_known_and_how_many_members_another_one_wo
     assert rows["typed"].verdict.badness > rows["known"].verdict.badness
     first = " ".join(word[4] for word in pages(report.pdf())[0])
     assert "crack known at 3 m (survey);" in first
+    for factor, says in ((3.0, f"{other.statics_crack}: 64 of 64 fall"), (0.12, "no other is in doubt")):
+        shaking = [shaken("NS").scaled(factor)]
+        (row,) = assessed("one", shaking, {"known": both["known"]}).page().page_one.rows
+        assert row.below.endswith(f"; crack known at 3 m (survey); {says}"), factor
 
 
 @pytest.mark.process

@@ -71,7 +71,7 @@ def test_a_facade_cracked_within_a_storey_is_the_facade_that_stands_above_the_cr
     held = {"floor_loads": (12e3, 6e3), "thrust": 1e3, "eccentricity": 0.1}
     held |= {"tie_stiffness": 5e4, "tie_strength": 4e3}
     whole = Facade((3.5, 3.0), (0.6, 0.5), 20e3, **held, tie_heights=(3.4,), crack_height=1.2, crack="known")
-    above = Facade((2.3, 3.0), (0.6, 0.5), 20e3, **held, tie_heights=(2.2,), crack="known")
+    above = Facade((2.3, 3.0), (0.6, 0.5), 20e3, **held, tie_heights=(2.2,), crack_storey=1, crack="known")
     rotations = np.linspace(0.0, 0.2, 41)
     for one, other in zip(whole.linkages, above.linkages, strict=True):
         for name in ("inertia", "gravity", "gravity_slope", "ground"):
@@ -151,5 +151,5 @@ def test_a_known_crack_stands_where_another_one_would_not():
     pushed = {"thrust": 1e3, "thrust_height": 6.5}
     with pytest.raises(DoesNotStandError):
         Facade((3.5, 3.0), (0.6, 0.2), 20e3, **pushed)
-    known = Facade((3.5, 3.0), (0.6, 0.2), 20e3, **pushed, crack="known")
+    known = Facade((3.5, 3.0), (0.6, 0.2), 20e3, **pushed, crack_storey=1, crack="known")
     assert all(each.structure.mechanism().uplift_multiplier > 0 for each in known.candidates())

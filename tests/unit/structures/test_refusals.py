@@ -54,6 +54,15 @@ def test_a_size_that_does_not_go_with_the_others_is_refused(make, field, value):
             "restitution is missing, but a one-sided body needs its own",
         ),
         (lambda: Wall.of_size(3.0, 0.3, crack="known"), "crack is 'known', but hinge_height is missing"),
+        (lambda: Spire(3.0, 15.0, crack="known"), "crack is 'known', but crack_height is missing"),
+        (
+            lambda: Facade((3.5, 3.0), (0.6, 0.5), 20e3, crack="known"),
+            "crack is 'known', but crack_storey or crack_height is missing",
+        ),
+        (
+            lambda: Arch(10.0, 1.5, np.radians(157.5), crack="known"),
+            "crack is 'known', but hinge_angles is missing",
+        ),
         (lambda: Frame(2.0, 2, 0.3), "column is 2.0, but must be a Block"),
         pytest.param(
             lambda: Arch(10.0, 1.0, np.pi),
