@@ -22,9 +22,7 @@ rule all:
 # The five steps of every record, then what stands over all of them.
 include: "workflow/rules/record.smk"
 include: "workflow/rules/batch.smk"
-include: "workflow/rules/checks.smk"
-include: "workflow/rules/fragility.smk"
-include: "workflow/rules/trade.smk"
+include: "workflow/rules/products.smk"
 include: "workflow/rules/summary.smk"
 
 

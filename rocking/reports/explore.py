@@ -8,7 +8,8 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -32,9 +33,6 @@ from rocking.reports.printing import LOOKS, band_text, cell_text, ratio
 from rocking.reports.record import warnings_of
 from rocking.reports.variants import strips_in_html
 from rocking.structures import Mechanism, Structure
-
-if TYPE_CHECKING:
-    from rocking.codes.conclusion import CodeConclusion
 
 Content = dict[str, Any]
 """The content that JSON can hold."""
@@ -106,24 +104,24 @@ def explore_page(
     records: Iterable[Content],
     structures: Mapping[str, Structure],
     title: str = "",
-    checked: "Sequence[CodeConclusion]" = (),
+    conclusions: Sequence[str] = (),
+    notes: Mapping[str, Sequence[str]] = MappingProxyType({}),
     strips: Sequence[Strip] = (),
     remarks: Sequence[RemarkRow] = (),
 ) -> bytes:
     """Return the page as UTF-8 HTML that loads nothing; it stands beside the folders of the records.
 
-    records: their `record_content`, in the order of the catalogue. title: of the study. checked: the conclusions at its
-    design level, where it has one. strips: of the variants of structures. remarks: on the study itself.
+    records: their `record_content`, in the order of the catalogue. title: of the study. conclusions,
+    notes: of the products over all records, and on each structure by its name. strips: of the variants of structures.
+    remarks: on the study itself.
     """
     of_records = list(records)
-    by_code = {each.structure: f"By the code, at the design level: {each}." for each in checked}
     of_structures = [
         {
             "name": name,
             "size": structure.described.size,
             "type": structure.described.type_name,
-            "code": by_code.get(name, ""),
-            "remarks": _remarks_of(name, structures, remarks),
+            "remarks": [*notes.get(name, ()), *_remarks_of(name, structures, remarks)],
             "frames": _frames(name, structure),
         }
         for name, structure in structures.items()
@@ -148,7 +146,7 @@ def explore_page(
     )
     pieces = {
         "title": escape(title or "Rocking of structures under recorded earthquakes"),
-        "conclusion": escape(f"{_conclusion(of_records)} {_at_design_level(checked)}".rstrip()),
+        "conclusion": escape(" ".join([_conclusion(of_records), *conclusions])),
         "count": f"{counted(len(_judged(of_records)), 'record')}, {counted(len(structures), 'structure')}",
         "verdicts": "".join(f"<option>{verdict}</option>" for verdict in LOOKS),
         "legend": "\n".join(legend),
@@ -184,14 +182,6 @@ def _ranked(contents: Sequence[Content], key: str, worst: Sequence[str]) -> list
     """The records or structures, each with the place of its name among the `worst` first."""
     ranks = {name: rank for rank, name in enumerate(worst)}
     return [{**each, "rank": ranks.get(each[key], len(ranks))} for each in contents]
-
-
-def _at_design_level(checked: "Sequence[CodeConclusion]") -> str:
-    if not checked:
-        return ""
-    from rocking.codes.conclusion import code_conclusion_in_words  # which a study without one has no need of
-
-    return code_conclusion_in_words(checked)
 
 
 def _css(verdict: Verdict) -> str:

@@ -23,7 +23,7 @@ from rocking.fragility.rows import (
 )
 from rocking.quantities import counted
 from rocking.records.sample import FEWEST
-from rocking.reports.pages import CaptionedTable, Part, PlainPage
+from rocking.reports.pages import CaptionedTable, Panel, Part, PlainPage
 from rocking.reports.panels import CurveBand, draw_probability
 from rocking.reports.printing import (
     Column,
@@ -134,6 +134,13 @@ def fragility_data(
 
 def _part(captioned: CaptionedTable) -> Part:
     return Part(table=captioned.table, caption=captioned.caption)
+
+
+def fragility_panel(rows: Mapping[type[Row], Iterable[Row]]) -> Panel:
+    """Return what the curves of each structure come down to, for the summary."""
+    captioned = fragility_table(by_place(FragilitySummaryRow, rows), ida_frame(rows))
+    caption = f"{captioned.caption} fragility.pdf holds the curves."
+    return Panel("Fragility", (Part(table=captioned.table, caption=caption),))
 
 
 def fragility_table(summary: Sequence[FragilitySummaryRow], ida: "DataFrame") -> CaptionedTable:

@@ -148,6 +148,18 @@ class Part:
     caption: str = ""
 
 
+@dataclass(frozen=True)
+class Panel:
+    """What the summary shows of another product over all records.
+
+    caveat: what to know of its conclusion, which stands below that on page one.
+    """
+
+    title: str
+    parts: tuple[Part, ...]
+    caveat: str = ""
+
+
 @dataclass(frozen=True, kw_only=True)
 class PlainPage(Page):
     """A plain document."""
@@ -423,14 +435,6 @@ class DesignSpectra:
     words: str
 
 
-@dataclass(frozen=True)
-class TradePicture:
-    """What accuracy costs: a figure, and what follows."""
-
-    picture: Picture
-    conclusion: str
-
-
 @dataclass(frozen=True, kw_only=True)
 class SummaryPage(Page):
     """The report over all records."""
@@ -438,8 +442,7 @@ class SummaryPage(Page):
     subtitle: str
     conclusion: str
     falls: str
-    by_code: str
-    no_demand: str
+    conclusions: tuple[str, ...]
     notices: tuple[Notice, ...]
     matrix: Matrix
     map: SeverityMap
@@ -448,14 +451,12 @@ class SummaryPage(Page):
     outcomes: tuple[Picture, ...]
     structures: Table
     strips: tuple[Strip, ...]
-    checks: Table
     supports: tuple[Picture, ...]
     design: tuple[DesignSpectra, ...]
-    fragility: tuple[CaptionedTable, ...]
+    panels: tuple[Panel, ...]
     failures: Table
     failures_note: str
     agreement: Table
-    trade: tuple[TradePicture, ...]
     methods: Table
     unsafe: Table
     unsafe_note: str

@@ -40,18 +40,17 @@ from rocking.reports.design_figure import design_summary_figure
 from rocking.reports.matrix import MOST_RECORDS as MOST_RECORDS_BESIDE
 from rocking.reports.matrix import MOST_WITH_ALL, matrix
 from rocking.reports.pages import (
-    CaptionedTable,
     DesignSpectra,
     MapCell,
     MapRow,
     Notice,
     PageSettings,
+    Panel,
     Scatter,
     SeverityMap,
     Strip,
     SummaryPage,
     Table,
-    TradePicture,
 )
 from rocking.reports.printing import (
     Column,
@@ -94,7 +93,6 @@ _BESIDE = 30
 """Letters of a name beside a bar."""
 _UNKNOWN = [(math.nan, math.nan)]
 """The peaks of a record of which there is no row."""
-_NO_DEMAND = "These records are no demand of a code."
 _HEAD = 26
 """Letters of a name above a column of the map; the table of the structures holds it whole."""
 
@@ -106,26 +104,27 @@ Design = tuple["DesignSpectrum", Sequence[Sequence[float]]]
 def summary_data(
     rows: Mapping[type[Row], Sequence[Row]],
     settings: PageSettings,
-    trade: Sequence[TradePicture] = (),
     design: Design | None = None,
     strips: Sequence[Strip] = (),
+    conclusions_beside: Sequence[str] = (),
+    panels: Sequence[Panel] = (),
 ) -> SummaryPage:
     """Return the page of the summary: texts, tables and figures.
 
-    rows: of the tables of the summary, and of checks and fragility where there are any. trade: figure and
-    conclusion, where it was measured. design: None where the study has no design level. strips:
-    of the variants of structures.
+    rows: of the tables of the summary. design: None where the study has no design level. strips: of the variants of
+    structures. conclusions_beside, panels: of the other products over all records.
     """
     with displaying(settings):
-        return _page(rows, settings, trade, design, strips)
+        return _page(rows, settings, design, strips, conclusions_beside, panels)
 
 
 def _page(
     rows: Mapping[type[Row], Sequence[Row]],
     settings: PageSettings,
-    trade: Sequence[TradePicture],
     design: Design | None,
     strips: Sequence[Strip],
+    conclusions_beside: Sequence[str],
+    panels: Sequence[Panel],
 ) -> SummaryPage:
     verdicts = rows_of(VerdictRow, rows)
     shown = worst_period_each(verdicts)
@@ -140,9 +139,8 @@ def _page(
     agreed = rows_of(AgreementRow, rows)
     unsafe = [row for row in comparison if row.agreement is Agreement.TOO_LOW]
     unsafe.sort(key=lambda row: row.integrated_rotation_ratio, reverse=True)
-    by_code, checks = _checks(rows)
     # Names that stand upright, a second sentence and more rows leave less room below them.
-    low = len(judged) > MOST_WITH_ALL or by_code or len(words_of_all) > MOST_HIGH
+    low = bool(len(judged) > MOST_WITH_ALL or conclusions_beside or len(words_of_all) > MOST_HIGH)
     return SummaryPage(
         title="Summary over the records",
         about=printing.facts_of(settings),
@@ -154,9 +152,7 @@ def _page(
         f"{counted(len(rows_of(StructureRow, rows)), 'structure')}",
         conclusion=conclusion_in_words(words_of_all, len(judged)),
         falls=falls_in_words(rows_of(ExpectedFallsRow, rows)),
-        by_code=by_code,
-        no_demand=_NO_DEMAND if by_code else "",
-        checks=checks,
+        conclusions=tuple(conclusions_beside),
         matrix=matrix(made, records, pulses),
         notices=(
             *_notices(records, comparison, len(failures)),
@@ -180,13 +176,12 @@ def _page(
         agreement=table_of(agreed, *AGREEMENT_COLUMNS),
         unsafe=table_of(unsafe[:MOST_LISTED], *UNSAFE_COLUMNS),
         unsafe_note=remainder(len(unsafe) - MOST_LISTED, "case", "comparison.csv"),
-        fragility=_fragility(rows),
+        panels=tuple(panels),
         failures=table_of(failures[:MOST_LISTED], *FAILURE_COLUMNS),
         failures_note=remainder(len(failures) - MOST_LISTED, "failure", "failures.csv"),
         records=record_table(records[:MOST_RECORDS], pulses),
         records_note=remainder(len(records) - MOST_RECORDS, "component", "record.csv"),
         design=_design(design),
-        trade=tuple(trade),
     )
 
 
@@ -207,43 +202,6 @@ def _scatter(
     figure = prediction_scatter(comparison, pulses, height)
     carried = any(row.support_period_s is not None for row in comparison)
     return (Scatter(heading, picture(figure, alt), _COUNTED if carried else ""),)
-
-
-def _fragility(rows: Mapping[type[Row], Sequence[Row]]) -> tuple[CaptionedTable, ...]:
-    """The table of fragility, of a study that measured one."""
-    if not _holds(rows, "fragility_summary"):
-        return ()
-    from rocking.fragility.rows import FragilitySummaryRow  # a quarter of a second
-    from rocking.reports.fragility import by_place, fragility_table, ida_frame
-
-    return (fragility_table(by_place(FragilitySummaryRow, rows), ida_frame(rows)),)
-
-
-def _holds(rows: Mapping[type[Row], Sequence[Row]], table: str) -> bool:
-    """Whether there is a table of this name: the main job runs without the folders of its class."""
-    return any(each.table.name == table for each in rows)
-
-
-def _checks(rows: Mapping[type[Row], Sequence[Row]]) -> tuple[str, Table]:
-    """The sentence on the checks at the design level, and their table; both empty without one."""
-    if not _holds(rows, "code_checks"):
-        return "", Table()
-    from rocking.codes.conclusion import code_conclusion_in_words, code_conclusions
-    from rocking.codes.rows import KINDS, CodeCheckRow
-
-    concluded = code_conclusions(rows_of(CodeCheckRow, rows))
-    kinds = [kind for kind in dict.fromkeys(KINDS.values()) if any(kind in each.ratios for each in concluded)]
-    checks = table_of(
-        concluded,
-        ("Structure", "1.4", "l", lambda each: strong(each.name)),
-        *(
-            (printing.sentence(kind), "0.7", "r", lambda each, kind=kind: each.ratios.get(kind, "–"))
-            for kind in kinds
-        ),
-        ("Conclusion", "1.5", "l", lambda each: str(each.remark)),
-        ("Met by sets of other stations", "1.2", "l", lambda each: words(each.other_share_in_words)),
-    )
-    return code_conclusion_in_words(concluded), checks
 
 
 def _design(design: Design | None) -> tuple[DesignSpectra, ...]:

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from rocking.assessment.rows import TradeMethod, TradeRow
 from rocking.assessment.trade import break_even, what_follows
 from rocking.reports import printing
-from rocking.reports.pages import Part, PlainPage, TradePicture
+from rocking.reports.pages import Panel, Part, Picture, PlainPage
 from rocking.reports.printing import Figures, write_document
 from rocking.reports.style import PREDICTED, RECORD, new_figure, picture, plain_logarithmic, styled, svg
 from rocking.tables import Row, rows_of, write_whole
@@ -59,7 +59,8 @@ def write_trade_report(
         "Left: processor time of a record against the number of structures that are followed under it. Right: share of "
         f"the cases in which a method errs, over all structures, with its median error. Measured on {machine}."
     )
-    drawn = [Part(pictures=(each.picture,), caption=of_figure) for each in trade_picture(rows)]
+    of_all = [row for row in rows if row.structure == ""]
+    drawn = [Part(pictures=(_picture(of_all),), caption=of_figure)] if of_all else []
     parts = [Part(sentences=tuple(what_follows(rows))), *drawn, Part(table=table, caption=caption)]
     if faults := printing.faults_in_words(tables):
         parts.append(Part(sentences=tuple(faults)))
@@ -69,15 +70,23 @@ def write_trade_report(
     write_whole(image, svg(trade_figure(rows)).encode())
 
 
-def trade_picture(of_each: Sequence[TradeRow]) -> list[TradePicture]:
-    """Return the figure and its conclusion, also for another document; nothing where no structure was followed."""
+def trade_panel(of_each: Sequence[TradeRow]) -> Panel | None:
+    """Return the figure over all structures and what follows, for the summary; None where none was followed."""
     rows = [row for row in of_each if row.structure == ""]
     if not rows:
-        return []
-    figure = picture(
+        return None
+    caption = (
+        "Error against processor time of every method, measured on this study and on the machine that ran it; "
+        "trade.pdf explains it."
+    )
+    drawn = Part(pictures=(_picture(rows),), caption=caption)
+    return Panel("What accuracy costs", (drawn, Part(text=" ".join(what_follows(rows)))))
+
+
+def _picture(rows: Sequence[TradeRow]) -> Picture:
+    return picture(
         trade_figure(rows), "Processor time of a record against the number of structures, and errors."
     )
-    return [TradePicture(figure, " ".join(what_follows(rows)))]
 
 
 @styled

@@ -21,6 +21,7 @@ from rocking.hashes import sha256_of_bytes
 from rocking.quantities import GRAVITY, escaped
 from rocking.records.doors import through
 from rocking.study import close_doors
+from rocking.study.products import PRODUCTS
 
 
 class _Escaped(io.TextIOBase):
@@ -68,7 +69,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             with warnings.catch_warnings():
                 warnings.showwarning = _show
                 close_doors()
-                if options.run in (_run, _trade) and " " in sys.executable and os.name == "posix":
+                if options.run in (_run, _product) and " " in sys.executable and os.name == "posix":
                     _start_without_blanks(arguments)
                 with through("command"):
                     return options.run(options) or 0
@@ -162,10 +163,16 @@ def _parser() -> argparse.ArgumentParser:
     add = verb(_run, "run the study in a folder")
     add("folder", type=Path, nargs="?", default=Path(), help="folder of the study (default: this one)")
     add(
-        "snakemake", nargs="*", help="a target such as trade; what follows -- goes to snakemake: -- --dry-run"
+        "snakemake",
+        nargs="*",
+        help="a target such as summary; what follows -- goes to snakemake: -- --dry-run",
     )
-    add = verb(_trade, "measure what each method costs and errs on the records and structures of a study")
-    add("folder", type=Path, nargs="?", default=Path(), help="folder of the study (default: this one)")
+    for product in PRODUCTS:
+        made = verbs.add_parser(product.name, help=product.does, description=product.does)
+        made.add_argument(
+            "folder", type=Path, nargs="?", default=Path(), help="folder of the study (default: this one)"
+        )
+        made.set_defaults(run=_product, product=product)
     add = verb(_tables, "write the tables of single records of a finished study")
     add("results", type=Path, help="folder of the results of a study")
     add("record", nargs="+", help="identifier of a record in the catalogue")
@@ -232,10 +239,10 @@ def _run(options: argparse.Namespace) -> int:
     return run(options.folder, options.snakemake)
 
 
-def _trade(options: argparse.Namespace) -> int:
-    from rocking.study.run import run_trade
+def _product(options: argparse.Namespace) -> int:
+    from rocking.study.run import run_product
 
-    return run_trade(options.folder)
+    return run_product(options.folder, options.product)
 
 
 def _select(options: argparse.Namespace) -> None:

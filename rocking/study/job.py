@@ -43,10 +43,11 @@ from rocking.records.station import station_of
 from rocking.structures import Structure
 from rocking.study.contents import ContentHashes
 from rocking.study.folder import locked
-from rocking.study.made_from import TABLE, made_from, records_of, what_changed
+from rocking.study.made_from import handed, made_from, records_of, what_changed
 from rocking.study.outcomes import RecordOutcome, outcomes_written
 from rocking.study.outputs import case_timings_of, cases_of, kept_of, outcome_of, sums_of
 from rocking.study.plan import JOBS, Plan, plan_of_job, scenes_of, study_remarks
+from rocking.study.products import BY_NAME
 from rocking.study.settings import Settings, settings_sha256
 from rocking.study.task import Task
 from rocking.study.terminal import line_writer, log_error, record_line, tell, tell_error
@@ -175,6 +176,11 @@ class Job:
         return Path(self.study.settings.results)
 
     @property
+    def folder(self) -> Path:
+        """The folder of the files of a product over all records."""
+        return self.results / BY_NAME[self.kind].folder
+
+    @property
     def made_by_hand(self) -> Sequence[str]:
         """What a product is made from that no whole run makes, and stays until that changes; () for the others."""
         return () if self.task.product in self.plan.products else self.task.made_from
@@ -205,7 +211,7 @@ def begin_job(task: Task) -> Iterator[Job]:
         tell_line = line_writer(log, kind)
         plan = _planned(task)
         compile_all(partial(tell, "compile"))
-        settings = TABLE[kind].handed(plan.settings)
+        settings = handed(kind, plan.settings)
         study = Study(plan.scenes, settings, settings_sha256(plan.settings, plan.scenes))
         records = [plan.records[each] for each in records_of(task.product, plan)]
         job = Job(task, plan, study, records, Path(task.log), tell_line)

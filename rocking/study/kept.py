@@ -19,16 +19,20 @@ Rows = Mapping[type[Row], Iterable[Row]]
 """The rows of tables by their class."""
 
 
-def keep_rows(path: Path, rows: Rows, made_by_hand: Sequence[str] = ()) -> None:
-    """Keep the rows of a product over all records; made_by_hand: what one is made from that no whole run makes."""
-    lines = (json.dumps(each, separators=(",", ":")).encode() for each in (made_by_hand, encoded_rows(rows)))
+def keep_rows(path: Path, rows: Rows, made_by_hand: Sequence[str] = (), conclusion: str = "") -> None:
+    """Keep the rows of a product over all records, and the sentence that it comes down to.
+
+    made_by_hand: what a product is made from that no whole run makes.
+    """
+    content = (made_by_hand, conclusion, encoded_rows(rows))
+    lines = (json.dumps(each, separators=(",", ":")).encode() for each in content)
     write_whole(path, b"\n".join(lines))
 
 
 def kept_rows(path: Path, tables: Iterable[type[Row]]) -> dict[type[Row], list[Row]]:
     """Return the rows of some tables of a product. Raises RockingError where they are not what this version writes."""
     with undamaged(path):
-        _, _, rows = read_whole(path, LARGEST, RockingError).partition(b"\n")
+        *_, rows = read_whole(path, LARGEST, RockingError).split(b"\n", 2)
         return decoded_rows(json.loads(rows), tables)
 
 
@@ -39,6 +43,13 @@ def made_by_hand(path: Path) -> tuple[str, ...]:
             return tuple(map(str, json.loads(stream.readline(LARGEST))))
     except (OSError, ValueError, TypeError, RecursionError):
         return ()
+
+
+def kept_conclusion(path: Path) -> str:
+    """Return the sentence that a product comes down to. Raises RockingError where this version has not written it."""
+    with undamaged(path), regular_file(path) as stream:
+        stream.readline(LARGEST)
+        return str(json.loads(stream.readline(LARGEST)))
 
 
 @contextmanager

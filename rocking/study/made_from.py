@@ -1,14 +1,13 @@
 """What each product of a study is made from: the one table that says what depends on what.
 
-A product is a record ("record/a"), a batch of records without reports ("batch/00"), the summary, the checks, the
-fragility or the trade. Its job is handed the settings that its line names, and no others. From the line follow the
-files that its rule declares as input, and the params of the rule: a line of text for each thing that it is made from,
-a setting with its value, the content of a file with its hash. Snakemake makes a product again where a param is another
-one than when it was made, and says which.
+A product is a record ("record/a"), a batch of records without reports ("batch/00"), the summary, or one of those over
+all records that it shows (`rocking.study.products`). Its job is handed the settings that its line names, and no others.
+From the line follow the files that its rule declares as input, and the params of the rule: a line of text for each
+thing that it is made from, a setting with its value, the content of a file with its hash. Snakemake makes a product
+again where a param is another one than when it was made, and says which.
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, fields
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -22,14 +21,9 @@ from rocking.errors import ConfigurationError, RockingError
 from rocking.hashes import sha256_of
 from rocking.records.catalogue import CatalogueRecord, load_catalogue
 from rocking.study.contents import ContentHashes
-from rocking.study.settings import (
-    NUMBERS,
-    Settings,
-    StudyFragility,
-    layout,
-    package_sha256,
-    structure_hashes,
-)
+from rocking.study.product import TOLD, Line
+from rocking.study.products import PRODUCTS
+from rocking.study.settings import NUMBERS, OTHER_SECTIONS, Settings, layout, package_sha256, structure_hashes
 
 
 class Inputs(Protocol):
@@ -53,74 +47,34 @@ class Inputs(Protocol):
 
 PLACES = ("catalogue", "structures", "results", "mirror")
 """The settings that say where something lies: what lies there counts, and every job is handed them."""
-_TOLD = ("study", "client", "project_number", "author", "date", "display_units")
-_CURVES = tuple(f"fragility.{each.name}" for each in fields(StudyFragility) if each.name != "in_every_run")
-"""When the fragility is measured is no part of it."""
 _PLAIN = " ./,+=()[]'_-"
 """Beside letters and digits, what a param holds as it is: --report prints params, and no text of a study is markup."""
 
 
-@dataclass(frozen=True)
-class Line:
-    """One line of the table.
-
-    settings: names of settings and of whole sections; section.name is one setting of a section. files: settings that
-    name a file whose content counts. opens_records: whether it is made from the files of its records, rather than from
-    their outcomes. pool: whether the records count from which sets are drawn. terms: whether what the structures say
-    for the checks of a code counts. shows: whether it shows other products over all records. documents: whether it
-    holds a document whatever the settings say.
-    """
-
-    settings: tuple[str, ...]
-    files: tuple[str, ...] = ()
-    opens_records: bool = True
-    pool: bool = False
-    terms: bool = False
-    shows: bool = False
-    documents: bool = True
-
-    def handed(self, settings: Settings) -> Settings:
-        """Return the settings of which a job can read those of this line alone."""
-        return settings.restricted((*self.settings, *PLACES))
-
-
 TABLE: Mapping[str, Line] = {
     "record": Line(
-        (*NUMBERS, *_TOLD, "reports", "details", "figures", "histories", "design_spectrum"),
+        (*TOLD, "reports", "details", "figures", "histories", "design_spectrum"),
         files=("design_spectrum.points",),
         documents=False,
     ),
-    "batch": Line((*NUMBERS, "reports", "histories"), documents=False),
+    "batch": Line(("reports", "histories"), documents=False),
     "summary": Line(
-        (
-            *NUMBERS,
-            *_TOLD,
-            "reports",
-            "figures",
-            "histories",
-            "records_per_job",
-            "design_spectrum",
-            "checks",
-            "fragility",
-            "trade",
-        ),
+        (*TOLD, "reports", "figures", "histories", "records_per_job", *OTHER_SECTIONS),
         files=("design_spectrum.points",),
         opens_records=False,
         shows=True,
         documents=False,
     ),
-    "checks": Line(
-        (*NUMBERS, *_TOLD, "language", "figures", "design_spectrum", "checks"),
-        files=("design_spectrum.points",),
-        pool=True,
-        terms=True,
-    ),
-    "fragility": Line((*NUMBERS, *_CURVES, "figures"), files=("fragility.hazard",)),
-    "trade": Line((*NUMBERS, "figures")),
+    **{each.name: each.made_from for each in PRODUCTS},
 }
-"""By the kind of product, which is the name of its rule. All are made from the rows of the catalogue, the structures in
-their order, this package and the libraries as well; a record and a batch from their own records alone, the others from
-all in their order."""
+"""By the kind of product, which is the name of its rule. All are made from the settings that change a number, the rows
+of the catalogue, the structures in their order, this package and the libraries as well; a record and a batch from their
+own records alone, the others from all in their order."""
+
+
+def handed(kind: str, settings: Settings) -> Settings:
+    """Return the settings of which a job of this kind can read those of its line alone."""
+    return settings.restricted((*NUMBERS, *TABLE[kind].settings, *PLACES))
 
 
 def made_from(product: str, plan: Inputs) -> tuple[str, ...]:
@@ -133,8 +87,7 @@ def of_records(product: str, plan: Inputs) -> tuple[str, ...]:
     line = TABLE[product.partition("/")[0]]
     records = [plan.records[each] for each in records_of(product, plan)]
     files = _hashes(plan, records) if line.opens_records else {}
-    pool = _pool(plan) if line.pool else {}
-    return (_named("catalogue", *records), _told("files", files), _told("pool", pool))
+    return (_named("catalogue", *records), _told("files", files), _told("pool", _others(plan, line)))
 
 
 OF_RECORDS = 3
@@ -161,9 +114,9 @@ def inputs_of(product: str, plan: Inputs) -> dict[str, list[str]]:
     if line.opens_records:
         for record in records_of(product, plan):
             files |= dict.fromkeys(plan.files_of(plan.records[record]))
-    if line.pool and settings.checks.pool:
-        files[settings.checks.pool] = None
-        for row in _rows_of_pool(plan):
+    for catalogue in _catalogues(line, settings):
+        files[catalogue] = None
+        for row in _rows_of(catalogue):
             files |= dict.fromkeys(plan.files_of(row))
     named = [path for path in settings.told_in(line.files).values() if path]
     return {
@@ -186,7 +139,9 @@ def of_kind(kind: str, plan: Inputs) -> tuple[str, ...]:
     line = TABLE[kind]
     settings = plan.settings
     reports = line.documents or settings.reports
-    lines = [f"{key} = {_shown(key, value)}" for key, value in settings.told_in(line.settings).items()]
+    lines = [
+        f"{key} = {_shown(key, value)}" for key, value in settings.told_in((*NUMBERS, *line.settings)).items()
+    ]
     lines.append(_named("package", package_sha256(reports=reports)))
     lines += [f"{library}: {installed}" for library, installed in sorted(versions().items())]
     lines.append(_named("structures", *structure_hashes(plan.scenes).items()))
@@ -232,17 +187,22 @@ def _hashes(plan: Inputs, records: Iterable[CatalogueRecord]) -> dict[str, str]:
     return dict(sorted(hashes.items()))
 
 
-def _pool(plan: Inputs) -> dict[str, str]:
-    """The records of another catalogue, and their files; one that cannot be read is told when it is used."""
-    catalogue = plan.settings.checks.pool
-    if not catalogue:
-        return {}
-    return {catalogue: plan.contents.of(Path(catalogue))} | _hashes(plan, _rows_of_pool(plan))
+def _catalogues(line: Line, settings: Settings) -> list[str]:
+    """The other catalogues that the settings of a line name."""
+    return [path for path in settings.told_in(line.catalogues).values() if path]
 
 
-def _rows_of_pool(plan: Inputs) -> tuple[CatalogueRecord, ...]:
+def _others(plan: Inputs, line: Line) -> dict[str, str]:
+    """These catalogues, and the files of their records; one that cannot be read is told when it is used."""
+    hashes: dict[str, str] = {}
+    for catalogue in _catalogues(line, plan.settings):
+        hashes |= {catalogue: plan.contents.of(Path(catalogue))} | _hashes(plan, _rows_of(catalogue))
+    return hashes
+
+
+def _rows_of(catalogue: str) -> tuple[CatalogueRecord, ...]:
     try:
-        return load_catalogue(plan.settings.checks.pool or "")
+        return load_catalogue(catalogue)
     except RockingError:
         return ()
 

@@ -5,18 +5,17 @@ product of the plan owns any more is removed.
 """
 
 import re
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
 
-from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES
+from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, TimingRow
 from rocking.hashes import sha256_of_file
 from rocking.records.catalogue import is_safe_id
+from rocking.study.product import KEPT, Output, draws
+from rocking.study.products import PRODUCTS
 from rocking.study.settings import Settings
 
-KEPT = ".kept"
-"""The folder in the results that holds what is kept for other products, and for the next run."""
 CASES = f"{KEPT}/cases"
 """Where the results of the cases of each record are kept."""
 FORMER = ("summary/jobs", "summary/cases", ".made_from")
@@ -25,14 +24,6 @@ SUMS = "SHA256SUMS"
 """In the folder of the results: the hashes of the pages to sign and of the tables, for sha256sum -c."""
 PROVENANCE = "provenance.json"
 """In the folder of the summary: what the results were made from and with."""
-MEASURED = ("timings.csv", "trade.csv", "trade.pdf", "trade.svg")
-"""The files that hold measured times: alone of all, they may differ between two runs of the same input."""
-_FRAGILITY_TABLES = ("ida", "fragility", "fragility_summary", "intensity_measures")
-"""Named here, because to import what holds them takes a quarter of a second at each start."""
-
-
-def _always(settings: Settings) -> bool:
-    return True
 
 
 def _reports(settings: Settings) -> bool:
@@ -43,39 +34,16 @@ def _histories(settings: Settings) -> bool:
     return settings.histories
 
 
-def _draws(settings: Settings) -> bool:
-    """Whether the figures of a document lie beside it in an archive."""
-    return settings.figures != "none"
-
-
 def _draws_reports(settings: Settings) -> bool:
-    return settings.reports and _draws(settings)
-
-
-@dataclass(frozen=True)
-class Output:
-    """One file of a product.
-
-    path: from the folder of the results; {name} is that of the record or the batch. when: whether the settings ask for
-    it. is_store: whether it serves the next run alone, so that nobody misses it. label, caption, category: its place in
-    the page that snakemake --report makes; "" for none.
-    """
-
-    path: str
-    when: Callable[[Settings], bool] = _always
-    is_store: bool = False
-    label: str = ""
-    caption: str = ""
-    category: str = ""
-
-
-def _tables(rows: Iterable[str], folder: str) -> tuple[Output, ...]:
-    return tuple(Output(f"{folder}/{name}") for name in rows)
+    return settings.reports and draws(settings)
 
 
 OUTPUTS: Mapping[str, tuple[Output, ...]] = {
     "record": (
-        *_tables((each.table.file_name for each in RECORD_TABLES), "{name}"),
+        *(
+            Output(f"{{name}}/{each.table.file_name}", is_measured=each is TimingRow)
+            for each in RECORD_TABLES
+        ),
         Output("{name}/histories.csv", _histories),
         Output("{name}/report.pdf", _reports, label="report", caption="record", category="Records"),
         Output("{name}/report_figures.zip", _draws_reports),
@@ -87,6 +55,7 @@ OUTPUTS: Mapping[str, tuple[Output, ...]] = {
         *(
             Output(
                 f"summary/{each.table.file_name}",
+                is_measured=each is TimingRow,
                 label=each.table.description,
                 caption="table",
                 category="Tables",
@@ -120,22 +89,7 @@ OUTPUTS: Mapping[str, tuple[Output, ...]] = {
         Output("summary/datapackage.json"),
         Output(SUMS),
     ),
-    "checks": (
-        *_tables(("code_checks.csv", "code_checks.json", "structures.pdf"), "summary"),
-        Output("summary/structures_figures.zip", _draws),
-        Output(f"{KEPT}/rows/checks.json"),
-    ),
-    "fragility": (
-        *_tables((f"{table}.csv" for table in _FRAGILITY_TABLES), "fragility"),
-        *_tables(("datapackage.json", "fragility.pdf", "fragility.svg", "fragility.xml"), "fragility"),
-        Output("fragility/fragility_figures.zip", _draws),
-        Output(f"{KEPT}/rows/fragility.json"),
-    ),
-    "trade": (
-        *_tables(("trade.csv", "trade.json", "trade.pdf", "trade.svg"), "summary"),
-        Output("summary/trade_figures.zip", _draws),
-        Output(f"{KEPT}/rows/trade.json"),
-    ),
+    **{each.name: each.outputs for each in PRODUCTS},
 }
 """By the kind of product, which is the name of its rule."""
 
@@ -155,16 +109,16 @@ def outputs_of(product: str, settings: Settings) -> dict[Output, Path]:
 def sums_of(product: str, settings: Settings) -> dict[str, str]:
     """Return the sha256 of the pages and the tables of a product that stand, by their paths in the results.
 
-    But for the tables of measured times, which differ between two runs of the same input.
+    But for those of measured times, which differ between two runs of the same input.
     """
     results = Path(settings.results)
-    paths = (each for each in outputs_of(product, settings).values() if each.suffix in (".csv", ".pdf"))
-    told = {path.relative_to(results).as_posix(): path for path in paths if path.name not in MEASURED}
-    return {name: sha256_of_file(path) for name, path in told.items() if path.is_file()}
+    outputs = outputs_of(product, settings).items()
+    paths = [path for each, path in outputs if path.suffix in (".csv", ".pdf") and not each.is_measured]
+    return {path.relative_to(results).as_posix(): sha256_of_file(path) for path in paths if path.is_file()}
 
 
 def kept_of(results: Path, product: str) -> Path:
-    """Return the file that keeps the rows of a product over all records: the checks, the fragility or the trade."""
+    """Return the file that keeps the rows of a product over all records."""
     return results / KEPT / "rows" / f"{product}.json"
 
 

@@ -27,18 +27,16 @@ from rocking.study.folder import REMEMBERED, check_own, results_folder, stands_i
 from rocking.study.kept import made_by_hand
 from rocking.study.kinds import StudyKind
 from rocking.study.made_from import made_from, records_of, what_changed
-from rocking.study.outputs import FORMER, KEPT, kept_of, outcome_of
-from rocking.study.settings import Settings, named_files, read_settings
+from rocking.study.outputs import FORMER, kept_of, outcome_of
+from rocking.study.product import KEPT
+from rocking.study.products import PRODUCTS
+from rocking.study.settings import Settings, file_settings, named_files, read_settings
 from rocking.tables.yaml_file import read_yaml
 
 T = TypeVar("T")
 
 JOBS = REMEMBERED / "rocking_jobs.lock"
 """Held by every job of a study while it works, in the folder of the study."""
-OVER_ALL = ("checks", "fragility", "trade")
-"""The products over all records that the summary shows."""
-BY_HAND = ("fragility", "trade")
-"""Those that may be made by hand, in a study that does not make them in every run."""
 _NAMED = 8
 """Remarks on settings and structures that the terminal tells; remarks.csv holds all."""
 _ON_PAGES = (AssessmentKind.HELD_AT_CEILING,)
@@ -93,7 +91,8 @@ class Plan:
     @property
     def _outdated(self) -> list[Remark]:
         """What was made by hand and does not hold any more; a run leaves it out, and removes it."""
-        made = {each: self.changed_since(each) for each in BY_HAND if each not in self.products}
+        others = (each.name for each in PRODUCTS if each.name not in self.products)
+        made = {name: self.changed_since(name) for name in others}
         return [
             Remark.of(StudyKind.OUTDATED, each, why=f"changed: {why}") for each, why in made.items() if why
         ]
@@ -103,26 +102,22 @@ class Plan:
         """The products that a whole run makes, each by the name of its rule, and of its record or batch."""
         settings = self.settings
         kind, names = ("record", self.records) if self.makes_reports else ("batch", self.batches)
-        in_every_run = {
-            "checks": bool(settings.design_spectrum.ag or settings.design_spectrum.points),
-            "fragility": settings.fragility.in_every_run,
-            "trade": settings.trade.in_summary,
-        }
         return (
             *(f"{kind}/{name}" for name in names),
-            *(each for each, is_in in in_every_run.items() if is_in),
+            *(each.name for each in PRODUCTS if each.in_every_run(settings)),
             "summary",
         )
 
     @cached_property
     def beside_summary(self) -> tuple[str, ...]:
         """The products over all records that the summary shows: of the plan, and by hand where they still hold."""
-        results = Path(self.settings.results)
-        by_hand = () if self.by_name else BY_HAND
-        standing = (
-            each for each in by_hand if made_by_hand(kept_of(results, each)) and not self.changed_since(each)
+        return tuple(
+            each.name for each in PRODUCTS if each.name in self.products or self._holds_by_hand(each.name)
         )
-        return tuple(dict.fromkeys([*(each for each in self.products if each in OVER_ALL), *standing]))
+
+    def _holds_by_hand(self, product: str) -> bool:
+        made = not self.by_name and made_by_hand(kept_of(Path(self.settings.results), product))
+        return bool(made) and not self.changed_since(product)
 
     def changed_since(self, product: str) -> str:
         """Return what has changed since a product was made by hand, as a list in words.
@@ -216,13 +211,7 @@ def make_plan(config: Mapping[str, Any], by_name: bool = False) -> Plan:
 
 def missing_files(settings: Settings) -> Iterator[tuple[str, str]]:
     """Yield each setting that names a file that is not there, and the sentence that says so."""
-    named = {
-        "catalogue": settings.catalogue,
-        "structures": settings.structures,
-        "design_spectrum.points": settings.design_spectrum.points,
-        "checks.pool": settings.checks.pool,
-        "fragility.hazard": settings.fragility.hazard,
-    }
+    named = settings.told_in(file_settings())
     for name, value in named.items():
         if not value or os.path.lexists(value):
             continue

@@ -1,12 +1,14 @@
 """The results of a study: the tables in its folder, read back."""
 
 from collections.abc import Iterable, Iterator
-from functools import cache
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, TimingRow, TradeRow
+from rocking.assessment.rows import RECORD_TABLES, SUMMARY_TABLES, TimingRow
 from rocking.errors import RockingError
+from rocking.study.product import Product
+from rocking.study.products import PRODUCTS
 from rocking.tables import Row, frame, write_whole, written_together
 from rocking.tables.rows import check_columns, readable
 
@@ -24,13 +26,22 @@ def _lines_of(row_class: type[Row], path: Path, record: str) -> Iterator[bytes]:
         yield from (line.encode() for line in stream if line.startswith(f"{record},"))
 
 
-@cache
-def _tables() -> dict[str, type[Row]]:
-    """The rows of the tables that are read back, by the name of the table."""
-    from rocking.codes.rows import CodeCheckRow  # which a study without a design level has no need of
+_OWN = {each.table.name: each for each in (*RECORD_TABLES, *SUMMARY_TABLES)}
+_OF_PRODUCTS = {table: each for each in PRODUCTS for table in each.tables}
 
-    rows: tuple[type[Row], ...] = (*RECORD_TABLES, *SUMMARY_TABLES, TradeRow, CodeCheckRow)
-    return {each.table.name: each for each in rows}
+
+def _names() -> list[str]:
+    """The names of the tables that are read back."""
+    return [*_OWN, *_OF_PRODUCTS]
+
+
+def rows_of_table(product: Product, name: str) -> type[Row]:
+    """Return the rows of a table of a product over all records, whose module is imported for it."""
+    classes: list[Any] = list(vars(import_module(product.rows)).values())
+    found: type[Row] = next(
+        each for each in classes if getattr(getattr(each, "table", None), "name", "") == name
+    )
+    return found
 
 
 class Results:
@@ -54,13 +65,14 @@ class Results:
         """Return the table `name`, or only some of its columns. Raises RockingError where there is none."""
         import pandas as pd  # which takes half a second to import
 
-        if name not in _tables():
-            raise RockingError(f"table is {name!r}, but must be one of {', '.join(_tables())}.")
-        row_class = _tables()[name]
+        if name not in _names():
+            raise RockingError(f"table is {name!r}, but must be one of {', '.join(_names())}.")
+        product = _OF_PRODUCTS.get(name)
+        row_class = rows_of_table(product, name) if product else _OWN[name]
         file = row_class.table.file_name
         names = list(row_class.table.column_names if columns is None else columns)
-        if (summary := self.folder / "summary" / file).exists():
-            return frame(row_class, summary, names)
+        if (whole := self.folder / (product.folder if product else "summary") / file).exists():
+            return frame(row_class, whole, names)
         paths = sorted(self.folder.glob(f"*/{file}"))  # of records that were assessed one by one
         if not paths:
             raise RockingError(f"{self.folder} holds no {file}; name the folder of a study's results.")
@@ -87,15 +99,15 @@ class Results:
         return [target / each.table.file_name for each in RECORD_TABLES]
 
     def __getattr__(self, name: str) -> "DataFrame":
-        if name not in _tables():
-            raise AttributeError(f"Results has no table {name!r}; there are {', '.join(_tables())}.")
+        if name not in _names():
+            raise AttributeError(f"Results has no table {name!r}; there are {', '.join(_names())}.")
         return self.table(name)
 
     def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *_tables()]
+        return [*super().__dir__(), *_names()]
 
     def __repr__(self) -> str:
-        return f"Results({str(self.folder)!r}): {', '.join(_tables())}"
+        return f"Results({str(self.folder)!r}): {', '.join(_names())}"
 
 
 def open_results(folder: Path | str) -> Results:

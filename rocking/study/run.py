@@ -15,24 +15,26 @@ from pathlib import Path
 from threading import Thread
 from typing import Any, TextIO
 
-from rocking.assessment.rows import ComparisonRow, ExpectedFallsRow, FailureRow, RemarkRow, TradeRow
+from rocking.assessment.rows import ComparisonRow, ExpectedFallsRow, FailureRow, RemarkRow
 from rocking.errors import ConfigurationError, RockingError
 from rocking.quantities import counted, shown
 from rocking.study import close_doors
 from rocking.study.apart import warm_up
 from rocking.study.flow import workflow_folder
 from rocking.study.folder import REMEMBERED, locked, new_log
+from rocking.study.kept import kept_conclusion, kept_rows
 from rocking.study.outcomes import verdicts_of
-from rocking.study.outputs import CASES, PROVENANCE
+from rocking.study.outputs import CASES, PROVENANCE, kept_of
 from rocking.study.plan import JOBS, Plan, check_config_file, config_file, make_plan
+from rocking.study.product import Product
+from rocking.study.products import BY_NAME, PRODUCTS
 from rocking.study.terminal import (
     Progress,
     check_any_read,
     closing_lines,
+    conclusion_lines,
     fitting,
-    lines_by_code,
     paths_to_read,
-    trade_lines,
 )
 from rocking.tables import read_rows, read_table
 
@@ -121,12 +123,19 @@ def run(folder: Path, options: Sequence[str]) -> int:
     return _told_of(folder, plan)
 
 
-def run_trade(folder: Path) -> int:
-    """Measure the trade of error for time on the study in `folder`, tell it, and return the exit status of `run`."""
-    status = run(folder, ["trade"])
+def run_product(folder: Path, product: Product) -> int:
+    """Make a product over all records of the study in `folder`, tell it, and return the exit status of `run`."""
+    status = run(folder, [product.name])
     if not status:
-        summary = folder / _plan(folder).settings.results / "summary"
-        for line in trade_lines(read_table(TradeRow, summary), summary / "trade.pdf"):
+        from rocking.study.work import work_of  # what draws takes a second to import
+
+        results = folder / _plan(folder).settings.results
+        work = work_of(product)
+        kept = kept_of(results, product.name)
+        rows = kept_rows(kept, (*work.shown, FailureRow))
+        documents = [results / product.folder / name for name in product.files if name.endswith(".pdf")]
+        told = [*work.lines(rows), *conclusion_lines(kept_conclusion(kept))]
+        for line in (*told, *(f"{'Open':<8}{path}" for path in documents)):
             print(fitting(line, sys.stdout))
     return status
 
@@ -149,16 +158,17 @@ def _why(progress: Progress, folder: Path, log: Path) -> str:
 def _told_of(folder: Path, plan: Plan) -> int:
     """Tell what came of a whole study, and return the exit status."""
     results = folder / plan.settings.results
-    checked = "checks" in plan.products
+    made = [each for each in PRODUCTS if each.name in plan.products]
     failures = read_table(FailureRow, results / "summary")
     verdicts = verdicts_of({record: folder / path for record, path in plan.outcomes().items()})
     comparison = read_rows(ComparisonRow, results / "summary" / ComparisonRow.table.file_name)
     falls = read_table(ExpectedFallsRow, results / "summary")
     remarks = read_rows(RemarkRow, results / "summary" / RemarkRow.table.file_name)
     told = [*closing_lines(verdicts, comparison, failures, falls, remarks)]
-    if checked:
-        told += lines_by_code(results / "summary")
-    for line in (*told, *paths_to_read(results, verdicts, plan.settings.reports, checked)):
+    for each in made:
+        told += conclusion_lines(kept_conclusion(kept_of(results, each.name)))
+    opened = {results / each.folder / name: what for each in made for name, what in each.opened.items()}
+    for line in (*told, *paths_to_read(results, verdicts, plan.settings.reports, opened)):
         print(fitting(line, sys.stdout))
     return int(bool(failures))
 
@@ -166,7 +176,9 @@ def _told_of(folder: Path, plan: Plan) -> int:
 def targets(home: Path) -> list[str]:
     """Return the names of what may be asked for; home: the folder that holds Snakefile and workflow/."""
     files = [home / "Snakefile", *(home / "workflow" / "rules").glob("*.smk")]
-    names = {name for file in files for name in _RULE.findall(file.read_text(encoding="utf-8"))}
+    names = {name for file in files for name in _RULE.findall(file.read_text(encoding="utf-8"))} | set(
+        BY_NAME
+    )
     research = home / "docs" / "research" / "research.smk"
     if research.is_file():
         names |= set(_RESEARCH.findall(research.read_text(encoding="utf-8")))

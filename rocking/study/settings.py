@@ -57,6 +57,7 @@ class StudyDesign:
     points: str | None = described(
         None,
         "in place of ag_g: CSV file of the spectrum, with columns period_s and acceleration_m_s2 or acceleration_g",
+        is_file=True,
     )
     damping: float = described(0.05, "damping ratio of the spectrum", ge=0, le=0.5)
 
@@ -72,6 +73,11 @@ class StudyDesign:
                 raise ConfigurationError(f"{name} is missing, but must be given with ag_g.")
             if self.ag is None and value is not None:
                 raise ConfigurationError(f"ag_g is missing, but must be given with {name}.")
+
+    @property
+    def is_given(self) -> bool:
+        """Whether there is a design level."""
+        return self.points is not None or self.ag is not None
 
     @property
     def remark(self) -> Remark | None:
@@ -90,7 +96,7 @@ class StudyDesign:
 
     def spectrum(self) -> DesignSpectrum | None:
         """Return the spectrum; None where there is no design level. Raises ConfigurationError for its points."""
-        if self.points is None and self.ag is None:
+        if not self.is_given:
             return None
         if self.points is not None:
             return DesignSpectrum.read(Path(self.points), self.damping)
@@ -133,7 +139,7 @@ class StudyChecks:
         le=1,
     )
     pool: str | None = described(
-        None, "catalogue from which sets of records are drawn; null: that of the study"
+        None, "catalogue from which sets of records are drawn; null: that of the study", is_file=True
     )
 
     def __post_init__(self) -> None:
@@ -184,6 +190,7 @@ class StudyFragility:
         None,
         "CSV of a hazard curve: of OpenQuake, or with the columns annual_rate and levels with their unit, such as "
         "level_g, ascending; or null",
+        is_file=True,
     )
     in_every_run: bool = described(False, "whether every run computes the fragility")
 
@@ -232,12 +239,14 @@ class Settings(AssessmentSettings):
         "records/catalogue.csv",
         "catalogue of the records, one row per station",
         heading=Heading.RECORDS,
+        is_file=True,
         changes_numbers=False,
     )
     structures: str = described(
         "structures.yaml",
         "list of the structures, YAML or CSV, in metres and degrees",
         heading=Heading.RECORDS,
+        is_file=True,
         changes_numbers=False,
     )
     results: str = described(
@@ -410,6 +419,16 @@ def _said_of(name: str, what: str, otherwise: Any) -> Any:
     return getattr(getattr(Settings, name), what, otherwise)
 
 
+@cache
+def file_settings() -> tuple[str, ...]:
+    """Return the names of the settings that name a file which must be there; of a section as section.name."""
+    own = [name for name, each in described_values(Settings).items() if each.more.get("is_file")]
+    for part in parts_of(Settings):
+        values = described_values(getattr(Settings, part).__class__)
+        own += [f"{part}.{name}" for name, each in values.items() if each.more.get("is_file")]
+    return tuple(own)
+
+
 def layout() -> dict[Heading, list[str]]:
     """Return the names of the settings below each heading of config.yaml, as they are declared."""
     by_heading: dict[Heading, list[str]] = {heading: [] for heading in Heading}
@@ -532,6 +551,8 @@ def _meaning(description: Described) -> str:
 
 NUMBERS = tuple(Settings.changing_numbers())
 """The settings, and the sections of settings, that change a number of a table."""
+OTHER_SECTIONS = tuple(name for name in parts_of(Settings) if name not in NUMBERS)
+"""The sections that change none."""
 _SOURCE = {".py", ".csv", ".json", ".typ", ".yaml", ".mplstyle", ".html", ".css", ".js"}
 _SPOKEN = {
     f"study/{name}.py"

@@ -31,7 +31,6 @@ from rocking.assessment.rows import (
     ExpectedFallsRow,
     FailureRow,
     RemarkRow,
-    TradeRow,
     VerdictRow,
     counted_cases,
     worst_period_each,
@@ -53,7 +52,7 @@ COUNTED = ", a structure on a support at the period of its verdict"
 _NAMED = 8
 """Names of a list; a line is to be read at a glance."""
 NO_BREAK = "\u00a0"
-_WIDTH = 104
+WIDTH = 104
 """Characters of a line at the end."""
 _PIPE = "ROCKING_PROGRESS"
 """The variable of the environment that names the pipe from the jobs to the one who waits."""
@@ -127,7 +126,7 @@ def closing_lines(
         count = f"{counted(records, 'record')}, {counted(len(worst), 'structure')}. "
         words = {each.verdict.structure: each.verdict.decision.word for each in worst}
         for said in (count + conclusion_in_words(words, records), falls_in_words(expected)):
-            yield from wrap(said, _WIDTH)
+            yield from wrap(said, WIDTH)
         yield "Rotation over critical rotation of the worst structures, each under its worst record; the first by"
         yield "verdict, share, then reserve (5 and 50 % overturn at × the record):"
         yield f"{'':<16}  {'record':<18}  closed  block  integrated     reserve  verdict, share"
@@ -143,12 +142,12 @@ def closing_lines(
     others = [(each.verdict.decision.word, _cut(each.verdict.structure, 30)) for each in worst[_WORST:]]
     if names := {word: [name for its, name in others if its is word] for word, _ in others}:
         text = "; ".join(map(": ".join, _named(names, _NAMED - _WORST).items()))
-        yield from wrap(text, _WIDTH, initial_indent="Others  ", subsequent_indent=" " * 8)
+        yield from wrap(text, WIDTH, initial_indent="Others  ", subsequent_indent=" " * 8)
     of_what = COUNTED if carried else ""
     yield from _closed_form_lines(seen, missed if records > 1 else missed.total(), false, of_what)
     yield from _failing_lines(failures)
     for sentence in to_check(remarks):
-        yield from wrap(sentence, _WIDTH, subsequent_indent=" " * 8)
+        yield from wrap(sentence, WIDTH, subsequent_indent=" " * 8)
 
 
 def _closed_form_lines(seen: int, missed: Counter[str] | int, false: int, of_what: str) -> Iterator[str]:
@@ -163,44 +162,22 @@ def _closed_form_lines(seen: int, missed: Counter[str] | int, false: int, of_wha
             f"Closed form against integration{of_what}: {seen} of {counted(falls, 'fall')} seen, "
             f"{missed} missed{where}, {counted(false, 'false alarm').replace(' ', NO_BREAK)}"
         )
-        yield from (line.replace(NO_BREAK, " ") for line in wrap(text, _WIDTH, subsequent_indent=" " * 8))
+        yield from (line.replace(NO_BREAK, " ") for line in wrap(text, WIDTH, subsequent_indent=" " * 8))
 
 
 def _failing_lines(failures: Sequence[FailureRow]) -> Iterator[str]:
     """The records that failed, and the sentences on structures that did over all records."""
     sentences = dict.fromkeys(f"{each.structure}: {each.message}" for each in failures if not each.record)
     for sentence in list(sentences)[:_NAMED]:
-        yield from wrap(sentence.removeprefix(": "), _WIDTH, subsequent_indent=" " * 8)
+        yield from wrap(sentence.removeprefix(": "), WIDTH, subsequent_indent=" " * 8)
     if failed := sorted({each.record for each in failures} - {""}):
         text = f"{counted(len(failed), 'record')} failed, wholly or in part: {listed(failed, _NAMED)}"
-        yield from wrap(text, _WIDTH, subsequent_indent=" " * 8)
+        yield from wrap(text, WIDTH, subsequent_indent=" " * 8)
 
 
-def trade_lines(rows: Sequence[TradeRow], report: Path) -> Iterator[str]:
-    """Yield the table of the trade of error for time over all structures, what follows from it, and the report."""
-    from rocking.assessment.trade import what_follows  # loads the kernels
-
-    yield f"{'method':<26}  cases  median error  wrong (unsafe)  ms a structure  ms a record"
-    for row in rows:
-        if row.structure == "":
-            error = f"{100 * row.error:.2g} %" if row.error >= 0 else "–"
-            wrong = f"{row.wrong_verdicts} ({row.unsafe_verdicts})"
-            times = f"{1e3 * row.cpu_s:>14.2g}  {1e3 * row.preparation_record_s:>11.2g}"
-            yield f"{row.method:<26}  {row.cases:>5}  {error:>12}  {wrong:>14}  {times}"
-    for sentence in what_follows(rows):
-        yield from wrap(sentence, _WIDTH)
-    if rows:
-        yield f"Measured on {rows[0].machine}"
-    yield f"{'Open':<8}{report}"
-
-
-def lines_by_code(summary: Path) -> list[str]:
-    """Return the conclusion at the design level of a study, by the table of its checks."""
-    from rocking.codes.conclusion import code_conclusion_in_words, code_conclusions
-    from rocking.codes.rows import CodeCheckRow  # which a study without a design level has no need of
-
-    sentence = code_conclusion_in_words(code_conclusions(read_table(CodeCheckRow, summary)))
-    return wrap(sentence, _WIDTH, subsequent_indent=" " * 8)
+def conclusion_lines(sentence: str) -> list[str]:
+    """Return the lines of what a product over all records comes down to; none where it says nothing."""
+    return wrap(sentence, WIDTH, subsequent_indent=" " * 8)
 
 
 def _rotation(ratio: float) -> str:
@@ -235,12 +212,13 @@ def check_any_read(summary: Path, records: Collection[str]) -> None:
 
 
 def paths_to_read(
-    results: Path, verdicts: Iterable[VerdictRow], reports: bool, checked: bool
+    results: Path, verdicts: Iterable[VerdictRow], reports: bool, opened: Mapping[Path, str]
 ) -> Iterator[str]:
     """Yield a line for each of the files that come next for a reader, the report of the worst record among them.
 
-    reports, checked: whether the study makes reports, and pages to sign. A file that lies there of a former run, and
-    that this one does not make, is not named: it would not say what the tables say.
+    reports: whether the study makes reports. opened: files of the products over all records, and what each is. A file
+    that lies there of a former run, and that this one does not make, is not named: it would not say what the tables
+    say.
     """
     summary = results / "summary"
     records = worst_first((each.record, each.severity) for each in worst_period_each(verdicts))
@@ -248,8 +226,7 @@ def paths_to_read(
     files = {first: "all records"}
     if records and reports:
         files[results / records[0] / "report.pdf"] = "every structure under the worst record"
-    if checked:
-        files[summary / "structures.pdf"] = "a page of each structure, to sign"
+    files |= opened
     if reports:
         files[summary / "study.html"] = "to explore"
     width = max(len(str(path)) for path in files)

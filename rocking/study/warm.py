@@ -9,19 +9,16 @@ import os
 
 import yaml
 
-import rocking.reports.design_figure
-import rocking.reports.explore
-import rocking.reports.printing
-import rocking.reports.record
-import rocking.study.jobs
 from rocking.assessment.compilation import load_all
 from rocking.study.apart import PREPARED
 from rocking.study.job import prepare
+from rocking.study.products import PRODUCTS
 from rocking.study.settings import read_settings
+from rocking.study.work import work_of
 
-with contextlib.suppress(ImportError):  # the other jobs run without these folders
-    import rocking.fragility.rows
-    import rocking.study.checks  # noqa: F401
+for product in PRODUCTS:
+    with contextlib.suppress(ImportError):  # the other jobs run without its folder
+        work_of(product)
 load_all()
 with contextlib.suppress(Exception):  # what is wrong with a study its jobs tell
     prepare(read_settings(yaml.safe_load(os.environ.pop(PREPARED))))

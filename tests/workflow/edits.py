@@ -10,6 +10,7 @@ import yaml
 from rocking.records.synthetic import SyntheticRecord, at2_text
 from rocking.study.outputs import outputs_of
 from rocking.study.plan import Plan, make_plan
+from rocking.study.products import PRODUCTS
 
 STRUCTURES = [
     {"name": "block", "type": "block", "breadth_m": 0.5, "height_m": 3.0},
@@ -26,9 +27,7 @@ NUMBERS = "a b B S C F T"
 BATCH = "batch/00000_of_00001"
 JOBS = {
     "Summary of all records": "S",
-    "Check the structures at the design level": "C",
-    "Scale the records until the structures overturn": "F",
-    "Measure the error and the time of every method": "T",
+    **{f"{each.name}: {each.does}": each.name[0].upper() for each in PRODUCTS},
     "Batch 00000_of_00001": "B",
 }
 """By the message of its rule the letter of a job; that of a record is its name."""

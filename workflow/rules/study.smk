@@ -109,13 +109,16 @@ def records_of_run():
     return sum(job.rule.name == "record" for job in workflow.dag.needrun_jobs()) or 1
 
 
-def work(rule, wildcards, input, params, log, threads=1):
-    """Do the job of a rule in a process of its own, which knows what it is handed here."""
+def work(rule, wildcards, input, params, log, threads=1, job=""):
+    """Do the job of a rule in a process of its own, which knows what it is handed here.
+
+    job: the name of its function where it is not that of the rule.
+    """
     product = "/".join([rule, *wildcards])
     beside = [each for each in PLAN.beside_summary if input.get(each)]
     folder = folder_of(*input.catalogue, SETTINGS.catalogue) if BY_NAME else ""
     task = Task(product, dict(config), list(params), folder, log[0], beside, BY_NAME, threads)
-    run_apart(f"rocking.study.jobs:{rule}", product, task)
+    run_apart(f"rocking.study.jobs:{job or rule}", product, task)
 
 
 def log_file(product):

@@ -4,10 +4,8 @@
 rule summary:
     input:
         **lists_of("summary"),
+        **{product.name: beside(product.name) for product in PRODUCTS},
         records=OUTCOMES,
-        checks=beside("checks"),
-        fragility=beside("fragility"),
-        trade=beside("trade"),
     output:
         files_of("summary"),
     log:

@@ -109,7 +109,7 @@ def test_every_document_has_one_order_of_records_and_structures_and_counts_the_s
     at = table.heads.index("Worst record")
     assert [line[at] for line in table.rows] == ["b", "d", "d"]
 
-    (opened,) = (line for line in paths_to_read(tmp_path, rows, True, False) if "worst record" in line)
+    (opened,) = (line for line in paths_to_read(tmp_path, rows, True, {}) if "worst record" in line)
     assert f"{tmp_path / 'b' / 'report.pdf'}" in opened
     lines = list(closing_lines(rows, [], [failure("", "", "not read.", "e")]))
     assert lines[0].startswith("4 records, 3 structures.")

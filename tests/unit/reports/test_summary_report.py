@@ -25,6 +25,7 @@ from rocking.assessment.rows import (
 )
 from rocking.fragility.measures import compared
 from rocking.fragility.rows import FragilityRow, FragilitySummaryRow, IdaRow, IntensityMeasureRow
+from rocking.products.fragility.work import Fragilities
 from rocking.records.measures import response_spectrum
 from rocking.reports.design_figure import (
     MOST_LINES,
@@ -319,9 +320,9 @@ def test_the_document_of_the_fragility_names_records_stations_units_and_what_gov
     assert row[:2] == ("pier", "pgv 0.20 (0.13–0.31) m/s") and row[3:5] == ("3 of 3", "3 of 3")
     # d overturns it at 0.1 in all members, b at 0.2 in most of them, a at 0.4, and c nowhere
     assert row[5] == "d (0.10), b (0.20), a (0.40)"
-    tables = summarised(example.tables, example.structures)
-    assert summary_data(tables, SETTINGS).fragility == ()
-    assert summary_data(tables | FRAGILITY, SETTINGS).fragility[0].table.rows == (row,)
+    (part,) = Fragilities().panel(FRAGILITY).parts
+    assert part.table.rows == (row,)
+    assert Fragilities().panel({FragilitySummaryRow: [], IdaRow: []}) is None
 
 
 @pytest.mark.parametrize("measure", [each.name for each in compared(rocking.Block(2.0, 0.2).mechanism())])

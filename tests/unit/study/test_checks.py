@@ -23,6 +23,7 @@ from rocking.codes.kinds import CheckKind
 from rocking.codes.rows import CodeCheckRow, code_check_rows
 from rocking.errors import ConfigurationError
 from rocking.motion.response import ModelCheck
+from rocking.products.checks.work import Checks, write_checks
 from rocking.remarks import Kind, Remark
 from rocking.reports.explore import explore_page
 from rocking.reports.pages import Fact
@@ -30,11 +31,11 @@ from rocking.reports.sentences import Sentences
 from rocking.reports.structures import CheckedStructure, structures_data
 from rocking.reports.summary import summary_data
 from rocking.structures.kinds import StructureKind
-from rocking.study.checks import write_checks
 from rocking.study.job import Study
+from rocking.study.kept import keep_rows, kept_conclusion
 from rocking.study.settings import Settings, read_settings
-from rocking.study.terminal import lines_by_code
-from rocking.tables import read_table, write_rows
+from rocking.study.terminal import conclusion_lines
+from rocking.tables import read_table
 from rocking.tables.workbook import workbook
 from tests.made_pools import DESIGN, SETS, made_pool
 from tests.unit.assessment import made_rows
@@ -124,8 +125,10 @@ def test_a_page_lists_the_mechanisms_of_its_own_structure(study, monkeypatch):
         for name, period, falls in (("one", None, 16), ("other", None, 48), ("one", 0.3, 64))
     ]  # fmt: skip
     pages = []
-    monkeypatch.setattr("rocking.study.checks.structures_data", lambda made, *_: pages.extend(made) or {})
-    monkeypatch.setattr("rocking.study.checks.write_document", lambda *_: None)
+    monkeypatch.setattr(
+        "rocking.products.checks.work.structures_data", lambda made, *_: pages.extend(made) or {}
+    )
+    monkeypatch.setattr("rocking.products.checks.work.write_document", lambda *_: None)
     written = Study(scenes, read_settings(settings | DESIGN))
     write_checks(written, folder, [], [filled(RecordRow, record="a", station="a")], mechanisms=rows)
     assert [(page.name, page.mechanisms[0].share) for page in pages] == [("one", 0.25), ("other", 0.75)]
@@ -160,7 +163,7 @@ def test_a_fault_in_the_checks_of_a_structure_costs_no_other(study, monkeypatch)
     def check_but_one(structure, spectrum, **terms):
         return followed(structure, spectrum, **terms) if structure is not STRUCTURES["parapet"] else 1 / 0
 
-    monkeypatch.setattr("rocking.study.checks.check", check_but_one)
+    monkeypatch.setattr("rocking.products.checks.work.check", check_but_one)
     told = []
     structures = STRUCTURES | {"pier": Block.of_size(0.6, 2.0)}
     changed = read_settings(settings | DESIGN | {"checks": SETS | {"stations": 40}})
@@ -281,15 +284,20 @@ def test_the_same_conclusion_stands_in_terminal_summary_workbook_and_page_to_exp
     rows = list(code_check_rows("pier", checked))
     concluded = code_conclusions(rows)
     sentence = code_conclusion_in_words(concluded)
-    write_rows(CodeCheckRow, rows, tmp_path / "code_checks.csv")
-    assert " ".join(line.strip(" ") for line in lines_by_code(tmp_path)) == sentence
-    data = summary_data(summarised(RecordRows(), {}) | {CodeCheckRow: rows}, SETTINGS)
-    assert data.by_code == sentence
-    ((name, *ratios, conclusion, others),) = data.checks.rows
+    keep_rows(tmp_path / "checks.json", {CodeCheckRow: rows}, conclusion=sentence)
+    kept = kept_conclusion(tmp_path / "checks.json")
+    assert " ".join(line.strip(" ") for line in conclusion_lines(kept)) == sentence
+    work = Checks()
+    beside = {CodeCheckRow: rows}
+    panel = work.panel(beside)
+    data = summary_data(summarised(RecordRows(), {}), SETTINGS, None, (), [kept], [panel])
+    assert data.conclusions == (sentence,) and data.panels == (panel,)
+    ((name, *ratios, conclusion, others),) = data.panels[0].parts[0].table.rows
     assert [name.text, conclusion] == ["pier", "verified by C8.7.1.2.1.9"]
     assert ratios == [each.ratio_in_words for each in checked.checks]
     assert others == "20–100\u00a0%"
-    page = explore_page([], {"pier": STRUCTURES["parapet"]}, "", concluded).decode()
+    notes = {structure: [note] for structure, note in work.notes(beside).items()}
+    page = explore_page([], {"pier": STRUCTURES["parapet"]}, "", [kept], notes).decode()
     assert (
         sentence in page
         and r"By the code, at the design level: verified by C8.7.1.2.1.9 (20\u2013100" in page
@@ -451,7 +459,9 @@ def test_the_page_to_sign_carries_the_caveat_of_page_one(study, monkeypatch):
     verdicts = made_rows.verdicts([station])
     records = [filled(RecordRow, record="a", samples=2)]
     pages = []
-    monkeypatch.setattr("rocking.study.checks.structures_data", lambda made, *_: pages.extend(made) or {})
+    monkeypatch.setattr(
+        "rocking.products.checks.work.structures_data", lambda made, *_: pages.extend(made) or {}
+    )
     monkeypatch.setattr("rocking.reports.printing.compile_document", lambda *_: b"")
     changed = read_settings(settings | DESIGN)
     write_checks(Study(on_the_ground(STRUCTURES), changed), folder, verdicts, records)
@@ -565,7 +575,7 @@ def test_each_page_tells_the_share_of_its_own_structure(study, monkeypatch):
         pages.update((each.name, each) for each in structures)
         return {}
 
-    monkeypatch.setattr("rocking.study.checks.structures_data", report)
+    monkeypatch.setattr("rocking.products.checks.work.structures_data", report)
     monkeypatch.setattr("rocking.reports.printing.compile_document", lambda *_: b"")
     changed = read_settings(settings | DESIGN)
     write_checks(Study(on_the_ground(STRUCTURES), changed), folder, verdicts, records)

@@ -23,6 +23,7 @@ from rocking.records.kinds import RecordKind
 from rocking.remarks import Remark
 from rocking.study.cli import main
 from rocking.study.plan import check_config_file, make_plan
+from rocking.study.products import FRAGILITY
 from rocking.study.settings import Settings, read_settings
 from rocking.tables.yaml_file import scalar_value
 
@@ -294,7 +295,7 @@ def test_run_plans_a_study_in_its_own_folder(study, monkeypatch, capfd):
     told = capfd.readouterr()
     assert "results/own_record/report.pdf" in told.out + told.err
     assert main(["run", study.name, "fragility", "--", "--dry-run"]) == 0
-    assert "Scale the records until the structures overturn" in "".join(capfd.readouterr())
+    assert FRAGILITY.does in "".join(capfd.readouterr())
     assert not (study / "results").exists()
 
 

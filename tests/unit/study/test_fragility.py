@@ -19,6 +19,7 @@ from rocking.floors.support import Mode, Support
 from rocking.fragility.measures import compared
 from rocking.fragility.rows import FRAGILITY_TABLES, FragilityRow, FragilitySummaryRow, IdaRow
 from rocking.motion import integrate
+from rocking.products.fragility.work import write_fragility
 from rocking.quantities import GRAVITY
 from rocking.records import Accelerogram
 from rocking.records.catalogue import CatalogueRecord
@@ -27,8 +28,8 @@ from rocking.reports.fragility import write_fragility_report
 from rocking.structures import Block, Spire
 from rocking.study.job import Study
 from rocking.study.settings import Settings, StudyFragility
-from rocking.study.summary import write_beside, write_fragility
 from rocking.study.terminal import line_writer
+from rocking.study.work import write_beside
 from rocking.tables import read_rows, read_table
 from tests.made_structures import HELD
 from tests.unit.study.made_jobs import made_job
@@ -110,7 +111,7 @@ def test_a_fault_of_a_record_or_a_structure_costs_no_other_and_is_a_row(tmp_path
     def opened(study, record, *rest):
         return 1 // 0 if record.id == "made2" else read(study, record, *rest)
 
-    monkeypatch.setattr(curves, "fragility", faulty)
+    monkeypatch.setattr("rocking.products.fragility.work.fragility", faulty)
     monkeypatch.setattr(Study, "open", opened)
     log = tmp_path / "fragility.log"
     written, reasons = write_fragility(records, study, tmp_path / "out", line_writer(log, "fragility"), log)
@@ -135,7 +136,7 @@ def test_a_fault_of_a_record_or_a_structure_costs_no_other_and_is_a_row(tmp_path
 
 def test_where_every_structure_has_a_fault_the_page_says_so(tmp_path, monkeypatch):
     """And its tables have heads alone, so that what waits for them goes on."""
-    monkeypatch.setattr(import_module("rocking.fragility.curves"), "fragility", lambda *_, **__: 1 // 0)
+    monkeypatch.setattr("rocking.products.fragility.work.fragility", lambda *_, **__: 1 // 0)
     job = made_job(_records(tmp_path, 2), _study(), tmp_path / "results", "fragility")
     written, _ = write_fragility(job.records, job.study, tmp_path / "out", log=job.log)
     assert [each.structure for each in written[FailureRow]] == list(STRUCTURES)

@@ -11,7 +11,7 @@ from rocking.errors import ConfigurationError
 from rocking.study import made_from as module
 from rocking.study.made_from import (
     OF_RECORDS,
-    TABLE,
+    handed,
     inputs_of,
     made_from,
     of_kind,
@@ -200,11 +200,11 @@ def test_files_on_another_machine_are_taken_by_the_name_and_the_hash_of_the_cata
 
 
 def test_a_job_cannot_read_a_setting_that_its_line_does_not_name(study) -> None:
-    settings = TABLE["fragility"].handed(plan().settings)
+    settings = handed("fragility", plan().settings)
     assert settings.fragility.hazard == "hazard.csv" and settings.tolerance == 1e-6
     with pytest.raises(
         ConfigurationError, match=r"setting client: .* add it to rocking\.study\.made_from\.TABLE"
     ):
         _ = settings.client
     with pytest.raises(ConfigurationError, match="setting checks"):
-        _ = TABLE["record"].handed(plan().settings).checks
+        _ = handed("record", plan().settings).checks

@@ -9,10 +9,10 @@ import pytest
 import rocking
 from rocking.assessment.decide import Verdict
 from rocking.assessment.rows import ExpectedFallsRow, RecordRow, VerdictRow
+from rocking.products.checks.work import write_checks
 from rocking.records import load_catalogue
 from rocking.records.sample import Sample
 from rocking.strengthening import sizes, strengthen_scene
-from rocking.study.checks import write_checks
 from rocking.study.job import Study
 from rocking.study.plan import make_plan
 from rocking.study.summary import write_summary
@@ -82,8 +82,10 @@ def test_four_tables_say_one_share_of_a_pinnacle_whose_stacks_fall(folder: Path,
 
     # The page to sign: the mean over the stations.
     pages = []
-    monkeypatch.setattr("rocking.study.checks.structures_data", lambda made, *_: pages.extend(made) or {})
-    monkeypatch.setattr("rocking.study.checks.write_document", lambda *_: None)
+    monkeypatch.setattr(
+        "rocking.products.checks.work.structures_data", lambda made, *_: pages.extend(made) or {}
+    )
+    monkeypatch.setattr("rocking.products.checks.work.write_document", lambda *_: None)
     records = read_table(RecordRow, folder / "summary")
     write_checks(study, folder, verdicts, records)
     assert pages[0].stations == len(PERIODS)

@@ -170,7 +170,8 @@ def test_the_paths_are_those_that_this_run_makes_whatever_lies_there(tmp_path: P
         path.touch()
 
     def paths(reports: bool, checked: bool) -> list[str]:
-        lines = paths_to_read(tmp_path, rows, reports, checked)
+        opened = {summary / "structures.pdf": "to sign"} if checked else {}
+        lines = paths_to_read(tmp_path, rows, reports, opened)
         return [line[8:].split("  ")[0] for line in lines]
 
     assert paths(reports=False, checked=False) == [str(summary)]
@@ -179,7 +180,9 @@ def test_the_paths_are_those_that_this_run_makes_whatever_lies_there(tmp_path: P
         str(path) for path in (summary / "summary.pdf", report, summary / "study.html")
     ]
     assert len(paths(reports=True, checked=True)) == 4
-    first, *others = paths_to_read(tmp_path, rows, reports=True, checked=True)
+    first, *others = paths_to_read(
+        tmp_path, rows, reports=True, opened={summary / "structures.pdf": "to sign"}
+    )
     assert first.startswith("Open") and not any(line.startswith("Open") for line in others)
 
 

@@ -1,4 +1,4 @@
-"""The checks of every structure of a study at its design level: their table, and the page of each."""
+"""The checks of every structure of a study at its design level: their table, the page of each, and what is shown."""
 
 import math
 from collections import Counter
@@ -16,6 +16,7 @@ from rocking.assessment.decide import Verdict, worse
 from rocking.assessment.rows import MechanismRow, RecordRow, VerdictRow, named_records
 from rocking.assessment.scene import Scene, placed
 from rocking.codes.check import CodeTerms, StructureCheck
+from rocking.codes.conclusion import CodeConclusion, code_conclusion_in_words, code_conclusions
 from rocking.codes.dynamic_check import check
 from rocking.codes.rows import KINDS, CodeCheckRow, code_check_rows
 from rocking.codes.selection import Selection
@@ -24,13 +25,66 @@ from rocking.floors.support import Support
 from rocking.records import load_catalogue
 from rocking.records.sample import Sample
 from rocking.remarks import Remark
-from rocking.reports.printing import write_document
+from rocking.reports.pages import Panel, Part
+from rocking.reports.printing import sentence, strong, table_of, words, write_document
 from rocking.reports.structures import CheckedStructure, ListedMechanism, structures_data
 from rocking.structures.tied import Tied
 from rocking.study.documents import made_or_told
-from rocking.study.job import Study
+from rocking.study.job import Job, Study
+from rocking.study.outcomes import read_outcomes
 from rocking.study.selection import pool_of, select_for
-from rocking.tables import write_tables
+from rocking.study.work import Made, Rows, Work
+from rocking.tables import rows_of, write_tables
+
+
+class Checks(Work):
+    """The checks at the design level: their table, and the page of each structure to sign."""
+
+    shown = (CodeCheckRow,)
+    sheets = (CodeCheckRow,)
+
+    def make(self, job: Job) -> Made:
+        """Check every structure beside what became of it under the records of the study."""
+        rows = [outcome.rows for outcome in read_outcomes(job.plan.outcomes())]
+        checked = write_checks(
+            job.study,
+            job.folder,
+            [row for each in rows for row in rows_of(VerdictRow, each)],
+            [row for each in rows for row in rows_of(RecordRow, each)],
+            job.tell,
+            [row for each in rows for row in rows_of(MechanismRow, each)],
+        )
+        return Made({CodeCheckRow: checked}, code_conclusion_in_words(code_conclusions(checked)))
+
+    def panel(self, rows: Rows) -> Panel | None:
+        """Return the ratios of the checks, and what follows from them."""
+        concluded = code_conclusions(rows_of(CodeCheckRow, rows))
+        return checks_panel(concluded) if concluded else None
+
+    def notes(self, rows: Rows) -> Mapping[str, str]:
+        """Return the conclusion on each structure."""
+        concluded = code_conclusions(rows_of(CodeCheckRow, rows))
+        return {each.structure: f"By the code, at the design level: {each}." for each in concluded}
+
+
+def checks_panel(concluded: Sequence[CodeConclusion]) -> Panel:
+    """Return the table of the ratios of each structure, and what follows from them."""
+    kinds = [kind for kind in dict.fromkeys(KINDS.values()) if any(kind in each.ratios for each in concluded)]
+    table = table_of(
+        concluded,
+        ("Structure", "1.4", "l", lambda each: strong(each.name)),
+        *((sentence(kind), "0.7", "r", lambda each, kind=kind: each.ratios.get(kind, "–")) for kind in kinds),
+        ("Conclusion", "1.5", "l", lambda each: str(each.remark)),
+        ("Met by sets of other stations", "1.2", "l", lambda each: words(each.other_share_in_words)),
+    )
+    caption = (
+        "The checks of the Italian code (Circolare 7/2019) at the design level: capacity over demand, 1 or more where "
+        "a check is met; the conclusion by the most detailed check that has an answer; and how many sets of other "
+        "stations would meet the dynamic one (90 % interval). On a support at the worst period; structures.pdf has a "
+        "page of each to sign."
+    )
+    part = Part(table=table, caption=caption)
+    return Panel("Checks at the design level", (part,), "These records are no demand of a code.")
 
 
 def write_checks(

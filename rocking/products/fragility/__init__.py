@@ -1,0 +1,1 @@
+"""The fragility of every structure under all records of a study."""

@@ -1,0 +1,1 @@
+"""What accuracy costs, on the records and structures of a study."""

@@ -1,0 +1,126 @@
+"""What a product of a study is: its files, what it is made from, and the face of one that stands over all records.
+
+It is data, and loads nothing: every command, its help and the plan read it.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rocking.study.settings import Settings
+
+KEPT = ".kept"
+"""The folder in the results that holds what is kept for other products, and for the next run."""
+TOLD = ("study", "client", "project_number", "author", "date", "display_units")
+"""The settings that the head of every document prints."""
+
+
+def always(settings: "Settings") -> bool:
+    """Return that a file belongs to every study."""
+    return True
+
+
+def draws(settings: "Settings") -> bool:
+    """Return whether the figures of a document lie beside it in an archive."""
+    return settings.figures != "none"
+
+
+@dataclass(frozen=True)
+class Output:
+    """One file of a product.
+
+    path: from the folder of the results; {name} is that of the record or the batch. when: whether the settings ask for
+    it. is_store: whether it serves the next run alone, so that nobody misses it. is_measured: whether it holds measured
+    times: alone of all it may differ between two runs of the same input. label, caption, category: its place in the
+    page that snakemake --report makes; "" for none.
+    """
+
+    path: str
+    when: Callable[["Settings"], bool] = always
+    is_store: bool = False
+    is_measured: bool = False
+    label: str = ""
+    caption: str = ""
+    category: str = ""
+
+
+@dataclass(frozen=True)
+class Line:
+    """What a kind of product is made from, beside the catalogue, the structures and all that changes a number.
+
+    settings: names of settings and of whole sections; section.name is one setting of a section. files: settings that
+    name a file whose content counts. catalogues: settings that name another catalogue, of which the files of the
+    records count too. opens_records: whether it is made from the files of its records, rather than from their outcomes.
+    terms: whether what the structures say of themselves for the code counts. shows: whether it shows the products over
+    all records. documents: whether it holds a document whatever the settings say.
+    """
+
+    settings: tuple[str, ...]
+    files: tuple[str, ...] = ()
+    catalogues: tuple[str, ...] = ()
+    opens_records: bool = True
+    terms: bool = False
+    shows: bool = False
+    documents: bool = True
+
+
+@dataclass(frozen=True)
+class Product:
+    """What stands over all records of a study beside the summary, which shows it: the face of a work.
+
+    Parameters
+    ----------
+    name : str
+        Of its rule, its log and its verb.
+    does : str
+        What its job does, in words: the help of the verb, and what snakemake says of the rule.
+    work : str
+        Module and name of its `rocking.study.work.Work`, which is imported where it works: "module:Name".
+    rows : str
+        Module of the rows of its tables.
+    tables : tuple[str, ...]
+        Names of its tables, each of which is a CSV file.
+    files : tuple[str, ...]
+        Names of the files beside these.
+    made_from : Line
+        What it is made from.
+    in_every_run : Callable[[Settings], bool]
+        Whether every run of a study makes it, rather than its verb alone.
+    folder : str
+        In the results, where its files lie.
+    opened : Mapping[str, str]
+        Files that a reader opens after a run, and what each is to them.
+    after_records : bool
+        Whether it is made from the outcomes of the records.
+    is_measured : bool
+        Whether its files hold measured times.
+    memory_mb, minutes : int
+        What its job takes at most.
+    """
+
+    name: str
+    does: str
+    work: str
+    rows: str
+    tables: tuple[str, ...]
+    files: tuple[str, ...]
+    made_from: Line
+    in_every_run: Callable[["Settings"], bool]
+    folder: str = "summary"
+    opened: Mapping[str, str] = field(default_factory=dict)
+    after_records: bool = False
+    is_measured: bool = False
+    memory_mb: int = 2000
+    minutes: int = 120
+
+    @property
+    def outputs(self) -> tuple[Output, ...]:
+        """All that its job writes: its files, the figures of its documents where they are asked for, and its rows."""
+        names = (*(f"{table}.csv" for table in self.tables), *self.files)
+        figures = (name.replace(".pdf", "_figures.zip") for name in self.files if name.endswith(".pdf"))
+        return (
+            *(Output(f"{self.folder}/{name}", is_measured=self.is_measured) for name in names),
+            *(Output(f"{self.folder}/{name}", draws) for name in figures),
+            Output(f"{KEPT}/rows/{self.name}.json"),
+        )

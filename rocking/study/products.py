@@ -1,0 +1,54 @@
+"""The products over all records: the one table that says which there are. To add one, see CONTRIBUTING."""
+
+from rocking.study.product import TOLD, Line, Product
+
+CHECKS = Product(
+    name="checks",
+    does="check the structures at the design level of a study by the Italian code",
+    work="rocking.products.checks.work:Checks",
+    rows="rocking.codes.rows",
+    tables=("code_checks",),
+    files=("code_checks.json", "structures.pdf"),
+    made_from=Line(
+        (*TOLD, "language", "figures", "design_spectrum", "checks"),
+        files=("design_spectrum.points",),
+        catalogues=("checks.pool",),
+        terms=True,
+    ),
+    in_every_run=lambda settings: settings.design_spectrum.is_given,
+    opened={"structures.pdf": "a page of each structure, to sign"},
+    after_records=True,
+)
+FRAGILITY = Product(
+    name="fragility",
+    does="scale the records of a study until the structures overturn",
+    work="rocking.products.fragility.work:Fragilities",
+    rows="rocking.fragility.rows",
+    tables=("ida", "fragility", "fragility_summary", "intensity_measures"),
+    files=("datapackage.json", "fragility.pdf", "fragility.svg", "fragility.xml"),
+    made_from=Line(  # when it is measured is no part of it
+        (
+            "figures",
+            *(f"fragility.{name}" for name in ("intensity_measure", "members", "largest_factor", "hazard")),
+        ),
+        files=("fragility.hazard",),
+    ),
+    in_every_run=lambda settings: settings.fragility.in_every_run,
+    folder="fragility",
+    memory_mb=4000,
+    minutes=480,
+)
+TRADE = Product(
+    name="trade",
+    does="measure what each method costs and errs on the records and structures of a study",
+    work="rocking.products.trade.work:Trade",
+    rows="rocking.assessment.rows",
+    tables=("trade",),
+    files=("trade.json", "trade.pdf", "trade.svg"),
+    made_from=Line(("figures",)),
+    in_every_run=lambda settings: settings.trade.in_summary,
+    is_measured=True,
+)
+PRODUCTS = (CHECKS, FRAGILITY, TRADE)
+"""In the order in which the summary shows them."""
+BY_NAME = {each.name: each for each in PRODUCTS}
