@@ -157,7 +157,8 @@ def test_whether_one_sine_dominates_is_said(example):
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_an_outcome_that_processing_decides_is_told(example):
+def test_an_outcome_that_processing_decides_is_told_but_of_what_its_network_has_corrected(example):
+    """Such a record is not processed again, so that no processing of ours decides anything."""
     ratios = iter([0.3, np.inf])
     variations = [
         replace(row, integrated_rotation_ratio=next(ratios, 0.3))
@@ -165,8 +166,19 @@ def test_an_outcome_that_processing_decides_is_told(example):
         else row
         for row in example.tables.variations
     ]
-    told = known(with_tables(example, variations=variations))
-    assert any("The processing of the record decides" in text and "arch 20 m" in text for text in told)
+    corrected = tuple(
+        replace(each, accelerogram=replace(each.accelerogram, processed=True))
+        for each in example.result.components
+    )
+    of_network = replace(example, result=replace(example.result, components=corrected))
+    for report, rows, decides in (
+        (example, variations, True),
+        (example, example.tables.variations, False),
+        (of_network, variations, False),
+    ):
+        told = {each.topic: each.texts for each in with_tables(report, variations=rows).known}
+        assert ("Processing" in told) is decides
+        assert not decides or told["Processing"][0].endswith(" arch 20 m.")
 
 
 @pytest.mark.usefixtures("undrawn")
