@@ -6,9 +6,11 @@ from typing import Annotated, ClassVar
 import numpy as np
 
 from rocking.errors import StructureError
+from rocking.remarks import Remark
 from rocking.structures.block import Block
 from rocking.structures.drawing import Path, rectangle, span
 from rocking.structures.fields import OptionalUnitWeight, Value, count, length, restitution_value
+from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import (
     Contacts,
     Hung,
@@ -109,6 +111,11 @@ class Frame(Crushable):
             compressive_strength=compressive_strength,
             unit_weight=unit_weight,
         )
+
+    @property
+    def _leaves_out(self) -> Remark:
+        """What nobody knows of its contacts."""
+        return Remark(StructureKind.FRAME_CONTACTS)
 
     @property
     def column_breadth(self) -> float:

@@ -15,6 +15,11 @@ class StructureKind(Kind):
         "una curva di capacità non dice nulla di urti, scorrimenti e contatti che si aprono",
         brief="curve alone",
     )
+    FRAME_CONTACTS = auto(), Sentence(
+        "the contact forces of a frame are indeterminate: no verdict says whether its contacts slide as it rocks",
+        "le forze di contatto di un telaio sono indeterminate: nessun esito dice se i contatti scorrono mentre oscilla",
+        brief="contacts unknown",
+    )
 
     # A structure, and where it stands.
     SIZE_UNUSUAL = auto(), Sentence(

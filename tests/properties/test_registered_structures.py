@@ -19,6 +19,7 @@ from rocking.motion import integrate
 from rocking.pulses import Pulse
 from rocking.quantities import GRAVITY
 from rocking.structures import Arch, Facade, Spire
+from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import UnknownContacts
 from rocking.structures.structure_list import TYPES, structure_from_config
 
@@ -233,12 +234,15 @@ def test_a_structure_comes_back_from_its_description_a_file_and_another_process(
 
 @registered
 def test_contacts_are_finite_or_refused_in_words(structure):
+    """What refuses them has no limit by friction as it rocks, and says so among its cautions."""
     mechanism = structure.mechanism()
     rotation = mechanism.critical_rotation * np.array([0.2, 0.6])
     try:
         found = structure.contact_forces(rotation, [0.1, -0.1], ground=[0.5, -0.5])
     except UnknownContacts as why:
         assert len(str(why).split()) > 4
+        told = {each.kind for each in structure.cautions}
+        assert told & {StructureKind.FRAME_CONTACTS, StructureKind.CURVE_ALONE}
     else:
         assert np.isfinite(found.normal).all() and np.isfinite(found.tangential).all()
 
