@@ -75,6 +75,7 @@ from .structures import RigidBody as RigidBody
 from .structures import Side as Side
 from .structures import Spire as Spire
 from .structures import Stack as Stack
+from .structures import Stones as Stones
 from .structures import Wall as Wall
 from .structures import structure_from_config as structure_from_config
 from .study.results import Results as Results

@@ -37,14 +37,13 @@ def kind_of(value: object) -> str:
     return f"an {name}" if name[0] in "aeiouAEIOU" else f"a {name}"
 
 
-def instance(error: type[RockingError], name: str, value: object, kind: type) -> None:
-    """Refuse a `value` of another type than `kind`, such as the list that `read` returns for its one component."""
-    if not isinstance(value, kind):
+def instance(error: type[RockingError], name: str, value: object, *kinds: type) -> None:
+    """Refuse a `value` of another type than `kinds`, such as the list that `read` returns for its one component."""
+    if not isinstance(value, kinds):
         hint = "; give one of its items" if isinstance(value, list | tuple) else ""
-        article = "an" if kind.__name__[0] in "AEIOU" else "a"
-        raise error.naming(
-            name, value, f"{name} is {kind_of(value)}, but must be {article} {kind.__name__}{hint}."
-        )
+        article = "an" if kinds[0].__name__[0] in "AEIOU" else "a"
+        names = " or ".join(kind.__name__ for kind in kinds)
+        raise error.naming(name, value, f"{name} is {kind_of(value)}, but must be {article} {names}{hint}.")
 
 
 def escaped(text: str) -> str:

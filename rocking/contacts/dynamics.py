@@ -1,4 +1,4 @@
-"""Stacks of rigid courses on moving ground by contact dynamics: the most expensive method, which asks for no mechanism.
+"""Stacks of courses and chains of stones on moving ground by contact dynamics: the dearest method, without mechanisms.
 
 The compiled steps stand in `kernel.py`. They are of first order in the time step, and near a limit the outcome
 changes with it, so that one run says less than the share of several (`assessment/contacts.py`).
@@ -14,13 +14,14 @@ from rocking.errors import MotionError
 from rocking.quantities import GRAVITY, finite, instance
 from rocking.records import Accelerogram
 from rocking.structures.stack import Stack
+from rocking.structures.stones import Stones
 
 STEP = 5e-4
 """Time step, s: the target `stack` of docs/research says how far a rotation is then from its limit."""
 AFTERWARDS = 20.0
 """The longest time that a stack is followed on still ground, s: it then rocks by what no longer overturns it."""
 SECONDS_A_STEP = 3.5e-7
-"""Processor time of a time step for each course, s: as much or less in 48 of 49 runs of walls, façades and spires of 6
+"""Processor time of a time step for each body, s: as much or less in 48 of 49 runs of walls, façades and spires of 6
 to 13 courses under real records."""
 SHORTEST = 1e-6
 """Shortest time step, s."""
@@ -28,16 +29,16 @@ SHORTEST = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class StackResponse:
-    """The response of a stack: whether a course falls, and the largest turn of each.
+    """The response of a stack or of stones: whether one falls, and the largest turn of each.
 
     Parameters
     ----------
     falls : bool
-        Whether a course turned further than it comes back from.
+        Whether a body turned further than it comes back from, or a stone slipped out.
     turns : ndarray
-        (n,) turns of the courses when the largest of them was reached, clockwise positive, rad.
+        (n,) turns of the bodies when the largest of them was reached, clockwise positive, rad.
     largest_turns : ndarray
-        (n,) largest turn of each course, rad.
+        (n,) largest turn of each body, rad.
     steps : int
         Time steps that were followed.
     unsolved_steps : int
@@ -69,12 +70,12 @@ class StackResponse:
 
     @property
     def opened(self) -> int:
-        """The number of courses beneath the joint that had opened most where the largest turn was reached."""
+        """The number of bodies before the joint that had opened most where the largest turn was reached."""
         return int(np.abs(np.diff(self.turns, prepend=0.0)).argmax())
 
 
 def follow_stack(
-    stack: Stack,
+    stack: Stack | Stones,
     motion: Accelerogram,
     step: float = STEP,
     *,
@@ -82,12 +83,12 @@ def follow_stack(
     history: bool = False,
     initial_velocity: np.ndarray | None = None,
 ) -> StackResponse:
-    """Follow the courses of `stack` through `motion`, linear between its samples, and on until they rest or fall.
+    """Follow the bodies of `stack` through `motion`, linear between its samples, and on until they rest or fall.
 
     Parameters
     ----------
-    stack : Stack
-        The courses.
+    stack : Stack or Stones
+        The courses, or the stones between two grounds.
     motion : Accelerogram
         Horizontal ground acceleration, linear between its samples.
     step : float, default 0.0005
@@ -97,12 +98,12 @@ def follow_stack(
     history : bool, default False
         Whether states are kept, one a sample of the motion or every step where that is longer.
     initial_velocity : ndarray or None, optional
-        (n, 3) velocities of the courses to the right and up, m/s, and clockwise, rad/s; None: at rest.
+        (n, 3) velocities of the bodies to the right and up, m/s, and clockwise, rad/s; None: at rest.
 
     Returns
     -------
     StackResponse
-        Whether a course falls, and the largest turn of each.
+        Whether one falls, and the largest turn of each.
 
     Raises
     ------
@@ -115,7 +116,7 @@ def follow_stack(
     >>> rocking.follow_stack(rocking.Block.of_size(breadth=0.6, height=4.0).stack(), record).falls
     True
     """
-    instance(MotionError, "stack", stack, Stack)
+    instance(MotionError, "stack", stack, Stack, Stones)
     instance(MotionError, "motion", motion, Accelerogram)
     step = finite(MotionError, "step", step, "s")
     longest = stack.longest_step
@@ -123,8 +124,8 @@ def follow_stack(
         raise MotionError.naming(
             "step",
             step,
-            f"the time step is {step:.4g} s, but must be {SHORTEST:g} to {longest:.4g} s, which the smallest course "
-            "and the stiffest tie of this stack allow; give a shorter step, or join courses.",
+            f"the time step is {step:.4g} s, but must be {SHORTEST:g} to {longest:.4g} s, which the smallest body "
+            "and the stiffest tie of this stack allow; give a shorter step, or join bodies.",
         )
     ground = _ground(motion, vertical)
     shaken = math.ceil(motion.duration / step)
@@ -134,33 +135,32 @@ def follow_stack(
     bodies = _bodies(stack)
     every = max(round(motion.time_step / step), 1) if history else 0
     steps = shaken + math.ceil(AFTERWARDS / step)
-    kept = np.zeros((steps // every + 1 if every else 0, len(stack.courses) + 1, 6))
-    settled = min(each.slenderness for each in stack.courses if not (each.guided or each.upright)) / 30
-    limits = kernel.Limits(step, GRAVITY, stack.fallen_turn, settled, start, still, steps, every)
+    kept = np.zeros((steps // every + 1 if every else 0, len(bodies.centres), 6))
+    limits = kernel.Limits(step, GRAVITY, stack.fallen_turn, stack.settled_turn, start, still, steps, every)
     state, joints = _beginning(stack, bodies, initial_velocity)
     ending, followed, swept = kernel.follow(bodies, _acting(stack), ground, limits, state, joints, kept)
     response = StackResponse(
         falls=ending == kernel.FALLS,
-        turns=-state.turns[1:],
-        largest_turns=state.most[1:],
+        turns=-state.turns[1 : stack.count + 1],
+        largest_turns=state.most[1 : stack.count + 1],
         steps=followed,
         unsolved_steps=swept,
     )
-    return _with_history(response, kept, step, every) if every else response
+    return _with_history(response, kept[:, 1 : stack.count + 1], step, every) if every else response
 
 
-def expected_seconds(stack: Stack, motion: Accelerogram, step: float = STEP) -> float:
+def expected_seconds(stack: Stack | Stones, motion: Accelerogram, step: float = STEP) -> float:
     """Return the processor time of following `stack` through `motion`, at most, but for its rocking afterwards, s.
 
-    A measured time for each course and step while the ground may lift it. step: time step, s.
+    A measured time for each body and step while the ground may lift it. step: time step, s.
     """
     first, last = _strong(stack, motion, step)
-    return SECONDS_A_STEP * len(stack.courses) * max(last - first, 0)
+    return SECONDS_A_STEP * stack.count * max(last - first, 0)
 
 
 def _with_history(response: StackResponse, kept: np.ndarray, step: float, every: int) -> StackResponse:
     """The response with its history: the kernel kept the states after each `every` steps, with turns to the left."""
-    states = kept[: (response.steps - 1) // every + 1, 1:] * np.array([1, 1, -1, 1, 1, -1])
+    states = kept[: (response.steps - 1) // every + 1] * np.array([1, 1, -1, 1, 1, -1])
     times = step * (1 + every * np.arange(len(states)))
     return replace(response, times=times, places=states[..., :3], velocities=states[..., 3:])
 
@@ -180,7 +180,7 @@ def _ground(motion: Accelerogram, vertical: Accelerogram | None) -> kernel.Conta
     return kernel.ContactGround(samples, np.pad(np.cumsum(gains, axis=1), ((0, 0), (1, 0))), motion.time_step)
 
 
-def _strong(stack: Stack, motion: Accelerogram, step: float) -> tuple[int, int]:
+def _strong(stack: Stack | Stones, motion: Accelerogram, step: float) -> tuple[int, int]:
     """The step from which on the ground may lift a stack at rest, and the one after which it no longer may.
 
     Half of what lifts is the border, for bodies that still rock.
@@ -192,33 +192,27 @@ def _strong(stack: Stack, motion: Accelerogram, step: float) -> tuple[int, int]:
     return int(before / step), math.ceil(after / step)
 
 
-def _bodies(stack: Stack) -> kernel.Bodies:
-    """The courses on the ground as the kernel takes them."""
-    first, last = stack.courses[0], stack.courses[-1]
-    left, right = first.bottom
-    left, right = 2 * left - right, 2 * right - left
-    depth = stack.height
-    low, high = first.base - depth, first.base
-    ground = np.array([[left, low], [right, low], [right, high], [left, high]])
-    centres = np.array([[0.0, first.base - depth / 2], *(each.centre for each in stack.courses)])
-    corners = np.array([ground, *(each.corners for each in stack.courses)]) - centres[:, None]
-    mobility = [[0.0, 0.0, 0.0]]
-    for each in stack.courses:
-        across = 0.0 if each.guided else 1 / each.mass
-        turning = 0.0 if each.guided or each.upright else 1 / each.inertia
-        mobility.append([across, 1 / each.mass, turning])
-    pinned = np.full(2, np.nan)
-    if stack.top_held_at is not None:
-        pinned = np.array(stack.top_held_at) - last.centre
-    return kernel.Bodies(centres, corners, np.array(mobility), float(stack.friction), pinned)
+def _bodies(stack: Stack | Stones) -> kernel.Bodies:
+    """The bodies as the kernel takes them."""
+    laid = stack.at_rest
+    return kernel.Bodies(
+        laid.centres,
+        laid.corners,
+        laid.mobility,
+        laid.drops,
+        float(stack.friction),
+        float(laid.softness),
+        np.array(laid.pinned, dtype=float),
+    )
 
 
-def _acting(stack: Stack) -> kernel.Acting:
+def _acting(stack: Stack | Stones) -> kernel.Acting:
     """Forces and ties as the kernel takes them."""
     forces, ties, stops = [], [], []
+    centres = stack.at_rest.centres
     for each in stack.held:
-        across, up = np.array(each.point) - stack.courses[each.course].centre
         body = each.course + 1
+        across, up = np.array(each.point) - centres[body]
         if each.stop is not None:
             stops.append([body, across, up, each.stop.stiffness, each.stop.damping])
         if each.tie is not None:
@@ -232,14 +226,14 @@ def _acting(stack: Stack) -> kernel.Acting:
 
 
 def _beginning(
-    stack: Stack, bodies: kernel.Bodies, initial_velocity: np.ndarray | None
+    stack: Stack | Stones, bodies: kernel.Bodies, initial_velocity: np.ndarray | None
 ) -> tuple[kernel.State, kernel.Joints]:
     """The state in which a stack begins, and its joints, closed."""
     count, ties = len(bodies.centres), sum(each.tie is not None for each in stack.held)
     place, velocity = np.zeros((count, 3)), np.zeros((count, 3))
     place[:, :2] = bodies.centres
     if initial_velocity is not None:
-        velocity[1:] = np.asarray(initial_velocity) * [1, 1, -1]
+        velocity[1 : stack.count + 1] = np.asarray(initial_velocity) * [1, 1, -1]
     state = kernel.State(
         place,
         velocity,

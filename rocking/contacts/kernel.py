@@ -1,4 +1,6 @@
-"""The compiled motion of a stack of rigid courses: contact dynamics in the plane with the time stepping of Moreau.
+"""The compiled motion of a chain of rigid bodies: contact dynamics in the plane with the time stepping of Moreau.
+
+A stack of courses stands on the ground, its first body; an arch of stones between two, its first body and its last.
 
 Coordinates move with the ground, so that its acceleration is a force on every mass. Each joint may touch at its left
 and at its right end: a corner of either course on the face of the other. A contact is unilateral, its shock inelastic,
@@ -20,6 +22,8 @@ ALERT = 1e-2
 """Gap up to which a joint may close within a step, m."""
 MOST_GUESSES = 60
 """Guesses of what touches before the impulses are found one after the other."""
+MORE_GUESSES = 10
+"""Further ones for each body of a chain between two grounds, where more hangs together."""
 ALL_AT_ONCE = 12
 """Guesses in which all that was wrong is changed; from then on one contact at a time, which ends without friction."""
 SWEEPS = 200
@@ -29,9 +33,11 @@ ROUNDING = 1e-9
 EDGE = 1e-6
 """The distance of a corner beyond the face that still bears it, over the length of the face."""
 REST = 1.0
-"""The time that courses must be nearly upright on still ground to count as standing, s."""
+"""The time that bodies must be nearly upright on still ground, and stones not slide, to count as standing, s."""
 CALM = 1e-6
 """Velocity over what weight gains in a step below which a stack rests."""
+CREEP = 2e4
+"""What soft contacts add to it, over their softness: arches at rest creep, those of sixty voussoirs by up to 8e3."""
 SINGULAR = 1e-10
 """Pivot over the compliance of an impulse below which others do all that it does."""
 TRIED_EVERY = 20
@@ -45,17 +51,21 @@ FALLS, STAYS, MOVES = 1, 0, 2
 
 
 class Bodies(NamedTuple):
-    """n courses on the ground, which is body 0.
+    """n courses on the ground, which is body 0; or stones between it and the last body, which is ground, too.
 
     centres: (n + 1, 2) of mass, m. corners: (n + 1, 4, 2) from the centre, the lower left first, counterclockwise, m.
-    mobility: (n + 1, 3) inverse inertias along x, z and the turn, 0 where a body is held. friction: coefficient.
-    pinned: x, z from the centre of the uppermost body of the point that is held sideways; nan where none is.
+    mobility: (n + 1, 3) inverse inertias along x, z and the turn, 0 where a body is held. drops: (n + 1,) by how much a
+    centre sinks whose body has fallen, m. friction: coefficient. softness: share by which a contact gives more than a
+    rigid one, so that of many impulses in equilibrium one choice acts; 0 of a stack. pinned: x, z from the centre of
+    the uppermost body of the point that is held sideways; nan where none is.
     """
 
     centres: np.ndarray
     corners: np.ndarray
     mobility: np.ndarray
+    drops: np.ndarray
     friction: float
+    softness: float
     pinned: np.ndarray
 
 
@@ -146,6 +156,8 @@ def follow(bodies, acting, ground, limits, state, joints, history):
     count, step = len(bodies.centres), limits.step
     place, velocity = state.place, state.velocity
     weight = limits.gravity * step
+    between = _ends_on_ground(bodies)
+    guesses = MOST_GUESSES + (MORE_GUESSES * count if between else 0)
     _fill_scale(bodies, limits, state.scale)
     quiet, swept, largest_of_all = 0, 0, 0.0
     before_x = _velocity(ground, 0, limits.start * step)
@@ -166,13 +178,14 @@ def follow(bodies, acting, ground, limits, state, joints, history):
         _drift(place, velocity, step / 2)
         _pull(bodies, acting, kick_x, fall, limits, state)
         _find_contacts(bodies, place, state.faces, joints)
-        found = _solve(bodies, joints, velocity, limits, state, MOST_GUESSES)
+        found = _solve(bodies, joints, velocity, limits, state, guesses)
         if not found and not _sweep(bodies, joints, velocity, limits, state):
             swept += 1
         low, high = _shut(bodies, acting, limits, state, joints)
         _drift(place, velocity, step / 2)
-        largest = 0.0
+        largest, dropped = 0.0, False
         for body in range(1, count):
+            dropped = dropped or bodies.centres[body, 1] - place[body, 1] > bodies.drops[body]
             turn = abs(place[body, 2])
             state.most[body] = max(state.most[body], turn)
             largest = max(largest, turn)
@@ -182,12 +195,23 @@ def follow(bodies, acting, ground, limits, state, joints, history):
                 state.turns[body] = place[body, 2]
         if limits.every > 0 and number % limits.every == 0 and number // limits.every < len(history):
             _keep(bodies, state, history[number // limits.every])
-        if largest > limits.fallen:
+        if largest > limits.fallen or dropped:
             return FALLS, number + 1 - limits.start, swept
         quiet = quiet + 1 if number > limits.still and largest < limits.settled else 0
+        if quiet > 0 and between and _sliding(joints) > 0:
+            quiet = 0  # a stone that slips out need not turn
         if quiet * step > REST:
             return STAYS, number + 1 - limits.start, swept
     return MOVES, limits.steps - limits.start, swept
+
+
+@compiled
+def _sliding(joints):
+    """The number of joints that slide."""
+    number = 0
+    for joint in range(len(joints.slides)):
+        number += abs(joints.slides[joint])
+    return number
 
 
 @compiled
@@ -230,7 +254,7 @@ def _shut(bodies, acting, limits, state, joints):
     """
     count, velocity = len(bodies.centres), state.velocity
     weight = limits.gravity * limits.step
-    calm = CALM * weight
+    calm = (CALM + CREEP * bodies.softness) * weight
     if not _is_calm(velocity, calm):
         return 0.0, 0.0
     for joint in range(count - 1):
@@ -295,14 +319,23 @@ def _keep(bodies, state, line):
 
 @compiled
 def _fill_scale(bodies, limits, scale):
-    """Write the impulse that counts as none at each joint, from the mass above it."""
+    """Write the impulse that counts as none at each joint, from the mass above it; between two grounds from all."""
     count, above = len(bodies.centres), 0.0
     for body in range(count - 1, -1, -1):
         scale[body] = ROUNDING * above * limits.gravity * limits.step
         if bodies.mobility[body, 1] > 0:
             above += 1 / bodies.mobility[body, 1]
     scale[count - 1] = scale[max(count - 2, 0)]
+    if _ends_on_ground(bodies):
+        scale[:] = ROUNDING * above * limits.gravity * limits.step
     return scale
+
+
+@compiled
+def _ends_on_ground(bodies):
+    """Whether nothing moves the last body."""
+    last = len(bodies.centres) - 1
+    return bodies.mobility[last, 0] == 0 and bodies.mobility[last, 1] == 0 and bodies.mobility[last, 2] == 0
 
 
 @compiled
@@ -497,6 +530,7 @@ def _impulses(bodies, joints, velocity, step, state):
                     if joint < count - 1:
                         value += row[3 + axis] * mobility[joint + 1, axis] * push[3 + axis]
                 matrix[k, other] = value
+            matrix[k, k] *= 1.0 + bodies.softness
             least[k] = SINGULAR * matrix[k, k]
             if joint == 0:
                 continue

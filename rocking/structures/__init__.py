@@ -13,6 +13,7 @@ from rocking.structures.mechanism import Mechanism as Mechanism
 from rocking.structures.mechanism import Outcome as Outcome
 from rocking.structures.mechanism import Side as Side
 from rocking.structures.stack import Stack as Stack
+from rocking.structures.stones import Stones as Stones
 from rocking.structures.structure import Structure as Structure
 from rocking.structures.structure_list import structure_from_config as structure_from_config
 from rocking.structures.wall import LoadedWall as LoadedWall

@@ -30,6 +30,7 @@ from rocking.structures.arch_ring import EXTRADOS, INTRADOS, PATTERN, Bars, Fill
 from rocking.structures.drawing import Path, plane, span, swept
 from rocking.structures.fields import OptionalUnitWeight, Value, count, length, restitution_value
 from rocking.structures.linkage import PRESSED, STILL, Restitution, momentum_balance
+from rocking.structures.stones import Stones, chain, counted_voussoirs
 from rocking.structures.structure import Candidate, Crackable, unplaced
 
 _CRUSHINGS = 60
@@ -223,6 +224,25 @@ class Arch(Crackable):
         onset = self._static_onset()
         least = multiplier_on_friction(self._crushed_ring(onset), friction_coefficient)
         return least if least < _LIFTS_FROM * onset.multiplier else np.nan
+
+    @property
+    def as_stones(self) -> str:
+        return "as voussoirs"
+
+    def stones(self, voussoirs: int | None = None) -> Stones:
+        """Return it as equal voussoirs, with the fill on each, and its piers; joints keep sharp edges.
+
+        voussoirs: their number, 3 to 60; None: its own, or 21 of an arch that does not say how many it has.
+        """
+        ring = self.ring
+        half = self.embrace_angle / 2
+        joints = np.linspace(-half, half, counted_voussoirs(voussoirs, self.voussoirs) + 1)
+        if ring.piers is not None:
+            joints = np.array([ring.ends[0], *joints, ring.ends[1]])
+        both = [ring.contact_points(joints, contact) for contact in (EXTRADOS, INTRADOS)]
+        faces = self.radius * np.stack([plane(points) for points in both], axis=1)
+        bars = self._bars(joints)
+        return chain(list(faces), bars.masses, plane(bars.centroids), bars.inertias)
 
     def _as_crushed(self, seek: Callable[[Ring], Onset]) -> Onset:
         """The onset that `seek` finds with the contacts where its own line of thrust crushes the joints.

@@ -13,16 +13,13 @@ The hinges make a four-bar linkage A-B-C-D; φ is the clockwise rotation of bar 
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import combinations
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rocking.errors import StructureError
 from rocking.structures.arch_ring import CONTINUOUS_SECTIONS, EXTRADOS, INTRADOS, PATTERN, Bars, Ring
 from rocking.structures.linkage import Contacts, Kinematics, Linkage, MotionState, cross, keeps_last
-
-if TYPE_CHECKING:
-    from scipy.optimize import OptimizeResult
+from rocking.structures.stones import greatest_multiplier
 
 
 class FourBar(Linkage):
@@ -120,7 +117,6 @@ _DOWN = np.array([0.0, 0.0, 0.0, -1.0])
 _ROUNDS = 100
 _SUBDIVISIONS = 4
 """Parts of the spacing of a continuous ring's sections, between which its joints may slide."""
-_ACCURATELY = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
 _INFEASIBLE = 2
 """The status of scipy's linear programme for constraints that contradict each other."""
 _CLEARANCE = 1e-12
@@ -199,7 +195,7 @@ def multiplier_on_friction(ring: Ring, coefficient: float) -> float:
     both = np.tile(sections, 2)
     contacts = np.repeat([INTRADOS, EXTRADOS], sections.size)
     rows = np.concatenate([ring.gaps(both, contacts), ring.friction_left(sections, coefficient)])
-    solved = _most(rows)
+    solved = greatest_multiplier(rows)
     return max(float(solved.x[3]), 0.0) if solved.status == 0 else 0.0
 
 
@@ -259,19 +255,10 @@ def _touching_line(rows: np.ndarray) -> np.ndarray:
 
 def _weakest(rows: np.ndarray) -> np.ndarray:
     """The four rows that limit λ, in order: those whose dual does not vanish."""
-    solved = _most(rows)
+    solved = greatest_multiplier(rows)
     if solved.status:
         raise TooThin if solved.status == _INFEASIBLE else NoMechanism
     return np.sort(np.argsort(solved.ineqlin.marginals)[:4])
-
-
-def _most(rows: np.ndarray) -> "OptimizeResult":
-    """The linear programme of the largest λ for which no row is negative."""
-    from scipy.optimize import linprog  # slow to import, and needed by arches only
-
-    return linprog(
-        _DOWN, -rows[:, :4], rows[:, 4], bounds=(None, None), method="highs-ds", options=_ACCURATELY
-    )
 
 
 def _slide_to_tangency(ring: Ring, hinges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -8,7 +8,7 @@ import numpy as np
 from rocking.errors import StructureError
 from rocking.remarks import Remark
 from rocking.structures.block import Block
-from rocking.structures.drawing import Path, rectangle, span
+from rocking.structures.drawing import Path, plane, rectangle, span
 from rocking.structures.fields import OptionalUnitWeight, Value, count, length, restitution_value
 from rocking.structures.kinds import StructureKind
 from rocking.structures.linkage import (
@@ -24,6 +24,7 @@ from rocking.structures.linkage import (
     inset,
     keeps_last,
 )
+from rocking.structures.stones import Stones, chain
 from rocking.structures.structure import Crushable
 
 Columns = Annotated[int, count("How many columns", 4, 2, 1000)]
@@ -147,6 +148,28 @@ class Frame(Crushable):
         if self.beam_mass_ratio:
             outlines.append((self.columns, rectangle(left, right, height, height + depth)))
         return outlines
+
+    @property
+    def as_stones(self) -> str:
+        """Of two columns: a beam on more is no chain."""
+        return "as columns and beam" if self.columns == 2 and self.beam_mass_ratio else ""
+
+    def stones(self, voussoirs: int | None = None) -> Stones:
+        """Return the two columns and the beam on them, spaced as they are drawn; voussoirs: None, as it has none."""
+        if not self.as_stones or voussoirs is not None:
+            raise StructureError(
+                f"a frame of {self.columns} columns with a beam_mass_ratio of {self.beam_mass_ratio!r} is asked for as "
+                f"{'stones' if voussoirs is None else f'{voussoirs} voussoirs'}, but only two columns below a beam are "
+                "a chain of stones, which has no voussoirs."
+            )
+        left, right, beam = (corners for _, corners in self._parts())
+        foot, head = [0, 1], [3, 2]
+        faces = [plane(left[foot]), plane(left[head]), plane(right[head[::-1]]), plane(right[foot[::-1]])]
+        bodies = left, beam, right
+        sizes = np.array([[np.ptp(each.real), np.ptp(each.imag)] for each in bodies])
+        masses = sizes.prod(axis=1)
+        centres = plane(np.array([each.mean() for each in bodies]))
+        return chain(faces, masses, centres, masses * (sizes**2).sum(axis=1) / 12)
 
     def _dimensions(self) -> dict[str, Path]:
         first = self._axes[0]

@@ -119,6 +119,25 @@ class Held:
     stop: Stop | None = None
 
 
+@dataclass(frozen=True, eq=False)
+class BodiesAtRest:
+    """Rigid bodies in a chain as contact dynamics takes them, the ground first, and last where they stand on two.
+
+    centres: (n, 2) of mass, m. corners: (n, 4, 2) from the centre, counterclockwise: those of the face to the body
+    before it, then those of the face to the one behind it, m. mobility: (n, 3) inverse inertias along x, z and the
+    turn, 0 where a body is held. drops: (n,) by how much a centre sinks whose body has fallen, m; inf where turns alone
+    tell. softness: share by which a contact gives more than a rigid one. pinned: x, z from the centre of the last body
+    of the point that is held sideways; nan where none is.
+    """
+
+    centres: np.ndarray
+    corners: np.ndarray
+    mobility: np.ndarray
+    drops: np.ndarray
+    softness: float = 0.0
+    pinned: tuple[float, float] = (np.nan, np.nan)
+
+
 @dataclass(frozen=True)
 class Stack:
     """Courses on moving ground, from the lowest one up.
@@ -185,6 +204,38 @@ class Stack:
         first = self.courses[0]
         last = self.courses[-1]
         return last.base + last.height - first.base
+
+    @property
+    def count(self) -> int:
+        """The number of bodies that move."""
+        return len(self.courses)
+
+    @property
+    def at_rest(self) -> BodiesAtRest:
+        """The courses on the ground."""
+        first, last = self.courses[0], self.courses[-1]
+        left, right = first.bottom
+        left, right = 2 * left - right, 2 * right - left
+        depth = self.height
+        low, high = first.base - depth, first.base
+        ground = np.array([[left, low], [right, low], [right, high], [left, high]])
+        centres = np.array([[0.0, first.base - depth / 2], *(each.centre for each in self.courses)])
+        corners = np.array([ground, *(each.corners for each in self.courses)]) - centres[:, None]
+        mobility = [[0.0, 0.0, 0.0]]
+        for each in self.courses:
+            across = 0.0 if each.guided else 1 / each.mass
+            turning = 0.0 if each.guided or each.upright else 1 / each.inertia
+            mobility.append([across, 1 / each.mass, turning])
+        pinned = np.nan, np.nan
+        if self.top_held_at is not None:
+            pinned = self.top_held_at[0] - last.centre[0], self.top_held_at[1] - last.centre[1]
+        drops = np.full(len(centres), np.inf)
+        return BodiesAtRest(centres, corners, np.array(mobility), drops, pinned=pinned)
+
+    @property
+    def settled_turn(self) -> float:
+        """The turn [rad] below which a stack on still ground rests."""
+        return min(each.slenderness for each in self.courses if not (each.guided or each.upright)) / 30
 
     @cached_property
     def fallen_turn(self) -> float:

@@ -43,6 +43,7 @@ from rocking.structures.linkage import (
 )
 from rocking.structures.mechanism import Mechanism, Side
 from rocking.structures.stack import Course, Held, Stack, stops_behind
+from rocking.structures.stones import Stones
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -367,6 +368,20 @@ class Structure(ABC):
         raise StructureError(
             f"a {self.type_name} is not a stack of courses, so that contact dynamics cannot follow it; choose another "
             "fidelity than contact."
+        )
+
+    @property
+    def as_stones(self) -> str:
+        """As what chain of stones contact dynamics follows it, in words: "as voussoirs"; "" where as a stack."""
+        return ""
+
+    def stones(self, voussoirs: int | None = None) -> Stones:
+        """Return it as a chain of stones between two grounds; raises StructureError where it is none.
+
+        voussoirs: their number; None: its own, or 21.
+        """
+        raise StructureError(
+            f"a {self.type_name} is not a chain of stones between two grounds; an arch, or a frame of two columns, is."
         )
 
     def _behind(self, courses: Sequence[Course]) -> tuple[Held, ...]:

@@ -1,0 +1,238 @@
+"""Arches, arches on piers and portals as stones: held against mechanisms, statics, energy, symmetry and momentum."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rocking import (
+    Accelerogram,
+    Arch,
+    ArchOnPiers,
+    Block,
+    Facade,
+    Frame,
+    MotionError,
+    Spire,
+    StructureError,
+    Wall,
+)
+from rocking.contacts.dynamics import StackResponse, follow_stack
+from rocking.quantities import GRAVITY
+from rocking.structures.stones import MOST_VOUSSOIRS, VOUSSOIRS, Stone, Stones
+from tests.refusals import refused
+
+ARCH = Arch(10.0, 1.5, np.radians(157.5), 13)
+PIERS = ArchOnPiers(4.0, 0.7, np.radians(150), 11, pier_width=1.6, pier_height=3.0)
+PORTAL = Frame(Block.of_size(1.0, 8.0), 2, 0.3)
+BEFORE = {
+    "spire": (2222, "0x1.0a42ca767832bp-17", "0x1.567f0a086b62fp-15"),
+    "wall": (8343, "0x1.2d76e839afe07p-4", "0x1.c1716d2d2ed83p-3"),
+    "façade": (4362, "0x1.bd4d2da5b96a1p-6", "0x1.1820f097a97bdp-5"),
+}
+STILL = Accelerogram(np.zeros(200), 0.01)
+
+
+def on_friction(structure: Arch | Frame, friction: float, voussoirs: int | None = None) -> Stones:
+    return replace(structure.stones(voussoirs), friction=friction)
+
+
+def shaking(peak: float, seconds: float = 6.0) -> Accelerogram:
+    """Four sines of drawn phases that swell and fade."""
+    chance = np.random.default_rng(4)
+    times = np.arange(0, seconds, 0.01)
+    waves = sum(np.sin(2 * np.pi * each * times + chance.uniform(0, 6)) for each in (0.8, 1.4, 2.3, 3.9))
+    waves = waves * np.sin(np.pi * times / seconds)
+    return Accelerogram(peak * waves / np.abs(waves).max(), 0.01)
+
+
+def energies(stones: Stones, response: StackResponse) -> np.ndarray:
+    masses = np.array([each.mass for each in stones.stones])
+    inertias = np.array([each.inertia for each in stones.stones])
+    places, velocities = response.places, response.velocities
+    moving = masses * (velocities[..., :2] ** 2).sum(axis=-1) + inertias * velocities[..., 2] ** 2
+    return (moving / 2 + masses * GRAVITY * places[..., 1]).sum(axis=1)
+
+
+def test_stacks_move_as_they_did_before_there_were_stones():
+    """Numbers of the kernel that knew stacks alone; nothing of a stack gives, and its courses fall by turning."""
+    times = np.arange(0, 1.2, 0.005)
+    motion = Accelerogram(np.append(4 * np.sin(2 * np.pi * times / 0.6), np.zeros(10)), 0.005)
+    tied = {
+        "tie_heights": (6.0,),
+        "tie_stiffness": 500e3,
+        "tie_strength": 5e3,
+        "tie_plastic_elongation": 0.5,
+    }
+    for stack, before in (
+        (Spire(3.0, 15.0).stack(), BEFORE["spire"]),
+        (Wall(1.6, 1.6, 0.25).stack(4), BEFORE["wall"]),
+        (Facade((3.5, 3.0), (0.6, 0.6), 20e3, **tied).stack(), BEFORE["façade"]),
+    ):
+        assert stack.at_rest.softness == 0 and np.isinf(stack.at_rest.drops).all()
+        found = follow_stack(stack, motion)
+        steps, *turns = before
+        assert found.steps == steps
+        assert found.largest_turns[[0, -1]] == pytest.approx(
+            [float.fromhex(each) for each in turns], rel=1e-12
+        )
+
+
+def test_statics_of_stones_is_that_of_the_mechanism():
+    """The linear programme of forces at all joints beside the mechanism of least λ: thirty arches, and the frame."""
+    chance, found = np.random.default_rng(2), []
+    while len(found) < 30:
+        radius, ratio, embrace = chance.uniform([3, 0.08, 100], [15, 0.2, 180])
+        size = radius, ratio * radius, np.radians(embrace), int(chance.integers(5, 41))
+        try:
+            if len(found) % 3:
+                arch = Arch(*size, fill_depth=0.3 if len(found) % 2 else None)
+            else:
+                arch = ArchOnPiers(*size, pier_width=0.4 * radius, pier_height=0.6 * radius)
+        except StructureError:
+            continue
+        found.append(arch.stones().resting_multiplier / arch.onset.multiplier)
+    assert found == pytest.approx([1.0] * 30, rel=1e-11)
+    assert PORTAL.stones().resting_multiplier == pytest.approx(
+        PORTAL.mechanism().uplift_multiplier, rel=1e-12
+    )
+
+
+@pytest.mark.parametrize("number", [5, 13, 21, 40, 60])
+@pytest.mark.parametrize("friction", [0.3, 0.6, 5.0])
+def test_stones_rest_on_still_ground(number, friction):
+    arch = Arch(8.0, 1.4, np.radians(110))
+    stones = on_friction(arch, friction, number)
+    assert stones.count == number and stones.resting_multiplier > 0.1
+    response = follow_stack(stones, STILL, history=True)
+    assert (response.falls, response.unsolved_steps) == (False, 0)
+    assert np.abs(response.places).max() < 2e-9
+
+
+@pytest.mark.parametrize("share", [0.98, 1.03])
+@pytest.mark.parametrize("structure", [ARCH, replace(ARCH, fill_depth=0.5), PIERS, PORTAL])
+def test_they_open_under_a_slow_push_where_statics_has_it(structure, share):
+    push = share * structure.mechanism().uplift_multiplier * GRAVITY
+    steady = Accelerogram(np.concatenate([np.linspace(0, push, 2000), np.full(500, push)]), 1e-3)
+    response = follow_stack(structure.stones(), steady, 1e-3)
+    assert (response.largest_turns.max() > 1e-4) == (share > 1)
+
+
+def test_they_slide_under_a_slow_push_where_statics_with_friction_has_it():
+    slides_at = ARCH.slides_at(0.4)
+    assert slides_at < 0.8 * ARCH.static_multiplier
+    stones = on_friction(ARCH, 0.4)
+    assert stones.resting_multiplier == pytest.approx(slides_at, rel=1e-9)
+    for share in (0.97, 1.04):
+        most = share * slides_at * GRAVITY
+        push = np.concatenate([np.linspace(0, most, 2000), np.full(500, most)])
+        response = follow_stack(stones, Accelerogram(push, 1e-3), 1e-3, history=True)
+        assert (np.abs(response.places[:2500, :, :2]).max() > 1e-4) == (share > 1)
+
+
+@pytest.mark.parametrize("structure", [ARCH, PIERS, PORTAL])
+def test_free_motion_gains_no_energy(structure):
+    """What a strong push has set in motion rocks on still ground; a step may add what it is late in an impact."""
+    stones = structure.stones()
+    motion = shaking(1.6 * structure.mechanism().uplift_multiplier * GRAVITY, 3.0)
+    still = Accelerogram(np.append(motion.acceleration, np.zeros(600)), 0.01)
+    response = follow_stack(stones, still, history=True)
+    assert not response.falls
+    energy = energies(stones, response)[310:]
+    lifting = sum(each.mass for each in stones.stones) * GRAVITY * 1.0 * response.largest_turns.max()
+    risen = np.maximum.accumulate(energy[::-1])[::-1] - energy
+    assert response.largest_turns.max() > 1e-3
+    assert risen.max() < 1e-3 * lifting
+    assert energy[-1] < max(energy[0], 1e-3 * lifting)
+
+
+def test_a_mirrored_motion_turns_the_mirrored_stones():
+    motion = shaking(1.4 * ARCH.static_multiplier * GRAVITY, 2.0)
+    one, other = (follow_stack(ARCH.stones(), motion.scaled(sign), history=True) for sign in (1, -1))
+    mirrored = other.places[:, ::-1] * [-1, 1, -1]
+    assert np.abs(one.places[..., 2]).max() > 1e-4
+    # roundings grow from impact to impact
+    assert one.places[:60] == pytest.approx(mirrored[:60], abs=1e-9)
+
+
+@pytest.mark.parametrize(("breadth", "ratio"), [(1.0, 0.3), (1.5, 1.0), (0.8, 2.0)])
+def test_a_portal_keeps_of_an_impact_what_the_balance_of_momentum_says(breadth, ratio):
+    """Of two flights from ω each turns to cos(α − φ) − cos α ~ ω²; both columns turn about one side's corners."""
+    portal = Frame(Block.of_size(breadth, 8.0), 2, ratio)
+    stones = portal.stones()
+    left, beam, right = (np.array(each.centre) for each in stones.stones)
+    half = breadth / 2
+    arms = left - [left[0] + half, 0], np.array([-breadth, 8.0]), right - [right[0] + half, 0]
+    spin = 0.1
+    turning = spin, 0.0, spin
+    start = np.array(
+        [[spin * up, -spin * across, turn] for (across, up), turn in zip(arms, turning, strict=True)]
+    )
+    response = follow_stack(
+        stones, Accelerogram(np.zeros(2000), 8e-4), 2e-4, history=True, initial_velocity=start
+    )
+    turns = response.places[:, 0, 2]
+    landing = int(np.flatnonzero(turns[1:] <= 0)[0]) + 1
+    alpha = portal.column.slenderness
+    risen = [np.cos(alpha - peak) - np.cos(alpha) for peak in (turns[:landing].max(), -turns[landing:].min())]
+    assert np.sqrt(risen[1] / risen[0]) == pytest.approx(portal.mechanism().restitution, abs=0.005)
+    assert beam[1] > 8.0
+
+
+@pytest.mark.parametrize("friction", [0.05, 0.2])
+def test_a_stone_that_slips_out_falls_without_turning(friction):
+    """On joints of little friction the crown slides down between its neighbours, at 0.2 slowly at first."""
+    stones = on_friction(ARCH, friction, 7)
+    assert stones.resting_multiplier == 0 and np.isfinite(stones.at_rest.drops[1:-1]).all()
+    response = follow_stack(stones, STILL)
+    assert response.falls
+    assert response.largest_turns.max() < stones.fallen_turn / 2
+
+
+def test_hardly_any_step_has_its_impulses_found_one_after_the_other():
+    steps = unsolved = 0
+    for structure, friction in ((ARCH, 0.6), (replace(ARCH, voussoirs=27), 5.0), (PIERS, 0.6)):
+        motion = shaking(2 * structure.static_multiplier * GRAVITY, 4.0)
+        response = follow_stack(on_friction(structure, friction), motion)
+        assert response.largest_turns.max() > 1e-3
+        steps += response.steps
+        unsolved += response.unsolved_steps
+    assert unsolved < 1e-3 * steps
+
+
+def test_an_arch_has_the_voussoirs_that_it_states():
+    assert ARCH.stones().count == 13
+    assert replace(ARCH, voussoirs=None).stones().count == VOUSSOIRS
+    assert replace(ARCH, voussoirs=400).stones().count == MOST_VOUSSOIRS
+    assert ARCH.stones(7).count == 7
+    assert PIERS.stones().count == 13
+    whole = sum(each.mass for each in replace(PIERS, fill_depth=0.4).stones(9).stones)
+    assert whole == pytest.approx(replace(PIERS, fill_depth=0.4).ring.mass)
+
+
+BODY = Stone(((0, 0), (1, 0), (1, 1), (0, 1)), 1.0, (0.5, 0.5), 0.2)
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: ARCH.stones(2), "voussoirs is 2, but must be"),
+        (lambda: ARCH.stones(61), "voussoirs is 61, but must be"),
+        (lambda: replace(PORTAL, columns=3).stones(), "only two columns below a beam"),
+        (lambda: PORTAL.stones(5), "has no voussoirs"),
+        (lambda: Block(2.0, 0.2).stones(), "is not a chain of stones"),
+        (lambda: replace(BODY, mass=0.0), "a stone has the corners"),
+        (lambda: replace(BODY, corners=((0, 0), (1, 0), (1, 1))), "must have four corners"),
+        (lambda: Stones((BODY,)), "must have 2 to"),
+        (lambda: Stones((BODY, BODY)), "faces must meet"),
+        (lambda: on_friction(ARCH, -0.1), "friction is -0.1"),
+    ],
+)
+def test_what_is_no_chain_is_refused_in_one_sentence(make, words):
+    with pytest.raises(StructureError, match=words):
+        make()
+
+
+def test_a_step_that_is_too_long_is_refused_in_one_sentence():
+    with refused(MotionError, "step", 0.05):
+        follow_stack(ARCH.stones(), STILL, 0.05)
