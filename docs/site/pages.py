@@ -24,6 +24,8 @@ from rocking.errors import ConfigurationError
 
 FOLDER = Path(__file__).parents[1] / "pages"
 ROOT = FOLDER.parents[1]
+PAGE_TWO = ROOT / "workflow" / "report" / "example.png"
+"""The picture of the README, which the gallery shows as well."""
 CONFIGURATION = FOLDER.parent / "mkdocs.yml"
 _RC: dict[str, object] = {
     "backend": "agg",
@@ -79,6 +81,7 @@ def write_pages(target: Path) -> None:
         text, of_page = illustrated(page.read_text(encoding="utf-8"), page.name)
         (target / page.name).write_text(filled(text, page.name), encoding="utf-8")
         figures |= of_page
+    shutil.copy(PAGE_TWO, target / "figures" / PAGE_TWO.name)
     for name, content in figures.items():
         (target / "figures" / name).write_text(content, encoding="utf-8")
 

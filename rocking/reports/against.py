@@ -1,7 +1,7 @@
 """Prediction against integration: a strip for each structure that moves, with the closed forms beside what happens."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import TypeVar
@@ -12,15 +12,15 @@ from rocking.assessment.case import RecordResult
 from rocking.assessment.conclusion import Conclusion
 from rocking.assessment.cracks import cracked
 from rocking.assessment.methods import NEGLIGIBLE
-from rocking.assessment.rows import ComparisonRow, PulseRow
+from rocking.assessment.rows import ComparisonRow, PulseRow, RecordRows
 from rocking.errors import FaultError, one_structure
 from rocking.motion.response import Response
 from rocking.quantities import counted, listed, percents
-from rocking.reports.drawings import Trace, drawn_by_hand, svg_path, thinned
-from rocking.reports.pages import Against, Compared, Ground, Picture, Tick
+from rocking.records.accelerogram import Accelerogram
+from rocking.reports.drawings import Trace, drawn_by_hand, sine_lines, svg_path, thinned
+from rocking.reports.pages import Against, Compared, ComparedWords, Ground, Picture, Tick
 from rocking.reports.panels import rotation_ratios
 from rocking.reports.printing import NOTHING, number, quantity, unit_of
-from rocking.reports.style import PULSE
 from rocking.structures import Mechanism, Structure
 
 MOST_STRIPS = 24
@@ -66,6 +66,17 @@ class Moving:
         return float(self.times[place])
 
 
+def traces_of(result: RecordResult, rows: RecordRows) -> list[Trace]:
+    """Return the components that were assessed, with their ranked pulses, the dominant one first."""
+    assessed = {row.component for row in rows.record}
+    ranked = sorted((row for row in rows.pulses if row.ranked), key=lambda row: row.rank)
+    return [
+        Trace(each, [row.pulse for row in ranked if row.component == each.component])
+        for each in result.accelerograms
+        if each.component in assessed
+    ]
+
+
 def moving_structures(
     conclusions: Sequence[Conclusion], structures: Mapping[str, Structure], result: RecordResult
 ) -> list[Moving]:
@@ -91,17 +102,29 @@ def _moving(
     return [Moving(conclusion, case, mechanism, *history)] if history else []
 
 
-def against(
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """Prediction against integration of one record, as page two and the page to explore tell it.
+
+    moving: the structures that move, the worst first. grounds: the components under which those of them move that have
+    a strip. span: the time that strips show, s. at_rest: the sentence on the others. several: whether components are
+    to be named.
+    """
+
+    moving: Sequence[Moving]
+    grounds: Sequence[Trace]
+    span: tuple[float, float]
+    at_rest: str
+    several: bool
+
+
+def comparison_of(
     conclusions: Sequence[Conclusion],
     structures: Mapping[str, Structure],
     result: RecordResult,
     motions: Sequence[Trace],
-    pulses: Sequence[PulseRow],
-) -> Against | None:
-    """Return the page; None where no structure was compared.
-
-    motions: the components that were assessed. pulses: their rows.
-    """
+) -> Comparison | None:
+    """Return what there is to compare; None where no structure was compared. motions: the components."""
     compared = [each for each in conclusions if each.case and not math.isnan(each.ratios[-1])]
     if not compared or not motions:
         return None
@@ -109,15 +132,23 @@ def against(
     shown = moving[:MOST_STRIPS]
     used = {each.case.component for each in shown}
     grounds = [each for each in motions if each.accelerogram.component in used] or list(motions[:1])
-    span = _window(shown, grounds)
-    ticks = _ticks(*span)
     resting = [each for each in compared if each.ratios[-1] <= NEGLIGIBLE]
-    more = len(moving) - len(shown)
+    return Comparison(moving, grounds, _window(shown, grounds), _at_rest(resting), len(motions) > 1)
+
+
+def against(
+    comparison: Comparison, structures: Mapping[str, Structure], pulses: Sequence[PulseRow]
+) -> Against:
+    """Return the page. pulses: the rows of the record."""
+    span = comparison.span
+    ticks = _ticks(*span)
+    shown = comparison.moving[:MOST_STRIPS]
+    more = len(comparison.moving) - len(shown)
     return Against(
-        grounds=tuple(_ground(each, span, ticks, pulses) for each in grounds),
-        compared=tuple(_each_compared(shown, structures, span, ticks, len(motions) > 1)),
+        grounds=tuple(_ground(each, span, ticks, pulses) for each in comparison.grounds),
+        compared=tuple(_each_compared(shown, structures, span, ticks, comparison.several)),
         ticks=tuple(Tick(_across(at, span), f"{at:g}") for at in ticks),
-        at_rest=_at_rest(resting),
+        at_rest=comparison.at_rest,
         more=f"Another {counted(more, 'structure')} in comparison.csv." if more else "",
     )
 
@@ -173,27 +204,34 @@ def _ground(
     shapes.append(svg_path(np.column_stack([_across(times, span), up(samples)]), _GROUND, look))
     for pulse in motion.pulses[:1]:
         cycle = np.linspace(pulse.start_time, pulse.end_time, 61)
-        look = f'fill="none" stroke="{PULSE}" stroke-width="0.5"'
-        places = np.column_stack([_across(cycle, span), up(pulse.acceleration(cycle))])
-        shapes.append(svg_path(places, _GROUND, look))
-    ranked = (row for row in pulses if row.component == record.component and row.is_dominant)
-    sine = next(ranked, None)
-    facts: tuple[str, ...] = ()
-    if sine is not None:
-        facts = (
-            f"sine {quantity(abs(sine.amplitude_m_s2), 'm/s²')}, {number(sine.period_s)}\u00a0s,",
-            f"from {number(sine.start_time_s)}\u00a0s on, {percents(sine.explained_energy)} of the energy",
-        )
+        shapes += sine_lines(np.column_stack([_across(cycle, span), up(pulse.acceleration(cycle))]), _GROUND)
     alt = f"Acceleration of component {record.component or 'without a name'} and its dominant sine."
     return Ground(
         name=record.component,
-        peak=f"PGA {quantity(record.peak_acceleration, 'm/s²')}",
-        facts=facts,
+        peak=peak_of(record),
+        facts=sine_facts(record.component, pulses),
         picture=drawn_by_hand(shapes, WIDTH, _GROUND, alt),
         levels=tuple(
             Tick(_GROUND - float(up(at * unit.size)), f"{at:g} {unit.name}".replace("-", "−"))
             for at in levels
         ),
+    )
+
+
+def peak_of(record: Accelerogram) -> str:
+    """Return the peak of a component in words."""
+    return f"PGA {quantity(record.peak_acceleration, 'm/s²')}"
+
+
+def sine_facts(component: str, pulses: Iterable[PulseRow]) -> tuple[str, ...]:
+    """Return the lines on the dominant sine of a component; none without one."""
+    dominant = (row for row in pulses if row.component == component and row.is_dominant)
+    sine = next(dominant, None)
+    if sine is None:
+        return ()
+    return (
+        f"sine {quantity(abs(sine.amplitude_m_s2), 'm/s²')}, {number(sine.period_s)}\u00a0s,",
+        f"from {number(sine.start_time_s)}\u00a0s on, {percents(sine.explained_energy)} of the energy",
     )
 
 
@@ -211,13 +249,12 @@ def _each_compared(
         name = moving.case.structure
         # One that cannot be drawn costs no other its strip; its numbers stand in the tables.
         with suppress(FaultError), one_structure(name):
-            yield _compared(moving, structures[name], span, ticks, several)
+            words = compared_in_words(moving, structures[name], several)
+            yield Compared(picture=_strip(moving, span, ticks), **vars(words))
 
 
-def _compared(
-    moving: Moving, structure: Structure, span: tuple[float, float], ticks: Sequence[float], several: bool
-) -> Compared:
-    """The strip of a structure. several: whether its component is to be named."""
+def compared_in_words(moving: Moving, structure: Structure, several: bool) -> ComparedWords:
+    """Return what stands beside the strip of a structure. several: whether its component is to be named."""
     case = moving.case
     crack = case.crack or moving.conclusion.verdict.crack
     period = case.support_period_s
@@ -226,7 +263,7 @@ def _compared(
         f"T_b {period:.3g} s" if period else "on the ground" if period == 0 else "",
         crack,
     ]
-    return Compared(
+    return ComparedWords(
         name=case.structure,
         below=sizes_of(case.structure, structure),
         constants=(
@@ -236,7 +273,6 @@ def _compared(
             f"η {number(case.restitution)}",
         ),
         note=", ".join(filter(None, notes)),
-        picture=_strip(moving, span, ticks),
         printed=in_words(case.printed_rotation_ratio),
         outside=case.printed_holds is False,
         form=in_words(case.predicted_rotation_ratio),

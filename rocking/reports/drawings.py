@@ -16,6 +16,7 @@ import numpy as np
 
 from rocking.records.measures import record_measures
 from rocking.reports.pages import Picture
+from rocking.reports.style import PULSE
 from rocking.structures import Structure
 from rocking.structures.drawing import Mark
 
@@ -70,6 +71,14 @@ def svg_path(points: np.ndarray, height: float, look: str, closed: bool = False)
         f"{x:.3f},{y:.3f}" for x, y in np.column_stack([points[:, 0], height - points[:, 1]]).tolist()
     )
     return f'<poly{"gon" if closed else "line"} points="{places}" {look}/>'
+
+
+def sine_lines(points: np.ndarray, height: float, width: float = 0.5) -> list[str]:
+    """Return a sine through points (k, 2) over a record, as `svg_path` takes them: on white, to be seen in grey too."""
+    looks = (("white", 2.6 * width), (PULSE, width))
+    return [
+        svg_path(points, height, f'fill="none" stroke="{ink}" stroke-width="{size:g}"') for ink, size in looks
+    ]
 
 
 @dataclass(frozen=True, eq=False)

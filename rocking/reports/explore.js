@@ -195,7 +195,7 @@
   const [LEFT, RIGHT] = [72, 610];
   const PANELS = [{ top: 20, bottom: 122 }, { top: 160, bottom: 262 }];
 
-  const draw = (name, attributes, text) => add(at("histories"), name, attributes, text);
+  const REACH = 1.25; // rotation ratio at either edge of a strip, as on page two of a report
 
   function ticks(low, high, number) {
     const raw = (high - low) / number;
@@ -206,55 +206,153 @@
     return Array.from({ length: count }, (_, k) => Number(((first + k) * step).toPrecision(6)));
   }
 
-  function panel({ top, bottom }, span, reach, label) {
-    const x = (time) => LEFT + ((time - span[0]) / (span[1] - span[0])) * (RIGHT - LEFT);
-    const y = (value) => (top + bottom) / 2 - (value / reach) * ((bottom - top) / 2);
-    draw("rect", { x: LEFT, y: top, width: RIGHT - LEFT, height: bottom - top, fill: "none", stroke: "var(--axis)" });
-    ticks(-reach, reach, 5).forEach((value) => {
-      draw("line", { x1: LEFT, x2: RIGHT, y1: y(value), y2: y(value), stroke: value === 0 ? "var(--zero)" : "var(--grid)" });
-      draw("text", { x: LEFT - 6, y: y(value) + 4, "text-anchor": "end" }, String(value));
+  const scale = ({ top, bottom }, span, reach) => ({
+    x: (time) => LEFT + ((time - span[0]) / (span[1] - span[0])) * (RIGHT - LEFT),
+    y: (value) => (top + bottom) / 2 - (value / reach) * ((bottom - top) / 2),
+  });
+
+  // The axes of a panel: levels at which it has lines, times below it; returns where a time and a value stand
+  function panel(svg, place, span, reach, levels, label, times = ticks(span[0], span[1], 8)) {
+    const { top, bottom } = place;
+    const { x, y } = scale(place, span, reach);
+    add(svg, "rect", { x: LEFT, y: top, width: RIGHT - LEFT, height: bottom - top, fill: "none", stroke: "var(--axis)" });
+    levels.forEach((value) => {
+      add(svg, "line", { x1: LEFT, x2: RIGHT, y1: y(value), y2: y(value), stroke: value === 0 ? "var(--zero)" : "var(--grid)" });
+      add(svg, "text", { x: LEFT - 6, y: y(value) + 4, "text-anchor": "end" }, String(value).replace("-", "−"));
     });
-    ticks(span[0], span[1], 8).forEach((value) => {
-      draw("line", { x1: x(value), x2: x(value), y1: bottom, y2: bottom + 4, stroke: "var(--axis)" });
-      draw("text", { x: x(value), y: bottom + 17, "text-anchor": "middle" }, String(value));
+    times.forEach((value) => {
+      add(svg, "line", { x1: x(value), x2: x(value), y1: bottom, y2: bottom + 4, stroke: "var(--axis)" });
+      add(svg, "text", { x: x(value), y: bottom + 17, "text-anchor": "middle" }, String(value));
     });
-    draw("text", { transform: `translate(16 ${(top + bottom) / 2}) rotate(-90)`, "text-anchor": "middle" }, label);
+    if (label) add(svg, "text", { transform: `translate(16 ${(top + bottom) / 2}) rotate(-90)`, "text-anchor": "middle" }, label);
     return { x, y };
   }
 
-  function drawTrace(trace, span, { x, y }, attributes) {
-    const points = [];
+  // Times and values of a trace within a span
+  function pointsOf(trace, span) {
     const [begin, end] = trace.span;
-    unpacked(trace).forEach((value, k, { length }) => {
-      const time = begin + ((k + 0.5) / length) * (end - begin);
-      if (time >= span[0] && time <= span[1]) points.push(`${x(time).toFixed(1)},${y(value).toFixed(1)}`);
-    });
-    draw("polyline", { points: points.join(" "), fill: "none", ...attributes });
+    return [...unpacked(trace)]
+      .map((value, k, { length }) => [begin + ((k + 0.5) / length) * (end - begin), value])
+      .filter(([time]) => time >= span[0] && time <= span[1]);
   }
+
+  const drawLine = (svg, points, { x, y }, attributes) =>
+    add(svg, "polyline", { points: points.map(([time, value]) => `${x(time).toFixed(1)},${y(value).toFixed(1)}`).join(" "), fill: "none", ...attributes });
 
   const largest = (trace) => (trace ? unpacked(trace).reduce((most, value) => Math.max(most, Math.abs(value)), 0) : 0);
 
+  function ground(svg, motion, span, place, label, times) {
+    const reach = 1.1 * Math.max(largest(motion.acceleration), largest(motion.pulse)) || 1;
+    const axes = panel(svg, place, span, reach, ticks(-reach, reach, label ? 5 : 2), label, times);
+    drawLine(svg, pointsOf(motion.acceleration, span), axes, { stroke: "var(--record)", "stroke-width": 0.8 });
+    if (motion.pulse) drawLine(svg, pointsOf(motion.pulse, span), axes, { stroke: "var(--pulse)", "stroke-width": 2 });
+    return axes;
+  }
+
+  // What the history of a case says of it: its band, the paper's lines, the history to its fall or to rest
+  function strip(svg, each, span, place, label, times) {
+    const sides = each.one_sided ? [1] : [1, -1];
+    const clipped = (value) => Math.max(-REACH, Math.min(REACH, value));
+    const { y } = scale(place, span, REACH);
+    if (each.predicted > 0) {
+      const low = each.one_sided ? 0 : clipped(-each.predicted);
+      const high = clipped(each.predicted);
+      add(svg, "rect", { x: LEFT, y: y(high), width: RIGHT - LEFT, height: y(low) - y(high), fill: "var(--band)", class: "band" });
+    }
+    const axes = panel(svg, place, span, REACH, [-1, 0, 1], label, times);
+    const level = (value, attributes) =>
+      sides.forEach((side) => {
+        if (value > 0 && value <= REACH) drawLine(svg, span.map((time) => [time, side * value]), axes, attributes);
+      });
+    level(each.predicted, { stroke: "var(--closed)", "stroke-width": 1.4 });
+    level(each.printed, { stroke: each.outside ? "var(--faint)" : "var(--ink)", "stroke-width": 1.6, "stroke-dasharray": "1.6 4", class: "printed" });
+    if (!each.history) return axes;
+    const falls = each.numbers[2] === "falls";
+    const points = pointsOf(each.history, span);
+    const beyond = falls ? points.findIndex(([, value]) => Math.abs(value) >= REACH) : -1;
+    const shown = beyond < 0 ? points : points.slice(0, beyond + 1);
+    if (!falls && each.history.span[1] < span[1]) shown.push([each.history.span[1], 0], [span[1], 0]);
+    const line = shown.map(([time, value]) => [time, clipped(value)]);
+    drawLine(svg, line, axes, { stroke: "var(--ink)", "stroke-width": 1.2, ...(label ? { id: "rotation" } : {}) });
+    if (falls && line.length) {
+      const [x, edge] = [axes.x(line.at(-1)[0]), axes.y(line.at(-1)[1])];
+      const tip = line.at(-1)[1] > 0 ? 12 : -12;
+      add(svg, "polygon", { points: `${x - 6},${edge + tip} ${x + 6},${edge + tip} ${x},${edge}`, fill: "var(--ink)", class: "falls" });
+    }
+    return axes;
+  }
+
+  // What stands beside page two's strip of a case, above its panel here
+  const HEADS = [["paper", "Eqs. 15, 16"], ["closed form", "exact"], ["integrated", "whole record"]];
+  const LOOKS = (each) => [each.outside ? "outside" : "paper", "form", "whole"];
+
+  function beside(each) {
+    const y = PANELS[1].top - 6;
+    if (!each.numbers) return;
+    add(at("histories"), "text", { x: LEFT, y }, each.beside[0]);
+    const told = add(at("histories"), "text", { x: RIGHT, y, "text-anchor": "end" });
+    each.numbers.forEach((number, k) => add(told, "tspan", { class: LOOKS(each)[k] }, `${k ? "   " : ""}${HEADS[k][0]} ${number}`));
+  }
+
   // Ground and rotation against time; returns what moves the cursor
   function histories(each, motion, span) {
-    at("histories").replaceChildren();
+    const svg = at("histories");
+    svg.replaceChildren();
     if (motion) {
-      const reach = 1.1 * Math.max(largest(motion.acceleration), largest(motion.pulse)) || 1;
-      const axes = panel(PANELS[0], span, reach, "accel. [m/s²]");
-      drawTrace(motion.acceleration, span, axes, { stroke: "var(--record)", "stroke-width": 0.8 });
-      if (motion.pulse) drawTrace(motion.pulse, span, axes, { stroke: "var(--pulse)", "stroke-width": 2 });
-      draw("text", { x: RIGHT - 8, y: PANELS[0].top - 6, "text-anchor": "end" }, "grey: record; orange: dominant pulse");
+      ground(svg, motion, span, PANELS[0], "accel. [m/s²]");
+      const told = add(svg, "text", { x: RIGHT, y: PANELS[0].top - 6, "text-anchor": "end" }, `record: ${motion.facts[0]}   `);
+      add(told, "tspan", { class: "sine" }, motion.facts.slice(1).join(" "));
     }
-    const predicted = each.predicted < 1e9 ? each.predicted || 0 : 0;
-    const reach = Math.min(3.1, 1.15 * Math.max(largest(each.history), predicted) || 1);
-    const axes = panel(PANELS[1], span, reach, "rotation ratio [-]");
-    if (each.history) drawTrace(each.history, span, axes, { stroke: "var(--ink)", "stroke-width": 1.1, id: "rotation" });
-    for (const level of predicted > 0 ? [predicted, -predicted] : [])
-      draw("line", { x1: LEFT, x2: RIGHT, y1: axes.y(level), y2: axes.y(level), stroke: "var(--closed)", "stroke-dasharray": "8 3 2 3" });
-    const remark = predicted > 0 ? "dash-dot: largest by the closed form" : `closed form: ${each.closed}`;
-    draw("text", { x: RIGHT - 8, y: PANELS[1].top - 6, "text-anchor": "end" }, remark);
-    draw("text", { x: (LEFT + RIGHT) / 2, y: 292, "text-anchor": "middle" }, "time after the first sample [s]");
-    const cursor = draw("line", { y1: PANELS[0].top, y2: PANELS[1].bottom, stroke: "var(--mark)", "stroke-width": 1.5, id: "cursor" });
+    const axes = strip(svg, each, span, PANELS[1], "rotation ratio [-]");
+    beside(each);
+    add(svg, "text", { x: (LEFT + RIGHT) / 2, y: 292, "text-anchor": "middle" }, "time after the first sample [s]");
+    const cursor = add(svg, "line", { y1: PANELS[0].top, y2: PANELS[1].bottom, stroke: "var(--mark)", "stroke-width": 1.5, id: "cursor" });
     return (time) => { cursor.setAttribute("x1", axes.x(time)); cursor.setAttribute("x2", axes.x(time)); };
+  }
+
+  // Page two of a record: every structure that moves, the worst first, and those at rest
+  function strips(record) {
+    const [head, body] = at("strips").children;
+    head.textContent = `Prediction against integration: all structures under ${record.id}`;
+    body.replaceChildren();
+    if (!at("strips").open || !record.span.length) return;
+    const moving = structures
+      .map((structure) => [structure, caseOf(record, structure)])
+      .filter(([, each]) => each.numbers)
+      .sort(([, a], [, b]) => compared(a.severity, b.severity));
+    const used = new Set(moving.map(([, each]) => each.component));
+    const table = add(body, "table");
+    const heads = add(add(table, "thead"), "tr");
+    const rows = add(table, "tbody");
+    ["", "rotation over critical rotation"].forEach((text) => add(heads, "th", {}, text));
+    HEADS.forEach(([name, below], k) => {
+      const cell = add(heads, "th", { scope: "col", class: ["", "form", ""][k] }, name);
+      add(cell, "div", {}, below);
+    });
+    const row = (name, lines, height) => {
+      const tr = add(rows, "tr");
+      const cell = add(tr, "th", { scope: "row" });
+      add(cell, "b", {}, name);
+      lines.filter(Boolean).forEach((line) => add(cell, "div", {}, line));
+      const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+      svg.setAttribute("viewBox", `0 0 620 ${height}`);
+      add(tr, "td").append(svg);
+      return [tr, svg];
+    };
+    const place = { top: 3, bottom: 63 };
+    Object.entries(record.motions).filter(([name]) => used.has(name) || !used.size).forEach(([name, motion]) => {
+      const [tr, svg] = row(name, motion.facts, 66);
+      ground(svg, motion, record.span, place, "", []);
+      tr.querySelectorAll("th div:nth-of-type(n + 2)").forEach((each) => each.classList.add("sine"));
+      add(tr, "td", { colspan: 3 });
+    });
+    moving.forEach(([structure, each], k) => {
+      const isLast = k === moving.length - 1;
+      const [tr, svg] = row(structure.name, [structure.below, ...each.beside], isLast ? 86 : 66);
+      strip(svg, each, record.span, place, "", isLast ? undefined : []);
+      each.numbers.forEach((number, column) => add(tr, "td", { class: LOOKS(each)[column] }, number));
+    });
+    if (record.at_rest) add(body, "p", {}, record.at_rest);
   }
 
   // Mechanism -------------------------------------------------------------------------------------------
@@ -312,6 +410,7 @@
   // One case --------------------------------------------------------------------------------------------
   let show = () => {};
   let playing = 0;
+  let shownRecord = null;
 
   function choose(r, s) {
     stop();
@@ -325,6 +424,9 @@
     at("case").hidden = false;
     at("title").textContent = `${structure.name} (${structure.size}) under ${record.id}${each.component ? ", component " + each.component : ""}`;
     const failed = each.component === undefined;
+    shownRecord = record;
+    at("strips").hidden = failed;
+    strips(record);
     at("moves").hidden = failed;
     const still = !failed && !each.history ? "It does not lift enough to be drawn, or its motion was not kept." : "";
     // A number keeps its unit on its line
@@ -354,12 +456,15 @@
     show();
   }
 
-  // The cell that the address names, "#record/structure"; false where it names none
+  // The cell that the address names, "#record/structure", or "#record" with all its structures; false where it names none
   function follow() {
     const [record, structure] = location.hash.slice(1).split("/").map(decodeURIComponent);
     const r = records.findIndex((each) => each.id === record);
-    const s = structures.findIndex((each) => each.name === structure);
+    const worst = () => structures.reduce((a, b) => (compared(caseOf(records[r], a).severity, caseOf(records[r], b).severity) > 0 ? b : a));
+    if (r >= 0 && structure === undefined) at("strips").open = true;
+    const s = r >= 0 && structure === undefined ? structures.indexOf(worst()) : structures.findIndex((each) => each.name === structure);
     if (r >= 0 && s >= 0) choose(r, s);
+    if (r >= 0 && structure === undefined) at("strips").scrollIntoView();
     return r >= 0 && s >= 0;
   }
 
@@ -403,6 +508,7 @@
   at("play").addEventListener("click", play);
   at("scrub").addEventListener("input", () => { stop(); show(); });
   addEventListener("hashchange", follow);
+  at("strips").addEventListener("toggle", () => { if (shownRecord) strips(shownRecord); });
   if (!follow()) {
     const cells = [...matrix.querySelectorAll("tbody button")];
     const first = cells.find(({ dataset }) => caseOf(records[dataset.record], structures[dataset.structure]).history) || cells[0];

@@ -15,20 +15,26 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rocking.assessment.case import PeriodResult, RecordResult
-from rocking.assessment.conclusion import conclusion_in_words, worst_cases
-from rocking.assessment.cracks import cracked
+from rocking.assessment.conclusion import conclusion_in_words, conclusions, worst_cases
 from rocking.assessment.decide import Verdict, worse, worst_first
-from rocking.assessment.methods import NEGLIGIBLE
 from rocking.assessment.rows import ComparisonRow, RecordRows, RemarkRow
 from rocking.assessment.scene import placed
 from rocking.errors import FaultError, one_structure
-from rocking.motion.response import Response
 from rocking.quantities import GRAVITY, counted
 from rocking.records.accelerogram import Accelerogram
 from rocking.records.processing import displacement
+from rocking.reports.against import (
+    Moving,
+    compared_in_words,
+    comparison_of,
+    peak_of,
+    sine_facts,
+    sizes_of,
+    traces_of,
+)
 from rocking.reports.drawings import fallen_rotation
 from rocking.reports.pages import Strip
-from rocking.reports.panels import moving_span, rotation_ratios
+from rocking.reports.panels import moving_span
 from rocking.reports.printing import LOOKS, band_text, cell_text, ratio
 from rocking.reports.record import warnings_of
 from rocking.reports.variants import strips_in_html
@@ -64,6 +70,10 @@ def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[s
     """
     worst = worst_cases(rows.comparison)
     components = {row.component for row in worst.values()}
+    concluded = conclusions(rows.verdicts, rows.comparison)
+    comparison = comparison_of(concluded, structures, result, traces_of(result, rows))
+    moving = {each.case.structure: each for each in comparison.moving} if comparison else {}
+    several = comparison is not None and comparison.several
     failure = " ".join(["no result.", *(each.message for each in rows.failures)])
     nothing = {"verdict": Verdict.CANNOT_BE_TOLD, "cell": cell_text(None), "text": failure, "severity": _NONE}
     cases: dict[str, Content] = {}
@@ -73,7 +83,9 @@ def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[s
             row = worst.get((result.record, name, period_result.support_period_s))
             # One that cannot be shown costs no other: the page says that it has no result.
             with suppress(FaultError), one_structure(name):
-                cases[name] = _case(period_result, row, structures[name].mechanism(), result.responses)
+                cases[name] = _case(period_result, row, structures[name].mechanism())
+                if name in moving:
+                    cases[name] |= _moving(moving[name], structures[name], several)
     peaks = [(row.peak_acceleration_m_s2 / GRAVITY, row.peak_velocity_m_s) for row in rows.record]
     pga, pgv = np.max(peaks, axis=0) if peaks else (math.nan, math.nan)
     return {
@@ -87,6 +99,8 @@ def record_content(result: RecordResult, rows: RecordRows, structures: Mapping[s
             if each.component in components
         },
         "cases": {name: cases.get(name, nothing) for name in structures},
+        "span": [_number(each) for each in comparison.span] if comparison else [],
+        "at_rest": comparison.at_rest if comparison else "",
     }
 
 
@@ -120,6 +134,7 @@ def explore_page(
         {
             "name": name,
             "size": structure.described.size,
+            "below": sizes_of(name, structure),
             "type": structure.described.type_name,
             "remarks": [*notes.get(name, ()), *_remarks_of(name, structures, remarks)],
             "frames": _frames(name, structure),
@@ -189,13 +204,8 @@ def _css(verdict: Verdict) -> str:
     return verdict.replace(" ", "-")
 
 
-def _case(
-    period_result: PeriodResult,
-    row: ComparisonRow | None,
-    mechanism: Mechanism,
-    responses: Mapping[tuple[str, str, float | None], Response],
-) -> Content:
-    """Return what became of a structure, in words and numbers, and the history that moves its drawing."""
+def _case(period_result: PeriodResult, row: ComparisonRow | None, mechanism: Mechanism) -> Content:
+    """Return what became of a structure, in words and numbers."""
     predicted = row.predicted_rotation_ratio if row else math.nan
     closed = ratio(predicted, 2)
     band = (
@@ -222,17 +232,25 @@ def _case(
         "predicted": _number(min(predicted, _EXTREME)),
         "closed": closed,
     }
-    response = responses.get(row.case) if row else None
-    history = None
-    if row and response:
-        crack = period_result.cases[row.component].crack if row.component in period_result.cases else ""
-        history = rotation_ratios(response, cracked(period_result.scene.structure, crack).mechanism())
-    if response and history and response.rotation_ratio > NEGLIGIBLE:
-        times = history[0]
-        ratios = np.clip(history[1], -_BEYOND, _BEYOND)
-        case["history"] = _trace(times, ratios, *moving_span([(times, ratios)]))
-        case["critical"] = [_number(mechanism.sides[place].critical_rotation) for place in (0, -1)]
     return case
+
+
+def _moving(moving: Moving, structure: Structure, several: bool) -> Content:
+    """Return the history that moves the drawing of a structure, and what stands beside it on page two of the record.
+
+    several: whether its component is to be named.
+    """
+    ratios = np.clip(moving.ratios, -_BEYOND, _BEYOND)
+    words = compared_in_words(moving, structure, several)
+    return {
+        "history": _trace(moving.times, ratios, *moving_span([(moving.times, ratios)])),
+        "critical": [_number(structure.mechanism().sides[place].critical_rotation) for place in (0, -1)],
+        "printed": _number(min(moving.case.printed_rotation_ratio, _EXTREME)),
+        "outside": words.outside,
+        "one_sided": moving.mechanism.one_sided,
+        "numbers": [words.printed, words.form, words.whole],
+        "beside": [" ".join(words.constants), words.note],
+    }
 
 
 def _motion(accelerogram: Accelerogram, rows: RecordRows) -> Content:
@@ -243,6 +261,7 @@ def _motion(accelerogram: Accelerogram, rows: RecordRows) -> Content:
     line = np.polyval(np.polyfit(times, path, 1), times)
     motion = {
         "duration": duration,
+        "facts": [peak_of(accelerogram), *sine_facts(accelerogram.component, rows.pulses)],
         "acceleration": _trace(times, accelerogram.acceleration, 0.0, duration, GROUND_BINS),
         "displacement": _trace(times, path - line, 0.0, duration),
     }

@@ -263,21 +263,28 @@ class Ground:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Compared:
-    """The strip of a structure that moves, with the largest rotation by the paper, the closed form and the integration.
+class ComparedWords:
+    """What stands beside the strip of a structure: the largest rotation by paper, closed form and integration.
 
-    outside: whether the paper's equation is asked outside of its regime.
+    below: its sizes. constants: λ, p, φ_cr and η. note: component, support and crack. outside: whether the paper's
+    equation is asked outside of its regime.
     """
 
     name: str
     below: str
     constants: tuple[str, ...]
     note: str
-    picture: Picture
     printed: str
     outside: bool
     form: str
     whole: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Compared(ComparedWords):
+    """The strip of a structure that moves, and what stands beside it."""
+
+    picture: Picture
 
 
 @dataclass(frozen=True, kw_only=True)

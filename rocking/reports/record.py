@@ -45,9 +45,9 @@ from rocking.records.formats.text import day_of
 from rocking.remarks import Kind, Remark
 from rocking.reports import printing
 from rocking.reports import record_figures as figures
-from rocking.reports.against import against, sizes_of
+from rocking.reports.against import against, comparison_of, sizes_of, traces_of
 from rocking.reports.design_figure import design_figure
-from rocking.reports.drawings import Trace, drawn_by_hand, sketch, svg_path, thinned
+from rocking.reports.drawings import Trace, drawn_by_hand, sine_lines, sketch, svg_path, thinned
 from rocking.reports.kinds import ReportKind
 from rocking.reports.pages import (
     Against,
@@ -89,7 +89,7 @@ from rocking.reports.printing import (
 )
 from rocking.reports.record_figures import History
 from rocking.reports.sentences import Sentences
-from rocking.reports.style import PULSE, pictures
+from rocking.reports.style import pictures
 from rocking.reports.supports import SupportPanel, floor_sentences, support_panels, supports_figure
 from rocking.structures import Structure
 from rocking.structures.kinds import StructureKind
@@ -234,13 +234,7 @@ class RecordReport:
     @cached_property
     def motions(self) -> list[Trace]:
         """The components that were assessed, with their ranked pulses."""
-        assessed = {row.component for row in self.tables.record}
-        ranked = sorted((row for row in self.tables.pulses if row.ranked), key=lambda row: row.rank)
-        return [
-            Trace(each, [row.pulse for row in ranked if row.component == each.component])
-            for each in self.result.accelerograms
-            if each.component in assessed
-        ]
+        return traces_of(self.result, self.tables)
 
     @property
     def motion(self) -> Trace | None:
@@ -300,8 +294,8 @@ def failure_page(record: str, message: str) -> PlainPage:
 
 def _against(report: RecordReport) -> tuple[Against, ...]:
     """Return the page of prediction against integration, where anything was compared."""
-    page = against(report.conclusions, report.structures, report.result, report.motions, report.tables.pulses)
-    return (page,) if page else ()
+    compared = comparison_of(report.conclusions, report.structures, report.result, report.motions)
+    return (against(compared, report.structures, report.tables.pulses),) if compared else ()
 
 
 def _vertical_in_words(report: RecordReport) -> str:
@@ -374,18 +368,17 @@ def ground_strip(motion: Trace) -> Picture:
     begin, end = motion.span
     inside = (record.times >= begin) & (record.times <= end)
     shaking = thinned(record.times[inside], record.acceleration[inside], _POINTS)
-    curves = [(*shaking, 'fill="none" stroke="#595959" stroke-width="0.21"')]
-    for pulse in motion.pulses[:1]:
-        cycle = np.linspace(pulse.start_time, pulse.end_time, 121)
-        curves.append((cycle, pulse.acceleration(cycle), f'fill="none" stroke="{PULSE}" stroke-width="0.53"'))
-
     width, height = _STRIP
     reach = 1.05 * max(record.peak_acceleration, 1e-9)
-    lines = []
-    for times, acceleration, look in curves:
+
+    def places(times: np.ndarray, acceleration: np.ndarray) -> np.ndarray:
         across = width * (times - begin) / (end - begin)
-        up = height / 2 * (1 + acceleration / reach)
-        lines.append(svg_path(np.stack([across, up], axis=1), height, look))
+        return np.stack([across, height / 2 * (1 + acceleration / reach)], axis=1)
+
+    lines = [svg_path(places(*shaking), height, 'fill="none" stroke="#595959" stroke-width="0.21"')]
+    for pulse in motion.pulses[:1]:
+        cycle = np.linspace(pulse.start_time, pulse.end_time, 121)
+        lines += sine_lines(places(cycle, pulse.acceleration(cycle)), height, 0.53)
     alt = "Acceleration of the ground and the sine that explains most of its energy."
     return drawn_by_hand(lines, width, height, alt)
 

@@ -20,7 +20,9 @@ from rocking.pulses import extract_pulses
 from rocking.records.catalogue import load_catalogue
 from rocking.records.processing import displacement
 from rocking.remarks import Remark
+from rocking.reports.against import in_words
 from rocking.reports.explore import BINS, drawings, explore_page, extremes
+from rocking.reports.printing import number
 from rocking.sine_pulse import predict_maximum
 from rocking.study.job import Study
 from rocking.study.settings import read_settings
@@ -158,6 +160,22 @@ def test_the_page_carries_the_closed_form_of_each_case_and_the_path_of_the_groun
     assert drawn == pytest.approx(expected, abs=np.abs(path).max() / 30000)
 
 
+def test_the_numbers_beside_a_history_are_those_of_page_two(content, study):
+    """Of comparison.csv, under the component that turns the structure farthest."""
+    rows = read_table(ComparisonRow, study[0].parents[1] / study[2][0].id)
+    moving = {name: each for name, each in content["records"][0]["cases"].items() if "history" in each}
+    for name, case in moving.items():
+        row = max(
+            (row for row in rows if row.structure == name), key=lambda row: row.integrated_rotation_ratio
+        )
+        ratios = row.printed_rotation_ratio, row.predicted_rotation_ratio, row.integrated_rotation_ratio
+        assert case["numbers"] == [in_words(each) for each in ratios]
+        assert case["outside"] == (row.printed_holds is False) and case["component"] == row.component
+        assert f"λ {number(row.uplift_multiplier)} " in case["beside"][0] and row.crack in case["beside"][1]
+    resting = set(study[1].structures) - set(moving)
+    assert len(moving) > 2 and all(name in content["records"][0]["at_rest"] for name in resting)
+
+
 def test_the_page_tells_the_reserve_that_the_table_holds_and_what_it_leaves_out(content, study):
     """The factors of verdicts.csv stand in the words; those of a spire with what its mechanism does not follow."""
     outcomes = outcomes_in(study[0].parent.parent, study[2])
@@ -240,6 +258,25 @@ def test_it_plays_and_pauses(page, browser):
     assert picture(browser) != rest
     # A slow browser may come to the end by itself, even between the look and the click.
     WebDriverWait(browser, PATIENCE).until(lambda at: play.text == "Play" or play.click())
+
+
+def test_page_two_of_a_record_opens_by_its_address(page, browser, study, content):
+    """A strip for each structure that moves: its numbers, a band as high as the closed form, a mark where it falls."""
+    browser.get(f"{study[0].as_uri()}#synthetic_00000")
+    cases = content["records"][0]["cases"]
+    moving = {name: each for name, each in cases.items() if "history" in each}
+    strips = {row.find_element("css selector", "b").text: row for row in page("#strips tbody tr")[1:]}
+    assert set(strips) == set(moving)
+    for name, row in strips.items():
+        told = [each.text for each in row.find_elements("css selector", "td")[1:]]
+        assert told == moving[name]["numbers"]
+        assert bool(row.find_elements("css selector", ".falls")) == (told[2] == "falls")
+        heights = [float(each.get_attribute("height")) for each in row.find_elements("css selector", ".band")]
+        sides = 1 if moving[name]["one_sided"] else 2
+        reach = min(moving[name]["predicted"], 1.25)
+        assert heights == pytest.approx([60 * sides * reach / 2.5] if reach else [], abs=1e-3)
+    page("#strips summary")[0].click()
+    assert not any(each.is_displayed() for each in page("#strips table"))
 
 
 def test_every_structure_is_drawn(page, browser):

@@ -116,6 +116,20 @@ def test_a_table_in_the_page_is_the_file(page, browser, study):
     assert [row["structure"] for row in csv.DictReader(content.decode().splitlines())] == ["pier"]
 
 
+def test_each_record_leads_to_its_strips(page, browser):
+    """Prediction against integration of a record, from the page to explore, which the page carries once."""
+    eye = button("synthetic_strong_pulse", 2)
+    link = "//a[contains(normalize-space(), 'Prediction against integration')]"
+    opened(page, browser, entry("Records"), eye, link)[0].click()
+    (frame,) = page("//iframe")
+    browser.switch_to.frame(frame)
+    try:
+        (row,) = page("//*[@id='strips']//tbody/tr[.//b[normalize-space()='pier']]")
+        assert [each.text for each in row.find_elements("css selector", "td")[1:]][2]
+    finally:
+        browser.switch_to.default_content()
+
+
 def test_no_text_of_a_study_is_markup_or_a_script_of_a_page(study):
     """Neither its title nor the name of its structure list; the page to explore stands within the page as base64."""
     page = (study / "report.html").read_text(encoding="utf-8")

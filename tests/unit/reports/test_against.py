@@ -189,7 +189,9 @@ def test_where_nothing_moves_the_page_has_the_ground_and_one_line(example):
     page = against_of(report)
     assert page.compared == () and page.ticks and len(page.grounds) == 1
     assert page.at_rest == "At rest under the record: squat block."
-    assert len(pages(report.pdf())) == 2
+    printed = pages(report.pdf())
+    assert len(printed) == 2
+    assert not any(word[4] == "Dotted:" for word in printed[1]), "there are no strips to explain"
 
 
 def test_a_structure_that_cannot_be_drawn_costs_no_other_its_strip(example, monkeypatch):
