@@ -24,19 +24,25 @@ from rocking.records.processing import Processing, process
 from rocking.sine_pulse import overturning_amplitudes, predict_maxima, predict_maximum
 from rocking.structures import Block, Spire
 
-USUAL = 20.0
-"""Seconds that compiling takes on two cores of 2024."""
+USUAL = "about 20 s on two idle cores"
+"""How long compiling takes: the figure first_compilation of docs/measured, which a test compares."""
 _PATIENCE = 3.0
 """Seconds after which something is said, as what is compiled already is loaded in less."""
-_EVERY = 5.0
+_EVERY = 1.0
 """Seconds between two words."""
 
 
-def compile_all(say: Callable[[str], None] = print) -> None:
+def _print_last(line: str, is_last: bool) -> None:
+    if is_last:
+        print(line)
+
+
+def compile_all(say: Callable[[str, bool], None] = _print_last) -> None:
     """Compile what filters, finds pulses, predicts, integrates and makes spectra, where that is not done already.
 
     Beside what numba keeps, a file for each processor names what was compiled; who finds it locked waits for the other
-    process. say: is told what is done, and every few seconds how long it has taken. Raises RockingError when it fails.
+    process. say: is told each second how long it has taken, in a line that stands for the one before it, and whether it
+    is the last. Raises RockingError when it fails.
     """
     folder = Path(rock.stats.cache_path)
     folder.mkdir(parents=True, exist_ok=True)
@@ -73,7 +79,7 @@ def _source() -> str:
     return sha256_of_sources(package, files, version("numba"))
 
 
-def _compile(say: Callable[[str], None]) -> None:
+def _compile(say: Callable[[str, bool], None]) -> None:
     started = time.monotonic()
     command = "from rocking.assessment import compilation; compilation.{}()"
     calls = [
@@ -85,14 +91,14 @@ def _compile(say: Callable[[str], None]) -> None:
         spent = time.monotonic() - started
         if spent >= next_word:
             next_word = spent + _EVERY
-            say(f"Compiling for this machine, once: {spent:.0f} s (about {USUAL:.0f} s on two idle cores)")
+            say(f"Compiling for this machine, once, {USUAL}: {spent:.0f} s", False)
         time.sleep(0.1)
     for each in running:
         _, errors = each.communicate()
         if each.returncode:
             raise RockingError(f"the numerical parts do not compile: {errors.strip().splitlines()[-1:]}")
     if next_word > _PATIENCE:
-        say(f"Compiled in {time.monotonic() - started:.0f} s; it is kept for every later run.")
+        say(f"Compiled in {time.monotonic() - started:.0f} s; it is kept for every later run.", True)
 
 
 def compile_mechanisms() -> None:

@@ -50,7 +50,7 @@ from rocking.study.plan import JOBS, Plan, plan_of_job, scenes_of, study_remarks
 from rocking.study.products import BY_NAME
 from rocking.study.settings import Settings, settings_sha256
 from rocking.study.task import Task
-from rocking.study.terminal import line_writer, log_error, record_line, tell, tell_error
+from rocking.study.terminal import line_writer, log_error, record_line, tell, tell_compilation, tell_error
 from rocking.tables import Row, write_rows, write_tables, written_together
 
 WORTH_TELLING = 5.0
@@ -210,7 +210,7 @@ def begin_job(task: Task) -> Iterator[Job]:
     with contextlib.chdir(task.folder or "."):
         tell_line = line_writer(log, kind)
         plan = _planned(task)
-        compile_all(partial(tell, "compile"))
+        compile_all(tell_compilation)
         settings = handed(kind, plan.settings)
         study = Study(plan.scenes, settings, settings_sha256(plan.settings, plan.scenes))
         records = [plan.records[each] for each in records_of(task.product, plan)]

@@ -271,6 +271,7 @@ class Progress:
         self._total = 0
         self._done = 0
         self._began = time.monotonic()
+        self._moving = ""
         self.errors: list[str] = []
         self.reasons: list[str] = []
 
@@ -310,6 +311,9 @@ class Progress:
         if rule == "error":
             self.reasons.append(line)
             return
+        if rule == _COMPILATION:
+            self._move(line, is_last=done == total)
+            return
         of_a_record = rule in ("record", "batch")
         self._done += of_a_record
         if total and not self._total:
@@ -317,6 +321,14 @@ class Progress:
         if total and self._what == "part":
             self._done, self._total = done, total
         self._show(line if of_a_record else f"{rule}: {line}")
+
+    def _move(self, line: str, is_last: bool) -> None:
+        """Show a line in place of the one before it, in that of the bar; without a terminal the first and the last."""
+        began, self._moving = self._moving, "" if is_last else line
+        if is_last or not (began or self._back):
+            self._show(line)
+        elif self._back:
+            print(self._back + fitting(line, self._stream), end="", file=self._stream, flush=True)
 
     def _show(self, *lines: str) -> None:
         for line in lines:
@@ -342,6 +354,15 @@ def tell(job: str, line: str, done: int = 0, total: int = 0) -> None:
         return
     with os.fdopen(pipe, "wb", buffering=0) as stream:
         stream.write(json.dumps([job, line[:_LONGEST], done, total], ensure_ascii=False).encode() + b"\n")
+
+
+_COMPILATION = "compile"
+"""What a job is called that compiles before it begins."""
+
+
+def tell_compilation(line: str, is_last: bool) -> None:
+    """Tell how long a job has been compiling, in a line that stands for the one before it, or that it has done so."""
+    tell(_COMPILATION, line, int(is_last), 1)
 
 
 def line_writer(log: Path, rule: str) -> Callable[..., None]:

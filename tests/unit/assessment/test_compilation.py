@@ -5,6 +5,8 @@ from types import SimpleNamespace
 
 import pytest
 
+from docs.site.measured import ROOT, figures
+from docs.site.pages import FOLDER
 from rocking.assessment import compilation
 from rocking.errors import RockingError
 
@@ -24,17 +26,17 @@ def compiled_within(seconds: float, folder: Path, monkeypatch, errors: str = "")
     monkeypatch.setattr(compilation, "time", SimpleNamespace(monotonic=lambda: clock.now, sleep=sleep))
     monkeypatch.setattr(compilation, "subprocess", SimpleNamespace(Popen=lambda *_, **__: process, PIPE=None))
     monkeypatch.setattr(compilation, "rock", SimpleNamespace(stats=SimpleNamespace(cache_path=str(folder))))
-    said: list[str] = []
-    compilation.compile_all(said.append)
-    return said
+    said: list[tuple[str, bool]] = []
+    compilation.compile_all(lambda *told: said.append(told))
+    assert not said or [is_last for _, is_last in said] == [*[False] * (len(said) - 1), True]
+    return [line for line, _ in said]
 
 
-def test_it_is_told_after_three_seconds_and_every_five_how_long_it_has_taken(
+def test_it_is_told_after_three_seconds_and_every_second_how_long_it_has_taken(
     tmp_path: Path, monkeypatch
 ) -> None:
-    first, second, last = compiled_within(10.0, tmp_path, monkeypatch)
-    assert first.startswith("Compiling for this machine, once: 3 s")
-    assert second.startswith("Compiling for this machine, once: 8 s")
+    *moving, last = compiled_within(10.0, tmp_path, monkeypatch)
+    assert [line.rpartition(": ")[2] for line in moving] == [f"{second} s" for second in range(3, 10)]
     assert last == "Compiled in 10 s; it is kept for every later run."
     assert compiled_within(10.0, tmp_path, monkeypatch) == [], "it is kept"
 
@@ -47,3 +49,10 @@ def test_what_does_not_compile_is_told_and_tried_again(tmp_path: Path, monkeypat
     for _ in range(2):
         with pytest.raises(RockingError, match=r"the numerical parts do not compile: \['no room'\]"):
             compiled_within(1.0, tmp_path, monkeypatch, errors="Traceback\n  in a file\nno room\n")
+
+
+def test_how_long_it_usually_takes_is_the_figure_that_was_measured_wherever_it_is_told() -> None:
+    figure = figures()["first_compilation"].value
+    assert figure == compilation.USUAL
+    assert f"once: {figure}." in (ROOT / "README.md").read_text(encoding="utf-8")
+    assert "<!-- measured: first_compilation -->" in (FOLDER / "growth.md").read_text(encoding="utf-8")

@@ -242,6 +242,21 @@ def test_a_job_that_counts_itself_has_a_bar_and_plain_lines_elsewhere(
     assert told[1] == "fragility: 3 of 12: pier\n"
 
 
+def test_the_line_of_the_compilation_moves_and_stands_twice_where_no_line_can(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(terminal, "columns_of", lambda stream: 60 if stream.isatty() else 0)
+    shown = []
+    for stream in (Terminal(), io.StringIO()):
+        progress = Progress(4, 0, stream)
+        for line, is_last in (("3 s", False), ("4 s", False), ("5 s", False), ("Compiled in 6 s.", True)):
+            progress.tell_line("compile", line, int(is_last), 1)
+        shown.append(stream.getvalue())
+    assert shown[0].split("\n")[0].split("\r\x1b[K") == ["", "3 s", "4 s", "5 s", "Compiled in 6 s."]
+    assert shown[0].count("\n") == 1
+    assert shown[1] == "3 s\nCompiled in 6 s.\n"
+
+
 def test_what_is_gone_through_is_as_it_was_with_a_bar_or_without(monkeypatch: pytest.MonkeyPatch) -> None:
     for stream in (Terminal(), io.StringIO()):
         monkeypatch.setattr("sys.__stderr__", stream)
