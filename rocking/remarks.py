@@ -9,7 +9,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from string import Formatter
-from typing import Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, get_args
+
+if TYPE_CHECKING:
+    from pydantic_core import CoreSchema
 
 Language = Literal["en", "it"]
 """The languages of the pages to sign; everything else is English."""
@@ -92,6 +95,13 @@ class Kind(StrEnum):
         kind.value_names = tuple(sorted(named - {"about"}))
         kind.names_subject = "about" in named
         return kind
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, *_: Any) -> "CoreSchema":
+        """Let pydantic read a kind of whatever folder from its code, as the store of readings holds it."""
+        from pydantic_core import core_schema  # of pydantic, which alone calls this
+
+        return core_schema.no_info_plain_validator_function(kind_of)
 
 
 def every_kind() -> dict[str, Kind]:

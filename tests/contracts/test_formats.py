@@ -73,6 +73,7 @@ def more(real_records: Path) -> list[dict[str, str]]:
 
 
 WITHOUT_SAMPLE = {
+    "ASDF station",
     "ESD",
     "USC Volume 2",
     "GSE",

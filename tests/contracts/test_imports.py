@@ -222,6 +222,7 @@ OTHERWISE = {
     "obspy": "0.05 s; it loads obspy_plugin.py itself",
     "openpyxl": "0.08 s; workbooks alone need it",
     "pooch": "0.03 s; downloads alone need it",
+    "pydantic_core": "pydantic alone calls what imports it",
     "psutil": "it comes with snakemake, without which the package runs",
     "rocking": "what draws or measures stands above what offers it as a method",
 }
